@@ -12,7 +12,7 @@ from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.models.shapes import Affine, half_extents
 
 Articulation = Callable[[Pose], Sequence[ModelPart]]
-Anchorage = Callable[[str, Pose], Affine]
+Anchorage = Callable[[str, Pose], Affine | None]
 """Axes [3, 4] at a named place of a body at its usual size."""
 
 # Poses that together show how far limbs, wings and rotors reach: times and distances spread
@@ -88,6 +88,8 @@ class ArticulatedModel:
         if self._anchor is None:
             return None
         axes = self._anchor(name, self._at_usual_size(pose))
+        if axes is None:
+            return None
         return np.column_stack([axes[:, :3], self._scale * axes[:, 3]])
 
     def _at_usual_size(self, pose: Pose) -> Pose:

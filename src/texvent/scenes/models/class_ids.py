@@ -88,6 +88,11 @@ _NOUNS: tuple[str, ...] = (
     "wine glass", "glass", "beer glass", "mug", "kettle", "teapot", "pot", "frying pan",
     "tray", "jar", "soda can", "jug", "vase", "urn", "bucket", "basket", "chopping board", "whisk",
     "corkscrew", "napkin", "candlestick",
+    "camel", "donkey", "squirrel", "hedgehog", "mouse", "rat", "hamster", "panda",
+    "koala", "raccoon", "rhino", "hippo", "crocodile", "lizard", "sauropod", "monkey", "gorilla",
+    "kangaroo", "frog", "seal", "octopus", "dinosaur", "owl", "fruit bat", "spider", "crab",
+    "ant", "beetle", "ladybug", "worm", "caterpillar", "rooster", "turkey", "parrot", "swan",
+    "moth", "housefly", "mosquito",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

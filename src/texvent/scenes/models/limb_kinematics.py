@@ -47,7 +47,7 @@ def foot_path(gait: Gait, distance: float, offset: float, amount: float) -> tupl
 
 def step_amount(activity: str, speed: float, full_speed: float) -> float:
     """How fully a body steps: 0 while it stands or sits, 1 from `full_speed` (m/s) on."""
-    if activity in ("stand", "sit"):
+    if activity in ("stand", "sit", "lie"):
         return 0.0
     share = min(1.0, max(0.0, speed / full_speed))
     return share * share * (3.0 - 2.0 * share)

@@ -12,7 +12,11 @@ from types import MappingProxyType
 
 from texvent.scenes.models import solids
 from texvent.scenes.models.animals import (
+    crawlers,
     flying_birds,
+    more_quadrupeds,
+    night_animals,
+    other_bodies,
     quadrupeds,
     sea_life,
     small_animals,
@@ -48,6 +52,10 @@ _FAMILIES: tuple[tuple[Noun, ...], ...] = (
     person.NOUNS,
     hand.NOUNS,
     quadrupeds.NOUNS,
+    more_quadrupeds.NOUNS,
+    other_bodies.NOUNS,
+    night_animals.NOUNS,
+    crawlers.NOUNS,
     walking_birds.NOUNS,
     flying_birds.NOUNS,
     sea_life.NOUNS,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from functools import partial
@@ -60,6 +61,11 @@ EAGLE = Plumage(
 GULL = Plumage(
     0.60, 2.5, 0.32, 2.2, 0.50, ((0.78, 0.78, 0.77),),
     (0.42, 0.44, 0.47), (0.80, 0.80, 0.79), (0.70, 0.40, 0.03),
+)  # fmt: skip
+
+PARROT = Plumage(
+    0.55, 1.9, 0.40, 3.5, 0.65, ((0.55, 0.03, 0.02), (0.05, 0.35, 0.08)),
+    (0.04, 0.14, 0.50), (0.60, 0.05, 0.03), (0.60, 0.55, 0.45),
 )  # fmt: skip
 
 
@@ -148,6 +154,32 @@ def _spread(
     return shoulder, wrist, arm, hand
 
 
+def build_swan(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Make a swan afloat, its origin on the waterline; `colour` is its plumage."""
+    hue = colour if colour is not None else (0.82, 0.81, 0.78)
+    coat, bill = feathers(hue), Material((0.65, 0.25, 0.02))
+    bones = [(0.34, 0.12), (0.50, 0.28), (0.46, 0.48), (0.40, 0.66), (0.50, 0.78)]
+    neck = [
+        limb(coat, (a[0], 0.0, a[1]), (b[0], 0.0, b[1]), 0.060)
+        for a, b in itertools.pairwise(bones)
+    ]
+    parts = [
+        limb(coat, (-0.34, 0.0, 0.10), (0.34, 0.0, 0.08), 0.20, side_radius=0.24),
+        *(ball(coat, (-0.08, y, 0.20), (0.74, 0.16, 0.30)) for y in (0.17, -0.17)),
+        spike(coat, (-0.36, 0.0, 0.18), (-0.72, 0.0, 0.28), 0.12),
+        *neck,
+        ball(coat, (0.54, 0.0, 0.79), (0.18, 0.12, 0.13)),
+        spike(bill, (0.60, 0.0, 0.78), (0.76, 0.0, 0.74), 0.035),
+        ball(Material(BLACK), (0.605, 0.0, 0.81), (0.06, 0.10, 0.04)),
+    ]
+    start = 2.0 * math.pi * fraction(seed, "rock")
+
+    def articulate(pose: Pose) -> list[ModelPart]:
+        return moved(parts, turn_x(0.03 * math.sin(2.5 * pose.time_s + start)))
+
+    return ArticulatedModel([], scale=scale, articulate=articulate)
+
+
 def build_duck(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a duck afloat, its origin on the waterline; it rocks a little."""
     body = feathers(colour if colour is not None else (0.30, 0.22, 0.14))
@@ -173,12 +205,14 @@ def build_duck(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 NOUNS = (
     Noun(
         "bird", partial(build_flier, SMALL), "air", 5.0, "fly",
-        ("swallow", "sparrow", "pigeon", "songbird", "parrot", "robin", "dove"),
+        ("swallow", "sparrow", "pigeon", "songbird", "robin", "dove"),
     ),
     Noun(
         "eagle", partial(build_flier, EAGLE), "air", 9.0, "fly",
         ("hawk", "falcon", "vulture", "bird of prey", "condor"), ("birds of prey",),
     ),
     Noun("gull", partial(build_flier, GULL), "air", 8.0, "fly", ("seagull", "albatross", "tern")),
+    Noun("parrot", partial(build_flier, PARROT), "air", 5.0, "fly", ("macaw", "cockatoo")),
+    Noun("swan", build_swan, "water", 0.5, "paddle"),
     Noun("duck", build_duck, "water", 0.6, "paddle", ("mallard", "duckling")),
 )  # fmt: skip

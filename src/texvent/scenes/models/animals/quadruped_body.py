@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
@@ -15,6 +18,7 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.models.shapes import (
+    Affine,
     Point,
     ball,
     blade,
@@ -73,10 +77,18 @@ class Coat:
     limbs: Material
     dark: Material
     hoof: Material
+    legs: Material | None = None
+    """None = as the limbs, which neck and head belong to."""
 
 
-def draw_animal(build: Build, coat: Coat, *, scale: float, seed: int) -> ArticulatedModel:
-    """Make a figure that walks; "run" takes longer bounds, "sit" lowers the hind quarters."""
+def draw_animal(
+    build: Build, coat: Coat, *, scale: float, seed: int, extras: Sequence[ModelPart] = ()
+) -> ArticulatedModel:
+    """Make a figure that walks.
+
+    "run" takes longer bounds, "sit" lowers the hind quarters, "lie" the whole trunk. `extras` are
+    parts that go with the trunk, at its usual size.
+    """
     stride = build.stride if build.stride > 0.0 else 1.5 * build.shoulder
     walk = Gait(stride, 0.62, 0.10 * build.shoulder)
     run = Gait(1.6 * stride, 0.36, 0.22 * build.shoulder)
@@ -89,18 +101,37 @@ def draw_animal(build: Build, coat: Coat, *, scale: float, seed: int) -> Articul
         distance = pose.distance_m + start * gait.stride
         turn = 2.0 * math.pi * distance / gait.stride
         rise = amount * _bob(build, turn, runs)
-        sit = 0.32 * build.shoulder if pose.activity == "sit" else 0.0
+        if pose.activity == "lie":
+            rise = build.body[2] - build.shoulder + 0.02 * build.shoulder
+        sit = _sit_drop(build) if pose.activity == "sit" else 0.0
         beat = amount * math.sin(turn)
         wag = math.sin(2.0 * math.pi * (0.9 * pose.time_s + start))
         parts = [*_torso(build, coat, sit), *_neck_and_head(build, coat, beat, wag)]
-        parts += _tail(build, coat, sit, wag)
+        parts += [*_tail(build, coat, sit, wag), *extras]
         parts = moved(parts, shift(z=rise))
         for index in range(4):
             foot = foot_path(gait, distance, _offset(index, runs), amount)
             parts += _leg(build, coat, index, (foot, rise, sit))
         return parts
 
-    return ArticulatedModel([], scale=scale, articulate=articulate)
+    def anchor(name: str, pose: Pose) -> Affine | None:
+        if name != "mouth":
+            return None
+        sit = _sit_drop(build) if pose.activity == "sit" else 0.0
+        nose = len(_torso(build, coat, sit)) + _NOSE
+        middle = articulate(pose)[nose].to_body[:, 3]
+        return np.column_stack([np.eye(3), middle + np.array([0.1 * build.head[0], 0.0, 0.0])])
+
+    return ArticulatedModel([], scale=scale, articulate=articulate, anchor=anchor)
+
+
+_NOSE = 4
+"""Which of the parts of neck and head the nose is."""
+
+
+def _sit_drop(build: Build) -> float:
+    """How far the hind quarters come down, m: at most to the ground."""
+    return min(0.32 * build.shoulder, max(build.shoulder - build.body[2], 0.0) + 0.03)
 
 
 def _bob(build: Build, turn: float, runs: bool) -> float:
@@ -319,8 +350,9 @@ def _leg(
         towards = (1.0, 0.0, 1.0)
     knee = bend(top, ankle, half, half, towards)
     toe = (ankle[0] + 1.1 * thick, y, ankle[2])
+    legs = coat.legs or coat.limbs
     return [
-        limb(coat.limbs, top, knee, (1.2 + (0.4 if is_fore else 0.7) / build.thick) * thick),
-        limb(coat.limbs, knee, ankle, 0.95 * thick),
+        limb(legs, top, knee, (1.2 + (0.4 if is_fore else 0.7) / build.thick) * thick),
+        limb(legs, knee, ankle, 0.95 * thick),
         limb(coat.hoof, ankle, toe, 0.8 * thick),
     ]

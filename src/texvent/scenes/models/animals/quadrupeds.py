@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -16,7 +17,7 @@ from texvent.scenes.models.materials import (
     shade,
     striped,
 )
-from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.protocol import ModelPart, Noun
 from texvent.scenes.models.variation import paint
 from texvent.scenes.scene import Colour
 
@@ -37,6 +38,9 @@ class Animal:
     dark: Colour | None = None
     """Muzzle, mane and tail; None = a darker shade of the coat."""
     hoof: Colour = (0.03, 0.025, 0.02)
+    leg_colour: Colour | None = None
+    extras: Callable[[Build, Coat], list[ModelPart]] | None = None
+    """What else goes with the trunk: humps, spines."""
 
 
 def build_animal(
@@ -52,8 +56,10 @@ def build_animal(
     elif animal.pattern == "checks":
         trunk = checked(hue, animal.second_colour, animal.checks)
     dark = animal.dark if animal.dark is not None else shade(hue, 0.45)
-    coat = Coat(trunk=trunk, limbs=limbs, dark=fur(dark), hoof=Material(animal.hoof))
-    return draw_animal(animal.build, coat, scale=scale, seed=seed)
+    legs = fur(animal.leg_colour) if animal.leg_colour is not None else None
+    coat = Coat(trunk=trunk, limbs=limbs, dark=fur(dark), hoof=Material(animal.hoof), legs=legs)
+    extras = animal.extras(animal.build, coat) if animal.extras is not None else ()
+    return draw_animal(animal.build, coat, scale=scale, seed=seed, extras=extras)
 
 
 DOG = Animal(
@@ -316,34 +322,37 @@ RABBIT = Animal(
 )
 
 
-def _noun(
+def animal_noun(
     name: str,
     animal: Animal,
     speed: float,
     synonyms: tuple[str, ...] = (),
     plurals: tuple[str, ...] = (),
 ) -> Noun:
+    """A four-legged animal that walks at that usual speed, m/s."""
     return Noun(name, partial(build_animal, animal), "ground", speed, "walk", synonyms, plurals)
 
 
 NOUNS = (
-    _noun("dog", DOG, 1.6, ("puppy", "hound", "labrador", "retriever")),
-    _noun("cat", CAT, 1.0, ("kitten", "kitty")),
-    _noun("fox", FOX, 1.4),
-    _noun("wolf", WOLF, 1.8, ("husky", "coyote")),
-    _noun("horse", HORSE, 2.0, ("pony", "stallion", "mare", "foal")),
-    _noun("zebra", ZEBRA, 1.8),
-    _noun("cow", COW, 1.1, ("bull", "calf", "ox"), ("cattle", "oxen")),
-    _noun("elephant", ELEPHANT, 1.8, ("mammoth",)),
-    _noun("deer", DEER, 1.6, ("stag", "antelope", "gazelle", "reindeer"), ("deer", "reindeer")),
-    _noun("lion", LION, 1.5),
-    _noun("tiger", TIGER, 1.5),
-    _noun("cheetah", CHEETAH, 2.0, ("leopard", "jaguar")),
-    _noun("goat", GOAT, 1.0),
-    _noun("giraffe", GIRAFFE, 1.8),
-    _noun("sheep", SHEEP, 0.9, ("lamb", "ewe"), ("sheep",)),
-    _noun("pig", PIG, 0.9, ("boar", "piglet")),
-    _noun("bear", BEAR, 1.3, ("grizzly", "brown bear")),
-    _noun("polar bear", POLAR_BEAR, 1.3),
-    _noun("rabbit", RABBIT, 1.2, ("bunny", "hare")),
+    animal_noun("dog", DOG, 1.6, ("puppy", "hound", "labrador", "retriever")),
+    animal_noun("cat", CAT, 1.0, ("kitten", "kitty")),
+    animal_noun("fox", FOX, 1.4),
+    animal_noun("wolf", WOLF, 1.8, ("husky", "coyote")),
+    animal_noun("horse", HORSE, 2.0, ("pony", "stallion", "mare", "foal")),
+    animal_noun("zebra", ZEBRA, 1.8),
+    animal_noun("cow", COW, 1.1, ("bull", "calf", "ox"), ("cattle", "oxen")),
+    animal_noun("elephant", ELEPHANT, 1.8, ("mammoth",)),
+    animal_noun(
+        "deer", DEER, 1.6, ("stag", "antelope", "gazelle", "reindeer"), ("deer", "reindeer")
+    ),
+    animal_noun("lion", LION, 1.5),
+    animal_noun("tiger", TIGER, 1.5),
+    animal_noun("cheetah", CHEETAH, 2.0, ("leopard", "jaguar")),
+    animal_noun("goat", GOAT, 1.0),
+    animal_noun("giraffe", GIRAFFE, 1.8),
+    animal_noun("sheep", SHEEP, 0.9, ("lamb", "ewe"), ("sheep",)),
+    animal_noun("pig", PIG, 0.9, ("boar", "piglet")),
+    animal_noun("bear", BEAR, 1.3, ("grizzly", "brown bear")),
+    animal_noun("polar bear", POLAR_BEAR, 1.3),
+    animal_noun("rabbit", RABBIT, 1.2, ("bunny", "hare")),
 )

@@ -38,24 +38,43 @@ class Insect:
     wings: tuple[tuple[float, float, float], ...]
     """For each pair: x of its root, its span, its chord."""
     flap_hz: float
+    """Wing beats per second, at most 60: bees, flies and mosquitoes beat 200 to 600 times, which no
+    frame rate of a clip shows."""
     flap: float
     colours: tuple[Colour, ...]
     """Of the wings (butterfly) or the body."""
     striped_body: bool = False
     clear_wings: bool = False
+    legs: float = 0.0
+    """Length of the hanging legs, where they show."""
+    beak: float = 0.0
 
 
 BUTTERFLY = Insect(
-    (0.10, 0.018), ((0.015, 0.115, 0.10), (-0.03, 0.085, 0.085)), 3.5, 1.0,
+    (0.10, 0.018), ((0.015, 0.115, 0.10), (-0.03, 0.085, 0.085)), 8.0, 1.0,
     (ORANGE, (0.04, 0.18, 0.55), (0.75, 0.60, 0.08)),
 )  # fmt: skip
 BEE = Insect(
-    (0.055, 0.032), ((0.006, 0.055, 0.026), (-0.008, 0.04, 0.02)), 12.0, 0.7,
+    (0.055, 0.032), ((0.006, 0.055, 0.026), (-0.008, 0.04, 0.02)), 60.0, 0.7,
     (YELLOW,), striped_body=True, clear_wings=True,
 )  # fmt: skip
 DRAGONFLY = Insect(
-    (0.14, 0.013), ((0.045, 0.095, 0.026), (0.015, 0.09, 0.028)), 9.0, 0.5,
+    (0.14, 0.013), ((0.045, 0.095, 0.026), (0.015, 0.09, 0.028)), 30.0, 0.5,
     ((0.04, 0.30, 0.35), (0.45, 0.06, 0.04)), clear_wings=True,
+)  # fmt: skip
+
+
+MOTH = Insect(
+    (0.045, 0.016), ((0.008, 0.060, 0.046), (-0.012, 0.045, 0.040)), 20.0, 0.9,
+    ((0.34, 0.27, 0.18), (0.42, 0.40, 0.35)),
+)  # fmt: skip
+FLY = Insect(
+    (0.012, 0.006), ((0.001, 0.011, 0.005),), 60.0, 0.7,
+    ((0.05, 0.05, 0.055), (0.03, 0.07, 0.05)), clear_wings=True, legs=0.006,
+)  # fmt: skip
+MOSQUITO = Insect(
+    (0.009, 0.0016), ((0.0015, 0.0075, 0.0022),), 60.0, 0.5,
+    ((0.10, 0.08, 0.06),), clear_wings=True, legs=0.010, beak=0.004,
 )  # fmt: skip
 
 
@@ -79,6 +98,7 @@ def build_insect(
         start: Point = (0.44 * length, side * 0.2 * thick, 0.4 * thick)
         end: Point = (0.62 * length, side * 0.6 * thick, 0.9 * thick)
         rigid.append(limb(Material(BLACK), start, end, 0.02 * thick + 0.0005))
+    rigid += _hang_legs(kind)
     phase = fraction(seed, "flap")
 
     def articulate(pose: Pose) -> list[ModelPart]:
@@ -91,6 +111,24 @@ def build_insect(
         return parts
 
     return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
+
+
+def _hang_legs(kind: Insect) -> list[ModelPart]:
+    """Six legs that hang, and what a mosquito stings with."""
+    length, thick = kind.body
+    dark, parts = Material(BLACK), []
+    if kind.legs > 0.0:
+        for x in (0.18, 0.0, -0.15):
+            for side in (1.0, -1.0):
+                root: Point = (x * length, side * 0.3 * thick, -0.3 * thick)
+                knee = (1.8 * x * length, side * 0.6 * kind.legs, -0.2 * kind.legs)
+                foot = (2.4 * x * length, side * 0.8 * kind.legs, -kind.legs)
+                parts += [limb(dark, root, knee, 0.03 * kind.legs + 1e-4),
+                          limb(dark, knee, foot, 0.02 * kind.legs + 1e-4)]  # fmt: skip
+    if kind.beak > 0.0:
+        nose = (0.46 * length, 0.0, 0.0)
+        parts.append(limb(dark, nose, (nose[0] + kind.beak, 0.0, -0.6 * kind.beak), 2e-4))
+    return parts
 
 
 def _wing(
@@ -170,7 +208,10 @@ def build_snail(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 
 NOUNS = (
-    Noun("butterfly", partial(build_insect, BUTTERFLY), "air", 0.8, "fly", ("moth",)),
+    Noun("butterfly", partial(build_insect, BUTTERFLY), "air", 0.8, "fly"),
+    Noun("moth", partial(build_insect, MOTH), "air", 0.8, "fly"),
+    Noun("housefly", partial(build_insect, FLY), "air", 0.8, "fly", ("house fly",)),
+    Noun("mosquito", partial(build_insect, MOSQUITO), "air", 0.5, "fly", ("gnat",)),
     Noun("bee", partial(build_insect, BEE), "air", 1.2, "fly", ("bumblebee", "wasp", "honeybee")),
     Noun("dragonfly", partial(build_insect, DRAGONFLY), "air", 1.5, "fly", ("damselfly",)),
     Noun("snake", build_snake, "ground", 0.5, "walk", ("python", "serpent")),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
@@ -17,7 +17,7 @@ from texvent.scenes.models.materials import (
     leather,
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import Point, ball, limb, moved, shift, spike
+from texvent.scenes.models.shapes import Point, ball, blade, limb, moved, shift, spike
 from texvent.scenes.models.variation import fraction
 from texvent.scenes.scene import Colour
 
@@ -44,6 +44,8 @@ class Strider:
     legs: Colour
     beak_colour: Colour
     comb: bool = False
+    has_fan: bool = False
+    """Whether the tail stands up as a fan."""
 
 
 OSTRICH = Strider(
@@ -59,6 +61,17 @@ FLAMINGO = Strider(
 CHICKEN = Strider(
     0.21, (0.36, 0.22, 0.24), 0.13, 0.045, 0.075, 0.035, Gait(0.28, 0.6, 0.05),
     (0.72, 0.66, 0.56), (0.45, 0.25, 0.10), (0.72, 0.66, 0.56), ORANGE, ORANGE, comb=True,
+)  # fmt: skip
+
+
+ROOSTER = replace(
+    CHICKEN, hip=0.27, neck=0.17, plumage=(0.34, 0.10, 0.02), wing=(0.02, 0.06, 0.05),
+    skin=(0.50, 0.22, 0.03),
+)  # fmt: skip
+TURKEY = replace(
+    CHICKEN, hip=0.36, body=(0.58, 0.44, 0.44), neck=0.24, neck_radius=0.05, head=0.085,
+    gait=Gait(0.42, 0.6, 0.06), plumage=(0.07, 0.045, 0.03), wing=(0.16, 0.09, 0.05),
+    skin=(0.50, 0.10, 0.10), comb=False, has_fan=True,
 )  # fmt: skip
 
 
@@ -126,6 +139,16 @@ def _trunk(kind: Strider, plumage: Material, nod: float) -> list[ModelPart]:
         parts.append(ball(plumage, fold, (0.72 * length, 0.20 * width, 0.62 * height)))
         white = (-0.36 * length, side * 0.40 * width, z - 0.10 * height)
         parts.append(ball(wing, white, (0.36 * length, 0.20 * width, 0.26 * height)))
+    if kind.has_fan:
+        for angle in (-1.1, -0.66, -0.22, 0.22, 0.66, 1.1):
+            tip = (
+                -0.75 * length,
+                0.75 * length * math.sin(angle),
+                z + 0.80 * length * math.cos(angle),
+            )
+            base = (-0.40 * length, 0.0, z + 0.1 * height)
+            parts.append(blade(wing, base, tip, chord=(0.0, 0.24 * length, 0.0),
+                               thickness=(0.03 * length, 0.0, 0.0)))  # fmt: skip
     if kind.comb:
         red = Material((0.55, 0.02, 0.02))
         parts.append(ball(red, (top[0] + 0.01, 0.0, top[2] + 0.045), (0.08, 0.02, 0.06)))
@@ -184,6 +207,8 @@ def build_penguin(*, colour: Colour | None, scale: float, seed: int) -> Articula
 NOUNS = (
     Noun("ostrich", partial(build_strider, OSTRICH), "ground", 2.5, "walk", ("emu",)),
     Noun("flamingo", partial(build_strider, FLAMINGO), "ground", 0.6, "walk"),
-    Noun("chicken", partial(build_strider, CHICKEN), "ground", 0.4, "walk", ("hen", "rooster")),
+    Noun("chicken", partial(build_strider, CHICKEN), "ground", 0.4, "walk", ("hen",)),
+    Noun("rooster", partial(build_strider, ROOSTER), "ground", 0.4, "walk", ("cockerel",)),
+    Noun("turkey", partial(build_strider, TURKEY), "ground", 0.4, "walk"),
     Noun("penguin", build_penguin, "ground", 0.4, "walk"),
 )
