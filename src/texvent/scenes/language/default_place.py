@@ -43,6 +43,8 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         if is_submerged:
             return "underwater"
         return "sand" if members and habitats <= {"ground", "fixed"} else "sea"
+    if said.place in ("lake", "river") and is_submerged:
+        return "underwater"
     if said.place is not None:
         return said.place
     if is_submerged:

@@ -12,7 +12,8 @@ from texvent.scenes.language.referents import Referent
 from texvent.scenes.language.tagging import Word, mark_used
 
 _BACKDROPS = ("mountain", "forest", "city")
-_OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "sand", "snow", "mountain")
+_OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "lake", "river", "sand", "snow",
+                "mountain")  # fmt: skip
 _ROADS = ("road", "dirt road", "city")
 _SCENE_ROLES = frozenset(
     {Role.WEATHER, Role.CLOUDS, Role.SNOW, Role.STEEP, Role.DUST, Role.FLICKER, Role.SHADOW,

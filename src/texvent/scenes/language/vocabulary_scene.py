@@ -22,9 +22,13 @@ PLACES: dict[str, tuple[str, ...]] = {
     "savanna": ("savanna", "savannah", "grassland", "plain", "prairie", "steppe", "grasslands"),
     "forest": ("forest", "wood", "jungle", "rainforest", "woodland", "grove", "pine forest"),
     "sea": (
-        "sea", "ocean", "lake", "river", "pond", "water", "bay", "harbor", "harbour",
-        "open water", "open sea", "surf", "marina",
+        "sea", "ocean", "water", "bay", "harbor", "harbour", "open water", "open sea", "surf",
+        "marina",
     ),
+    "lake": ("lake", "pond", "lakeside", "lake shore", "waterside", "reservoir"),
+    "river": ("river", "stream", "riverbank", "river bank", "riverside", "creek", "brook", "canal"),
+    "gravel": ("gravel",),
+    "soil": ("soil", "dirt", "ploughed field", "plowed field", "earth", "clay ground"),
     "underwater": (
         "seabed", "reef", "coral reef", "coral", "deep sea",
     ),
@@ -35,10 +39,15 @@ PLACES: dict[str, tuple[str, ...]] = {
         "valley", "slope", "hillside",
     ),
     "indoor": (
-        "room", "living room", "kitchen", "house interior", "interior",
-        "office", "hall", "gym", "bedroom", "floor", "warehouse", "factory", "corridor", "studio",
-        "classroom", "museum",
+        "room", "house interior", "interior", "hall", "floor", "corridor", "studio", "museum",
     ),
+    "living room": ("living room", "lounge", "sitting room", "apartment", "flat"),
+    "kitchen": ("kitchen", "bathroom"),
+    "bedroom": ("bedroom", "hotel room"),
+    "office": ("office", "classroom", "laboratory", "lab", "library"),
+    "workshop": ("workshop", "garage", "factory"),
+    "warehouse": ("warehouse", "storeroom", "storage room"),
+    "gym": ("gym", "gymnasium", "sports hall"),
     "space": ("space", "outer space", "galaxy"),
     "construction site": (
         "construction site", "building site", "construction zone", "construction work",
@@ -68,10 +77,15 @@ ROAD_SHAPES: dict[str, tuple[str, ...]] = {
     "straight": ("straight",),
 }
 
-COLOURABLE = frozenset({"grass", "savanna", "sand", "indoor", "plain"})
+COLOURABLE = frozenset(
+    {"grass", "savanna", "sand", "indoor", "plain", "living room", "kitchen", "bedroom", "office",
+     "workshop", "warehouse", "gym"}
+)  # fmt: skip
 """Places whose ground takes the colour that the prompt says."""
 NATURAL_COLOURS: dict[str, tuple[str, ...]] = {
     "sea": ("blue", "green", "turquoise"),
+    "lake": ("blue", "green"),
+    "river": ("blue", "green"),
     "underwater": ("blue", "turquoise"),
     "forest": ("green",),
     "road": ("grey", "gray", "black"),

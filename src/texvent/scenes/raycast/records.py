@@ -323,7 +323,7 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
     instant["crossing_count"] = len(crossings)
     for number, (x, y, direction) in enumerate(crossings):
         row = (x, y, math.cos(direction), math.sin(direction))
-        instant["crossings"][0, number] = row
+        instant["crossings"][number] = row
     instant["stars"] = np.clip(1.5 * (1.0 - luma / NIGHT_SKY), 0.0, 1.0)
     instant["sun"] = sun / np.linalg.norm(sun)
     instant["sun_radius"] = SUN_RADIUS

@@ -59,7 +59,7 @@ SURFACES: dict[Texture, SurfaceKind] = {
     Texture.CARPET: SurfaceKind(grounds.carpet, 1.8, 0.3, 0.7),
     Texture.WATER: SurfaceKind(grounds.water, 3.5, 0.3, 0.9),
     Texture.STONE: SurfaceKind(bodies.stone, 1.5, 0.9),
-    Texture.CONCRETE: SurfaceKind(bodies.concrete, 2.6, 0.4, 0.7),
+    Texture.CONCRETE: SurfaceKind(bodies.concrete, 2.6, 0.4, 0.4),
     Texture.PLASTER: SurfaceKind(bodies.plaster, 3.2, 0.35, 0.25),
     Texture.BRICK: SurfaceKind(bodies.brick, 2.0, 0.8, 0.5),
     Texture.ROOFING: SurfaceKind(bodies.roofing, 2.5, 0.4),

@@ -47,8 +47,10 @@ MEANS: dict[str, Means] = {
     "swim": Means(1.0, 1.4, 0.0),
 }
 """`CameraMove.means` → speed, height above the ground, pitch."""
-_BY_PLACE = {"road": "drive", "dirt road": "drive", "city": "drive", "sea": "sail",
-             "underwater": "swim", "sky": "fly", "space": "fly"}  # fmt: skip
+_BY_PLACE = {
+    "road": "drive", "dirt road": "drive", "city": "drive", "sea": "sail", "lake": "sail",
+    "river": "sail", "underwater": "swim", "sky": "fly", "space": "fly",
+}  # fmt: skip
 _ROADS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
 _AERIAL_HEIGHT_M = 16.0
 _AERIAL_PITCH = 0.5
