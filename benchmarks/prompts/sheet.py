@@ -4,7 +4,8 @@ For every prompt `strips/ID.png`: six stills over 2 s at 173x130 pixels, the pro
 report says is not shown as it says. `contact-NN.png` holds twelve of them. `reports.json` holds the
 whole report of each prompt, which things are in view, events per pixel and second for the presets
 `paper` and of the physical model, and the local contrast. The same command goes on where it was
-stopped; an error of a prompt is noted and harms no other.
+stopped; an error of a prompt is noted and harms no other. `grades.csv` is for the grader to fill
+in.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ from typing import Any
 from benchmarks.prompts import drawing
 from benchmarks.prompts.measure import SETTINGS, measure_prompt
 from benchmarks.prompts.rates import Share
+from benchmarks.prompts.score import COLUMNS
+from texvent._version import full_version
 from texvent.batch.identity import digest
 from texvent.batch.processes import interruptible, processes
 from texvent.errors import InputError, TexventError, shown
@@ -63,6 +66,7 @@ def run(options: argparse.Namespace) -> None:
         print(f"{number}/{len(todo)}  {one}  ({left / 60:.0f} min left)", flush=True)
     results = [_result(folder, one) for one in prompts]
     write_pages(folder, prompts)
+    write_blank_grades(folder / "grades.csv", prompts)
     summary = summarise(results)
     text = json.dumps({"settings": SETTINGS, "summary": summary, "prompts": results}, indent=1)
     with atomic_file(folder / "reports.json", overwrite=True) as part:
@@ -121,7 +125,10 @@ def make_strip(prompt: Prompt, *, folder: Path, with_events: bool) -> str:
         stills, facts, error = [], {}, str(problem)
     except Exception as problem:  # noqa: BLE001  # a fault of a scene must not end the benchmark
         stills, facts, error = [], {}, f"{type(problem).__name__}: {problem}"
-    result = {**asdict(prompt), "key": _key(prompt, with_events), "error": error, **facts}
+    result = {
+        **asdict(prompt), "key": _key(prompt, with_events), "version": full_version(),
+        "error": error, **facts,
+    }  # fmt: skip
     image = drawing.draw_strip(stills, _caption(prompt, result))
     drawing.write_image(_strip(folder, prompt), image)
     with atomic_file(folder / "results" / f"{prompt.id}.json", overwrite=True) as part:
@@ -170,6 +177,19 @@ def write_pages(folder: Path, prompts: Sequence[Prompt]) -> None:
         drawing.write_image(folder / f"contact-{number:02d}.png", drawing.draw_page(strips))
 
 
+def write_blank_grades(path: Path, prompts: Sequence[Prompt]) -> None:
+    """A sheet for the grader to fill in, as `score` reads it; one that is there stays."""
+    if path.exists():
+        return
+    with (
+        atomic_file(path, overwrite=False) as part,
+        part.open("w", encoding="utf-8", newline="") as file,
+    ):
+        writer = csv.writer(file)
+        writer.writerow([COLUMNS[0], "style", *COLUMNS[1:]])
+        writer.writerows([one.id, one.style, *[""] * (len(COLUMNS) - 1)] for one in prompts)
+
+
 def write_mosaic(options: argparse.Namespace) -> None:
     """Two stills of every prompt of a sheet, with its id, in one JPEG.
 
@@ -199,6 +219,9 @@ def summarise(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
     drawn = [one for one in results if one["error"] is None]
     summary: dict[str, Any] = {"prompts": tally.line()}
     unseen = [one for one in drawn if one["hardly_in_view"]]
+    versions = sorted({str(one["version"]) for one in results})
+    if len(versions) > 1:
+        summary["versions"] = f"{', '.join(versions)}: draw all anew with --again"
     summary["a thing hardly in view"] = str(Share(len(unseen), len(drawn)))
     contrasts = [one["contrast"] for one in drawn]
     if contrasts:

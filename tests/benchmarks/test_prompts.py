@@ -125,6 +125,9 @@ def test_strips_are_drawn_and_the_same_command_goes_on(tmp_path, monkeypatch, ca
     strip = cv2.imread(str(tmp_path / "out" / "strips" / "a1.png"))
     assert strip.shape[1] == 6 * 173 + 5 * 2
     assert (tmp_path / "out" / "contact-01.png").is_file()
+    blank = (tmp_path / "out" / "grades.csv").read_text().splitlines()
+    assert blank[0] == GRADES.splitlines()[0]
+    assert blank[1] == "a1,short,,,,,,,,,"
     assert run(monkeypatch, "mosaic", tmp_path / "out", "-o", tmp_path / "all.jpg") == 0
     assert cv2.imread(str(tmp_path / "all.jpg")).shape == (65 + 12, 8 * 2 * 86, 3)
     assert run(monkeypatch, "mosaic", tmp_path, "-o", tmp_path / "b.jpg") == 2
