@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from texvent.scenes.description import NamedColour, ObjectMotion
+from texvent.scenes.description import NamedColour, ObjectMotion, Picture
 from texvent.scenes.language import vocabulary_objects
 from texvent.scenes.language.capabilities import can_do
 from texvent.scenes.language.draft import PartialObject
@@ -16,6 +16,7 @@ from texvent.scenes.language.vocabulary_scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words import Pos, VerbForm
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.pictures.checking import can_show, check_picture
 
 _GREY_LEVELS = {"light": "silver", "pale": "silver", "dark": "black"}
 
@@ -37,6 +38,7 @@ class Attributes:
     still: Word | None = None
     numbers: list[Word] = field(default_factory=list)
     effect: tuple[str, Word] | None = None
+    picture: tuple[Picture, Word] | None = None
     rate_hz: tuple[float, list[Word]] | None = None
 
     @property
@@ -80,6 +82,8 @@ class Attributes:
             item.motions, self.still.is_used = [ObjectMotion("stand")], True
         self._move(item, noun)
         self._light(item, noun)
+        if self.picture is not None and show_picture(item, self.picture[0]):
+            self.picture[1].is_used = True
 
     def colour(self, item: PartialObject) -> None:
         """The first colour; a second one stays unused."""
@@ -108,6 +112,19 @@ class Attributes:
                     word.is_used = True
         if self.lit is not None and noun.name in LAMPS:
             item.is_lit, self.lit[1].is_used = self.lit[0], True
+
+
+def show_picture(item: PartialObject, picture: Picture) -> bool:
+    """Put a picture on an object's flat face; False if it has none.
+
+    Raises:
+        InputError: the picture cannot be shown.
+    """
+    check_picture(picture)
+    if not can_show(item.noun):
+        return False
+    item.picture = picture
+    return True
 
 
 def read_attributes(modifiers: Sequence[Word]) -> Attributes:
@@ -145,6 +162,8 @@ def _read_other(found: Attributes, word: Word) -> None:
         _read_number(found, word)
     elif word.role is Role.STILL:
         found.still = word
+    elif word.role is Role.PICTURE:
+        found.picture = (word.meaning.value, word)
     elif word.role is Role.FLICKER:
         found.flicker = word
     elif word.role is Role.VERB and word.pos is Pos.VERB:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from texvent.scenes.description import Effect, ObjectMotion
+from texvent.scenes.description import Effect, ObjectMotion, Picture
 from texvent.scenes.language.acts import BOARDS, WEARABLE, ActReader
-from texvent.scenes.language.adjectives import read_attributes
+from texvent.scenes.language.adjectives import read_attributes, show_picture
 from texvent.scenes.language.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.draft import Draft
@@ -193,7 +193,11 @@ class CircumstanceReader:
     def _read_of(self, phrase: PrepPhrase, whole: Referent, scope: Scope) -> None:
         """As in "A bowl of soup", "a set of buckets", "the side of the road"."""
         head = whole.group.head
-        if head is not None and head.lemma in LIKENESSES:
+        is_likeness = head is not None and head.lemma in LIKENESSES
+        names_picture = any(
+            group.head is not None and group.head.role is Role.PICTURE for group in phrase.groups
+        )
+        if is_likeness and not names_picture:
             phrase.preposition.is_lost = True
             return
         phrase.preposition.is_used = True
@@ -207,6 +211,8 @@ class CircumstanceReader:
         for one in found:
             if one.is_things and whole.is_things:
                 self._draft.relate("in", one.things, whole.things)
+            elif one.kind == "picture":
+                self.show_on(one, whole.things)
             elif not one.is_things:
                 self._read_other(phrase, one, scope)
             self.read_group_phrases(one, scope)
@@ -281,30 +287,39 @@ class CircumstanceReader:
         return max(model.length, model.width, model.height) <= _HELD_AT_MOST_M
 
     def _read_other(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
+        """What is no object of the scene."""
         word = phrase.preposition
-        is_negated = phrase.negation is not None
         if one.kind == "absent":
             word.is_used = True
         elif one.kind == "unit":
-            self._read_unit(word, one, scope)
-        elif one.kind == "camera":
-            self._read_towards_camera(word, one, scope)
+            word.is_used = self.read_quantity(one, scope, preposition=word.text)
+        elif one.kind == "picture":
+            word.is_used = self.show_on(one, scope.subjects)
         elif one.kind == "effect":
             word.is_used = self.add_effect(one, scope)
         elif one.kind == "part":
-            determiner = one.group.determiner
-            is_owned = determiner is not None and determiner.text in OWNERS
-            things = self._draft.subjects if is_owned and not scope.subjects else scope.subjects
-            if list_parts_shown(self._draft, things, str(one.value)):
-                word.is_used = True
-                self._use_part(one, things)
-        elif one.kind == "function":
-            self._read_style(one)
-            word.is_used = True
+            self._read_part(word, one, scope)
         elif one.kind == "unknown":
             self._read_worn_colour(word, one, scope)
+        elif one.kind in ("camera", "function"):
+            self._read_camera_or_style(word, one, scope)
         elif one.kind != "things":
-            self._read_surroundings(word, one, scope, is_negated=is_negated)
+            self._read_surroundings(word, one, scope, is_negated=phrase.negation is not None)
+
+    def _read_camera_or_style(self, word: Word, one: Referent, scope: Scope) -> None:
+        if one.kind == "camera":
+            self._read_towards_camera(word, one, scope)
+        else:
+            self._read_style(one)
+            word.is_used = True
+
+    def _read_part(self, word: Word, one: Referent, scope: Scope) -> None:
+        determiner = one.group.determiner
+        is_owned = determiner is not None and determiner.text in OWNERS
+        things = self._draft.subjects if is_owned and not scope.subjects else scope.subjects
+        if list_parts_shown(self._draft, things, str(one.value)):
+            word.is_used = True
+            self._use_part(one, things)
 
     def _read_surroundings(
         self, word: Word, one: Referent, scope: Scope, *, is_negated: bool
@@ -345,11 +360,6 @@ class CircumstanceReader:
                 motions[-1] = replace(motions[-1], direction=direction)
                 mark_used([word, *one.group.words])
 
-    def _read_unit(self, word: Word, one: Referent, scope: Scope) -> None:
-        """A number with a unit: a speed, a rate or a time."""
-        if self.read_quantity(one, scope, preposition=word.text):
-            word.is_used = True
-
     def read_quantity(self, one: Referent, scope: Scope, preposition: str = "at") -> bool:
         """Apply a speed, a rate or a time; return whether it had an effect."""
         if not isinstance(one.value, tuple):
@@ -389,6 +399,17 @@ class CircumstanceReader:
             motions = self._draft.objects[index].motions
             motions[-1] = replace(motions[-1], start_s=start)
         return bool(scope.movers)
+
+    def show_on(self, one: Referent, things: Sequence[int]) -> bool:
+        """Put a picture on the first of the objects that has a face for it."""
+        picture = one.value
+        if not isinstance(picture, Picture):
+            return False
+        for index in things:
+            if show_picture(self._draft.objects[index], picture):
+                mark_used(one.group.words)
+                return True
+        return False
 
     def add_effect(self, one: Referent, scope: Scope) -> bool:
         """Smoke, sparks ... that the clause's subjects have."""

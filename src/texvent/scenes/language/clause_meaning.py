@@ -21,6 +21,8 @@ from texvent.scenes.language.vocabulary_scene import TRAVEL_MEANS, WEATHER_VERBS
 from texvent.scenes.language.words import Pos, VerbForm
 from texvent.scenes.models.protocol import Noun
 
+POSTER = "poster"
+"""What shows a picture for which no surface is named."""
 _OF_SCENE = frozenset(
     {"place", "light", "weather", "sky", "snow", "dust", "shadow", "glow", "clouds"}
 )
@@ -261,14 +263,15 @@ class ClauseMeaning:
         agents = self._find_agents(clause)
         self._read_subject_phrases(clause, subjects, things)
         movers: list[int] = []
-        if clause.verb is not None and things:
+        is_picture = self._show_pictures(clause, things, objects)
+        if clause.verb is not None and things and not is_picture:
             if clause.is_passive and not (clause.is_participle and is_plain_past(clause.verb)):
                 movers = self._acts.undergo(clause, things, agents)
             else:
                 movers = self._acts.read(clause, things, objects)
         has_verb = clause.verb is not None
         is_shown = has_verb and clause.verb is not None and clause.verb.is_used
-        has_object = bool(clause.objects)
+        has_object = bool(clause.objects) and not is_picture
         scope = Scope(things, movers, is_lost, has_verb, is_shown, has_object)
         if has_verb and not is_shown:
             self._lose_verb(things)
@@ -303,6 +306,23 @@ class ClauseMeaning:
             scope = Scope(one.things, [], not one.things, has_verb=False)
             self._around.read_group_phrases(one, scope, own)
 
+    def _hang(self, one: Referent) -> Referent:
+        """As in "the digit 7": shown on a poster."""
+        index = self._draft.add(PartialObject(POSTER))
+        if index is None or not self._around.show_on(one, [index]):
+            return one
+        self._draft.note(f"'{one.group.text}' is shown on a {POSTER}")
+        return Referent("things", one.group, [index], attributes=one.attributes)
+
+    def _show_pictures(
+        self, clause: Clause, things: Sequence[int], objects: Sequence[Referent]
+    ) -> bool:
+        """As in "a screen plays clip.mp4"."""
+        found = [self._around.show_on(one, things) for one in objects if one.kind == "picture"]
+        if any(found) and clause.verb is not None:
+            clause.verb.is_used = True
+        return any(found)
+
     def _lose_verb(self, things: Sequence[int]) -> None:
         """What does something that is not shown stands still: it does nothing else either."""
         for index in things:
@@ -333,6 +353,8 @@ class ClauseMeaning:
                 self._read_extra(one)
             elif one.kind == "effect":
                 self._around.add_effect(one, Scope([], []))
+            elif one.kind == "picture":
+                rest.append(self._hang(one))
             elif one.kind != "absent":
                 rest.append(one)
         return rest

@@ -58,7 +58,7 @@ class Role(Enum):
     EFFECT = auto()
     ACTIVITY = auto()
     ROAD = auto()
-    SCREEN = auto()
+    PICTURE = auto()
     FUNCTION = auto()
     """Words of grammar, which need no effect of their own."""
     UNKNOWN = auto()

@@ -26,7 +26,7 @@ OUR = ("our", "my")
 """Owners that make a vehicle the camera's: "our car leaves a tunnel"."""
 _KINDS = {
     Role.CAMERA: "camera", Role.UNIT: "unit", Role.EFFECT: "effect", Role.PART: "part",
-    Role.FUNCTION: "function", Role.PLACE: "place", Role.LIGHT: "light",
+    Role.PICTURE: "picture", Role.FUNCTION: "function", Role.PLACE: "place", Role.LIGHT: "light",
     Role.WEATHER: "weather", Role.SKY: "sky", Role.SNOW: "snow", Role.DUST: "dust",
     Role.SHADOW: "shadow", Role.GLOW: "glow", Role.CLOUDS: "clouds", Role.STEEP: "place",
 }  # fmt: skip
@@ -48,7 +48,7 @@ class Referent:
 
     kind: str
     """"things", "camera", "function" (a shot, a view), "place", "light", "weather", "sky", "snow",
-    "dust", "shadow", "glow", "clouds", "effect", "part", "unit", "nobody", "absent" or
+    "dust", "shadow", "glow", "clouds", "effect", "part", "unit", "picture", "absent" or
     "unknown"."""
     group: NounGroup
     things: list[int] = field(default_factory=list)

@@ -100,7 +100,8 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
 
 
 def _correct(token: Token, known: Lexicon, notes: list[str]) -> Token:
-    if token.is_punctuation or token.is_number or token.text in known.words:
+    is_word = not (token.is_punctuation or token.is_number or token.picture)
+    if not is_word or token.text in known.words:
         return token
     better = correct_spelling(token.text, known.words)
     if better is None:
@@ -128,7 +129,7 @@ def _cut(
     while start < len(tokens):
         window = tokens[start : start + known.longest]
         length, meanings = known.find([token.text for token in window])
-        length = _stop_at_sign(window, length)
+        length = _stop_at_sign(window, length) if window[0].picture is None else 0
         length = _split_particle(window, length, known)
         meanings = known.find([token.text for token in window[:length]])[1] if length else []
         length = max(length, 1)
@@ -161,17 +162,25 @@ def _stop_at_sign(window: Sequence[Token], length: int) -> int:
     return length
 
 
+def _read_unspelt(token: Token) -> Meaning | None:
+    """The one reading of a picture, a number or a sign."""
+    if token.picture is not None:
+        return Meaning(Role.PICTURE, Pos.NOUN, token.picture)
+    if token.is_number:
+        return Meaning(Role.COUNT, Pos.NUMBER, float(token.text.replace(",", ".")))
+    if token.is_punctuation:
+        return Meaning(Role.FUNCTION, Pos.SIGN, token.text)
+    return None if token.text[0].isalpha() else Meaning(Role.UNKNOWN, Pos.ADVERB)
+
+
 def _complete(span: Sequence[Token], meanings: list[Meaning]) -> list[Meaning]:
     """The lexicon's readings, and those of a dictionary for a single word."""
     if len(span) > 1:
         return meanings
     token = span[0]
-    if token.is_number:
-        return [Meaning(Role.COUNT, Pos.NUMBER, float(token.text.replace(",", ".")))]
-    if token.is_punctuation:
-        return [Meaning(Role.FUNCTION, Pos.SIGN, token.text)]
-    if not token.text[0].isalpha():
-        return [Meaning(Role.UNKNOWN, Pos.ADVERB)]
+    fixed = _read_unspelt(token)
+    if fixed is not None:
+        return [fixed]
     found = list(meanings)
     listed = {meaning.pos for meaning in found}
     if listed and listed <= _CLOSED:
