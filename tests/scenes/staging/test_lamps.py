@@ -114,7 +114,7 @@ def test_flames_of_two_candles_do_not_flicker_in_step():
 
 @pytest.mark.parametrize("noun", sorted(set(LAMPS) & set(NOUNS)))
 def test_every_lamp_noun_sheds_light_when_it_is_lit(noun):
-    scene = staged(SceneObject(noun, is_lit=True), light="night")
+    scene = staged(SceneObject(noun, is_lit=True), light="night", place="plain")
     levels = [scene.environment(t).lamps[:, 3:6].max(initial=0.0) for t in (0.0, 0.1, 0.3)]
     assert max(levels) > 0.0
     rows = scene.environment(0.0).lamps

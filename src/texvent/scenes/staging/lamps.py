@@ -12,10 +12,11 @@ from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.variation import fraction
-from texvent.scenes.scene import LAMP_COLUMNS, Float64Array
+from texvent.scenes.scene import LAMP_COLUMNS, PUFF_COLUMNS, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
+from texvent.scenes.staging.particles.shapes import along
 from texvent.scenes.staging.scenery import SceneryItem
 
 WARM = (1.0, 0.72, 0.40)
@@ -29,6 +30,12 @@ _LIGHTS_A_ROOM = 0.1
 """A lamp without a beam that is at least this bright lights its surroundings."""
 _DIMMEST_CASTER = 0.5
 """Lamps whose light at 1 m is less than this cast no shadows."""
+_LONG = 3.0
+"""A part longer than this many thicknesses, such as a tube, is no spot of light."""
+_HAZE = 0.16
+"""Optical depth of a beam in hazy air near its lamp."""
+_HAZE_PUFFS = 7
+_HAZE_ALBEDO = 1e-3
 _MOST_CASTERS = 3
 """Each costs time: see docs/design/speed.md."""
 _FAINTEST_SHARE = 0.05
@@ -116,7 +123,23 @@ class LitActor:
 
     def rows(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
         """Its lamps at that instant, as in `Environment.lamps`: always as many."""
-        rows: list[Float64Array] = []
+        return [row for _, row, _ in self._shining(placed, time_s)]
+
+    def haze(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
+        """What is seen of its beams from the side: puffs, as in `Environment.puffs`."""
+        if self.switch.strength <= 0.0:
+            return []
+        return [
+            haze_rows(row, lamp.haze_m, level)
+            for lamp, row, level in self._shining(placed, time_s)
+            if lamp.haze_m > 0.0
+        ]
+
+    def _shining(
+        self, placed: PlacedModel, time_s: float
+    ) -> list[tuple[Lamp, Float64Array, float]]:
+        """Its lamps that are on: kind, numbers, and light as a share of the usual."""
+        rows: list[tuple[Lamp, Float64Array, float]] = []
         number, done = 0, set[Lamp]()
         for part, brightest in zip(placed.parts, self.brightest, strict=True):
             lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
@@ -127,9 +150,34 @@ class LitActor:
             level = self.switch.level(lamp, time_s, number) * part.emission / max(brightest, 1e-9)
             if self.switch.is_on(lamp):
                 casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
-                rows.append(lamp_row(lamp, part, placed.to_world, level, time_s, casts))
+                row = lamp_row(lamp, part, placed.to_world, level, time_s, casts)
+                rows.append((lamp, row, level))
             number += 1
         return rows
+
+
+def haze_rows(row: Float64Array, reach_m: float, level: float) -> Float64Array:
+    """[7, 19] what dust and damp in the air show of a beam: ever wider puffs along it.
+
+    Args:
+        row: the lamp, as in `Environment.lamps`.
+        reach_m: how far it is seen, m.
+        level: light as a share of its usual light.
+    """
+    edges = reach_m * np.linspace(0.0, 1.0, _HAZE_PUFFS + 1) ** 1.5
+    middle, half = 0.5 * (edges[1:] + edges[:-1]), edges[1:] - edges[:-1]
+    width = row[12] + 0.7 * math.tan(math.acos(row[11])) * middle
+    extents = np.stack([width, width, half], axis=1)
+    maps = along(
+        row[:3] + middle[:, None] * row[7:10], np.tile(row[7:10], (_HAZE_PUFFS, 1)), extents
+    )
+    rows = np.zeros((_HAZE_PUFFS, PUFF_COLUMNS))
+    rows[:, :12] = maps.reshape(-1, 12)
+    # Nearly black, so that it does not scatter the lamp's light once more.
+    rows[:, 12:15] = _HAZE_ALBEDO * row[3:6] / max(row[3:6].max(), 1e-9)
+    rows[:, 15] = _HAZE * level * np.linspace(1.0, 0.3, _HAZE_PUFFS)
+    rows[:, 16] = 1.0 / _HAZE_ALBEDO
+    return rows
 
 
 def lamp_row(
@@ -168,8 +216,10 @@ def lamp_row(
     row[:3] = to_world[:, :3] @ centre + to_world[:, 3]
     row[3:6] = level * lamp.intensity * np.array(part.colour) / max(max(part.colour), 1e-9)
     row[6] = min(math.sqrt(lamp.intensity / _FAINTEST), _FARTHEST_M)
-    row[12] = half[1] if lamp.is_panel else half[0]
-    row[13], row[14] = float(casts), float(not lamp.is_panel)
+    is_long = half[2] > _LONG * half[0]
+    row[12] = half[1] if lamp.is_panel else 0.5 * half[2] if is_long else half[0]
+    row[13] = float(casts)
+    row[14] = float(lamp.glows and not lamp.is_panel and not is_long)
     return row
 
 
@@ -194,6 +244,10 @@ class LampPlan:
         """[m, 15] all lamps at that instant."""
         rows = [row for one in self.lit for row in one.rows(one.actor.place(time_s), time_s)]
         return np.concatenate([np.array(rows).reshape(-1, LAMP_COLUMNS), self.still])
+
+    def puffs(self, time_s: float) -> list[Float64Array]:
+        """What is seen of beams from the side, as in `Environment.puffs`."""
+        return [rows for one in self.lit for rows in one.haze(one.actor.place(time_s), time_s)]
 
     @property
     def is_moving(self) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.framing import Framing
@@ -20,8 +21,8 @@ from texvent.scenes.staging.particles.motion import Source
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.weather import WEATHERS
 
-BURNING = ("campfire", "fire", "bonfire", "fireplace", "torch")
-"""Nouns that burn unless they are said to be out."""
+OF_NOUNS = {"campfire": "fire", "fireplace": "fire", "torch": "fire", "volcano": "smoke"}
+"""Noun → effect that it always has, unless it is said not to be lit."""
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
@@ -41,8 +42,26 @@ _ANCHORS: dict[tuple[str, str], tuple[float, float, float]] = {
     ("smoke", "rocket"): (0.0, 0.0, 0.0),
     ("smoke", "house"): (0.3, 0.35, 1.0),
     ("smoke", "ship"): (0.1, 0.0, 1.0),
+    ("smoke", "volcano"): (0.0, 0.0, 0.58),
+    ("fire", "torch"): (0.0, 0.0, 0.72),
+    ("fire", "fireplace"): (0.1, 0.0, 0.1),
+    **{(kind, "faucet"): (0.7, -0.92, 0.6) for kind in ("drip", "pour")},
+    **{(kind, "teapot"): (0.0, -0.92, 0.78) for kind in ("pour", "steam", "drip")},
+    **{(kind, "kettle"): (0.0, -0.92, 0.8) for kind in ("pour", "steam", "drip")},
+    **{(kind, "watering can"): (0.0, -0.92, 0.95) for kind in ("pour", "spray", "drip")},
+    **{(kind, "shower"): (0.0, 0.0, 0.93) for kind in ("pour", "spray", "drip")},
+    **{(kind, "hose"): (0.4, 1.0, 0.2) for kind in ("pour", "spray", "fountain")},
 }
 """(effect, noun) → where it comes from: x and y in half extents, z in heights from below."""
+_AIMS: dict[str, tuple[float, float, float]] = {
+    "faucet": (0.0, 0.0, -1.0),
+    "shower": (0.0, 0.0, -1.0),
+    "teapot": (0.0, -1.0, 0.1),
+    "kettle": (0.0, -1.0, 0.1),
+    "watering can": (0.0, -1.0, 0.3),
+    "hose": (0.0, 1.0, 0.6),
+}
+"""Where water leaves a noun to, in its body coordinates."""
 _USUAL_ANCHOR: dict[str, tuple[float, float, float]] = {
     "drip": (0.9, 0.0, 0.85),
     "pour": (0.9, 0.0, 0.92),
@@ -54,8 +73,10 @@ _USUAL_ANCHOR: dict[str, tuple[float, float, float]] = {
     "confetti": (0.0, 0.0, 1.0),
 }
 _SIZES: dict[str, float] = {"fire": 0.75, "smoke": 0.32, "steam": 0.7, "dust": 0.55, "drip": 0.35,
-                            "pour": 0.45, "fountain": 0.9, "sparks": 0.6}  # fmt: skip
+                            "pour": 0.6, "fountain": 0.9, "sparks": 0.6}  # fmt: skip
 """Size of an effect by that of the object it comes from."""
+_NOUN_SIZES = {("fire", "fireplace"): 0.3, ("fire", "torch"): 0.9}
+"""The same for some objects of their own."""
 _ALONE: dict[str, float] = {"smoke": 0.15, "steam": 0.12, "fire": 0.2, "dust": 0.2, "drip": 0.16,
                             "pour": 0.3, "fountain": 0.42, "sparks": 0.3, "embers": 0.25,
                             "spray": 0.3, "bubbles": 0.25}  # fmt: skip
@@ -96,10 +117,11 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
     Nouns that burn get their fire. An effect whose object has several copies is at each of them.
     """
     said = list(description.effects)
-    has_fire = {effect.source for effect in said if effect.kind == "fire"}
+    named = {(effect.kind, effect.source) for effect in said}
     for index, one in enumerate(description.objects):
-        if one.noun in BURNING and one.is_lit is not False and index not in has_fire:
-            said.append(Effect("fire", index))
+        kind = OF_NOUNS.get(one.noun)
+        if kind is not None and one.is_lit is not False and (kind, index) not in named:
+            said.append(Effect(kind, index))
     effects = _weather(description, setting)
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
@@ -174,12 +196,17 @@ def _make(
         height = max(float(start[2]), 0.05) if np.isfinite(setting.floor_m) else reach
         return [Dripping.of(source, height, rng, colour or WATER)]
     made: list[ParticleEffect] = []
-    if kind in PLUMES:
-        made.append(Plume.of(kind, source, rng, colour=colour, start_s=effect.start_s))
+    aim = None if actor is None else _AIMS.get(actor.noun.name)
+    if kind in PLUMES and not (aim is not None and aim[2] < 0.0):
+        plume = Plume.of(kind, source, rng, colour=colour, start_s=effect.start_s)
+        has_lamp = actor is not None and actor.noun.name in LAMPS
+        made.append(plume.unlit() if has_lamp else plume)
     if kind in JETS:
         jet = Jet.of(kind, source, rng, colour=colour, start_s=effect.start_s)
+        if aim is not None and kind in ("pour", "spray"):
+            jet = replace(jet, style=replace(jet.style, aim=aim))
         made.append(jet.until_ground() if kind == "pour" else jet)
-    if kind == "fire" and actor is not None and actor.noun.name not in BURNING:
+    if kind == "fire" and actor is not None and actor.noun.name not in OF_NOUNS:
         made.append(Plume.of("black smoke", source, rng, start_s=effect.start_s))
     return made
 
@@ -225,13 +252,13 @@ def _size_of(actor: Actor | None, setting: Setting) -> float:
 
 def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     """Where an effect comes from."""
-    size = _SIZES.get(kind, 0.5) * _size_of(actor, setting)
     if actor is None:
         target = np.asarray(setting.framing.target, dtype=np.float64)
         lifted = kind in ("drip", "sparks", "pour", "spray")
         reach = setting.framing.distance_m
         height = target[2] + 0.22 * reach if lifted else 0.0
         return Source(_ALONE.get(kind, 0.15) * reach, np.array([target[0], target[1], height]))
+    size = _NOUN_SIZES.get((kind, actor.noun.name), _SIZES.get(kind, 0.5)) * _bulk(actor)
     model = actor.model
     x, y, z = _ANCHORS.get((kind, actor.noun.name), _USUAL_ANCHOR.get(kind, (0.0, 0.0, 1.0)))
     low = -0.5 * model.height if actor.is_centred else 0.0

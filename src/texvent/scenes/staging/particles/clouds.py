@@ -122,6 +122,10 @@ class Plume(PuffEffect):
         start = -math.inf if start_s is None else start_s
         return cls(source, style, Lives.of(style.count, life, rng), start)
 
+    def unlit(self) -> Plume:
+        """The same plume where the object's own lamp sheds its light."""
+        return replace(self, style=replace(self.style, light=0.0))
+
     def puffs(self, time_s: float) -> Float64Array:
         """[k, 19] the puffs at that instant; those just born or about to go are thin."""
         style, size = self.style, self.source.size_m

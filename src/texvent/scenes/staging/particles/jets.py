@@ -116,7 +116,7 @@ class Jet(SolidEffect):
         age_s = age * self.lives.life_s
         born = self.source.at(time_s - age_s)
         born[:, :2] += style.area * size * (2.0 * draws[:, 3:5] - 1.0)
-        aimed = _aimed(directions(draws, style.spread_rad), style.aim)
+        aimed = _aimed(directions(draws, style.spread_rad), style.aim) @ self.source.turn(time_s).T
         velocity = style.speed * unit_m_s * (0.8 + 0.4 * draws[:, 2:3]) * aimed
         pull = np.array([0.0, 0.0, -style.gravity * GRAVITY])
         drag_s = style.drag * unit_s

@@ -32,10 +32,11 @@ class Source:
         maps = [self.actor.trajectory.at(float(time)).to_world() for time in times_s]
         return np.array([one[:, :3] @ self.fixed + one[:, 3] for one in maps]).reshape(-1, 3)
 
-    def velocity(self, time_s: float) -> Float64Array:
-        """[3] how it moves, m/s."""
-        before, after = self.at(np.array([time_s - 5e-3, time_s + 5e-3]))
-        return np.asarray((after - before) / 1e-2)
+    def turn(self, time_s: float) -> Float64Array:
+        """[3, 3] axes of the object; of the world where there is none."""
+        if self.actor is None:
+            return np.eye(3)
+        return np.asarray(self.actor.trajectory.at(time_s).to_world()[:, :3])
 
 
 @dataclass(frozen=True)
