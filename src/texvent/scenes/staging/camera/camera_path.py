@@ -73,7 +73,7 @@ class CameraPath:
 
     @cached_property
     def _channels(self) -> MoveChannels:
-        return MoveChannels(self.moves)
+        return MoveChannels(self.moves, self.duration_s)
 
     def at(self, time_s: float) -> Camera:
         """The camera at that instant."""

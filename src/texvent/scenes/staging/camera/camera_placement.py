@@ -24,6 +24,8 @@ TRACKING_LENGTHS = 4.5
 """An object that covers more of its own lengths in the clip is followed from the side."""
 LEAST_SHARE = 0.16
 """Share of the image's width that a moving subject extends over at least, on average."""
+SLOWEST = 0.16
+"""What crosses fewer image widths per second is followed from the side."""
 _WORTH = 1.15
 """How much larger the subject must become for less of the rest to be shown."""
 _OUTSIDE_SHARES = (0.3, 0.38, 0.46, 0.54, 0.62, 0.7)
@@ -90,6 +92,8 @@ def _frame(
         attempts.append((True, (CameraMove("follow", "side"),)))
     path = _fit_path(description, actors, main, (False, moves), place, how)
     share = _share_of_image(path, main)
+    if share >= LEAST_SHARE and len(attempts) > 1 and _creeps(path, main):
+        return _fit_path(description, actors, main, attempts[1], place, how)
     for attempt in attempts:
         if share >= LEAST_SHARE:
             break
@@ -144,6 +148,18 @@ def _stay_together(actors: Sequence[Actor], main: Actor, duration_s: float) -> b
         for actor in movers
     ]  # fmt: skip
     return all(float(drift) < 2.0 * main.size_m for drift in drifts)
+
+
+def _creeps(path: CameraPath, main: Actor) -> bool:
+    """Whether the subject goes on, but so slowly that a still camera would see next to nothing."""
+    start, end = (main.middle(time) for time in (0.0, path.duration_s))
+    if float(np.linalg.norm(end - start)) < 0.1 * main.size_m:
+        return False
+    places = [
+        _project(path, main.middle(time)[None], time)[0, :2] for time in (0.0, path.duration_s)
+    ]
+    moved = float(np.linalg.norm(places[1] - places[0]))
+    return moved / path.duration_s < SLOWEST
 
 
 def _instants(main: Actor, duration_s: float) -> list[Float64Array]:

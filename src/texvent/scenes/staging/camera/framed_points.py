@@ -65,7 +65,7 @@ def choose_points(
         return points_to_frame, 0.45
     fill = min([FILL, *(_FILL_BY_MOVE.get(move.kind, FILL) for move in moves)])
     if follows:
-        fill = min(fill, 0.5)
+        fill = min(fill, 0.56)
     return points_to_frame, fill
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 
 from texvent.scenes.description import CameraMove
 
 EASE = 0.2
 """Share of a phase in which a move starts or stops, where it does so within the clip."""
+USUAL_S = 2.0
+"""Length of a phase in which a move goes its usual way; shorter ones go less far."""
 SIGNS = {
     "left": -1.0, "right": 1.0, "up": 1.0, "down": -1.0, "in": 1.0, "out": -1.0,
     "clockwise": 1.0, "counter-clockwise": -1.0,
@@ -17,9 +20,11 @@ SIGNS = {
 class MoveChannels:
     """Progress of all moves of a shot; each a smooth function of the share of the clip."""
 
-    def __init__(self, moves: tuple[CameraMove, ...]) -> None:
+    def __init__(self, moves: tuple[CameraMove, ...], duration_s: float = USUAL_S) -> None:
         self.moves = moves
         self._last = max((move.phase for move in moves), default=0)
+        spell = duration_s / (self._last + 1) / USUAL_S
+        self._amount = min(max(math.sqrt(spell), 0.5), 1.3)
 
     def has(self, kind: str) -> bool:
         """Whether a kind of move is among them."""
@@ -41,7 +46,7 @@ class MoveChannels:
         return _eased(u, has_start=phase > 0, has_end=phase < self._last)
 
     def _sum(self, kind: str, share: float) -> float:
-        return sum(
+        return self._amount * sum(
             move.pace * SIGNS.get(move.direction or "right", 1.0) * self.progress(move.phase, share)
             for move in self.moves
             if move.kind == kind
