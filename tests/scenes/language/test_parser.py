@@ -294,7 +294,9 @@ def test_the_suv_sentence_is_a_mountain_road_with_dust() -> None:
     ],
 )
 def test_a_prompt_with_nothing_understood_is_an_error(prompt: str, named: str) -> None:
-    with pytest.raises(InputError, match="nothing in the prompt was understood") as caught:
+    with pytest.raises(
+        InputError, match=r"nothing in the prompt was understood|not to be English"
+    ) as caught:
         parse_prompt(prompt)
     assert named in str(caught.value)
     assert "texvent generators" in str(caught.value)

@@ -13,7 +13,7 @@ from texvent.scenes.language.draft import Draft
 from texvent.scenes.language.lexicon import Role
 from texvent.scenes.language.referents import Referent
 from texvent.scenes.language.syntax import Clause
-from texvent.scenes.language.tagging import Word
+from texvent.scenes.language.tagging import Word, mark_used
 from texvent.scenes.language.vocabulary_motion import Verb
 from texvent.scenes.language.vocabulary_scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words import VerbForm
@@ -58,6 +58,8 @@ class ActReader:
         verb = word.meaning.value
         if word.role is Role.FLICKER:
             return self._blink(word, subjects)
+        if self._switch(clause, subjects):
+            return subjects
         if not isinstance(verb, Verb):
             return []
         if targets:
@@ -127,6 +129,17 @@ class ActReader:
         clause.verb_word.is_used = True
         for index in subjects:
             self._draft.effects.append(Effect(kind, source=index))
+        return True
+
+    def _switch(self, clause: Clause, subjects: list[int]) -> bool:
+        """As in "a traffic light turns from red to green", which it does by itself."""
+        names = {self._draft.objects[index].noun for index in subjects}
+        if names != {"traffic light"} or clause.verb_word.lemma not in _SWITCHES:
+            return False
+        clause.verb_word.is_used = True
+        groups = [group for phrase in clause.phrases for group in phrase.groups]
+        for group in (*groups, *clause.complements, *clause.objects):
+            mark_used(word for word in group.words if word.text in _SIGNALS)
         return True
 
     def _blink(self, word: Word, subjects: list[int]) -> list[int]:
@@ -260,6 +273,8 @@ EFFECT_BY_VERB: dict[str, str] = {
     verb: kind for kind, words in EFFECTS.items() for verb in words.verbs if " " not in verb
 }
 """Verb of one word → the effect it means."""
+_SWITCHES = ("turn", "change", "switch", "go")
+_SIGNALS = ("red", "yellow", "amber", "green")
 BOARDS = frozenset(
     {"skateboard", "surfboard", "snowboard", "scooter", "skis", "wave", "sled", "carousel horse"}
 )

@@ -145,7 +145,9 @@ class CircumstanceReader:
         """As in "Shaped like a dragon", "curls into a ball": nothing of the sort is there."""
         name = phrase.preposition.text
         is_change = name == "into" and scope.has_verb and not scope.is_verb_shown
-        return name == "like" or (is_change and not scope.is_lost)
+        heads = [group.head for group in phrase.groups if group.head is not None]
+        is_thing = all(head.read_as(Role.PLACE) is None for head in heads)
+        return name == "like" or (is_change and is_thing)
 
     def read_group_phrases(
         self, referent: Referent, scope: Scope, listed: Sequence[int] = ()

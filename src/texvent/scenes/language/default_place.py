@@ -11,6 +11,8 @@ _FAST_FLYER_M_S = 4.0
 """What flies faster than this is shown in the sky, far from the ground."""
 _AFLOAT_MOTIONS = ("sail", "paddle")
 
+_PLACE_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
+"""How a camera travels → where it does so."""
 _USUAL_PLACES: dict[str, tuple[str, ...]] = {
     "road": ("car", "suv", "bus", "truck", "van", "pickup", "motorcycle", "bicycle", "tractor"),
     "city": ("taxi", "police car", "fire engine", "traffic light", "street lamp", "building"),
@@ -49,6 +51,9 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         return said.place
     if is_submerged:
         return "underwater"
+    for move in description.shot.moves:
+        if move.kind == "travel" and move.means in _PLACE_OF_TRAVEL:
+            return _PLACE_OF_TRAVEL[move.means]
     if "city" in said.backdrops:
         return "city"
     if said.has_snow:

@@ -30,7 +30,7 @@ def complete_description(
     nothing moves, objects that can move do what they usually do; when none can, the camera pans.
     """
     description = _add_crew(description, nouns)
-    description = _limit_bodies(_move_to_background(description, nouns))
+    description = _rest_inside(_limit_bodies(_move_to_background(description, nouns)))
     objects = tuple(
         _decide_motion(scene_object, nouns[scene_object.noun])
         for scene_object in description.objects
@@ -175,6 +175,16 @@ def _is_moving(scene_object: SceneObject) -> bool:
         and scene_object.motion.is_moving
         and scene_object.motion.kind != "sit"
     )
+
+
+def _rest_inside(description: SceneDescription) -> SceneDescription:
+    """What is in something, and not said to move, stays there: "a goldfish in a bowl"."""
+    inside = {one.subject for one in description.relations if one.kind == "in"}
+    objects = tuple(
+        replace(each, motion=STANDING) if index in inside and each.motion is None else each
+        for index, each in enumerate(description.objects)
+    )
+    return replace(description, objects=objects)
 
 
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:

@@ -15,7 +15,7 @@ from texvent.scenes.language import (
     vocabulary_objects,
     vocabulary_scene,
 )
-from texvent.scenes.language.vocabulary_objects import GENERAL_KINDS
+from texvent.scenes.language.vocabulary_objects import COMPOUNDS, GENERAL_KINDS
 from texvent.scenes.language.vocabulary_people import PEOPLE_KINDS
 from texvent.scenes.language.words import Pos, VerbForm, list_verb_forms
 from texvent.scenes.models.effects import EFFECTS
@@ -89,13 +89,13 @@ class Lexicon:
         self._longest: dict[str, int] = {}
         for noun in nouns.values():
             self._add_noun(noun)
-        for kinds in (PEOPLE_KINDS, GENERAL_KINDS):
+        for kinds in (COMPOUNDS, PEOPLE_KINDS, GENERAL_KINDS):
             for name, words in kinds.items():
                 self._add_kinds(name, words if name in nouns else ())
         for verb in vocabulary_motion.VERBS:
             for text, form in list_forms(verb.base):
                 self._add(text, Meaning(Role.VERB, Pos.VERB, verb, form))
-        for text, meaning in (*_list_table_entries(), *_list_effects()):
+        for text, meaning in (*_list_table_entries(), *_list_place_kinds(), *_list_effects()):
             self._add(text, meaning)
         for base, role, value in _list_bare_verbs():
             for text, form in list_forms(base):
@@ -186,6 +186,13 @@ def _list_effects() -> Iterator[tuple[str, Meaning]]:
                 yield plural, Meaning(Role.EFFECT, Pos.NOUN, kind, is_plural=True)
         for text in effect.adjectives:
             yield text, Meaning(Role.EFFECT, Pos.ADJECTIVE, kind)
+
+
+def _list_place_kinds() -> Iterator[tuple[str, Meaning]]:
+    for place, texts in vocabulary_scene.PLACE_KINDS.items():
+        for singular in texts:
+            for text in (singular, *list_plurals(singular)):
+                yield text, Meaning(Role.PLACE, Pos.NOUN, place, is_substitute=True)
 
 
 def _list_table_entries() -> Iterator[tuple[str, Meaning]]:

@@ -17,10 +17,10 @@ from texvent.scenes.description import SceneDescription, Substitution
 from texvent.scenes.language.clause_meaning import ClauseMeaning
 from texvent.scenes.language.clauses import read_clauses
 from texvent.scenes.language.defaults import complete_description
-from texvent.scenes.language.lexicon import Lexicon
+from texvent.scenes.language.lexicon import Lexicon, Role
 from texvent.scenes.language.tagging import Word, tag_words
 from texvent.scenes.language.tokens import tokenize_prompt
-from texvent.scenes.language.words import Pos
+from texvent.scenes.language.words import Pos, list_readings
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
 
@@ -28,6 +28,8 @@ LONGEST_LIST = 120
 """Characters of words that an error lists."""
 MOST_WORDS = 2000
 """Words of a prompt that are read; what follows is reported as a whole."""
+_FEWEST_FOREIGN = 3
+_FOREIGN_SHARE = 0.45
 _SILENT = frozenset(
     {Pos.SIGN, Pos.DETERMINER, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.RELATIVE, Pos.AUXILIARY,
      Pos.TO, Pos.PRONOUN}
@@ -63,6 +65,11 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         )
     known = _known_words() if nouns is NOUNS else Lexicon(nouns)
     words, notes = tag_words(tokenize_prompt(prompt), known)
+    if _is_foreign(words):
+        raise InputError(
+            f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
+            "write it in English, or use a model that takes any text (texvent generators)"
+        )
     meaning = ClauseMeaning(nouns)
     for clause in read_clauses(words[:MOST_WORDS]):
         meaning.read(clause)
@@ -82,6 +89,15 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         notes=(*notes, *description.notes),
     )
     return complete_description(description, nouns)
+
+
+def _is_foreign(words: Sequence[Word]) -> bool:
+    """Whether about half of its words, three or more, are in no English dictionary."""
+    content = {word.text for word in words if word.role is not Role.FUNCTION}
+    unlisted = {
+        word.text for word in words if word.role is Role.UNKNOWN and not list_readings(word.text)
+    }
+    return len(unlisted) >= _FEWEST_FOREIGN and len(unlisted) > _FOREIGN_SHARE * len(content)
 
 
 def _shortened(words: Sequence[str]) -> str:

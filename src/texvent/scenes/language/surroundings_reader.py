@@ -80,9 +80,14 @@ class SurroundingsReader:
         if is_coloured and colour is not None:
             mark_used(colour[1])
         head = one.group.head
-        if is_used and head is not None and head.text in vocabulary_scene.CROSSINGS:
+        meaning = head.read_as(Role.PLACE) if head is not None else None
+        if not is_used or head is None or meaning is None:
+            return is_used
+        if head.text in vocabulary_scene.CROSSINGS:
             self._road = "crossing"
-        return is_used
+        if meaning.is_substitute:
+            head.shown_as = str(meaning.value)
+        return True
 
     def read_adjectives(self, attributes: Attributes, kind: str) -> None:
         """As in "A foggy street", "dark water", "a winding road"."""

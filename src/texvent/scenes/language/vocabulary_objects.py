@@ -149,6 +149,14 @@ MATERIALS: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Material → words for it, before a noun."""
 
+COMPOUNDS: dict[str, tuple[str, ...]] = {
+    "candle": ("candle flame", "candle light", "burning candle"),
+    "led": ("led matrix", "led array", "led light", "led lamp", "led strip light"),
+    "checkerboard": ("checkerboard calibration pattern", "checkerboard pattern",
+                     "calibration pattern", "calibration target", "chessboard pattern"),
+}  # fmt: skip
+"""Noun → compounds that mean it, though their last word alone does not."""
+
 GENERAL_KINDS: dict[str, tuple[str, ...]] = {
     "car": ("vehicle",),
     "dog": ("animal", "pet", "creature"),

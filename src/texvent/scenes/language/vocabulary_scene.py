@@ -4,48 +4,39 @@ from __future__ import annotations
 
 PLACES: dict[str, tuple[str, ...]] = {
     "road": (
-        "road", "highway", "motorway", "freeway", "lane", "asphalt", "race track", "racetrack",
-        "country road", "paved road", "avenue road",
+        "road", "highway", "motorway", "freeway", "lane", "asphalt", "country road", "paved road",
+        "avenue road",
     ),
     "dirt road": ("dirt road", "dirt track", "gravel road", "trail", "dirt path", "path", "mud"),
     "city": (
         "city", "street", "town", "downtown", "urban", "avenue", "sidewalk", "pavement",
-        "city street", "intersection", "crossing", "crossroads", "junction", "parking lot",
-        "square",
+        "city street", "intersection", "crossing", "crossroads", "junction", "square",
         "street crossing", "road junction", "street corner",
     ),
     "grass": (
-        "grass", "field", "meadow", "lawn", "park", "garden", "pasture", "farm", "yard",
-        "grassy field", "countryside", "stadium", "pitch", "football field", "hill", "backyard",
-        "playground",
+        "grass", "field", "meadow", "lawn", "park", "garden", "pasture", "yard", "grassy field",
+        "countryside", "backyard", "green",
     ),
     "savanna": ("savanna", "savannah", "grassland", "plain", "prairie", "steppe", "grasslands"),
     "forest": ("forest", "wood", "jungle", "rainforest", "woodland", "grove", "pine forest"),
-    "sea": (
-        "sea", "ocean", "water", "bay", "harbor", "harbour", "open water", "open sea", "surf",
-        "marina",
-    ),
+    "sea": ("sea", "ocean", "water", "open water", "open sea", "surf"),
     "lake": ("lake", "pond", "lakeside", "lake shore", "waterside", "reservoir"),
     "river": ("river", "stream", "riverbank", "river bank", "riverside", "creek", "brook", "canal"),
     "gravel": ("gravel",),
     "soil": ("soil", "dirt", "ploughed field", "plowed field", "earth", "clay ground"),
-    "underwater": (
-        "seabed", "reef", "coral reef", "coral", "deep sea",
-    ),
-    "sand": ("beach", "sand", "desert", "dune", "shore", "coast"),
-    "snow": ("snowy field", "snowfield", "ice", "arctic", "snow covered ground", "glacier"),
+    "underwater": ("seabed", "reef", "coral reef", "coral", "deep sea"),
+    "sand": ("beach", "sand", "desert", "dune", "sand dune", "shore", "coast"),
+    "snow": ("snowy field", "snowfield", "arctic", "snow covered ground"),
     "mountain": (
-        "mountain", "mountain slope", "mountain side", "mountainside", "mountainous", "alps",
-        "valley", "slope", "hillside",
+        "mountain", "mountain slope", "mountain side", "mountainside", "alps", "valley", "slope",
+        "hillside",
     ),
-    "indoor": (
-        "room", "house interior", "interior", "hall", "floor", "corridor", "studio", "museum",
-    ),
-    "living room": ("living room", "lounge", "sitting room", "apartment", "flat"),
-    "kitchen": ("kitchen", "bathroom"),
-    "bedroom": ("bedroom", "hotel room"),
-    "office": ("office", "classroom", "laboratory", "lab", "library"),
-    "workshop": ("workshop", "garage", "factory"),
+    "indoor": ("room", "house interior", "interior", "hall", "floor"),
+    "living room": ("living room", "lounge", "sitting room"),
+    "kitchen": ("kitchen",),
+    "bedroom": ("bedroom",),
+    "office": ("office",),
+    "workshop": ("workshop",),
     "warehouse": ("warehouse", "storeroom", "storage room"),
     "gym": ("gym", "gymnasium", "sports hall"),
     "space": ("space", "outer space", "galaxy"),
@@ -56,6 +47,46 @@ PLACES: dict[str, tuple[str, ...]] = {
     "plain": ("plain background", "background", "backdrop", "empty background", "plain ground"),
 }  # fmt: skip
 """Place → words for it, in the singular (regular plurals are understood too)."""
+
+PLACE_KINDS: dict[str, tuple[str, ...]] = {
+    "road": ("race track", "racetrack", "airport", "runway", "airfield", "track"),
+    "city": (
+        "market", "market place", "marketplace", "plaza", "parking lot", "car park", "london",
+        "paris", "new york", "tokyo", "village", "campus", "bus station", "railroad crossing",
+        "railway crossing", "alley", "neighborhood", "neighbourhood", "suburb", "crowded market",
+    ),
+    "grass": (
+        "stadium", "pitch", "football field", "soccer field", "baseball field", "farm", "orchard",
+        "vineyard", "zoo", "cemetery", "golf course", "playground", "hill", "riverbank",
+        "hilltop", "campsite", "campground", "picnic area", "clearing", "tennis court",
+    ),
+    "soil": ("farmland", "vegetable patch", "crop field", "paddock"),
+    "sand": ("arena", "island", "oasis", "sandpit", "sandbox", "quarry"),
+    "snow": ("ice rink", "rink", "ski slope", "piste", "glacier", "ice", "frozen lake", "tundra"),
+    "mountain": ("canyon", "cliff", "crater", "ridge", "gorge", "summit", "peak"),
+    "sea": ("harbor", "harbour", "marina", "bay", "port", "lagoon", "fjord"),
+    "lake": ("swimming pool", "pool", "water hole", "waterhole", "swamp", "marsh"),
+    "river": ("waterfall", "rapids", "ditch"),
+    "forest": ("park trail", "bamboo grove", "swamp forest"),
+    "indoor": (
+        "corridor", "studio", "museum", "church", "theatre", "theater", "auditorium", "stage",
+        "basement", "attic", "cave", "lobby", "gallery", "palace", "ballroom", "concert hall",
+        "court", "basketball court", "bowling alley", "nightclub", "circus", "house", "home",
+    ),
+    "living room": ("apartment", "flat", "cafe", "coffee shop", "bar", "pub", "hotel lobby"),
+    "kitchen": ("bathroom", "restaurant", "bakery", "restaurant kitchen", "canteen", "diner"),
+    "bedroom": ("hotel room", "nursery", "dormitory"),
+    "office": (
+        "classroom", "laboratory", "lab", "library", "hospital", "clinic", "operating room",
+        "operating theatre", "shop", "store", "school", "waiting room", "bookshop",
+    ),
+    "workshop": ("garage", "factory", "factory hall", "forge", "assembly hall", "car wash"),
+    "warehouse": ("supermarket", "hangar", "train station", "railway station", "subway station",
+                  "station", "mall", "barn", "depot"),
+    "gym": ("dojo", "dance studio", "boxing ring", "yoga studio"),
+    "underwater": ("aquarium", "fish tank"),
+}  # fmt: skip
+"""Place → words for places that are shown as it, and reported so."""
 
 PLACE_ADVERBS: dict[str, tuple[str, ...]] = {
     "sky": ("in the sky", "through the sky", "across the sky", "in the air", "through the air",
