@@ -16,6 +16,7 @@ from texvent.scenes.description import (
     Surroundings,
 )
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.scenes.staging.road import RoadLine
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(173, 130)
@@ -119,3 +120,36 @@ def test_objects_stand_beside_the_route_and_are_seen() -> None:
         seen = camera.rotation @ (actor.middle(0.0) - camera.position)
         assert seen[2] > 2.0
         assert abs(seen[0] / seen[2]) < 0.6
+
+
+def test_a_car_stays_in_its_lane_on_a_curved_road() -> None:
+    description = SceneDescription(
+        "", (SceneObject("car", motion=ObjectMotion("drive", "right", speed_m_s=12.0)),),
+        surroundings=Surroundings("road", road="curved"),
+    )  # fmt: skip
+    scene = compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)
+    environment = scene.environment(0.0)
+    road = RoadLine(
+        environment.road_angle,
+        (float(environment.road_offset[0]), float(environment.road_offset[1])),
+        environment.road_curvature,
+    )
+    spots = np.array([scene.actors[0].middle(t)[:2] for t in (0.0, 1.0, 2.0)])
+    distances = road.distance(spots)
+    np.testing.assert_allclose(distances, distances[0], atol=1e-6)
+    assert 0.0 < distances[0] < environment.road_half_width
+    ways = [scene.actors[0].trajectory.at(t).distance_m for t in (0.0, 2.0)]
+    assert ways[1] - ways[0] == pytest.approx(24.0)
+
+
+@pytest.mark.parametrize("road", ["curved", "crossing"])
+def test_the_camera_travels_on_the_road_as_it_is(road: str) -> None:
+    description = SceneDescription(
+        "", shot=Shot((CameraMove("travel", "forward"),)),
+        surroundings=Surroundings("city", road=road),
+    )  # fmt: skip
+    environment = compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S).environment(
+        0.0
+    )
+    assert (environment.road_curvature != 0.0) == (road == "curved")
+    assert (len(environment.road_crossings) == 1) == (road == "crossing")

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 
 _LEAST_TURN = 0.9
@@ -15,8 +16,6 @@ _LEAST_TURN = 0.9
 
 
 _CROSSING_AHEAD_M = 7.0
-ROAD_BEND_PER_M = 1.0 / 50.0
-"""Curvature of a road that bends."""
 
 
 def find_road(
@@ -32,7 +31,7 @@ def find_road(
     """
     road = _straight_road(actors, usual_y, lane_m)
     if shape == "curved" and not road.crossings:
-        return replace(road, curvature=ROAD_BEND_PER_M)
+        return replace(road, curvature=_bend_of(actors, lane_m))
     if shape == "crossing" and not road.crossings:
         x, y, angle = road.at(_CROSSING_AHEAD_M)
         return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
@@ -53,8 +52,7 @@ def _road_of(movers: Sequence[Actor], lane_m: float) -> RoadLine:
     first = movers[0]
     state = first.trajectory.at(0.0)
     x, y, _ = state.position
-    is_alone = len(movers) == 1 and first.noun.motion == "drive"
-    lane = lane_m if is_alone and lane_m > 0.6 * first.model.width else 0.0
+    lane = _lane_of(movers, lane_m)
     # Traffic keeps to the right: the centre line is on its left.
     offset = (x - lane * math.sin(state.yaw), y + lane * math.cos(state.yaw))
     crossings: list[tuple[float, float, float]] = []
@@ -69,3 +67,19 @@ def _road_of(movers: Sequence[Actor], lane_m: float) -> RoadLine:
                 )
     angle = state.yaw % math.pi if lane == 0.0 else state.yaw
     return RoadLine(angle, offset, crossings=tuple(crossings))
+
+
+def _bend_of(actors: Sequence[Actor], lane_m: float) -> float:
+    """Curvature of the road on which the first mover drives, 1/m."""
+    movers = [a for a in actors if a.is_mover and a.noun.habitat == "ground"]
+    path = movers[0].trajectory if movers else None
+    if not isinstance(path, SteeredPath) or not path.initial_turn_rad_s:
+        return ROAD_BEND_PER_M
+    lane = _lane_of(movers, lane_m)
+    return 1.0 / (path.initial_speed_m_s / path.initial_turn_rad_s - lane)
+
+
+def _lane_of(movers: Sequence[Actor], lane_m: float) -> float:
+    """How far the first mover is to the right of the centre line, m."""
+    is_alone = len(movers) == 1 and movers[0].noun.motion == "drive"
+    return lane_m if is_alone and lane_m > 0.6 * movers[0].model.width else 0.0

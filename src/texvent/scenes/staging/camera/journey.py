@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -135,7 +135,8 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     speed = means.speed_m_s * moves[0].pace if speed is None else speed
     has_road = PLACES[place].ground in _ROADS
     tightest = _ROAD_RADIUS_M if has_road else _FREE_RADIUS_M
-    route, bends, corner = _steer(phases, speed, duration_s, tightest)
+    is_curved = description.surroundings.road == "curved"
+    route, bends, corner = _steer(phases, speed, duration_s, tightest, is_curved=is_curved)
     lane, road_half = 0.0, 0.0
     if has_road:
         road_half = PLACES[place].road_half_width
@@ -147,11 +148,19 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     length = _length(route, duration_s)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
     road = _road_beside(route, lane, bends, corner)
+    if description.surroundings.road == "crossing" and not road.crossings and not bends:
+        x, y, angle = road.at(0.6 * length + 4.0)
+        road = replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
     return TravelPlan(Journey(route, height, pitch, means.step_m), length, clear, road)
 
 
 def _steer(
-    phases: Sequence[Sequence[CameraMove]], speed: float, duration_s: float, tightest_m: float
+    phases: Sequence[Sequence[CameraMove]],
+    speed: float,
+    duration_s: float,
+    tightest_m: float,
+    *,
+    is_curved: bool,
 ) -> tuple[SteeredPath, float, float | None]:
     """The route from the origin northwards, its steady rate of turning, and where a corner ends.
 
@@ -164,6 +173,8 @@ def _steer(
         words = [move.direction for move in moves]
         way = -speed if "backward" in words else speed if moves else 0.0
         side = 1.0 if "left" in words else -1.0 if "right" in words else 0.0
+        if is_curved and len(phases) == 1 and side == 0.0:
+            side = 1.0
         ramp = min(0.5, 0.4 * span)
         if number == 0:
             initial = way

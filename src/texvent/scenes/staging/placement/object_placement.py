@@ -35,6 +35,7 @@ from texvent.scenes.staging.placement.spatial_relations import (
 )
 from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory, plan_motion
+from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M, bend_path
 from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import Circle, Riding, Trajectory, Vector
 
@@ -106,6 +107,10 @@ class ObjectPlacer:
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions = (scene_object.motion or STANDING, *scene_object.then)
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
+        is_curved = self._description.surroundings.road == "curved" and self._travel is None
+        if is_curved and noun.motion == "drive" and plan.is_path:
+            path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
+            plan = replace(plan, path=path, yaw=path.yaw)
         offsets = place_copies(models, plan, noun, rng)
         return ObjectGroup(
             index,

@@ -32,6 +32,8 @@ NO_FLOOR_M = -1e4
 QUARTER = 0.5 * math.pi
 TURN_SHARE = 0.6
 """Share of a turn's phase that it turns, where it is all that happens: it comes and goes on."""
+ROAD_BEND_PER_M = 1.0 / 50.0
+"""Curvature of a road that bends."""
 MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
 _RAMP_S = 0.3
@@ -149,6 +151,17 @@ def build_path(
     places = sample_places(path, duration_s)
     middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
     return replace(path, start=(-float(middle[0]), -float(middle[1]), floor_m))
+
+
+def bend_path(yaw: float, speed_m_s: float, curvature: float, duration_s: float) -> SteeredPath:
+    """A path along an arc at a steady speed, its box centred over (0, 0); curvature in 1/m."""
+    turn = speed_m_s * curvature
+    yaw -= 0.5 * turn * duration_s
+    piece = Piece(duration_s, speed_m_s, turn, ramp_s=0.0)
+    path = SteeredPath((0.0, 0.0, 0.0), yaw, (piece,), speed_m_s, turn)
+    places = sample_places(path, duration_s)
+    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
+    return replace(path, start=(-float(middle[0]), -float(middle[1]), 0.0))
 
 
 def sample_places(path: SteeredPath, duration_s: float) -> np.ndarray:
