@@ -14,6 +14,7 @@ from texvent.scenes.models import limb_kinematics, shapes, variation
 from texvent.scenes.models.limb_kinematics import Gait
 from texvent.scenes.models.materials import DARK, GREY, RED, Material
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
+from texvent.scenes.models.objects.home.screens import PICTURE_FACES
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.vehicles.wheels import Wheel, rolled
 from texvent.scenes.scene import Shape
@@ -360,6 +361,22 @@ def test_traffic_light_shows_one_lamp_at_a_time_and_goes_round() -> None:
         lit.append(tuple(p.emission > 2.0 for p in model.parts(Pose(0.01 * step, 0.0, 0.0))))
     changes = sum(a != b for a, b in pairwise(lit))
     assert 3 <= changes <= 8
+
+
+@pytest.mark.parametrize("name", PICTURE_FACES)
+def test_a_picture_face_is_a_flat_box_whose_side_shows(name: str) -> None:
+    spot = PICTURE_FACES[name]
+    face = build(NOUNS[name]).parts(POSES[0])[spot.part]
+    assert face.shape is Shape.BOX
+    assert spot.face == "+x"
+    deep, wide, tall = np.linalg.norm(face.to_body[:, :3], axis=0)
+    assert deep < 0.35 * min(wide, tall)
+    normal = face.to_body[:, 0] / deep
+    # It faces forward or up, with its top up or away from who looks at it.
+    assert max(normal[0], normal[2]) > 0.7
+    top = face.to_body[:, 2] / tall
+    assert max(top[2], -top[0]) > 0.7
+    assert face.to_body[1, 1] > 0.0
 
 
 def test_builders_are_described() -> None:

@@ -15,6 +15,7 @@ from texvent.scenes.language import (
     vocabulary_objects,
     vocabulary_scene,
 )
+from texvent.scenes.language.kinds import KINDS, OPAQUE_COMPOUNDS, SUBSTITUTES
 from texvent.scenes.language.vocabulary_objects import COMPOUNDS, GENERAL_KINDS
 from texvent.scenes.language.vocabulary_people import PEOPLE_KINDS
 from texvent.scenes.language.words import Pos, VerbForm, list_verb_forms
@@ -89,9 +90,13 @@ class Lexicon:
         self._longest: dict[str, int] = {}
         for noun in nouns.values():
             self._add_noun(noun)
-        for kinds in (COMPOUNDS, PEOPLE_KINDS, GENERAL_KINDS):
+        for kinds in (COMPOUNDS, PEOPLE_KINDS, GENERAL_KINDS, KINDS):
             for name, words in kinds.items():
-                self._add_kinds(name, words if name in nouns else ())
+                if name in nouns:
+                    self._add_kinds(name, words)
+                else:
+                    self._add_opaque(words)
+        self._add_opaque(OPAQUE_COMPOUNDS)
         for verb in vocabulary_motion.VERBS:
             for text, form in list_forms(verb.base):
                 self._add(text, Meaning(Role.VERB, Pos.VERB, verb, form))
@@ -139,13 +144,16 @@ class Lexicon:
                 Meaning(Role.NOUN, Pos.NOUN, noun.name, is_plural=not both, can_be_both=both),
             )
         for singular in (noun.name, *noun.synonyms):
-            self._add(singular, Meaning(Role.NOUN, Pos.NOUN, noun.name))
-            for plural in list_plurals(singular):
-                self._add(plural, Meaning(Role.NOUN, Pos.NOUN, noun.name, is_plural=True))
+            is_kind = (noun.name, singular) in SUBSTITUTES
+            for number, text in enumerate(_list_forms_of_noun(singular)):
+                meaning = Meaning(
+                    Role.NOUN, Pos.NOUN, noun.name, is_plural=number > 0, is_substitute=is_kind
+                )
+                self._add(text, meaning)
 
     def _add_kinds(self, noun: str, words: Iterable[str]) -> None:
         for singular in words:
-            for number, text in enumerate((singular, *list_plurals(singular))):
+            for number, text in enumerate(_list_forms_of_noun(singular)):
                 if tuple(text.split()) not in self._meanings:
                     self._add(
                         text,
@@ -153,6 +161,20 @@ class Lexicon:
                             Role.NOUN, Pos.NOUN, noun, is_plural=number > 0, is_substitute=True
                         ),
                     )
+
+    def _add_opaque(self, words: Iterable[str]) -> None:
+        """Compounds that cannot be shown, so that their last word is not taken for them."""
+        for singular in words:
+            for number, text in enumerate(_list_forms_of_noun(singular)):
+                if tuple(text.split()) not in self._meanings:
+                    self._add(text, Meaning(Role.UNKNOWN, Pos.NOUN, is_plural=number > 0))
+
+
+def _list_forms_of_noun(singular: str) -> tuple[str, ...]:
+    """Singular and plurals; no plurals of compounds that end in a verb: "a bus stops"."""
+    *first, last = singular.split()
+    is_verb = bool(first) and any(verb.base == last for verb in vocabulary_motion.VERBS)
+    return (singular,) if is_verb else (singular, *list_plurals(singular))
 
 
 def list_forms(base: str) -> Iterator[tuple[str, VerbForm]]:

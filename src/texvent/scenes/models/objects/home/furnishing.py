@@ -282,7 +282,7 @@ NOUNS = placed("indoor", (
             *(rod(IRON, (0.9 - 0.28 * i, 0.56, 0.18 * i), (0.9 - 0.28 * i, 0.56, 0.18 * i + 1.1),
                 0.02) for i in (0, 2, 4, 6)),
                 rod(IRON, (1.0, 0.56, 1.03), (-1.1, 0.56, 2.38), 0.03)],
-                ("staircase", "stairway", "steps", "stair", "flight of stairs"),
+                ("staircase", "stairway", "stair", "flight of stairs"),
                 plurals=("stairs",)),
     thing("bunk bed", _WOODS,
         lambda p: [*(box(p, (x, y, 0.85), (0.08, 0.08, 1.70)) for x in (0.98, -0.98)

@@ -141,7 +141,7 @@ NOUNS = placed("indoor", (
             for a in (0.3, 1.4, 2.5, 3.6, 4.6, 5.6)),
         *(ball(Material((0.25, 0.24, 0.23)), (0.55 * math.cos(a), 0.55 * math.sin(a), 0.07),
             (0.2, 0.2, 0.16)) for a in (0.0, 0.8, 1.6, 2.4, 3.1, 3.9, 4.7, 5.5))],
-        ("bonfire", "fire", "flame"),
+        ("bonfire",),
         moving=tuple(_flame(a, r) for a,
             r in ((0.0, 0.02), (1.6, 0.14), (3.4, 0.15), (5.0, 0.13)))),
     thing("lighter", ((0.50, 0.04, 0.03),), lambda p: [

@@ -145,7 +145,7 @@ NOUNS = placed("indoor", (
         ("hard hat", "safety helmet", "crash helmet", "bicycle helmet")),
     thing("shoe", ((0.45, 0.05, 0.04), (0.05, 0.14, 0.42), (0.06, 0.06, 0.065)),
         lambda p: moved([*_shoe(p, 0.07), *moved(_shoe(p, -0.07), shift(x=0.05))], turn_z(0.9)),
-          ("sneaker", "running shoe", "trainer", "pair of shoes", "boot")),
+          ("sneaker", "running shoe", "trainer", "pair of shoes", "a pair of shoes", "boot")),
     thing("glove", (LEATHER.colour, (0.45, 0.05, 0.04), BLACKISH), _glove, ("mitten",)),
     thing("shirt", _CLOTH, _shirt,
         ("t-shirt", "jersey", "sweater", "pullover", "blouse", "sweatshirt")),
@@ -163,7 +163,7 @@ NOUNS = placed("indoor", (
         rod(p, (0.0, -0.008, 0.03), (0.0, 0.008, 0.03), 0.002),
         *(part for y in (0.062, -0.062)
             for part in chain(p, [(0.0, y, 0.03), (-0.10, y, 0.03), (-0.135, y, 0.012)], 0.0022))],
-        ("sunglasses", "spectacles", "eyeglasses", "pair of glasses"),
+        ("sunglasses", "spectacles", "eyeglasses", "pair of glasses", "a pair of glasses"),
         plurals=("glasses", "sunglasses")),
     thing("watch", (BLACKISH, LEATHER.colour), lambda p: lying([
         bar(p, (0.0, 0.0), (0.0, 0.22), 0.022, 0.004), disc(SILVER, (0.0, 0.11), 0.02, 0.010),
@@ -232,7 +232,7 @@ NOUNS = placed("indoor", (
             for part in ring(p, (0.002 * s, 0.032 * s, 0.035), (0.022, 0.032), 0.006, pieces=10)),
             *(bar(SILVER, (0.022 * s, 0.06), (-0.022 * s, 0.20), 0.014, 0.003, 0.002 * s)
                 for s in (1.0, -1.0)), disc(INK, (0.0, 0.115), 0.005, 0.012)]),
-        ("pair of scissors",), plurals=("scissors", "pairs of scissors")),
+        ("pair of scissors", "a pair of scissors"), plurals=("scissors", "pairs of scissors")),
     thing("pen", _BLUE_RED,
         lambda p: lying([bar(p, (0.0, 0.012), (0.0, 0.14), 0.011, 0.011),
             spike(SILVER, (0.0, 0.0, 0.014), (0.0, 0.0, -0.004), 0.0055),

@@ -6,6 +6,7 @@ picture's right along the box's y, its top along the box's z.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -120,10 +121,14 @@ def _open_book(skin: Material) -> list[ModelPart]:
 
 def plank_page(material: Material, side: float) -> ModelPart:
     """One block of pages of an open book, its upper side the box's own +x."""
-    lifted = moved(
-        [box(material, (0.0, 0.0, 0.0), (0.03, 0.168, 0.24))], turn_y(-1.5707963267948966)
-    )
+    lifted = moved([box(material, (0.0, 0.0, 0.0), (0.03, 0.168, 0.24))], turn_y(-0.5 * math.pi))
     return moved(lifted, shift(0.0, side * 0.086, 0.02))[0]
+
+
+def _cover(skin: Material) -> ModelPart:
+    """The upper cover of a closed book, its upper side the box's own +x."""
+    cover = moved([box(skin, (0.0, 0.0, 0.0), (0.006, 0.24, 0.17))], turn_y(-0.5 * math.pi))
+    return moved(cover, shift(z=0.043))[0]
 
 
 def _board_on_posts(
@@ -161,10 +166,10 @@ _INDOOR = placed("indoor", (
         *(plank(_KEYS, (x, -0.145, 0.020), (x, 0.145, 0.020), chord=(0.020, 0.0, 0.0),
             thickness=(0.0, 0.0, 0.004)) for x in (-0.085, -0.06, -0.035, -0.01)),
         box(toned(p, 0.7), (0.06, 0.0, 0.0195), (0.06, 0.10, 0.002))],
-        ("notebook computer", "laptop computer", "notebook")),
+        ("notebook computer", "laptop computer")),
     thing("tablet", (BLACKISH,), lambda p: _phone(p, 0.17, 0.24), ("tablet computer", "ipad")),
     thing("cell phone", (BLACKISH,), lambda p: _phone(p, 0.074, 0.15),
-          ("phone", "mobile phone", "smartphone", "mobile", "cellphone", "cellular telephone",
+          ("phone", "mobile phone", "smartphone", "cellphone", "cellular telephone",
               "iphone", "ipod")),
     thing("poster", (PAPER.colour,), lambda p: [
         box(p, (0.0, 0.0, 0.50), (0.016, 0.70, 1.00)),
@@ -172,14 +177,14 @@ _INDOOR = placed("indoor", (
         disc(YELLOW_PAINT, (0.0, 0.60), 0.14, 0.012, 0.008),
         *(bar(INK, (-w, z), (w, z), h, 0.012, 0.004) for z, w,
             h in ((0.90, 0.28, 0.07), (0.26, 0.24, 0.04), (0.18, 0.20, 0.03), (0.11, 0.15, 0.03)))],
-        ("placard", "flyer", "print")),
+        ("placard", "flyer")),
     thing("picture frame", (WOOD_BROWN, BRASS.colour), lambda p: [
         box(Material((0.25, 0.42, 0.62)), (0.0, 0.0, 0.30), (0.02, 0.64, 0.44)),
         *rectangle(p, (0.0, 0.30), (0.80, 0.60), 0.08, 0.05),
         box(LEAF, (0.004, 0.0, 0.16), (0.02, 0.64, 0.16)),
         ball(Material((0.12, 0.22, 0.08)), (0.0, -0.12, 0.24), (0.03, 0.26, 0.20)),
         disc(YELLOW_PAINT, (0.20, 0.44), 0.04, 0.022, 0.003)],
-        ("painting", "framed picture", "photo frame", "canvas", "artwork", "portrait",
+        ("painting", "framed picture", "photo frame", "artwork", "portrait",
             "photograph frame")),
     thing("checkerboard", (BLACKISH,), lambda p: [
         box(PALE, (0.0, 0.0, 0.34), (0.014, 0.88, 0.68)),
@@ -191,7 +196,7 @@ _INDOOR = placed("indoor", (
     thing("book", ((0.45, 0.05, 0.04), (0.05, 0.14, 0.42), (0.06, 0.26, 0.12)), _open_book,
         ("open book", "textbook", "novel", "dictionary", "bible")),
     thing("closed book", ((0.45, 0.05, 0.04), (0.05, 0.14, 0.42), (0.06, 0.26, 0.12)), lambda p: [
-        box(p, (0.0, 0.0, 0.043), (0.17, 0.24, 0.006)),
+        _cover(p),
         box(PAPER, (0.004, 0.0, 0.022), (0.16, 0.234, 0.036)),
         box(p, (0.0, 0.0, 0.003), (0.17, 0.24, 0.006)),
         box(p, (-0.082, 0.0, 0.023), (0.008, 0.24, 0.046)),

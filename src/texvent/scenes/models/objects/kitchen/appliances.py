@@ -91,7 +91,7 @@ NOUNS = placed("indoor", (
         post(INK, (0.0, 0.0, 0.355), (0.165, 0.165, 0.03)),
         *ring(INK, (0.0, 0.075, 0.24), (0.05, 0.08), 0.010, span=(-90.0, 90.0), pieces=6),
         disc(SILVER, (0.0, 0.05), 0.022, 0.02, 0.08)],
-        ("food processor", "mixer")),
+        ("food processor",)),
     thing("sink", (CHINA, SILVERY), lambda p: [
         box(p, (0.0, 0.0, 0.78), (0.50, 0.62, 0.16)),
         box(toned(p, 0.45), (0.03, 0.0, 0.861), (0.34, 0.48, 0.006)),
@@ -124,7 +124,7 @@ NOUNS = placed("indoor", (
         box(WATER, (0.0, 0.0, 0.532), (0.58, 1.40, 0.006)),
         *(ball(SILVER, (x, y, 0.03), (0.09, 0.09, 0.09)) for x in (0.3, -0.3) for y in (0.7, -0.7)),
         *chain(SILVER, [(-0.30, -0.6, 0.53), (-0.30, -0.6, 0.72), (-0.18, -0.6, 0.70)], 0.02)],
-        ("bath", "tub", "bath tub")),
+        ("tub", "bath tub")),
     thing("shower", (SILVERY,), lambda p: [
         rod(p, (-0.1, 0.0, 0.0), (-0.1, 0.0, 2.05), 0.02),
         *chain(p, [(-0.1, 0.0, 2.05), (0.05, 0.0, 2.12), (0.15, 0.0, 2.05)], 0.02),

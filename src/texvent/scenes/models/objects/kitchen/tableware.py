@@ -117,7 +117,7 @@ NOUNS = placed("indoor", (
         *vessel(p, 0.042, 0.095, _TEA),
         post(toned(p, 1.4), (0.0, 0.0, 0.0945), (0.084, 0.084, 0.0015)),
         *_ear(p, 0.038, 0.022, 0.076, 0.007)],
-        ("coffee mug", "beer mug", "mug of coffee", "mug of tea", "coffee", "cup of coffee",
+        ("coffee mug", "beer mug", "mug of coffee", "mug of tea", "cup of coffee",
             "cup of tea"),
         plurals=("mugs of coffee", "cups of coffee", "cups of tea")),
     thing("kettle", ((0.45, 0.46, 0.48), (0.55, 0.03, 0.02)), lambda p: [
@@ -147,7 +147,7 @@ NOUNS = placed("indoor", (
         *lathe(p, [(0.0, 0.11), (0.045, 0.135)], 3),
         post(Material((0.12, 0.12, 0.13)), (0.0, 0.0, 0.0455), (0.25, 0.25, 0.002)),
         post(p, (0.0, 0.0, 0.046), (0.215, 0.215, 0.0025)), *_long_handle(p, 0.13, 0.19, 0.035)],
-        ("skillet", "wok", "cooking pan")),
+        ("skillet", "wok", "cooking pan", "pan")),
     thing("tray", (PALE_WOOD,), lambda p: [
         box(p, (0.0, 0.0, 0.008), (0.30, 0.44, 0.016)),
         *(box(toned(p, 0.7), (x, 0.0, 0.025), (0.014, 0.44, 0.05)) for x in (0.15, -0.15)),

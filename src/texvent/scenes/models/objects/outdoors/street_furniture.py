@@ -122,7 +122,7 @@ NOUNS = placed("city", (
                 *(bar(toned(p, 0.8), (y, 0.2), (y, 1.15), 0.06, 0.05, 0.56)
                     for y in (-0.8, -0.4, 0.0, 0.4, 0.8)),
                     *(ball(INK, (x, y, 0.07), (0.14, 0.10, 0.14)) for x in (0.4, -0.4)
-                        for y in (0.8, -0.8))], ("skip", "waste container")),
+                        for y in (0.8, -0.8))], ("waste container",)),
     thing("bus stop", (STEELY,),
         lambda p: [*(rod(IRON, (x, y, 0.0), (x, y, 2.4), 0.04) for x in (0.55, -0.55)
             for y in (1.5, -1.5)), box(p, (0.0, 0.0, 2.43), (1.4, 3.4, 0.10)),
@@ -170,7 +170,7 @@ NOUNS = placed("city", (
                     (0.03, 0.15, 0.45), (0.5, 0.03, 0.02)))),
                     box(INK, (0.38, 0.34, 1.25), (0.01, 0.14, 0.30)),
                     box(INK, (0.38, -0.12, 0.30), (0.01, 0.55, 0.20))],
-                    ("slot machine", "snack machine", "atm", "cash machine")),
+                    ("slot machine", "snack machine")),
     thing("fountain", (STONE.colour,),
         lambda p: [*lathe(mottled(p.colour, contrast=0.2), [(0.0, 1.6), (0.45, 1.7)], 2),
             post(WATER, (0.0, 0.0, 0.452), (3.0, 3.0, 0.02)),

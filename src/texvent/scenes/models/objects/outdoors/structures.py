@@ -257,7 +257,7 @@ NOUNS = placed("grass", (
                 for a in (0.524 * k for k in range(12))),
                 post(p, (0.0, 0.0, 3.1), (0.66, 0.66, 0.2)),
                 box(p, (0.0, 0.0, 3.28), (0.85, 0.85, 0.18))],
-                ("pillar", "pedestal", "obelisk", "totem pole")),
+                ("pillar", "pedestal", )),
     thing("temple", ((0.62, 0.60, 0.55),),
         lambda p: [*(box(p, (0.0, 0.0, 0.2 + 0.3 * k), (12.0 - 0.8 * k, 9.0 - 0.8 * k, 0.4))
             for k in range(3)), *(post(p, (4.6, -3.0 + 1.5 * k, 3.2), (0.75, 0.75, 4.6))
@@ -266,7 +266,7 @@ NOUNS = placed("grass", (
                     box(toned(p, 0.5), (-0.8, 0.0, 3.2), (8.0, 4.0, 4.6)),
                     box(p, (0.0, 0.0, 5.75), (11.0, 7.6, 0.6)),
                     *moved([gable(p, (0.0, 0.0, 6.0), (7.6, 10.6, 1.9))], turn_z(0.5 * math.pi)),
-                    *_roof(ROOF, (10.8, 7.6, 1.9), 6.1)], ("pantheon", "greek temple", "museum")),
+                    *_roof(ROOF, (10.8, 7.6, 1.9), 6.1)], ("pantheon", "greek temple")),
     thing("arch", _STONES,
         lambda p: [*(box(_rough(p), (0.0, 3.2 * s, 3.5), (3.0, 2.6, 7.0)) for s in (1.0, -1.0)),
             box(_rough(p), (0.0, 0.0, 8.4), (3.2, 9.2, 3.0)),

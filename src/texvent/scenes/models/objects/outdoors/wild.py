@@ -215,7 +215,7 @@ _GARDEN = placed("grass", (
                 ((0.038 - 0.0008 * abs(k - 8)) * math.cos(2.4 * k),
                     (0.038 - 0.0012 * abs(k - 8)) * math.sin(2.4 * k), 0.022 + 0.0034 * k),
                     chord=(-0.022 * math.sin(2.4 * k), 0.022 * math.cos(2.4 * k), 0.0),
-                    thickness=(0.0, 0.0, 0.005)) for k in range(22))], ("pinecone", "acorn")),
+                    thickness=(0.0, 0.0, 0.005)) for k in range(22))], ("pinecone",)),
     thing("bird nest", ((0.22, 0.13, 0.06),),
         lambda p: [*(part for k in range(3)
             for part in ring(mottled(p.colour, contrast=0.5, scale=8.0),

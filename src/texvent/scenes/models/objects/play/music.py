@@ -196,7 +196,7 @@ NOUNS = placed("indoor", (
         *chain(p, [(0.0, 0.08, 0.12), (0.0, 0.11, 0.085), (0.0, 0.08, 0.05), (0.0, -0.14, 0.05),
             (0.0, -0.17, 0.085), (0.0, -0.14, 0.12)], 0.009),
             rod(SILVER, (0.0, -0.34, 0.12), (0.0, -0.30, 0.12), 0.012)]),
-            ("cornet", "horn", "bugle")),
+            ("cornet", "bugle")),
     thing("saxophone", (BRASS.colour,), lambda p: [
         *chain(p, [(0.0, -0.20, 0.72), (0.0, -0.11, 0.76), (0.0, -0.05, 0.70)], 0.014),
         rod(p, (0.0, -0.05, 0.70), (0.0, 0.0, 0.12), 0.03),
@@ -254,7 +254,8 @@ NOUNS = placed("indoor", (
         lambda p: [*ring(p, (0.0, 0.0, 0.09), (0.085, 0.11), 0.008, span=(0.0, 180.0), pieces=10),
             *(ball(p, (0.0, 0.085 * s, 0.05), (0.075, 0.04, 0.10)) for s in (1.0, -1.0)),
             *(ball(INK, (0.0, 0.070 * s, 0.05), (0.06, 0.03, 0.08)) for s in (1.0, -1.0))],
-            ("headset", "earphones", "pair of headphones"), plurals=("headphones",)),
+            ("headset", "earphones", "pair of headphones", "a pair of headphones"),
+            plurals=("headphones",)),
     thing("record player", (WOOD_BROWN,),
         lambda p: [box(p, (0.0, 0.0, 0.05), (0.36, 0.46, 0.10)),
             post(SILVER, (-0.10, 0.18, 0.115), (0.05, 0.05, 0.03)),

@@ -89,7 +89,7 @@ _SPORT = placed("grass", (
         rod(p, (0.0, 0.0, 0.22), (0.0, 0.0, 0.38), 0.017),
         limb(p, (0.0, 0.0, 0.34), (0.0, 0.0, 0.62), 0.028),
         rod(p, (0.0, 0.0, 0.50), (0.0, 0.0, 0.80), 0.032),
-        ball(p, (0.0, 0.0, 0.80), (0.064, 0.064, 0.05))]), ("bat",)),
+        ball(p, (0.0, 0.0, 0.80), (0.064, 0.064, 0.05))])),
     thing("baseball glove", ((0.30, 0.13, 0.05),), lambda p: lying([
         ball(p, (0.0, 0.0, 0.11), (0.07, 0.20, 0.20)),
         *(limb(p, (0.0, y, 0.15), (0.02, 1.35 * y, z), 0.024) for y,
@@ -115,7 +115,7 @@ _SPORT = placed("grass", (
     thing("pool cue", (PALE_WOOD,),
         lambda p: lying([*lathe(p, [(0.6, 0.011), (1.42, 0.006)], 3),
             *lathe(Material((0.10, 0.02, 0.02)), [(0.0, 0.016), (0.6, 0.012)], 3),
-            rod(PALE, (0.0, 0.0, 1.42), (0.0, 0.0, 1.45), 0.006)]), ("billiard cue", "cue")),
+            rod(PALE, (0.0, 0.0, 1.42), (0.0, 0.0, 1.45), 0.006)]), ("billiard cue",)),
     thing("ping-pong paddle", _BRIGHT[:1],
         lambda p: lying([disc(p, (0.0, 0.18), 0.08, 0.012),
             disc(INK, (0.0, 0.18), 0.079, 0.010, -0.003),
@@ -276,7 +276,7 @@ _SNOW = placed("snow", (
             thickness=(0.0, 0.0, 0.02)) for y in (0.13, -0.13)),
         *(box(INK, (-0.02, y, 0.04), (0.30, 0.07, 0.05)) for y in (0.13, -0.13)),
         *(box(PALE, (0.45, y, 0.023), (0.30, 0.05, 0.002)) for y in (0.13, -0.13))],
-        ("skis", "pair of skis"), goes=("ground", "slide", 3.0)),
+        ("skis", "pair of skis", "a pair of skis"), goes=("ground", "slide", 3.0)),
     thing("snowboard", _BRIGHT, lambda p: [
         box(p, (0.0, 0.0, 0.015), (1.15, 0.26, 0.02)),
         *(plank(p, (0.56 * s, 0.0, 0.015), (0.76 * s, 0.0, 0.07), chord=(0.0, 0.25, 0.0),

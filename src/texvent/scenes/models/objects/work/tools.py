@@ -129,7 +129,8 @@ NOUNS = placed("indoor", (
             for part in chain(p, [(0.0, 0.035 * s, 0.0), (0.0, 0.03 * s, 0.07),
                 (0.0, 0.008 * s, 0.11)], 0.009)), disc(SILVER, (0.0, 0.12), 0.016, 0.014),
                 *(bar(SILVER, (0.006 * s, 0.12), (0.004 * s, 0.175), 0.011, 0.010)
-                    for s in (1.0, -1.0))]), ("tongs", "pincers", "pair of pliers"),
+                    for s in (1.0, -1.0))]),
+                    ("tongs", "pincers", "pair of pliers", "a pair of pliers"),
                     plurals=("pliers",)),
     thing("saw", (PALE_WOOD, _GRIPS[0]),
         lambda p: lying([bar(SILVER, (0.0, 0.04), (0.42, 0.06), 0.085, 0.004),
@@ -163,7 +164,7 @@ NOUNS = placed("indoor", (
             rod(toned(p, 0.6), (0.0, 0.0, 0.008), (0.0, 0.0, 0.04), 0.0022),
             spike(p, (0.0, 0.0, 0.010), (0.0, 0.0, 0.0), 0.0025),
             *(post(p, (0.0, 0.0, 0.010 + 0.004 * i), (0.0075, 0.0075, 0.0012)) for i in range(7))],
-            ("bolt",)),
+            ("wood screw",)),
     thing("tape measure", ((0.75, 0.45, 0.02),),
         lambda p: [disc(p, (0.0, 0.035), 0.035, 0.03), disc(INK, (0.0, 0.035), 0.02, 0.032),
             box(YELLOW_PAINT, (0.0, 0.10, 0.003), (0.018, 0.16, 0.002)),
@@ -172,7 +173,7 @@ NOUNS = placed("indoor", (
     thing("ruler", ((0.70, 0.50, 0.14),),
         lambda p: lying([bar(p, (-0.155, 0.0), (0.155, 0.0), 0.035, 0.004),
             *(bar(INK, (-0.15 + 0.015 * i, 0.005 if i % 2 else 0.0), (-0.15 + 0.015 * i, 0.016),
-                0.0016, 0.005, 0.001) for i in range(21))]), ("rule",)),
+                0.0016, 0.005, 0.001) for i in range(21))]), ("yardstick",)),
     thing("shovel", (PALE_WOOD,),
         lambda p: _staff(p, 1.10,
             [ball(Material(STEELY), (0.0, 0.0, 1.24), (0.03, 0.24, 0.36)),
@@ -243,13 +244,13 @@ NOUNS = placed("indoor", (
                     spinning("x", 1.2, (0.0, 0.0, 0.42))),)),
     thing("spring", (SILVERY,),
         lambda p: chain(p, [(0.05 * math.cos(0.785 * i), 0.05 * math.sin(0.785 * i),
-            0.01 + 0.0048 * i) for i in range(41)], 0.006), ("coil", "coil spring")),
+            0.01 + 0.0048 * i) for i in range(41)], 0.006), ("coil spring",)),
     thing("rope", ((0.50, 0.36, 0.16),),
         lambda p: [*(part for i in range(3)
             for part in ring(striped(p.colour, toned(p, 0.6).colour, 3.0),
                 (0.0, 0.0, 0.03 + 0.045 * i), (0.26 - 0.02 * i, 0.26 - 0.02 * i), 0.03, axis="z",
                 pieces=12)), limb(striped(p.colour, toned(p, 0.6).colour, 3.0), (0.12, 0.24, 0.02),
-                (0.15, 0.62, 0.02), 0.026)], ("coil of rope", "lasso", "cord")),
+                (0.15, 0.62, 0.02), 0.026)], ("coil of rope", "lasso")),
     thing("hose", ((0.05, 0.30, 0.08),),
         lambda p: [*(part for i in range(3)
             for part in ring(p, (0.0, 0.0, 0.025 + 0.04 * i), (0.24 - 0.02 * i, 0.24 - 0.02 * i),
@@ -263,7 +264,7 @@ NOUNS = placed("indoor", (
                 for y in (-0.9, -0.04, 0.82)),
                 rod(INK, (0.0, 0.9, 0.11), (0.0, 0.903, 0.11), 0.075),
                 rod(INK, (0.0, -0.903, 0.11), (0.0, -0.9, 0.11), 0.075)],
-                ("tube", "metal pipe", "pipeline")),
+                ("metal pipe", "pipeline")),
     thing("chain", (SILVERY, IRON.colour),
         lambda p: [part for i in range(7)
             for part in ring(p, (0.0, 0.11 * i - 0.33, 0.03), (0.08, 0.035), 0.014,
@@ -319,7 +320,7 @@ NOUNS = placed("indoor", (
             post(SILVER, (0.0, 0.0, 0.18), (0.04, 0.04, 0.05)),
             *lathe(SILVER, [(0.20, 0.05), (0.23, 0.13)], 3),
             bar(RED_PAINT, (0.0, 0.085), (0.03, 0.125), 0.006, 0.024, 0.10)],
-            ("kitchen scale", "weighing machine", "balance")),
+            ("kitchen scale", "weighing machine")),
     thing("hourglass", (WOOD_BROWN,),
         lambda p: [*(post(p, (0.0, 0.0, z), (0.12, 0.12, 0.015)) for z in (0.008, 0.212)),
             *(rod(p, (0.05 * c, 0.05 * s, 0.01), (0.05 * c, 0.05 * s, 0.21), 0.005) for c,
@@ -332,7 +333,7 @@ NOUNS = placed("indoor", (
         lambda p: [*(rod(Material(DARK_WOOD), (0.0, 0.22 * s, 0.0), (0.0, 0.22 * s, 0.52), 0.02)
             for s in (1.0, -1.0)),
             rod(Material(DARK_WOOD), (0.0, -0.24, 0.52), (0.0, 0.24, 0.52), 0.022)],
-            ("church bell", "handbell", "chime"), moving=(Moving(lambda p: [
+            ("church bell", "handbell"), moving=(Moving(lambda p: [
         *lathe(p, [(0.12, 0.145), (0.16, 0.115), (0.34, 0.085), (0.42, 0.05)], 10),
         rod(p, (0.0, 0.0, 0.42), (0.0, 0.0, 0.52), 0.02),
         ball(IRON, (0.0, 0.0, 0.11), (0.06, 0.06, 0.06))],

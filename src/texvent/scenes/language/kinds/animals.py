@@ -1,0 +1,154 @@
+"""Kinds of animals: breeds and species, by the animal that is shown."""
+
+from __future__ import annotations
+
+ANIMAL_KINDS: dict[str, str] = {
+    "dog": """
+        spaniel, cocker spaniel, springer spaniel, japanese spaniel, blenheim spaniel,
+        clumber, brittany spaniel, welsh springer spaniel, english springer, sussex
+        spaniel, cavalier, irish water spaniel, retriever, golden retriever, labrador
+        retriever, labrador, flat coated retriever, curly coated retriever, chesapeake bay
+        retriever, chihuahua, maltese dog, maltese, pekinese, pekingese, shih tzu,
+        papillon, terrier, toy terrier, bull terrier, bullterrier, staffordshire
+        bullterrier, staffordshire terrier, pit american staffordshire terrier, bedlington
+        terrier, border terrier, kerry blue terrier, irish terrier, norfolk terrier,
+        norwich terrier, yorkshire terrier, yorkie, fox terrier, wire haired fox terrier,
+        lakeland terrier, sealyham terrier, airedale, cairn, australian terrier, dandie
+        dinmont, scotch terrier, scottish terrier, tibetan terrier, silky terrier, soft
+        coated wheaten terrier, jack russell, jack russell terrier, west highland white
+        terrier, lhasa, boston boston terrier, rhodesian ridgeback, ridgeback, afghan
+        hound, basset, basset hound, beagle, bloodhound, bluetick, coonhound, black and
+        tan coonhound, walker hound, foxhound, english foxhound, redbone, borzoi,
+        wolfhound, irish wolfhound, greyhound, italian greyhound, whippet, ibizan hound,
+        norwegian elkhound, elkhound, otterhound, saluki, deerhound, scottish deerhound,
+        weimaraner, hound, pup, doggy, mutt, mongrel, schnauzer, miniature schnauzer,
+        giant schnauzer, standard schnauzer, pointer dog, german short haired pointer,
+        vizsla, setter, english setter, irish setter, gordon setter, kuvasz, schipperke,
+        groenendael, malinois, briard, kelpie, komondor, sheepdog, old english sheepdog,
+        shetland sheepdog, collie, border collie, bouvier des flandres, rottweiler, german
+        shepherd, alsatian, doberman, pinscher, miniature pinscher, greater swiss mountain
+        dog, mountain dog, bernese mountain dog, appenzeller, entlebucher, boxer dog,
+        mastiff, bull mastiff, tibetan mastiff, bulldog, french bulldog, english bulldog,
+        great dane, saint bernard, st bernard, eskimo dog, malamute, alaskan malamute,
+        siberian husky, dalmatian, affenpinscher, basenji, pug, leonberg, newfoundland
+        dog, great pyrenees, samoyed, pomeranian, chow, chow chow, keeshond, brabancon
+        griffon, pembroke, corgi, welsh corgi, poodle, toy poodle, miniature poodle,
+        standard poodle, mexican hairless, dachshund, shiba inu, akita, service dog, guide
+        dog, police dog, stray dog, sled dog, lapdog, dingo, dhole, african hunting dog""",
+    "cat": """
+        tabby, tabby cat, tiger cat, persian cat, siamese cat, siamese, egyptian cat,
+        maine coon, british shorthair, ginger cat, house cat, tomcat, stray cat, calico
+        cat, sphynx, bengal cat, pussycat""",
+    "fox": "red fox, kit fox, arctic fox, grey fox, gray fox, fennec, vixen",
+    "wolf": "timber wolf, grey wolf, gray wolf, white wolf, red wolf, coyote, jackal, werewolf",
+    "lion": "lioness, lion cub, african lion, cougar, puma, mountain lion",
+    "tiger": "tigress, siberian tiger, bengal tiger, tiger cub",
+    "cheetah": "leopard, snow leopard, jaguar, panther, ocelot",
+    "bear": "black bear, american black bear, sloth bear, grizzly bear, bear cub, grizzly",
+    "polar bear": "ice bear",
+    "horse": """
+        colt, pony, racehorse, mustang, sorrel, thoroughbred, arabian horse, draft horse,
+        workhorse, shetland pony, wild horse""",
+    "donkey": "mule, burro, ass",
+    "cow": "ox, heifer, steer, buffalo, water buffalo, bison, dairy cow, yak, holstein, longhorn",
+    "sheep": "ram, bighorn, mouflon, bighorn sheep",
+    "goat": "billy goat, kid goat, ibex, mountain goat, chamois, nanny goat",
+    "pig": "hog, boar, wild boar, warthog, sow, swine, hogget",
+    "deer": """
+        doe, fawn, buck, elk, moose, reindeer, caribou, antelope, gazelle, impala,
+        hartebeest, white tailed deer, roe deer, gnu, wildebeest""",
+    "camel": "arabian camel, bactrian camel, dromedary, llama, alpaca",
+    "elephant": "indian elephant, african elephant, tusker, elephant mammoth",
+    "rabbit": "hare, wood rabbit, angora, cottontail, jackrabbit",
+    "squirrel": "fox squirrel, chipmunk, marmot, prairie dog, ground squirrel, groundhog",
+    "mouse": "field mouse, rodent, vole, gerbil",
+    "hamster": "guinea pig, cavy",
+    "hedgehog": "porcupine, echidna",
+    "raccoon": "red panda, lesser panda, badger, coati",
+    "monkey": """
+        macaque, baboon, langur, colobus, proboscis monkey, marmoset, capuchin, titi,
+        howler monkey, spider monkey, squirrel monkey, guenon, patas, rhesus monkey,
+        vervet, tamarin, mandrill, gibbon, siamang""",
+    "gorilla": "ape, chimpanzee, chimp, orangutan, silverback, bonobo",
+    "kangaroo": "wallaby, joey, wallaroo",
+    "crocodile": "african crocodile, american alligator, caiman, nile crocodile",
+    "lizard": """
+        gecko, banded gecko, iguana, common iguana, chameleon, african chameleon, american
+        chameleon, whiptail, agama, alligator lizard, green lizard, gila monster, komodo
+        dragon, salamander, european fire salamander, spotted salamander, newt, common
+        newt, eft, skink, monitor lizard""",
+    "frog": "tailed frog, treefrog, tadpole frog",
+    "snake": """
+        cobra, indian cobra, python, rock python, boa, boa constrictor, viper, adder,
+        horned viper, rattlesnake, diamondback, sidewinder, mamba, green mamba, garter
+        snake, king snake, grass snake, thunder snake, ringneck snake, hognose snake,
+        green snake, water snake, vine snake, night snake, sea snake, anaconda, serpent""",
+    "turtle": """
+        tortoise, loggerhead, leatherback, leatherback turtle, mud turtle, terrapin, box
+        turtle, snapping turtle""",
+    "bird": """
+        sparrow, swallow, robin, finch, goldfinch, house finch, brambling, junco, bulbul,
+        indigo bunting, bunting, jay, magpie, chickadee, water ouzel, titmouse, tit,
+        blackbird, crow, raven, thrush, starling, wren, lark, nightingale, canary, cuckoo,
+        coucal, bee eater, jacamar, hummingbird, kingfisher, woodpecker, pigeon, dove,
+        songbird, warbler, oriole, cardinal bird, passerine, swift, partridge, quail,
+        house sparrow, blue jay, wagtail, mockingbird, rook, jackdaw""",
+    "parrot": """
+        macaw, cockatoo, sulphur crested cockatoo, lorikeet, african grey, parakeet,
+        budgie, budgerigar, toucan, hornbill""",
+    "eagle": """
+        bald eagle, golden eagle, hawk, falcon, vulture, condor, buzzard, osprey, kestrel,
+        bird of prey, peregrine falcon, harrier, sea eagle""",
+    "owl": "great grey owl, snowy owl, owlet",
+    "gull": "albatross, tern, petrel, sea bird, gannet",
+    "duck": """
+        mallard, drake, merganser, red breasted merganser, goose, teal, gosling, american
+        coot, coot, moorhen""",
+    "swan": "black swan, cygnet, mute swan",
+    "chicken": """
+        chick, ptarmigan, black grouse, ruffed grouse, grouse, prairie chicken, fowl,
+        pheasant, poultry""",
+    "rooster": "cock, cockerel",
+    "flamingo": """
+        heron, little blue heron, egret, american egret, stork, white stork, black stork,
+        spoonbill, ibis, wading bird, crane bird, bittern""",
+    "ostrich": "emu, rhea, cassowary",
+    "penguin": "king penguin, emperor penguin",
+    "fish": """
+        goldfish, carp, koi, tench, salmon, coho, tuna, trout, cod, herring, sardine,
+        bass, perch, clownfish, anemone fish, rock beauty, angelfish, barracouta,
+        barracuda, sturgeon, mackerel, minnow, guppy, tropical fish, reef fish, piranha,
+        catfish, snapper, mullet, betta, siamese fighting fish, gar""",
+    "shark": """
+        great white shark, white shark, tiger shark, hammerhead, hammerhead shark, reef
+        shark, bull shark, whale shark, nurse shark, great white""",
+    "dolphin": "porpoise, bottlenose dolphin",
+    "whale": """
+        grey whale, gray whale, humpback, blue whale, sperm whale, killer whale, orca,
+        beluga""",
+    "seal": "walrus, fur seal, elephant seal",
+    "octopus": "squid, cuttlefish, kraken",
+    "jellyfish": "medusa, man of war",
+    "crab": """
+        dungeness crab, rock crab, fiddler crab, king crab, hermit crab, horseshoe crab,
+        spider crab""",
+    "spider": """
+        black and gold garden spider, barn spider, garden spider, black widow, wolf
+        spider, harvestman, daddy longlegs, tick, mite, arachnid""",
+    "ant": "fire ant, red ant, termite, worker ant",
+    "beetle": """
+        ground beetle, tiger beetle, long horned beetle, leaf beetle, dung beetle,
+        rhinoceros beetle, weevil, stag beetle, scarab, cockroach, bug, june bug""",
+    "ladybug": "ladybird, lady beetle, ladybird beetle",
+    "housefly": "fly, fruit fly, horsefly, bluebottle",
+    "bee": "wasp, hornet, honey bee, yellowjacket",
+    "butterfly": """
+        monarch, monarch butterfly, admiral, ringlet, cabbage butterfly, lycaenid, sulphur
+        butterfly, swallowtail""",
+    "dragonfly": "damselfly, darner",
+    "worm": "flatworm, nematode, maggot, larva",
+    "snail": "garden snail, sea snail, land snail",
+    "fruit bat": "bat, flying fox, vampire bat",
+    "sauropod": "brontosaurus, diplodocus, brachiosaurus",
+}
+"""Noun of the models → kinds of it, separated by commas."""

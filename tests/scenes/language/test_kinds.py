@@ -1,0 +1,114 @@
+"""Kinds of things, compounds that mislead, and the names of outside lists."""
+
+from __future__ import annotations
+
+import pytest
+
+from texvent.errors import InputError
+from texvent.scenes.language.kinds import KINDS, OPAQUE_COMPOUNDS
+from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.models.nouns import NOUNS
+
+COCO = (
+    "person", "bicycle", "car", "motorcycle", "airplane", "bus", "train", "truck", "boat",
+    "traffic light", "fire hydrant", "stop sign", "parking meter", "bench", "bird", "cat", "dog",
+    "horse", "sheep", "cow", "elephant", "bear", "zebra", "giraffe", "backpack", "umbrella",
+    "handbag", "tie", "suitcase", "frisbee", "skis", "snowboard", "sports ball", "kite",
+    "baseball bat", "baseball glove", "skateboard", "surfboard", "tennis racket", "bottle",
+    "wine glass", "cup", "fork", "knife", "spoon", "bowl", "banana", "apple", "sandwich",
+    "orange", "broccoli", "carrot", "hot dog", "pizza", "donut", "cake", "chair", "couch",
+    "potted plant", "bed", "dining table", "toilet", "tv", "laptop", "computer mouse", "remote",
+    "keyboard", "cell phone", "microwave", "oven", "toaster", "sink", "refrigerator", "book",
+    "clock", "vase", "scissors", "teddy bear", "hair drier", "toothbrush",
+)  # fmt: skip
+WORDS = {
+    word: noun.name
+    for noun in NOUNS.values()
+    for word in (noun.name, *noun.synonyms, *noun.plurals)
+}
+
+
+def read(prompt: str) -> tuple[list[str], dict[str, str], tuple[str, ...]]:
+    """Nouns shown, substitutions and words that are not understood."""
+    found = parse_prompt(prompt)
+    said = {each.said: each.shown for each in found.substituted}
+    return [each.noun for each in found.objects], said, found.not_understood
+
+
+def test_cocos_classes_are_shown() -> None:
+    kinds = {word for words in KINDS.values() for word in words}
+    assert len(COCO) == 80
+    assert [name for name in COCO if name not in WORDS and name not in kinds] == []
+    assert sum(name in WORDS for name in COCO) >= 76
+    for name in COCO:
+        nouns, said, lost = read(f"a {name}")
+        assert len(nouns) == 1, name
+        assert lost == (), name
+        assert set(said.values()) <= set(nouns)
+
+
+def test_kinds_are_kinds_of_nouns_and_each_means_one() -> None:
+    assert set(KINDS) <= set(NOUNS)
+    owner: dict[str, str] = {}
+    for noun, words in KINDS.items():
+        for word in words:
+            assert word == word.lower()
+            assert owner.setdefault(word, noun) == noun, word
+            assert WORDS.get(word, noun) == noun, word
+            assert word not in NOUNS, word
+    assert len(owner) > 1200
+
+
+def test_what_misleads_is_neither_noun_nor_kind() -> None:
+    kinds = {word for words in KINDS.values() for word in words}
+    assert not set(OPAQUE_COMPOUNDS) & (set(WORDS) | kinds)
+    assert len(set(OPAQUE_COMPOUNDS)) == len(OPAQUE_COMPOUNDS)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "said"),
+    [
+        ("a cocker spaniel runs", "dog", "cocker spaniel"),
+        ("two tiger sharks swim", "shark", "tiger sharks"),
+        ("a monarch butterfly flies", "butterfly", "monarch butterfly"),
+        ("a bald eagle soars", "eagle", "bald eagle"),
+        ("a magnolia sways", "tree", "magnolia"),
+        ("a catamaran sails", "sailboat", "catamaran"),
+        ("a trombone", "trumpet", "trombone"),
+        ("a convertible drives left", "car", "convertible"),
+        ("a vegetable", "carrot", "vegetable"),
+        ("a vehicle turns", "car", "vehicle"),
+    ],
+)
+def test_a_kind_is_shown_as_its_thing_and_named(prompt: str, noun: str, said: str) -> None:
+    nouns, substituted, _ = read(prompt)
+    assert nouns == [noun]
+    assert substituted == {said: noun}
+
+
+@pytest.mark.parametrize("compound", OPAQUE_COMPOUNDS)
+def test_a_compound_that_misleads_is_not_shown_as_its_last_word(compound: str) -> None:
+    try:
+        nouns, _, lost = read(f"a {compound} on a rock")
+    except InputError:
+        return
+    assert nouns == ["rock"], nouns
+    assert set(compound.split()) <= set(" ".join(lost).split())
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("a hot dog on a plate", ["hot dog", "plate"]),
+        ("a water tower", ["water tower"]),
+        ("a computer mouse", ["computer mouse"]),
+        ("a water balloon", ["water balloon"]),
+        ("a stone bridge", ["stone bridge"]),
+        ("a fire engine", ["fire engine"]),
+        ("a bus stops", ["bus"]),
+        ("a bus stop", ["bus stop"]),
+        ("a pair of scissors", ["scissors"]),
+    ],
+)
+def test_compounds_are_read_as_one_thing(prompt: str, nouns: list[str]) -> None:
+    assert read(prompt)[0] == nouns
