@@ -87,10 +87,6 @@ def run(arguments: Sequence[str]) -> int:
         return print_settings(settings)
     if own.video_only:
         return _write_video(own, settings, output)
-    check_run(settings)
-    files = output.files(own.prompt)
-    if files.truth:
-        check_generator(own.generator)
     if own.preview is not None:
         generator_class = GENERATORS.load(str(settings.generator))
         check_preview(own.preview, generator_class, overwrite=output.overwrite)
@@ -100,6 +96,10 @@ def run(arguments: Sequence[str]) -> int:
         )  # fmt: skip
         if not output.dry_run:
             return 0
+    check_run(settings)
+    files = output.files(own.prompt)
+    if files.truth:
+        check_generator(own.generator)
     if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
         write_out(f"{plan}\n")
         return 0
