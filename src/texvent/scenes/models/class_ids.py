@@ -92,7 +92,7 @@ _NOUNS: tuple[str, ...] = (
     "koala", "raccoon", "rhino", "hippo", "crocodile", "lizard", "sauropod", "monkey", "gorilla",
     "kangaroo", "frog", "seal", "octopus", "dinosaur", "owl", "fruit bat", "spider", "crab",
     "ant", "beetle", "ladybug", "worm", "caterpillar", "rooster", "turkey", "parrot", "swan",
-    "moth", "housefly", "mosquito",
+    "moth", "housefly", "mosquito", "vest", "scarf", "mask", "crown", "jacket", "coat", "dress",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

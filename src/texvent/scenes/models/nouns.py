@@ -38,7 +38,7 @@ from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, gear
 from texvent.scenes.models.objects.work import machines, tools
-from texvent.scenes.models.people import hand, person
+from texvent.scenes.models.people import hand, person, wearables
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
 
@@ -51,6 +51,7 @@ _FAMILIES: tuple[tuple[Noun, ...], ...] = (
     construction.NOUNS,
     person.NOUNS,
     hand.NOUNS,
+    wearables.NOUNS,
     quadrupeds.NOUNS,
     more_quadrupeds.NOUNS,
     other_bodies.NOUNS,

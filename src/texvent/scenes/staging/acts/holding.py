@@ -10,8 +10,9 @@ from types import MappingProxyType
 import numpy as np
 
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.protocol import Model
+from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import Affine
+from texvent.scenes.models.support_surface import top_heights
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.trajectories.trajectory import Vector, rotation
@@ -26,22 +27,26 @@ class Hold:
     style: str
     """"tool" (along what the right hand holds), "upright" (in the raised right hand), "hanging"
     (from a hand at the side), "front" (in both arms), "string" (floats above the hand),
-    "kite" (flies far above), "mouth", or the name of a place it is worn at."""
+    "kite" (flies far above), "page" (flat before the chest), "guitar", "mouth", or the name of a
+    place it is worn at."""
     activity: str | None = None
     """What a person who only stands does with it."""
 
 
 _TOOLS = (
-    "bat", "baseball bat", "racket", "tennis racket", "club", "golf club", "sword", "broom", "mop",
-    "shovel", "spade", "hammer", "axe", "knife", "fork", "spoon", "stick", "rod", "fishing rod",
-    "brush", "paintbrush", "toothbrush", "scissors", "pen", "pencil", "screwdriver", "wrench",
-    "torch", "flashlight", "wand", "magnifying glass", "microphone", "hair drier", "remote",
+    "baseball bat", "tennis racket", "golf club", "sword", "broom", "mop", "shovel", "spade",
+    "hammer", "axe", "knife", "fork", "spoon", "stick", "rod", "fishing rod", "cricket bat",
+    "hockey stick", "badminton racket", "rake", "pitchfork", "sledgehammer", "mallet", "saw",
+    "ping-pong paddle", "brush", "paintbrush", "toothbrush", "scissors", "pen", "pencil",
+    "screwdriver", "wrench", "flashlight", "wand", "magnifying glass", "hair drier", "remote",
+    "arrow", "pool cue",
 )  # fmt: skip
 _UPRIGHTS = (
     "umbrella", "flag", "candle", "sign", "flower", "bouquet", "cup", "mug", "bottle", "glass",
-    "wine glass", "can", "ice cream", "lamp", "trophy", "vase", "book", "phone", "apple", "banana",
-    "orange", "sandwich", "donut", "lollipop", "key", "clock", "ball", "tennis ball",
-    "sports ball", "parasol", "torch", "lantern", "fan",
+    "wine glass", "ice cream", "lamp", "trophy", "vase", "apple", "banana", "orange", "sandwich",
+    "donut", "lollipop", "key", "soda can", "beer glass", "rose", "tulip", "hot dog", "hamburger",
+    "cupcake", "microphone", "leaf", "feather", "clock", "ball", "tennis ball", "torch",
+    "lantern", "fan",
 )  # fmt: skip
 _HANGING = (
     "bag", "handbag", "suitcase", "bucket", "basket", "briefcase", "shopping bag", "watering can",
@@ -58,21 +63,47 @@ HOLDS: Mapping[str, Hold] = MappingProxyType(
         "broom": Hold("tool", "sweep"),
         "shovel": Hold("tool", "dig"),
         "fishing rod": Hold("tool", "fish"),
-        "backpack": Hold("back"),
+        **{noun: Hold("page", "read") for noun in ("book", "newspaper", "map", "page")},
+        **{noun: Hold("page") for noun in ("closed book", "tablet", "laptop", "tray", "card")},
+        **{
+            noun: Hold("guitar", "play guitar") for noun in ("guitar", "electric guitar", "ukulele")
+        },
+        "cell phone": Hold("upright", "text"),
     }
 )
 """Noun → how it is held or carried."""
 
-WORN: Mapping[str, str] = MappingProxyType(
+
+@dataclass(frozen=True)
+class Wear:
+    """Where one thing is worn."""
+
+    place: str
+    """Place of the wearer."""
+    shift: Vector = (0.0, 0.0, 0.0)
+    """From there to the bottom of the thing's middle, m."""
+    pitch: float = 0.0
+    """How far it is tipped forward, radians."""
+    yaw: float = 0.0
+
+
+WORN: Mapping[str, Wear] = MappingProxyType(
     {
-        "hat": "crown", "cap": "crown", "helmet": "crown", "crown": "crown", "glasses": "face",
-        "sunglasses": "face", "mask": "face", "scarf": "neck", "tie": "neck", "necklace": "neck",
-        "vest": "torso", "jacket": "torso", "shirt": "torso", "dress": "torso", "skirt": "torso",
-        "coat": "torso", "sweater": "torso", "apron": "torso", "backpack": "back", "bag": "back",
-        "handbag": "left hand", "cape": "back", "headphones": "crown",
+        **dict.fromkeys(("hat", "cap"), Wear("crown", (-0.01, 0.0, -0.055))),
+        "helmet": Wear("crown", (-0.01, 0.0, -0.11)),
+        "crown": Wear("crown", (-0.02, 0.0, -0.045)),
+        "glasses": Wear("face", (-0.10, 0.0, -0.02)),
+        "mask": Wear("face", (-0.02, 0.0, -0.135)),
+        "headphones": Wear("head", (0.0, 0.0, -0.06)),
+        "scarf": Wear("neck", (0.0, 0.0, -0.36)),
+        "tie": Wear("torso", (0.15, 0.0, 0.24), 0.5 * math.pi),
+        "vest": Wear("torso", (0.0, 0.0, 0.02)),
+        "backpack": Wear("torso", (-0.25, 0.0, 0.02), 0.0, math.pi),
     }
-)  # fmt: skip
-"""Noun → place at which it is worn; its model's origin comes there."""
+)
+"""Noun → where it is worn; anything else on the head."""
+GARMENTS = frozenset({"shirt", "jacket", "coat", "dress"})
+"""What the body's own clothes show, in its colour."""
 
 HELD_SCALE: Mapping[str, float] = MappingProxyType({"umbrella": 0.5, "flag": 0.3, "sign": 0.45})
 """Noun → size of what is carried relative to what stands on the ground."""
@@ -121,7 +152,12 @@ def place_in_hold(hold: Hold, holder: Actor, thing: Actor) -> tuple[str, Affine,
     size, model = size_of(holder.model), thing.model
     lift = 0.5 * model.height if thing.is_centred else 0.0
     if hold.style == "tool":
-        return "right hand", _shifted(0.0, 0.0, lift - 0.12 * model.height), False, ()
+        grips = (("right hand", _scaled(_RAISED, size)),)
+        return "right hand", _along_tool(thing, lift), False, grips
+    if hold.style == "page":
+        return _page(size, model, lift)
+    if hold.style == "guitar":
+        return "torso", _guitar(size), False, ()
     if hold.style == "upright":
         grip = _UP_HIGH if thing.noun.name in ("flag", "sign", "torch") else _RAISED
         low = min(0.35 * model.height, 0.06)
@@ -195,7 +231,52 @@ _STRETCH = 0.60
 """From the shoulder to the palm of an arm that is nearly straight, m."""
 
 
-def offset_of_worn(place: str, thing: Actor) -> Float64Array:
+def offset_of_worn(wear: Wear, wearer: Actor, thing: Actor) -> Float64Array:
     """[3, 4] a worn thing's body coordinates in the axes of its place."""
+    size = size_of(wearer.model)
     lift = 0.5 * thing.model.height if thing.is_centred else 0.0
-    return _shifted(0.0, 0.0, lift)
+    turn = rotation(wear.yaw, wear.pitch, 0.0)
+    x, y, z = _scaled(wear.shift, size)
+    return np.column_stack([turn, np.array([x, y, z + lift])])
+
+
+def _along_tool(thing: Actor, lift: float) -> Affine:
+    """What lies along its x: the handle in the hand, the rest along what the hand points to."""
+    model = thing.model
+    if model.length < 2.0 * model.height:
+        return _shifted(0.0, 0.0, lift - 0.12 * model.height)
+    sign = _handle_side(model) * (-1.0 if thing.noun.name in _GUARDED else 1.0)
+    turn = rotation(0.0, 0.5 * math.pi * sign, 0.0)
+    middle = 0.38 * model.length
+    return np.column_stack([turn, np.array([0.0, 0.0, middle])])
+
+
+_GUARDED = frozenset({"sword"})
+"""What is wider at its handle."""
+
+
+def _handle_side(model: Model) -> float:
+    """+1 where the handle, the thinner half, is at +x, else -1."""
+    parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+    along = np.linspace(0.30, 0.48, 7) * model.length
+    across = np.linspace(0.0, 0.5, 24) * model.width
+    spread = []
+    for sign in (1.0, -1.0):
+        x, y = (axis.ravel() for axis in np.meshgrid(sign * along, across))
+        spread.append(int(np.isfinite(top_heights(parts, x, y)).sum()))
+    return 1.0 if spread[0] < spread[1] else -1.0
+
+
+def _page(size: float, model: Model, lift: float) -> tuple[str, Affine, bool, Grips]:
+    """A flat thing before the chest, its face to the holder."""
+    turn = rotation(0.0, -1.0, 0.0)
+    reach = min(0.45 * model.width, 0.22 * size)
+    place = np.array([0.42 * size, 0.0, 1.16 * size])
+    grips = (("left hand", (0.38 * size, reach, 1.12 * size)),
+             ("right hand", (0.38 * size, -reach, 1.12 * size)))  # fmt: skip
+    return "ground", np.column_stack([turn, place]), True, grips
+
+
+def _guitar(size: float) -> Affine:
+    """Across the chest, the neck up to the left hand."""
+    return np.column_stack([rotation(0.0, 0.0, -1.05), size * np.array([0.20, -0.42, -0.08])])

@@ -7,15 +7,18 @@ from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
 from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.props import PROPS, Prop
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.actors import Actor, Tether, seeded
 from texvent.scenes.staging.acts import striking
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
 from texvent.scenes.staging.acts.holding import (
+    GARMENTS,
     HELD_SCALE,
     WORN,
     Hold,
+    Wear,
     arm_reach,
     choose_hold,
     is_person,
@@ -40,6 +43,7 @@ def settle_motions(
     """
     objects = list(description.objects)
     relations = [_mounted(relation, objects) for relation in description.relations]
+    relations += _implied_holds(objects, relations)
     for relation in relations:
         if relation.kind not in ACTS or not relation.targets:
             continue
@@ -59,10 +63,13 @@ def settle_motions(
                 objects[subject], motion=ObjectMotion(relation.kind, way), then=()
             )
             objects[target] = _still(objects[target])
+        elif relation.kind == "wear":
+            if objects[target].noun in GARMENTS and objects[target].colour is not None:
+                objects[subject] = replace(objects[subject], colour=objects[target].colour)
+            objects[target] = _still(objects[target])
         else:
-            held = objects[target]
-            size = HELD_SCALE.get(held.noun, 1.0) if relation.kind != "wear" else 1.0
-            objects[target] = replace(_still(held), scale=held.scale * size)
+            held = _still(objects[target])
+            objects[target] = replace(held, scale=held.scale * HELD_SCALE.get(held.noun, 1.0))
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
@@ -72,6 +79,22 @@ def _mounted(relation: Relation, objects: list[SceneObject]) -> Relation:
         return relation
     target = objects[relation.targets[0]].noun
     return replace(relation, kind="ride") if target in MOUNTS else relation
+
+
+def _implied_holds(objects: list[SceneObject], relations: list[Relation]) -> list[Relation]:
+    """Who plays a guitar that the prompt names holds that one."""
+    bound = {target for relation in relations if relation.kind in ACTS
+             for target in relation.targets}  # fmt: skip
+    holds = []
+    for index, person in enumerate(objects):
+        if person.noun not in PERSON_NOUNS or person.motion is None:
+            continue
+        for prop in PROPS.get(person.motion.kind, ()):
+            for number, thing in enumerate(objects):
+                if thing.noun in prop.nouns and number not in bound and prop.anchor != "ground":
+                    holds.append(Relation("hold", index, (number,)))
+                    bound.add(number)
+    return holds
 
 
 def _still(scene_object: SceneObject) -> SceneObject:
@@ -119,7 +142,19 @@ def perform_acts(
         for relation in relations:
             if relation.kind == kind:
                 _perform(cast, relation, duration_s)
+    _take_off_doubles(cast, actors)
     return cast.actors()
+
+
+def _take_off_doubles(cast: _Cast, actors: list[Actor]) -> None:
+    """A piano, a desk or a board that comes with what somebody does is not shown twice."""
+    for number, actor in enumerate(actors):
+        nouns = {noun for prop in cast.props(number) if prop.anchor == "ground"
+                 for noun in prop.nouns}  # fmt: skip
+        for other, thing in enumerate(actors):
+            if thing.noun.name in nouns and actor is not thing:
+                cast.put(other, None)
+                break
 
 
 class _Cast:
@@ -142,6 +177,11 @@ class _Cast:
         if actor is None:
             raise KeyError(number)
         return actor
+
+    def props(self, number: int) -> tuple[Prop, ...]:
+        """What comes with an actor's activity; nothing once it is off the scene."""
+        actor = self._actors[number]
+        return () if actor is None else actor.props
 
     def put(self, number: int, actor: Actor | None) -> None:
         """Replace an actor; None takes it off the scene."""
@@ -184,7 +224,9 @@ def _bind(cast: _Cast, kind: str, who: tuple[int, int, int | None], duration_s: 
     elif kind == "hit":
         subject, target, other = striking.hit(subject, target, other, duration_s)
     elif kind == "wear":
-        subject, target = _wear(subject, target)
+        subject, worn = _wear(subject, target)
+        cast.put(target_at, worn)
+        return
     else:
         subject, target = _hold(subject, target)
     cast.put(subject_at, subject)
@@ -220,9 +262,11 @@ def _move_along(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]
     return subject, target
 
 
-def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
-    place = WORN.get(target.noun.name, "crown")
-    held = HeldAt(subject, place, offset_of_worn(place, target))
+def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
+    if target.noun.name in GARMENTS and is_person(subject):
+        return subject, None
+    wear = WORN.get(target.noun.name, Wear("crown"))
+    held = HeldAt(subject, wear.place, offset_of_worn(wear, subject, target))
     return subject, _carried(target, held, subject)
 
 

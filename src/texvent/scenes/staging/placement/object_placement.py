@@ -278,7 +278,9 @@ class ObjectPlacer:
         said = (group.scene_object.motion or STANDING, *group.scene_object.then)
         kinds = dict.fromkeys(motion.kind for motion in said)
         props = [prop for kind in kinds for prop in PROPS.get(kind, ())]
-        return tuple(prop for prop in props if not shown.intersection(prop.nouns))
+        return tuple(
+            prop for prop in props if prop.anchor == "ground" or not shown.intersection(prop.nouns)
+        )
 
     def _choose(
         self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator

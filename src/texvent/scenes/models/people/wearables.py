@@ -1,0 +1,100 @@
+"""What people put on that no shop table has: vest, scarf, mask, crown, jacket, coat, dress."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import (
+    CLOTH_COLOURS,
+    ORANGE,
+    RED,
+    WHITE,
+    YELLOW,
+    Material,
+    cloth,
+)
+from texvent.scenes.models.protocol import ModelPart, fixed_noun
+from texvent.scenes.models.shapes import ball, limb, peak, post, rod, spike
+from texvent.scenes.models.variation import paint
+from texvent.scenes.scene import Colour
+
+
+def build_vest(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Make a safety vest with bright bands, its hem on the ground; `colour` is its cloth."""
+    fabric = cloth(colour if colour is not None else paint(None, seed, "vest", (ORANGE, YELLOW)))
+    band = Material((0.78, 0.78, 0.70), emission=0.25)
+    parts = [
+        limb(fabric, (0.0, 0.0, 0.04), (0.0, 0.0, 0.40), 0.142, side_radius=0.192),
+        ball(fabric, (0.0, 0.0, 0.38), (0.25, 0.40, 0.24)),
+        *(ball(band, (0.0, 0.0, z), (0.30, wide, 0.05))
+          for z, wide in ((0.12, 0.385), (0.26, 0.40))),
+        *(rod(band, (0.115, y, 0.20), (0.08, y, 0.47), 0.026) for y in (0.10, -0.10)),
+    ]  # fmt: skip
+    return ArticulatedModel(parts, scale=scale)
+
+
+def build_scarf(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Make a scarf as it lies round a neck, one end hanging; `colour` is its wool."""
+    wool = cloth(paint(colour, seed, "scarf", CLOTH_COLOURS))
+    parts = [
+        ball(wool, (0.0, 0.0, 0.38), (0.22, 0.26, 0.10)),
+        ball(wool, (0.015, 0.0, 0.43), (0.19, 0.21, 0.08)),
+        limb(wool, (0.11, 0.05, 0.37), (0.15, 0.07, 0.04), 0.022, side_radius=0.055),
+    ]
+    return ArticulatedModel(parts, scale=scale)
+
+
+def build_mask(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Make a face mask with its ribbons; `colour` is its front."""
+    surface = cloth(colour if colour is not None else (0.35, 0.55, 0.68))
+    parts = [ball(surface, (0.0, 0.0, 0.06), (0.09, 0.17, 0.12))]
+    parts += [rod(Material(WHITE), (-0.01, y, 0.07), (-0.13, 1.12 * y, 0.09), 0.004)
+              for y in (0.08, -0.08)]  # fmt: skip
+    return ArticulatedModel(parts, scale=scale)
+
+
+def build_crown(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Make a crown with eight points; `colour` is its metal."""
+    gold = Material(colour if colour is not None else (0.62, 0.40, 0.05))
+    parts: list[ModelPart] = [post(gold, (0.0, 0.0, 0.03), (0.22, 0.21, 0.06))]
+    for turn in range(8):
+        x, y = math.cos(0.25 * math.pi * turn), math.sin(0.25 * math.pi * turn)
+        foot = (0.095 * x, 0.09 * y, 0.05)
+        tip = (0.115 * x, 0.11 * y, 0.15)
+        parts += [spike(gold, foot, tip, 0.032), ball(Material(RED), tip, (0.026, 0.026, 0.026))]
+    return ArticulatedModel(parts, scale=scale)
+
+
+def build_garment(
+    long: float, has_skirt: bool, *, colour: Colour | None, scale: float, seed: int
+) -> ArticulatedModel:
+    """Make a jacket, a coat or a dress on an unseen hanger; `colour` is its cloth."""
+    fabric = cloth(paint(colour, seed, "cloth", CLOTH_COLOURS))
+    top = long
+    parts = [
+        limb(fabric, (0.0, 0.0, top - 0.44), (0.0, 0.0, top - 0.08), 0.12, side_radius=0.18),
+        ball(fabric, (0.0, 0.0, top - 0.12), (0.20, 0.44, 0.22)),
+        rod(Material((0.3, 0.3, 0.3)), (0.0, 0.0, top - 0.04), (0.0, 0.0, top + 0.08), 0.006),
+    ]
+    if has_skirt:
+        parts.append(peak(fabric, (0.0, 0.0, 0.5 * (top - 0.1)), (0.40, 0.60, top - 0.1)))
+    else:
+        parts.append(limb(fabric, (0.0, 0.0, 0.08), (0.0, 0.0, top - 0.3), 0.12, side_radius=0.19))
+        parts += [limb(fabric, (0.0, y, top - 0.10), (0.02, 1.25 * y, top - 0.60), 0.055)
+                  for y in (0.20, -0.20)]  # fmt: skip
+    return ArticulatedModel(parts, scale=scale)
+
+
+NOUNS = (
+    fixed_noun("vest", build_vest, ("safety vest", "waistcoat", "reflective vest", "hi-vis vest")),
+    fixed_noun("scarf", build_scarf, ("shawl",), ("scarves",)),
+    fixed_noun("mask", build_mask, ("face mask", "surgical mask")),
+    fixed_noun("crown", build_crown, ("tiara",)),
+    fixed_noun("jacket", partial(build_garment, 0.72, False), ("hoodie", "blazer")),
+    fixed_noun(
+        "coat", partial(build_garment, 1.05, False), ("overcoat", "raincoat", "trench coat")
+    ),
+    fixed_noun("dress", partial(build_garment, 1.10, True), ("gown",)),
+)
