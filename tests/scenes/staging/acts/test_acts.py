@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.scenes.description import (
+    NamedColour,
     ObjectMotion,
     Relation,
     SceneDescription,
@@ -294,3 +295,49 @@ def test_every_act_has_words() -> None:
     assert set(ACTS) == {"hold", "carry", "wear", "ride", "push", "pull", "kick", "hit", "throw",
                          "catch"}  # fmt: skip
     assert all(each.words for each in ACTS.values())
+
+
+@pytest.mark.parametrize(
+    ("what", "place"), [("hat", "crown"), ("glasses", "face"), ("vest", "torso"), ("tie", "torso")]
+)
+def test_what_is_worn_goes_with_the_body(what: str, place: str) -> None:
+    man, worn = act("wear", "man", what, motion=WALK_RIGHT).actors
+    gaps = [np.linalg.norm(middle(worn, t) - man.anchor(place, t)[:, 3]) for t in (0.0, 0.6, 1.5)]
+    assert max(gaps) < 0.45
+    np.testing.assert_allclose(gaps, gaps[0], atol=1e-9)
+
+
+def test_a_worn_shirt_is_the_colour_of_the_body_s_own() -> None:
+    red = NamedColour("red", (0.6, 0.0, 0.0))
+    scene = stage(SceneObject("man"), SceneObject("shirt", colour=red),
+                  acts=(Relation("wear", 0, (1,)),))  # fmt: skip
+    (man,) = scene.actors
+    colours = {part.colour for part in man.place(0.0).parts}
+    assert red.rgb in colours
+
+
+def test_who_plays_a_guitar_that_the_prompt_names_holds_that_one() -> None:
+    player = SceneObject("man", motion=ObjectMotion("play guitar"))
+    alone = stage(player, acts=())
+    named = stage(player, SceneObject("guitar"), acts=())
+    assert len(alone.actors[0].props) == 1
+    assert named.actors[0].props == ()
+    guitar = named.actors[1]
+    assert np.linalg.norm(middle(guitar, 0.5) - named.actors[0].anchor("chest", 0.5)[:, 3]) < 0.4
+
+
+def test_a_piano_is_shown_once() -> None:
+    player = SceneObject("man", motion=ObjectMotion("play piano"))
+    scene = stage(player, SceneObject("piano"), acts=())
+    assert [actor.noun.name for actor in scene.actors] == ["man"]
+
+
+@pytest.mark.parametrize("board", ["skateboard", "snowboard", "surfboard"])
+def test_who_rides_a_board_stands_on_it(board: str) -> None:
+    rider, ridden = act("ride", "man", board).actors
+    top = find_support(ridden.model).height
+    for time_s in (0.0, 1.4):
+        to_board = np.linalg.inv(np.vstack([ridden.trajectory.at(time_s).to_world(), [0, 0, 0, 1]]))
+        for side in ("left", "right"):
+            foot = to_board @ [*rider.anchor(f"{side} foot", time_s)[:, 3], 1.0]
+            assert -0.01 < foot[2] - top < 0.09

@@ -105,7 +105,7 @@ def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, No
     """What is ridden, with the motion that the prompt gives to it or to its rider."""
     said = ridden.motion if ridden.motion is not None and ridden.motion.is_moving else rider.motion
     usual = nouns[ridden.noun].motion
-    if nouns[ridden.noun].habitat == "fixed":
+    if nouns[ridden.noun].habitat == "fixed" or usual == "roll":
         usual = "slide"
     if said is None:
         return replace(ridden, motion=ObjectMotion(usual))

@@ -22,11 +22,11 @@ class Mount:
     """How something is ridden."""
 
     style: str
-    """"straddle", "board" (standing sideways), "stand", "sit" or "built-in" (its model brings a
-    rider)."""
+    """"straddle", "board" (standing sideways), "ski", "stand" (hands on a bar), "sit" or
+    "built-in" (its model brings a rider)."""
 
 
-_BOARDS = ("skateboard", "surfboard", "snowboard", "longboard", "skis", "board")
+_BOARDS = ("skateboard", "surfboard", "snowboard")
 MOUNTS: Mapping[str, Mount] = MappingProxyType(
     {
         **{noun: Mount("straddle") for noun in (
@@ -36,7 +36,8 @@ MOUNTS: Mapping[str, Mount] = MappingProxyType(
             "eagle", "crocodile")},
         **{noun: Mount("board") for noun in _BOARDS},
         **{noun: Mount("built-in") for noun in ("bicycle", "motorcycle")},
-        "kick scooter": Mount("stand"),
+        "scooter": Mount("stand"),
+        "ski": Mount("ski"),
     }
 )  # fmt: skip
 """Noun → how it is ridden; anything else is sat on."""
@@ -55,9 +56,18 @@ def mount(rider: Actor, ridden: Actor) -> Actor:
         top = find_support(ridden.model).height - BOARD_STANCE * size
         path = Riding(ridden.trajectory, (0.0, 0.0, _above_origin(ridden, top)), "skate")
         return replace(rider, trajectory=path, is_mover=ridden.is_mover, props=())
-    if style == "stand":
-        path = Riding(ridden.trajectory, (0.0, 0.0, 0.1), "stand")
+    if style == "ski":
+        path = Riding(ridden.trajectory, (0.0, 0.0, 0.0), "ski")
         return replace(rider, trajectory=path, is_mover=ridden.is_mover, props=())
+    if style == "stand":
+        path = Riding(ridden.trajectory, (-0.08, 0.0, 0.1 * ridden.model.height), "stand")
+        bar = 0.9 * ridden.model.height
+        grips = tuple(
+            (f"{name} hand", (0.42 * ridden.model.length, side * 0.2, bar))
+            for name, side in (("left", 1.0), ("right", -1.0))
+        )
+        gripped = Performed(path, None, grips)
+        return replace(rider, trajectory=gripped, is_mover=ridden.is_mover, props=())
     seat, grips = (_straddle if style == "straddle" else _sit)(ridden, size)
     path = Riding(ridden.trajectory, (seat[0], seat[1], _above_origin(ridden, seat[2])), "sit")
     return replace(
