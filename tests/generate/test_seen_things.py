@@ -40,6 +40,14 @@ def test_a_thing_behind_the_camera_is_not():
     assert list_unseen(turned, SIZE, 1.0) == ("ball",)
 
 
+def test_one_of_several_is_counted():
+    description = SceneDescription("3 balls", objects=(SceneObject("ball", count=3),))
+    scene = compose.compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
+    assert list_unseen(scene, SIZE, 1.0) == ()
+    fewer = replace(scene, actors=scene.actors[1:])
+    assert list_unseen(fewer, SIZE, 1.0) == ("1 of 3 balls",)
+
+
 @pytest.mark.parametrize("size", [(346, 260), (1280, 720), (32, 24)])
 def test_points_lie_in_the_image_and_meet_what_is_narrow(size):
     points = image_points(SensorSize(*size))
