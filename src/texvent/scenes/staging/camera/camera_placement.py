@@ -60,10 +60,12 @@ def place_camera(
     if travel is not None:
         return _travel(description, travel, actors, place, duration_s)
     if not actors:
-        target = np.array([0.0, 0.0, 2.0])
-        empty = Framing(target, 0.0, 0.06, 16.0, 1.0)
-        return CameraPath(empty, _plan_moves(description, None, duration_s), duration_s,
+        height, distance = (1.2, 5.0) if is_room(place) else (2.0, 16.0)
+        target = np.array([0.0, 0.0, height])
+        empty = Framing(target, 0.0, 0.06, distance, 1.0)
+        path = CameraPath(empty, _plan_moves(description, None, duration_s), duration_s,
                           has_floor=has_floor)  # fmt: skip
+        return replace(path, room_m=_size_room(path, target[None])) if is_room(place) else path
     main = _choose_main(description, actors)
     moves = _plan_moves(description, main, duration_s)
     path = _frame(description, actors, main, moves, place, (seed, aspect, duration_s))
