@@ -261,9 +261,12 @@ class CircumstanceReader:
 
     def _relate(self, kind: str, subjects: Sequence[int], things: Sequence[int]) -> bool:
         """Sitting "on" a bicycle is riding it."""
-        first = self._draft.objects[things[0]].noun
+        mount = self._draft.noun(things[0])
         is_rider = bool(subjects) and is_person(self._draft.noun(subjects[0]))
-        if kind == "on" and is_rider and (first in HAS_RIDER or first in BOARDS):
+        is_mount = mount.name in HAS_RIDER or mount.name in BOARDS or (
+            is_living(mount) and not is_person(mount)
+        )  # fmt: skip
+        if kind == "on" and is_rider and is_mount:
             kind = "ride"
         return self._draft.relate(kind, subjects, things)
 

@@ -402,13 +402,20 @@ class _Tagger:
         return any(one.pos is Pos.VERB and one.form is VerbForm.THIRD for one in coming)
 
     def _opens_clause(self) -> bool:
-        """Whether a subordinator, comma or "and" came after the last finite verb."""
+        """Whether another finite verb may come: after a comma, "and", or a relative clause."""
+        is_after_verb = False
         for meaning in reversed(self._chosen):
-            if meaning.pos in (Pos.SUBORDINATOR, Pos.RELATIVE, Pos.CONJUNCTION, Pos.SIGN):
+            if meaning.pos is Pos.RELATIVE:
                 return True
-            if meaning.pos is Pos.VERB:
-                return meaning.form is VerbForm.ING or meaning.form is VerbForm.PAST
-        return True
+            if meaning.pos in (Pos.SUBORDINATOR, Pos.CONJUNCTION, Pos.SIGN):
+                return not is_after_verb
+            is_finite = meaning.pos is Pos.AUXILIARY or (
+                meaning.pos is Pos.VERB and meaning.form in (VerbForm.THIRD, VerbForm.BASE)
+            )
+            if is_finite and is_after_verb:
+                return False
+            is_after_verb = is_after_verb or is_finite
+        return not is_after_verb
 
     def _coordinated(
         self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]

@@ -71,7 +71,7 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "indoor": (
         "corridor", "studio", "museum", "church", "theatre", "theater", "auditorium", "stage",
         "basement", "attic", "cave", "lobby", "gallery", "palace", "ballroom", "concert hall",
-        "court", "basketball court", "bowling alley", "nightclub", "circus", "house", "home",
+        "court", "basketball court", "bowling alley", "nightclub", "circus",
     ),
     "living room": ("apartment", "flat", "cafe", "coffee shop", "bar", "pub", "hotel lobby"),
     "kitchen": ("bathroom", "restaurant", "bakery", "restaurant kitchen", "canteen", "diner"),

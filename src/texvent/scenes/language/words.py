@@ -13,7 +13,7 @@ from functools import lru_cache
 
 SHORTEST_CORRECTED = 5
 """Letters of the shortest word whose spelling is corrected."""
-LIKENESS = 0.9
+LIKENESS = 0.85
 """How like a known word a misspelt one must be (`difflib` ratio)."""
 
 
@@ -158,5 +158,8 @@ def correct_spelling(word: str, known: Collection[str]) -> str | None:
         for one in known
         if one[:1] == word[:1] and one[-2:] == word[-2:] and abs(len(one) - len(word)) <= 1
     ]
+    swapped = [one for one in near if sorted(one) == sorted(word)]
+    if swapped:
+        return min(swapped)
     found = difflib.get_close_matches(word, near, n=1, cutoff=LIKENESS)
     return found[0] if found else None
