@@ -17,10 +17,13 @@ from texvent.cli.help import asked_help, first_sentence, render_help
 COLUMNS, LINES = 80, 40
 EVERY_COMMAND = [
     (),
-    *((name,) for name in COMMANDS if name not in ("bench", "data", "weights")),
+    *((name,) for name in COMMANDS if name not in ("bench", "data", "weights", "scenes")),
     *(("bench", name) for name in BENCHMARKS),
     ("bench",),
     ("data",),
+    ("scenes",),
+    ("scenes", "list"),
+    ("scenes", "show"),
     ("data", "pull"),
     ("weights",),
     ("weights", "pull"),

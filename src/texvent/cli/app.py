@@ -100,6 +100,10 @@ COMMANDS = {
         "texvent.cli.setup.generators",
         "Text-to-video generators: which there are, which are ready.",
     ),
+    "scenes": (
+        "texvent.cli.setup.scenes",
+        "Nouns of embedded scenes: list them, see one.",
+    ),
     "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),
 }
 """Command → its module, which has a function `run(arguments)`, and what it does."""

@@ -11,6 +11,8 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -27,6 +29,8 @@ from texvent.video import MICROSECONDS, Frame, Motion, describe_stream, frame_ti
 
 if TYPE_CHECKING:
     from texvent.runtime.progress import Progress
+    from texvent.scenes.description import SceneDescription
+    from texvent.scenes.models.protocol import Noun
     from texvent.scenes.raycast.ground_truth import GroundTruth
     from texvent.scenes.report import PromptReport
     from texvent.scenes.scene import Camera, Scene
@@ -51,6 +55,9 @@ class ProceduralConfig:
     enough for events."""
     shadows: bool = True
     """Whether the sun and the moon cast shadows."""
+    assets: Path | None = None
+    """Folder of models (GLB, OBJ, PLY), which prompts call by their file names; they take the place
+    of embedded ones of the same name. See docs/assets.md."""
     strict: bool = False
     """Refuse a prompt with a word that is not shown as it says; without it a warning names the
     word."""
@@ -218,7 +225,7 @@ class ProceduralGenerator:
             TexventWarning: some of its words are not shown as they say.
         """
         del progress
-        scene, report = self._stage(prompt)
+        scene, report, files = self._stage(prompt)
         for fault in report.faults(MOST_WORDS):
             warn(f"prompt words {fault}")
         metadata = {
@@ -229,6 +236,8 @@ class ProceduralGenerator:
             "options": plain(self.config),
             REPORT_KEY: report.to_json(),
         }
+        if files:
+            metadata["files"] = files
         return ProceduralVideo(
             scene,
             self.size,
@@ -253,23 +262,44 @@ class ProceduralGenerator:
         from texvent.scenes.language.parser import parse_prompt
 
         if is_staged:
-            return self._stage(prompt)[-1]
-        return self._accepted(parse_prompt(prompt).report())
+            return self._stage(prompt)[1]
+        return self._accepted(parse_prompt(prompt, self._nouns).report())
 
-    def _stage(self, prompt: str) -> tuple[ComposedScene, PromptReport]:
+    def _stage(self, prompt: str) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
         from texvent.generate.seen_things import list_unseen
+        from texvent.scenes.assets import list_files
         from texvent.scenes.language.parser import parse_prompt
         from texvent.scenes.staging.compose import compose_scene
 
-        description = parse_prompt(prompt)
+        description = parse_prompt(prompt, self._nouns)
         self._accepted(description.report())  # before the scene is built
         scene = compose_scene(
-            description, seed=self.seed, size=self.size, duration_s=self.config.duration
+            description,
+            seed=self.seed,
+            size=self.size,
+            duration_s=self.config.duration,
+            nouns=self._shown_nouns(description),
         )
         unseen = list_unseen(scene, self.size, self.config.duration)
         hidden = (f"{noun} (out of view, hidden or too small)" for noun in unseen)
-        return scene, self._accepted(description.report((*scene.not_shown, *hidden)))
+        report = self._accepted(description.report((*scene.not_shown, *hidden)))
+        return scene, report, list_files(description, self._nouns)
+
+    @cached_property
+    def _nouns(self) -> Mapping[str, Noun]:
+        """What prompts can name."""
+        from texvent.scenes.assets import merge_nouns, read_folder
+        from texvent.scenes.models.nouns import NOUNS
+
+        folder = self.config.assets
+        return NOUNS if folder is None else merge_nouns(read_folder(folder))
+
+    def _shown_nouns(self, description: SceneDescription) -> Mapping[str, Noun]:
+        """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""
+        from texvent.scenes.models.nouns import NOUNS
+
+        return {**NOUNS, **{one.noun: self._nouns[one.noun] for one in description.objects}}
 
     def _accepted(self, report: PromptReport) -> PromptReport:
         """The report, unless `strict` refuses the prompt."""

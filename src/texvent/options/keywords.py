@@ -155,6 +155,7 @@ class GeneratorOptions(TypedDict, total=False):
     duration: float | None
     samples: int | None
     shadows: bool | None
+    assets: str | Path | None
     strict: bool | None
     fit: Literal["cover", "contain", "stretch"] | None
     reuse_video: bool | None

@@ -15,6 +15,7 @@ from texvent.generate.protocol import renders_instants
 from texvent.pipeline import Simulation, fit_to_sensor, text_to_video
 from texvent.run.prepare import prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import Settings, flatten_tables, resolve
+from texvent.scenes.assets.provenance import check_files
 from texvent.video import FrameStream, RenderableStream
 
 
@@ -47,7 +48,9 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
     options = {**tables.get("run", {}), **tables.get("generate", {})}
     try:
         settings = resolve("generate", options)
-        seed = _video_seed(metadata.get("source"), settings)
+        facts = metadata.get("source")
+        check_files(facts.get("files") if isinstance(facts, Mapping) else None)
+        seed = _video_seed(facts, settings)
         generator = generator_class(settings.source, seed=seed, size=settings.size)
         video = generator.generate(prompt)
     except InputError:
@@ -101,6 +104,7 @@ def prepare_replay(
         if source is not None:
             video = fit_to_sensor(_stored_video(source, facts), settings)
             return prepare_video(video, settings, prompt=prompt)
+        check_files(facts.get("files"))
         seed = _video_seed(facts, settings)
         if seed == settings.run.seed:
             simulation = prepare_prompt(detailed, settings)

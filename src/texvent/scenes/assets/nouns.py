@@ -1,0 +1,233 @@
+"""Assets as nouns: sized, turned to the front, and in place of the embedded noun of their name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from texvent.errors import FileFormatError, InputError
+from texvent.scenes.assets.figure import Figure, RigidFigure
+from texvent.scenes.assets.gltf_figure import GltfFigure
+from texvent.scenes.assets.index import Asset
+from texvent.scenes.assets.trimesh_files import load_with_trimesh
+from texvent.scenes.mesh import Colour, Float64Array
+from texvent.scenes.models.nouns import AFLOAT, NOUNS
+from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
+from texvent.scenes.models.variation import choose
+from texvent.scenes.scene import Shape, Texture
+
+KEPT_FILES = 32
+"""Read files that are kept."""
+_UNITS = ((20.0, 0.01), (1000.0, 0.001))
+"""Longest side of a file above which its unit is taken to be this many metres: cm, mm."""
+_SAMPLES = 12
+"""Instants at which an animated model is measured."""
+
+
+@lru_cache(maxsize=KEPT_FILES)
+def _read(path: str, changed_ns: int) -> Figure:
+    del changed_ns
+    place = Path(path)
+    try:
+        return GltfFigure(place) if place.suffix.lower() == ".glb" else load_with_trimesh(place)
+    except InputError as error:
+        if path in str(error):
+            raise
+        raise FileFormatError(f"{path}: {error}") from error
+
+
+def read_figure(asset: Asset) -> Figure:
+    """The figure of an asset's file, read once while it does not change.
+
+    Raises:
+        FileFormatError: the file is damaged.
+        InputError: it is gone.
+    """
+    try:
+        changed_ns = asset.path.stat().st_mtime_ns
+    except OSError as error:
+        raise InputError(f"the asset {asset.path} cannot be read: {error.strerror}") from error
+    return _read(str(asset.path), changed_ns)
+
+
+@dataclass(eq=False)
+class AssetModel:
+    """A model from a file; implements `models.protocol.Model`."""
+
+    figure: Figure
+    to_body: Float64Array
+    """[3, 4] the file's coordinates → body."""
+    colour: Colour | None
+    length: float
+    width: float
+    height: float
+    is_centred: bool = False
+    note: str = ""
+    """How its size was found."""
+
+    def parts(self, pose: Pose) -> Sequence[ModelPart]:
+        """Its meshes at that pose."""
+        found = []
+        for mesh, to_file in self.figure.place(pose.time_s, pose.activity, self.colour):
+            to_body = self.to_body[:, :3] @ to_file
+            to_body[:, 3] += self.to_body[:, 3]
+            found.append(
+                ModelPart(Shape.MESH, to_body, (1.0, 1.0, 1.0), texture=Texture.PLAIN, mesh=mesh)
+            )
+        return found
+
+
+def load_model(
+    asset: Asset, *, colour: Colour | None = None, scale: float = 1.0, is_centred: bool = False
+) -> AssetModel:
+    """An asset's model, sized, standing on the ground or centred, facing +x.
+
+    Raises:
+        FileFormatError: the file is damaged.
+        MissingDependencyError: trimesh is needed and not installed.
+    """
+    figure = read_figure(asset)
+    turn = _axes(asset)
+    low, high = _measure(figure, turn)
+    factors, note = _scale(asset, high - low)
+    factors = factors * scale
+    extents = (high - low) * factors
+    middle = 0.5 * (low + high) * factors
+    foot = middle[2] if is_centred else low[2] * factors[2]
+    to_body = np.column_stack([factors[:, None] * turn, [-middle[0], -middle[1], -foot]])
+    length, width, height = (max(float(extent), 1e-3) for extent in extents)
+    return AssetModel(figure, to_body, colour, length, width, height, is_centred, note)
+
+
+def _axes(asset: Asset) -> Float64Array:
+    """[3, 3] the file's axes → body: x ahead, y left, z up."""
+    is_ply = asset.path.suffix.lower() == ".ply"
+    up = _axis(asset.up or ("z" if is_ply else "y"))
+    ahead = _axis(asset.forward or ("-y" if is_ply else "z"))
+    if abs(float(up @ ahead)) > 0.5:
+        raise InputError(
+            f"{asset.path}: up is {asset.up} and forward {asset.forward}; they must be two axes"
+        )
+    return np.stack([ahead, np.cross(up, ahead), up])
+
+
+def _axis(name: str) -> Float64Array:
+    sign = -1.0 if name.startswith("-") else 1.0
+    return np.asarray(sign * np.eye(3)["xyz".index(name[-1])])
+
+
+def _measure(figure: Figure, turn: Float64Array) -> tuple[Float64Array, Float64Array]:
+    """Least and greatest coordinates over the first seconds of its animation, after turning."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for step in range(_SAMPLES):
+        placed = figure.place(step / 6.0, "move", None)
+        for mesh, to_file in placed:
+            used = mesh.vertices[np.unique(mesh.triangles)]
+            places = (used @ to_file[:, :3].T + to_file[:, 3]) @ turn.T
+            low, high = np.minimum(low, places.min(axis=0)), np.maximum(high, places.max(axis=0))
+        if isinstance(figure, RigidFigure):
+            break
+    return low, high
+
+
+def _scale(asset: Asset, extents: Float64Array) -> tuple[Float64Array, str]:
+    """[3] factors along length, width and height, and how they were found."""
+    sides = np.maximum(extents, 1e-9)
+    if asset.size is not None:
+        width, depth, height = asset.size
+        return np.array([depth, width, height]) / sides, "size from the catalogue"
+    if asset.scale is not None:
+        return np.full(3, asset.scale), "scale from the index"
+    if asset.height is not None:
+        return np.full(3, asset.height / sides[2]), "height from the index"
+    if asset.length is not None:
+        return np.full(3, asset.length / sides.max()), "length from the index"
+    if asset.path.suffix.lower() == ".glb":
+        return np.ones(3), "in metres, as glTF says"
+    usual = usual_noun(asset.noun)
+    if usual is not None:
+        model = usual.build(colour=None, scale=1.0, seed=0)
+        longest = max(model.length, model.width, model.height)
+        return np.full(3, longest / sides.max()), f"as long as the embedded {usual.name}"
+    unit = 1.0
+    for above, metres in _UNITS:
+        unit = metres if sides.max() > above else unit
+    words = {1.0: "metres", 0.01: "centimetres", 0.001: "millimetres"}[unit]
+    return np.full(3, unit), f"its unit taken to be {words}"
+
+
+def usual_noun(name: str) -> Noun | None:
+    """The embedded noun of that name, of its last words, or one that it is a synonym of."""
+    words = name.split()
+    for first in range(len(words)):
+        said = " ".join(words[first:])
+        if said in NOUNS:
+            return NOUNS[said]
+        for noun in NOUNS.values():
+            if said in noun.synonyms:
+                return noun
+    return None
+
+
+@dataclass(frozen=True)
+class _Builder:
+    """Makes a model of one of several assets with the same noun; the seed chooses."""
+
+    assets: tuple[Asset, ...]
+    is_centred: bool
+
+    def __call__(self, *, colour: Colour | None, scale: float, seed: int) -> Model:
+        if not (math.isfinite(scale) and scale > 0.0):
+            raise InputError(f"scale must be a positive number but got {scale!r}")
+        asset = choose(seed, "asset", self.assets)
+        return load_model(asset, colour=colour, scale=scale, is_centred=self.is_centred)
+
+
+def merge_nouns(assets: Iterable[Asset]) -> Mapping[str, Noun]:
+    """All nouns, those of the assets first: they take the place of embedded ones of their name."""
+    groups: dict[str, list[Asset]] = {}
+    for asset in assets:
+        groups.setdefault(asset.noun, []).append(asset)
+    own = {name: _noun(name, tuple(group)) for name, group in groups.items()}
+    taken = set(own) | {word for noun in own.values() for word in noun.synonyms}
+    embedded = {
+        name: replace(noun, synonyms=tuple(one for one in noun.synonyms if one not in taken))
+        for name, noun in NOUNS.items()
+        if name not in own
+    }
+    return MappingProxyType(own | embedded)
+
+
+def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:
+    first, usual = assets[0], usual_noun(name)
+    habitat = first.habitat or (usual.habitat if usual is not None else "fixed")
+    is_fixed = habitat == "fixed"
+    motion = first.motion or (usual.motion if usual is not None else "stand")
+    if usual is not None and is_fixed != (usual.habitat == "fixed") and first.motion is None:
+        motion = "stand" if is_fixed else "move"
+    speed = first.speed if first.speed is not None else (usual.speed_m_s if usual else 1.0)
+    synonyms = dict.fromkeys(word for asset in assets for word in asset.synonyms)
+    if usual is not None and usual.name == name:
+        synonyms.update(dict.fromkeys(usual.synonyms))
+    is_centred = habitat in ("air", "water") and name not in AFLOAT
+    return Noun(
+        name,
+        _Builder(assets, is_centred),
+        habitat,  # type: ignore[arg-type]
+        0.0 if is_fixed else speed,
+        motion,
+        tuple(synonyms),
+        usual.plurals if usual is not None and usual.name == name else (),
+        place=first.place or (usual.place if usual is not None else ""),
+    )
+
+
+def assets_of(noun: Noun) -> tuple[Asset, ...]:
+    """The assets that a noun's models come from; none for an embedded noun."""
+    return noun.build.assets if isinstance(noun.build, _Builder) else ()

@@ -1,0 +1,221 @@
+"""Models of files as nouns: names, sizes, glTF skins and animations, OBJ and PLY, bad files."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from tests.scenes.assets.glb_writer import GlbWriter, write_bar, write_slider
+
+from texvent.errors import FileFormatError, InputError
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.scenes.assets import check_files, load_model, merge_nouns, read_folder
+from texvent.scenes.assets.index import Asset, name_of
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.protocol import Pose
+from texvent.sensor import SensorSize
+
+
+def corners_at(asset: Asset, time_s: float, activity: str = "move") -> np.ndarray:
+    """[v, 3] vertices of a model in body coordinates."""
+    found = []
+    for part in load_model(asset).parts(Pose(time_s, 0.0, 0.0, activity)):
+        assert part.mesh is not None
+        found.append(part.mesh.vertices @ part.to_body[:, :3].T + part.to_body[:, 3])
+    return np.concatenate(found)
+
+
+@pytest.mark.parametrize(
+    ("name", "noun"),
+    [
+        ("office_chair.glb", "office chair"),
+        ("OfficeChair-02.obj", "office chair"),
+        ("bed1.obj", "bed"),
+        ("007.ply", "007"),
+    ],
+)
+def test_names_come_from_file_names(name: str, noun: str) -> None:
+    assert name_of(Path(name)) == noun
+
+
+def test_a_skin_bends_with_its_joint(tmp_path: Path) -> None:
+    asset = Asset(write_bar(tmp_path / "bar.glb"), "bar")
+    straight, bent = corners_at(asset, 0.0), corners_at(asset, 0.5)
+    np.testing.assert_allclose(np.ptp(straight[:, 2]), 2.0, atol=1e-6)
+    # At 0.5 s the upper half stands at 45°: glTF's x is the body's y.
+    tip = bent[np.argsort(straight[:, 2])[-4:]].mean(axis=0)
+    foot = straight[:, 2].min()
+    joint = straight.mean(axis=0) * [1, 1, 0] + [0, 0, foot + 1.0]
+    reach = math.sqrt(0.5)
+    np.testing.assert_allclose(tip - joint, [0.0, -reach, reach], atol=1e-6)
+    lower = straight[:, 2] < foot + 0.9
+    np.testing.assert_allclose(bent[lower], straight[lower], atol=1e-9)
+
+
+def test_nodes_move_by_their_rule_and_activities_choose_animations(tmp_path: Path) -> None:
+    asset = Asset(write_slider(tmp_path / "thing.glb"), "thing")
+    start = corners_at(asset, 0.0).mean(axis=0)
+    np.testing.assert_allclose(corners_at(asset, 0.25).mean(axis=0) - start, [0, 0.5, 0], atol=1e-6)
+    np.testing.assert_allclose(corners_at(asset, 1.25).mean(axis=0) - start, [0, 0.5, 0], atol=1e-6)
+    running = corners_at(asset, 0.25, "run").mean(axis=0)
+    np.testing.assert_allclose(running, start, atol=1e-6)
+
+
+def test_a_generated_scene_shows_assets_and_says_which_files(tmp_path: Path) -> None:
+    write_bar(tmp_path / "wobbly_lamp.glb")
+    config = ProceduralConfig(duration=0.5, assets=tmp_path)
+    video = ProceduralGenerator(config, seed=1, size=SensorSize(48, 36)).generate("a wobbly lamp")
+    assert next(iter(video.class_names.values())) == "wobbly lamp"
+    (described,) = video.metadata["files"]
+    assert described["file"].endswith("wobbly_lamp.glb")
+    truth = video.ground_truth(0, 100_000)
+    assert (truth.instance == 1).any()
+    assert np.isfinite(truth.flow[truth.instance == 1]).all()
+    check_files(video.metadata["files"])
+    write_slider(tmp_path / "wobbly_lamp.glb")
+    with pytest.raises(FileFormatError, match="was changed since"):
+        check_files(video.metadata["files"])
+    (tmp_path / "wobbly_lamp.glb").unlink()
+    with pytest.raises(InputError, match="is not here"):
+        check_files(video.metadata["files"])
+
+
+def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path: Path) -> None:
+    write_bar(tmp_path / "car.glb")
+    write_slider(tmp_path / "sports_van.glb")
+    write_slider(tmp_path / "gizmo.glb")
+    nouns = merge_nouns(read_folder(tmp_path))
+    assert nouns["car"].habitat == "ground"
+    assert nouns["car"].synonyms == NOUNS["car"].synonyms
+    assert nouns["sports van"].speed_m_s == NOUNS["van"].speed_m_s
+    assert nouns["gizmo"].habitat == "fixed"
+    assert nouns["dog"] is not None
+    said = [word for noun in nouns.values() for word in (noun.name, *noun.synonyms)]
+    assert said.count("car") == 1
+
+
+def test_an_index_names_sizes_and_turns(tmp_path: Path) -> None:
+    write_slider(tmp_path / "m_17.glb")
+    (tmp_path / "assets.toml").write_text(
+        '["m_17.glb"]\nnoun = "weathercock"\nsynonyms = ["vane"]\nheight = 3.0\n'
+        'up = "y"\nforward = "x"\nhabitat = "air"\nspeed = 2\nmotion = "fly"\n'
+    )
+    (asset,) = read_folder(tmp_path)
+    assert (asset.noun, asset.synonyms, asset.habitat) == ("weathercock", ("vane",), "air")
+    model = load_model(asset)
+    assert model.height == pytest.approx(3.0)
+    assert 7.5 < model.length <= 9.0  # it is 1 wide and slides by 2
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("not toml", "cannot be read"),
+        ('["other.glb"]\nnoun = "x"\n', "no model beside it"),
+        ('["a.glb"]\ncolour = "red"\n', "unknown colour"),
+        ('["a.glb"]\nheight = -1\n', "positive number"),
+        ('["a.glb"]\nup = "w"\n', "one of x"),
+        ('["a.glb"]\nsynonyms = "one"\n', "list of words"),
+    ],
+)
+def test_a_bad_index_is_one_clear_line(tmp_path: Path, text: str, message: str) -> None:
+    write_slider(tmp_path / "a.glb")
+    (tmp_path / "assets.toml").write_text(text)
+    with pytest.raises(FileFormatError, match=message) as caught:
+        read_folder(tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_folder_without_models_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="holds no model"):
+        read_folder(tmp_path)
+    with pytest.raises(InputError, match="does not exist"):
+        read_folder(tmp_path / "nowhere")
+
+
+def test_damaged_glb_files_are_one_clear_line(tmp_path: Path) -> None:
+    whole = write_bar(tmp_path / "whole.glb").read_bytes()
+    cases = {
+        "short.glb": whole[:40],
+        "text.glb": b"hello, this is no model at all",
+        "json.glb": whole.replace(b'"asset"', b'"asset', 1),
+        "empty.glb": b"",
+    }
+    for name, data in cases.items():
+        path = tmp_path / name
+        path.write_bytes(data)
+        with pytest.raises(FileFormatError) as caught:
+            load_model(Asset(path, "thing"))
+        assert "\n" not in str(caught.value)
+        assert name in str(caught.value)
+    needy = write_slider(tmp_path / "needy.glb", extensionsRequired=["KHR_draco_mesh_compression"])
+    with pytest.raises(FileFormatError, match="needs KHR_draco"):
+        load_model(Asset(needy, "thing"))
+    writer = GlbWriter()
+    writer.document.update(scenes=[{"nodes": [3]}], nodes=[{}])
+    with pytest.raises(FileFormatError, match="damaged"):
+        load_model(Asset(writer.write(tmp_path / "lost.glb"), "thing"))
+
+
+def write_obj(folder: Path) -> Path:
+    """A square of two materials, one with an image."""
+    image = np.zeros((8, 8, 3), dtype=np.uint8)
+    image[:4] = (0, 0, 255)  # the upper half is red
+    cv2.imwrite(str(folder / "skin.png"), image)
+    (folder / "panel.mtl").write_text(
+        "newmtl painted\nKd 1 1 1\nmap_Kd skin.png\nnewmtl plain\nKd 0 0 1\n"
+    )
+    path = folder / "panel.obj"
+    path.write_text(
+        "mtllib panel.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 2 0 -1\nv 2 2 -1\n"
+        "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl painted\nf 1/1 2/2 3/3 4/4\n"
+        "usemtl plain\nf 2/1 5/2 6/3 3/4\n"
+    )
+    return path
+
+
+def test_an_obj_brings_its_materials_and_image_upright(tmp_path: Path) -> None:
+    pytest.importorskip("trimesh")
+    model = load_model(Asset(write_obj(tmp_path), "panel", height=1.0))
+    (part,) = model.parts(Pose(0.0, 0.0, 0.0))
+    mesh = part.mesh
+    assert mesh is not None
+    assert len(mesh.triangles) == 4
+    assert model.height == pytest.approx(1.0)
+    shown = mesh.image >= 0
+    assert shown.sum() == 2
+    places = (mesh.vertices @ part.to_body[:, :3].T + part.to_body[:, 3])[mesh.triangles]
+    upper = places[shown][..., 2] > 0.5
+    assert (mesh.uv[shown][upper][:, 1] < 0.5).all()
+    assert mesh.images[0].levels[0][0, 0, 0] == pytest.approx(1.0)
+    np.testing.assert_allclose(mesh.colours[~shown][0, 0], [0.0, 0.0, 1.0], atol=0.01)
+
+
+def test_a_ply_brings_colours_and_stands_on_z(tmp_path: Path) -> None:
+    pytest.importorskip("trimesh")
+    path = tmp_path / "scan.ply"
+    path.write_text(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 255 0 0\n1 0 0 255 0 0\n1 0 4 0 255 0\n0 0 4 0 255 0\n3 0 1 2\n3 0 2 3\n"
+    )
+    model = load_model(Asset(path, "strange thing"))
+    assert model.height == pytest.approx(4.0)
+    (part,) = model.parts(Pose(0.0, 0.0, 0.0))
+    assert part.mesh is not None
+    assert part.mesh.colours.max(axis=(0, 1)) == pytest.approx([1.0, 1.0, 0.0])
+
+
+def test_damaged_obj_and_ply_files_are_one_clear_line(tmp_path: Path) -> None:
+    pytest.importorskip("trimesh")
+    for name, text in (("a.obj", "f 1 2 3\n"), ("b.ply", "ply\nnonsense\n"), ("c.obj", "")):
+        path = tmp_path / name
+        path.write_text(text)
+        with pytest.raises(InputError) as caught:
+            load_model(Asset(path, "thing"))
+        assert "\n" not in str(caught.value)
+        assert name in str(caught.value)
