@@ -9,7 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.scenes.description import (
+    ObjectMotion,
+    SceneDescription,
+    SceneObject,
+    Surroundings,
+)
+from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.road import RoadLine
+from texvent.sensor import SensorSize
 
 
 @given(st.floats(-4.0, 4.0), st.sampled_from([0.0, 0.02, -0.03]), st.floats(-40.0, 40.0))
@@ -32,3 +40,21 @@ def test_distance_is_to_the_nearest_road() -> None:
 def test_a_left_bend_lies_to_the_left() -> None:
     assert RoadLine(curvature=0.05).at(10.0)[1] > 1.0
     assert RoadLine(curvature=-0.05).at(10.0)[1] < -1.0
+
+
+@pytest.mark.parametrize(("direction", "is_on"), [("right", False), ("across", True)])
+def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(
+    direction: str, *, is_on: bool
+) -> None:
+    description = SceneDescription(
+        "", (SceneObject("man", motion=ObjectMotion("walk", direction)),),
+        surroundings=Surroundings("city"),
+    )  # fmt: skip
+    scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=2.0)
+    environment = scene.environment(0.0)
+    x, y = environment.road_offset
+    road = RoadLine(environment.road_angle, (float(x), float(y)))
+    spots = np.array([scene.actors[0].middle(t)[:2] for t in (0.0, 1.0, 2.0)])
+    distances = road.distance(spots)
+    assert bool(distances.min() < environment.road_half_width) == is_on
+    assert np.ptp(distances) > 0.5 if is_on else np.ptp(distances) < 0.1

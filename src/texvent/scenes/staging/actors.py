@@ -80,6 +80,8 @@ class Actor:
     enters: bool = False
     """Whether it comes into the picture only after the clip has begun."""
     leaves: bool = False
+    goes_across: bool = False
+    """Whether it crosses the road."""
     headroom_m: float = 0.0
     """Room above it that the image should show too: for smoke, m."""
 

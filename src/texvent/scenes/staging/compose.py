@@ -225,7 +225,8 @@ def _describe_view(
     if place in WATERSIDE:
         road = water_line(place, actors, path, half)
     else:
-        road = find_road(actors, float(path.framing.target[1]), 0.5 * half, road_shape)
+        road = find_road(actors, float(path.framing.target[1]), 0.5 * half, road_shape,
+                         has_pavement=place == "city")  # fmt: skip
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
         for t in times

@@ -15,11 +15,21 @@ _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
 
 
+_PAVEMENT_M = 1.4
+"""From the edge of the road to who walks beside it."""
+_ROADSIDE = 1.4
+"""Where one walks on a road without pavement, in lanes from its middle."""
+_USUAL_S = 2.0
 _CROSSING_AHEAD_M = 7.0
 
 
 def find_road(
-    actors: Sequence[Actor], usual_y: float, lane_m: float, shape: str | None = None
+    actors: Sequence[Actor],
+    usual_y: float,
+    lane_m: float,
+    shape: str | None = None,
+    *,
+    has_pavement: bool = False,
 ) -> RoadLine:
     """The road along the path of the first object on the ground that moves.
 
@@ -28,8 +38,9 @@ def find_road(
         usual_y: where it runs if nothing stands on the ground, m.
         lane_m: from its centre line to the middle of a lane.
         shape: "curved", "crossing" (another road crosses it) or None.
+        has_pavement: whether people walk beside it, not on it.
     """
-    road = _straight_road(actors, usual_y, lane_m)
+    road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
     if shape == "curved" and not road.crossings:
         return replace(road, curvature=_bend_of(actors, lane_m))
     if shape == "crossing" and not road.crossings:
@@ -38,21 +49,31 @@ def find_road(
     return road
 
 
-def _straight_road(actors: Sequence[Actor], usual_y: float, lane_m: float) -> RoadLine:
+def _straight_road(
+    actors: Sequence[Actor], usual_y: float, lane_m: float, *, has_pavement: bool
+) -> RoadLine:
     grounded = [actor for actor in actors if actor.noun.habitat == "ground"]
     movers = [actor for actor in grounded if actor.is_mover]
+    drivers = [actor for actor in movers if actor.noun.motion == "drive"]
+    if drivers:
+        return _road_of(drivers, lane_m)
+    if movers and movers[0].goes_across:
+        x, y, _ = movers[0].middle(0.5 * _USUAL_S)
+        return RoadLine(movers[0].trajectory.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
     if movers:
-        return _road_of(movers, lane_m)
+        return _road_of(movers, lane_m, has_pavement=has_pavement)
     if grounded:
         return RoadLine(offset=(0.0, grounded[0].trajectory.at(0.0).position[1]))
     return RoadLine(offset=(0.0, usual_y))
 
 
-def _road_of(movers: Sequence[Actor], lane_m: float) -> RoadLine:
+def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool = False) -> RoadLine:
     first = movers[0]
     state = first.trajectory.at(0.0)
     x, y, _ = state.position
     lane = _lane_of(movers, lane_m)
+    if first.noun.motion != "drive":
+        lane = 2.0 * lane_m + _PAVEMENT_M if has_pavement else _ROADSIDE * lane_m
     # Traffic keeps to the right: the centre line is on its left.
     offset = (x - lane * math.sin(state.yaw), y + lane * math.cos(state.yaw))
     crossings: list[tuple[float, float, float]] = []

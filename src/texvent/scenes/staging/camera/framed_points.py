@@ -138,7 +138,7 @@ def _near_piece(actor: Actor, main: Actor, times: Float64Array) -> Float64Array:
     ways = np.array([main.middle(float(time)) for time in times])
     nearest = np.clip(ways, low, high)
     point = nearest[int(np.argmin(np.linalg.norm(nearest - ways, axis=1)))]
-    reach = 0.8 * main.size_m
+    reach = 0.5 * main.size_m
     low, high = np.maximum(low, point - reach), np.minimum(high, point + reach)
     return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1])
                      for z in (low[2], high[2])])  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -54,6 +55,8 @@ class RoutePlacer:
             return self._place_ahead(group, height, is_goal=is_goal)
         if group.plan.is_path and group.plan.motion.direction in ("left", "right", "across"):
             return self._place_across(group, height)
+        if group.plan.is_path and is_centred(group.noun):
+            return self._place_in_front(group)
         if group.plan.is_path and group.noun.habitat != "fixed":
             return self._place_on_the_way(group, height)
         return self._place_beside(group, height)
@@ -77,6 +80,31 @@ class RoutePlacer:
         before = self._crossed_m
         self._crossed_m += 2.0 * float(group.half[1]) + 0.5
         return before + float(group.half[1])
+
+    def _place_in_front(self, group: ObjectGroup) -> Float64Array:
+        """What flies or swims goes along ahead of the camera, or comes towards it."""
+        travel, plan = self._travel, group.plan
+        x, y, heading = travel.point(0.5 * travel.length_m, 0.0)
+        oncoming = plan.motion.direction == "towards"
+        speed = plan.speed_m_s if oncoming else max(abs(travel.speed_m_s), 0.1)
+        group.plan = replace(plan, yaw=heading + (math.pi if oncoming else 0.0), speed_m_s=speed)
+        size = max(max(model.length, model.width) for model in group.models)
+        ahead = 1.0 + 3.0 * size
+        if oncoming:
+            ahead += 0.5 * (abs(travel.speed_m_s) + speed) * self._duration_s
+        offsets = []
+        for number in range(len(group.models)):
+            aside = (-1.0) ** number * 0.75 * size * ((number + 1) // 2) + 0.3 * size
+            along, up = 0.9 * size * (number % 3), 0.4 * size * ((number + 1) % 3 - 1)
+            offsets.append((
+                along * math.cos(heading) + aside * math.sin(heading),
+                along * math.sin(heading) - aside * math.cos(heading),
+                up,
+            ))  # fmt: skip
+        group.offsets = offsets
+        group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+        height = travel.journey.height_m - travel.journey.pitch_rad * ahead
+        return np.array([x + ahead * math.cos(heading), y + ahead * math.sin(heading), height])
 
     def _place_on_the_way(self, group: ObjectGroup, height: float) -> Float64Array:
         """Vehicles in their lanes, the rest beside the road; the same way or the other."""

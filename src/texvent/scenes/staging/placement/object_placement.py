@@ -266,6 +266,7 @@ class ObjectPlacer:
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     _rope(trajectory, model), self._choose_props(group),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
+                    goes_across=said[0].direction == "across",
                 )
             )  # fmt: skip
         return actors
