@@ -55,6 +55,10 @@ class Pose:
     activity: str = "move"
     """What it does: "stand", "move" (walk, drive, fly or swim), "run", "sit", "swing", ...; for
     people and hands a name of `people.activities`."""
+    before: str | None = None
+    """What a body with limbs did until a moment ago; None = the same."""
+    share: float = 1.0
+    """How far it has gone over from that to `activity`, 0..1."""
     act_s: float | None = None
     """Time since the instant of contact of a single act such as a kick, s; None = it repeats."""
     grips: tuple[tuple[str, tuple[float, float, float]], ...] = ()

@@ -47,6 +47,9 @@ class Tether:
         return rod(_STRING, (float(x), float(y), float(z)), self.end, self.radius_m)
 
 
+CHANGE_S = 0.35
+"""How long a body takes from one activity to the next, s."""
+_HALVINGS = 24
 _STRING = Material((0.5, 0.5, 0.48))
 
 
@@ -115,9 +118,27 @@ class Actor:
             state.distance_m + self.lead_m,
             state.speed_m_s,
             state.activity,
-            state.act_s,
-            state.grips,
+            *self._change_over(time_s, state.activity),
+            act_s=state.act_s,
+            grips=state.grips,
         )
+
+    def _change_over(self, time_s: float, activity: str) -> tuple[str | None, float]:
+        """What a body with limbs did just before, and how far it has gone over to the next."""
+        if not has_places(self.model):
+            return None, 1.0
+        earlier, later = time_s - CHANGE_S, time_s
+        before = self.trajectory.at(earlier).activity
+        if before == activity:
+            return None, 1.0
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (earlier + later)
+            if self.trajectory.at(middle).activity == activity:
+                later = middle
+            else:
+                earlier = middle
+        share = (time_s - later) / CHANGE_S
+        return before, share * share * (3.0 - 2.0 * share)
 
     def anchor(self, name: str, time_s: float) -> Float64Array:
         """[3, 4] axes at a named place of it, in the world: see `anchors.locate`."""

@@ -341,3 +341,14 @@ def test_who_rides_a_board_stands_on_it(board: str) -> None:
         for side in ("left", "right"):
             foot = to_board @ [*rider.anchor(f"{side} foot", time_s)[:, 3], 1.0]
             assert -0.01 < foot[2] - top < 0.09
+
+
+@pytest.mark.parametrize("then", ["wave", "sit", "kneel", "lie", "clap", "run"])
+def test_a_body_goes_over_smoothly_from_one_activity_to_the_next(then: str) -> None:
+    walker = SceneObject("man", motion=ObjectMotion("walk", "right"), then=(ObjectMotion(then),))
+    scene = stage(walker, acts=())
+    assert scene.actors[0].pose(2.0).activity.startswith(then)
+    for time_s in np.arange(0.7, 1.6, 0.011):
+        before, after = (scene.primitives(float(time_s) + step) for step in (0.0, 1e-3))
+        moved = np.abs(after.to_world[:, :, 3] - before.to_world[:, :, 3]).max()
+        assert moved < 0.02, time_s

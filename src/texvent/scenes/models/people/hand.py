@@ -8,7 +8,7 @@ import numpy as np
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import CLOTH_COLOURS, SKIN_TONES, Material, cloth, mix, skin
-from texvent.scenes.models.people.hand_gestures import HAND_MOVEMENTS, HandShape
+from texvent.scenes.models.people.hand_gestures import HAND_MOVEMENTS, HandShape, mix_shapes
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,
@@ -75,8 +75,12 @@ def build_hand(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 
 def _shape_at(pose: Pose) -> HandShape:
-    gesture = HAND_MOVEMENTS.get(pose.activity, HAND_MOVEMENTS["stand"])
-    return gesture(pose.time_s)
+    still = HAND_MOVEMENTS["stand"]
+    shape = HAND_MOVEMENTS.get(pose.activity, still)(pose.time_s)
+    if pose.before is None:
+        return shape
+    first = HAND_MOVEMENTS.get(pose.before, still)(pose.time_s)
+    return mix_shapes(first, shape, pose.share)
 
 
 def _turned(shape: HandShape) -> Affine:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
 
@@ -76,7 +77,14 @@ def pose_joints(pose: Pose, kind: PersonKind = ADULT) -> Skeleton:
 
 
 def choose_posture(kind: PersonKind, pose: Pose) -> Posture:
-    """The complete posture of an activity at an instant."""
+    """The complete posture at an instant: of an activity, or between two."""
+    if pose.before is None:
+        return _choose_posture(kind, pose)
+    first = _choose_posture(kind, replace(pose, activity=pose.before, before=None))
+    return blend(first, _choose_posture(kind, pose), pose.share)
+
+
+def _choose_posture(kind: PersonKind, pose: Pose) -> Posture:
     activity = pose.activity
     if activity == "crawl":
         return _grip(_crawl(pose), pose)

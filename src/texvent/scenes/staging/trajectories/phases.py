@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
-from texvent.scenes.models.people.activities import TRAVELLING
+from texvent.scenes.models.people.activities import PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
@@ -370,6 +370,8 @@ class _Builder:
         """Come to rest, and act in place."""
         braking = max(0.25, abs(self._carried()) / _BRAKING_M_S2)
         activity = "stand" if motion.kind in ("stand", "hover", "work") else motion.kind
+        if activity == "sit" and self._noun.name in PERSON_NOUNS:
+            activity = "sit on ground"
         if self.pieces and motion.kind == "stand":
             activity = self.pieces[-1].activity  # wheels and legs go on until it stands
         if motion.kind == "dance":
