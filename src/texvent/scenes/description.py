@@ -308,6 +308,17 @@ _RELATIONS = {
     "front": "in front of",
     "surround": "surrounded by",
     "follow": "following",
+    "overtake": "overtaking",
+    "hold": "holding",
+    "carry": "carrying",
+    "wear": "wearing",
+    "ride": "riding",
+    "push": "pushing",
+    "pull": "pulling",
+    "kick": "kicking",
+    "hit": "hitting",
+    "throw": "throwing",
+    "catch": "catching",
 }
 _BACKDROPS = {
     "mountain": "mountains around (the ground itself stays flat)",

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 _VOWELS = "aeiou"
-_IRREGULAR = {"person": "people", "child": "children", "fish": "fish", "sheep": "sheep"}
+_IRREGULAR = {
+    "person": "people", "child": "children", "fish": "fish", "sheep": "sheep", "leaf": "leaves",
+    "wolf": "wolves", "shelf": "shelves", "bookshelf": "bookshelves", "knife": "knives",
+    "mouse": "mice", "goose": "geese", "scissors": "scissors",
+}  # fmt: skip
 
 
 def pluralise(noun: str) -> str:
