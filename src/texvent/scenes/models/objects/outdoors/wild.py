@@ -262,8 +262,8 @@ _GARDEN = placed("grass", (
             thickness=(0.0, 8.0, 0.0)),
             plank(toned(p, 0.9), (3.0, 4.5, 0.0), (2.0, 3.5, 5.0), chord=(7.0, 2.0, 0.0),
                 thickness=(0.0, 7.0, 0.0)),
-                peak(toned(p, 1.1), (-1.0, -2.0, 5.0), (9.0, 8.0, 11.0)),
-                peak(p, (0.5, 5.0, 3.0), (8.0, 9.0, 7.0))]),
+                peak(toned(p, 1.1), (-1.0, -2.0, 5.5), (9.0, 8.0, 11.0)),
+                peak(p, (0.5, 5.0, 3.5), (8.0, 9.0, 7.0))]),
     thing("snowflake", (PALE.colour,), nothing,
         moving=(Moving(lambda p: [part for k in range(3)
             for part in _crystal(p, math.pi * k / 3.0)], swinging("z", 0.8, 0.3)),),
@@ -298,7 +298,7 @@ _SKY = placed("space", (
             (3.0, 3.0, 2.8)), *(part for r,
             h in ((2.1, 0.8), (2.5, 1.1), (2.9, 0.7))
                 for part in ring(toned(p, h), (0.0, 0.0, 0.0), (r, r), 0.14, axis="z",
-                    pieces=20))], turn_x(0.35)), ("ringed planet",), goes=("air", "float", 0.5)),
+                    pieces=16))], turn_x(0.35)), ("ringed planet",), goes=("air", "float", 0.5)),
     thing("earth", ((0.03, 0.16, 0.45),), nothing,
         moving=(Moving(lambda p: [ball(p, (0.0, 0.0, 0.0), (4.0, 4.0, 4.0)),
             *(ball(Material((0.12, 0.30, 0.06)),
