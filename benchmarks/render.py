@@ -2,6 +2,7 @@
 
     python -m benchmarks.render
     python -m benchmarks.render --prompt "a red car drives left past two trees"
+    python -m benchmarks.render --light
 
 Prints the median over frames of a moving scene; compiling is done before and timed apart.
 """
@@ -12,11 +13,21 @@ import argparse
 import os
 import statistics
 import time
+from dataclasses import dataclass, replace
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.runtime.threads import THREADS_VARIABLE
+from texvent.scenes.description import (
+    Effect,
+    Illumination,
+    ObjectMotion,
+    SceneDescription,
+    SceneObject,
+    Surroundings,
+)
 from texvent.scenes.raycast.render import render
-from texvent.scenes.scene import Scene
+from texvent.scenes.scene import Camera, Environment, Primitives, Scene
+from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 
 PROMPTS = (
@@ -33,7 +44,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--prompt", action="append", help="scene to time (may be repeated)")
     parser.add_argument("--frames", type=int, default=7, help="frames per scene and size")
+    parser.add_argument("--light", action="store_true", help="time lamps, smoke and fire")
     options = parser.parse_args()
+    if options.light:
+        time_light(options)
+        return
     prompts = options.prompt or PROMPTS
     started = time.perf_counter()
     render(make_scene(prompts[0], SIZES[0]), 0.0, SIZES[0])
@@ -52,6 +67,71 @@ def make_scene(prompt: str, size: SensorSize) -> Scene:
     """The scene of a prompt."""
     generator = ProceduralGenerator(ProceduralConfig(), seed=0, size=size)
     return generator.generate(prompt).scene
+
+
+def _described(
+    noun: str, *effects: Effect, light: str = "night", place: str = "road", moves: bool = False
+) -> SceneDescription:
+    motion = ObjectMotion("drive", "left") if moves else None
+    return SceneDescription(
+        "", objects=(SceneObject(noun, motion=motion),), effects=effects,
+        light=Illumination(light), surroundings=Surroundings(place),
+    )  # fmt: skip
+
+
+LIGHT_SCENES = {
+    "a car drives at night": _described("car", moves=True),
+    "a city street at night": _described("person", place="city"),
+    "a LED in a dark room": _described("led", light="lamp", place="indoor"),
+    "smoke rises from a house": _described("house", Effect("smoke", 0), light="day"),
+    "a campfire at night": _described("campfire", place="grass"),
+    "mist on a meadow": _described("horse", Effect("mist"), light="day", place="grass"),
+    "sparks fly from a box": _described("box", Effect("sparks", 0), light="lamp", place="indoor"),
+}
+
+
+@dataclass(frozen=True)
+class _Partly:
+    """A scene without puffs, and without lamps or their shadows."""
+
+    scene: Scene
+    has_lamps: bool
+
+    def primitives(self, time_s: float) -> Primitives:
+        return self.scene.primitives(time_s)
+
+    def camera(self, time_s: float) -> Camera:
+        return self.scene.camera(time_s)
+
+    def environment(self, time_s: float) -> Environment:
+        whole = self.scene.environment(time_s)
+        lamps = whole.lamps.copy() if self.has_lamps else whole.lamps[:0]
+        lamps[:, 13] = 0.0
+        return replace(whole, lamps=lamps, puffs=whole.puffs[:0])
+
+    @property
+    def class_names(self) -> dict[int, str]:
+        return self.scene.class_names
+
+
+def time_light(options: argparse.Namespace) -> None:
+    """Print what lamps, their shadows and puffs add to a frame."""
+    size = SIZES[0]
+    print(
+        f"{'scene at 346x260':46s} {'lamps':>5s} {'puffs':>5s} {'dark':>7s} {'lit':>7s} {'all':>7s}"
+    )
+    for name, description in LIGHT_SCENES.items():
+        scene = compose_scene(description, seed=0, size=size, duration_s=1.0)
+        render(scene, 0.0, size)
+        there = scene.environment(0.3)
+        times = [
+            time_frames(one, size, options)
+            for one in (_Partly(scene, False), _Partly(scene, True), scene)
+        ]
+        print(
+            f"{name:46s} {len(there.lamps):5d} {len(there.puffs):5d} "
+            + " ".join(f"{one:7.1f}" for one in times)
+        )
 
 
 def time_frames(scene: Scene, size: SensorSize, options: argparse.Namespace) -> float:

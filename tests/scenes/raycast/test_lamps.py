@@ -88,7 +88,7 @@ def test_shadows_are_those_of_all_shapes_tested_one_by_one():
     for _ in range(150):
         point = np.append(rng.uniform(-5.0, 5.0, 2), 0.0)
         lifted = np.append(point[:2], 2e-3)
-        seen, _ = lamps_reach(world, tuple(point), (0.0, 0.0, 1.0))
+        seen, _ = lamps_reach(world, tuple(point), (0.0, 0.0, 1.0), 0b111)
         for number, lamp in enumerate(lamps):
             expected = True
             for kind, inverse in zip(primitives.shape, world.shapes["inverse"], strict=True):

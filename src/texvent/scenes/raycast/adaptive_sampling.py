@@ -49,15 +49,19 @@ _MAX_EDGES = 4
 """Edges that are placed between two neighbouring probes."""
 _MAX_SURFACES = 64
 """Surfaces that may share a pixel."""
+_ALL_LIGHTS = (1 << LIT_BITS) - 1
+"""All bits of a probe that tell what light reaches a surface."""
 _SOFT_CLIP_START = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
 
 @jit(error_model="numpy")
-def _lit_by(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tuple[int, bool]:
+def _lit_by(
+    world: World, x: float, y: float, hit: tuple[float, int, int], wanted: int
+) -> tuple[int, bool]:
     """What light reaches what was hit (bit 0: sun, then lamps), and whether a thin shadow is near.
 
-    Only lamps that cast shadows count.
+    Only the lights in `wanted` are looked for; only lamps that cast shadows count.
     """
     depth, number, face = hit
     instant = world.instant[0]
@@ -67,11 +71,11 @@ def _lit_by(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tu
     normal = surface_normal(world, number, face, point)
     point = shadow_point(world, number, face, point)
     is_sunlit, thin = False, False
-    if number != ROOM:
+    if number != ROOM and wanted & 1:
         is_sunlit, thin = sun_reaches(world, point, normal)
     lit = int(is_sunlit)
     if instant.shadow_lamps > 0:
-        lamps, thin_lamp = lamps_reach(world, point, normal)
+        lamps, thin_lamp = lamps_reach(world, point, normal, wanted >> 1)
         lit |= lamps << 1
         thin = thin or thin_lamp
     return lit, thin
@@ -81,7 +85,7 @@ def _lit_by(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tu
 def _probe(world: World, x: float, y: float) -> int:
     """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
     depth, number, face, _ = first_hit(world, x, y)
-    lit = _lit_by(world, x, y, (depth, number, face))[0]
+    lit = _lit_by(world, x, y, (depth, number, face), _ALL_LIGHTS)[0]
     return (surface_code(world, number, face) << LIT_BITS) + lit
 
 
@@ -103,7 +107,7 @@ def _expose(world: World, light: Colour) -> Colour:
 @jit(error_model="numpy")
 def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     """Exposed light at image point (x, y), where the surface `probe` is."""
-    number, lit = (probe >> LIT_BITS) // CODES, probe & ((1 << LIT_BITS) - 1)
+    number, lit = (probe >> LIT_BITS) // CODES, probe & _ALL_LIGHTS
     depth, face = math.inf, 0
     if number >= 0:
         depth, face = hit_again(world, x, y, number)
@@ -192,15 +196,17 @@ def _find_edge(
     `low` is where on the line (0..1) that surface is known to be; `probes[1]` is at its end.
     """
     high = 1.0
-    by_surface = probes[0] >> LIT_BITS != probes[1] >> LIT_BITS
+    changed = 0
+    if probes[0] >> LIT_BITS == probes[1] >> LIT_BITS:
+        changed = (probes[0] ^ probes[1]) & _ALL_LIGHTS
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         x, y = _between(ends[0], ends[1], middle)
-        if by_surface:  # no need to know about shadow
-            _, number, face, _ = first_hit(world, x, y)
-            is_same = surface_code(world, number, face) == probes[0] >> LIT_BITS
-        else:
-            is_same = _probe(world, x, y) == probes[0]
+        depth, number, face, _ = first_hit(world, x, y)
+        is_same = surface_code(world, number, face) == probes[0] >> LIT_BITS
+        if is_same and changed:  # else there is no need to know about shadow
+            lit, _ = _lit_by(world, x, y, (depth, number, face), changed)
+            is_same = lit & changed == probes[0] & changed
         if is_same:
             low = middle
         else:
@@ -309,7 +315,7 @@ def _probe_tile(
             if not thin and i > 0 and is_odd and probes[j, i - 1] >> LIT_BITS == surface:
                 probes[j, i] = probes[j, i - 1]
                 continue
-            lit, thin_shadow = _lit_by(world, x, y, (depth, number, face))
+            lit, thin_shadow = _lit_by(world, x, y, (depth, number, face), _ALL_LIGHTS)
             probes[j, i] = _THIN if thin or thin_shadow else (surface << LIT_BITS) + lit
 
 

@@ -9,7 +9,8 @@ from texvent.scenes.raycast.acceleration import Bins, IntArray, bin_rectangles
 from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Primitives, Shape
 
 LONGITUDES, LATITUDES = 48, 24
-"""Cells of the grid of directions around a lamp."""
+"""Cells of the grid of directions around a lamp: around the vertical, and by the sine of the
+height."""
 MOST_SHADOW_LAMPS = 4
 """Lamps that can cast shadows at one instant."""
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
@@ -106,12 +107,12 @@ def _rectangles(
     turn = np.where(has_pole, np.pi, np.arcsin(np.clip(sine, 0.0, 1.0)))
     longitude = np.arctan2(offset[:, 1], offset[:, 0])
     count = np.arange(len(distance))
-    columns = LONGITUDES / (2.0 * np.pi)
-    first = np.floor((longitude - turn + np.pi) * columns - 1e-6).astype(np.int64)
-    last = np.floor((longitude + turn + np.pi) * columns + 1e-6).astype(np.int64)
+    columns = LONGITUDES / 4.0
+    first = np.floor(_along_diamond(longitude - turn) * columns - 1e-6).astype(np.int64)
+    last = np.floor(_along_diamond(longitude + turn) * columns + 1e-6).astype(np.int64)
     last = np.minimum(last, first + LONGITUDES - 1)
-    top = np.floor((low / np.pi + 0.5) * LATITUDES - 1e-6).astype(np.int64)
-    bottom = np.floor((high / np.pi + 0.5) * LATITUDES + 1e-6).astype(np.int64)
+    top = np.floor((0.5 + 0.5 * np.sin(low)) * LATITUDES - 1e-6).astype(np.int64)
+    bottom = np.floor((0.5 + 0.5 * np.sin(high)) * LATITUDES + 1e-6).astype(np.int64)
     # A range of columns may go round past either edge of the grid.
     pieces = [np.stack([first + turns, last + turns, top, bottom], axis=1)
               for turns in (-LONGITUDES, 0, LONGITUDES)]  # fmt: skip
@@ -119,3 +120,14 @@ def _rectangles(
     owner = np.tile(count, len(pieces))
     touches = (rectangles[:, 1] >= 0) & (rectangles[:, 0] < LONGITUDES)
     return rectangles[touches], owner[touches]
+
+
+def _along_diamond(angle: Float64Array) -> Float64Array:
+    """Where a direction crosses the diamond |x| + |y| = 1: 0..4 for 0..2π, and so on.
+
+    It grows with the angle, and needs no trigonometry where the direction is known.
+    """
+    x, y = np.cos(angle), np.sin(angle)
+    corner = y / (np.abs(x) + np.abs(y))
+    corner = np.where(x < 0.0, 2.0 - corner, np.where(y < 0.0, 4.0 + corner, corner))
+    return np.asarray(corner + 4.0 * np.floor(angle / (2.0 * np.pi)))

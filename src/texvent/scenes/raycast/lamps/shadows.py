@@ -17,12 +17,19 @@ LIT_BITS = 1 + MOST_SHADOW_LAMPS
 
 @jit(error_model="numpy")
 def direction_cell(towards: Vector, distance: float) -> int:
-    """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp."""
-    longitude = math.atan2(-towards[1], -towards[0]) / (2.0 * math.pi) + 0.5
-    height = max(min(-towards[2] / distance, 1.0), -1.0)
-    latitude = math.asin(height) / math.pi + 0.5
-    column = min(int(longitude * LONGITUDES), LONGITUDES - 1)
-    row = min(int(latitude * LATITUDES), LATITUDES - 1)
+    """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp.
+
+    Columns divide the outline of a diamond around the lamp, rows the height: see `lamps.bins`.
+    """
+    x, y = -towards[0], -towards[1]
+    corner = y / (abs(x) + abs(y) + 1e-300)
+    if x < 0.0:
+        corner = 2.0 - corner
+    elif y < 0.0:
+        corner += 4.0
+    height = 0.5 - 0.5 * towards[2] / distance
+    column = min(int(corner * (0.25 * LONGITUDES)), LONGITUDES - 1)
+    row = min(max(int(height * LATITUDES), 0), LATITUDES - 1)
     return row * LONGITUDES + column
 
 
@@ -50,14 +57,17 @@ def _blocked(
 
 
 @jit(error_model="numpy")
-def lamps_reach(world: World, point: Vector, normal: Vector) -> tuple[int, bool]:
+def lamps_reach(world: World, point: Vector, normal: Vector, wanted: int) -> tuple[int, bool]:
     """Which of the lamps that cast shadows a surface sees, and whether a thin shadow is near.
 
-    Bit k belongs to lamp k. A lamp that the surface faces but whose light ends before it is seen.
+    Only the lamps whose bit is set in `wanted` are looked for. Bit k belongs to lamp k. A lamp
+    that the surface faces but whose light ends before it counts as seen.
     """
     instant = world.instant[0]
     seen, thin = 0, False
     for index in range(instant.shadow_lamps):
+        if not (wanted >> index) & 1:
+            continue
         lamp = world.lamps[index]
         start = along(point, normal, SHADOW_BIAS_M)
         towards = towards_lamp(lamp, start)
