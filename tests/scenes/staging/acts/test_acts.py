@@ -352,3 +352,20 @@ def test_a_body_goes_over_smoothly_from_one_activity_to_the_next(then: str) -> N
         before, after = (scene.primitives(float(time_s) + step) for step in (0.0, 1e-3))
         moved = np.abs(after.to_world[:, :, 3] - before.to_world[:, :, 3]).max()
         assert moved < 0.02, time_s
+
+
+def test_a_ball_is_hit_with_the_racket_that_is_held() -> None:
+    objects = [SceneObject(noun) for noun in ("man", "tennis ball", "tennis racket")]
+    acts = (Relation("hit", 0, (1,)), Relation("hold", 0, (2,)))
+    player, ball, racket = stage(*objects, acts=acts).actors
+    contact_s = contact_time(DURATION_S, 0.5)
+    assert player.props == ()
+    assert np.linalg.norm(middle(racket, contact_s) - middle(ball, contact_s)) < 0.35
+
+
+def test_what_is_thrown_towards_somebody_is_caught() -> None:
+    objects = [SceneObject(noun) for noun in ("woman", "frisbee", "dog")]
+    acts = (Relation("throw", 0, (1,)), Relation("towards", 0, (2,)))
+    _, frisbee, dog = stage(*objects, acts=acts).actors
+    gap = np.linalg.norm(middle(frisbee, 1.9) - dog.anchor("mouth", 1.9)[:, 3])
+    assert gap < frisbee.model.length

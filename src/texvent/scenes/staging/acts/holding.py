@@ -153,7 +153,7 @@ def place_in_hold(hold: Hold, holder: Actor, thing: Actor) -> tuple[str, Affine,
     lift = 0.5 * model.height if thing.is_centred else 0.0
     if hold.style == "tool":
         grips = (("right hand", _scaled(_RAISED, size)),)
-        return "right hand", _along_tool(thing, lift), False, grips
+        return "right hand", along_tool(thing, lift), False, grips
     if hold.style == "page":
         return _page(size, model, lift)
     if hold.style == "guitar":
@@ -240,7 +240,7 @@ def offset_of_worn(wear: Wear, wearer: Actor, thing: Actor) -> Float64Array:
     return np.column_stack([turn, np.array([x, y, z + lift])])
 
 
-def _along_tool(thing: Actor, lift: float) -> Affine:
+def along_tool(thing: Actor, lift: float) -> Affine:
     """What lies along its x: the handle in the hand, the rest along what the hand points to."""
     model = thing.model
     if model.length < 2.0 * model.height:

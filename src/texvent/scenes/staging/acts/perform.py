@@ -43,6 +43,8 @@ def settle_motions(
     """
     objects = list(description.objects)
     relations = [_mounted(relation, objects) for relation in description.relations]
+    relations = [_thrown_to(relation, relations) for relation in relations]
+    relations = _hit_with(objects, relations)
     relations += _implied_holds(objects, relations)
     for relation in relations:
         if relation.kind not in ACTS or not relation.targets:
@@ -79,6 +81,29 @@ def _mounted(relation: Relation, objects: list[SceneObject]) -> Relation:
         return relation
     target = objects[relation.targets[0]].noun
     return replace(relation, kind="ride") if target in MOUNTS else relation
+
+
+def _thrown_to(relation: Relation, relations: list[Relation]) -> Relation:
+    """A throw towards something is for that to catch."""
+    if relation.kind != "throw" or len(relation.targets) != 1:
+        return relation
+    own = (relation.subject, relation.targets[0])
+    goals = [each.targets for each in relations if each.kind == "towards" and each.subject in own]
+    return replace(relation, targets=relation.targets + goals[0][:1]) if goals else relation
+
+
+def _hit_with(objects: list[SceneObject], relations: list[Relation]) -> list[Relation]:
+    """Who holds a racket and hits a ball hits it with the racket."""
+    found = list(relations)
+    for hit in relations:
+        if hit.kind != "hit" or len(hit.targets) != 1:
+            continue
+        for hold in relations:
+            is_tool = hold.kind == "hold" and objects[hold.targets[0]].noun in striking.TOOLS
+            if is_tool and hold.subject == hit.subject and hold in found and hit in found:
+                found.remove(hold)
+                found[found.index(hit)] = replace(hit, targets=hit.targets + hold.targets[:1])
+    return found
 
 
 def _implied_holds(objects: list[SceneObject], relations: list[Relation]) -> list[Relation]:

@@ -30,7 +30,7 @@ from texvent.scenes.staging.acts.attached import (
     middle_of,
     with_middle,
 )
-from texvent.scenes.staging.acts.holding import is_person, size_of
+from texvent.scenes.staging.acts.holding import along_tool, is_person, size_of
 from texvent.scenes.staging.trajectories.action_trajectories import Hop
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
@@ -144,9 +144,11 @@ _SWINGS = {
     "club": Swing("swing club", Prop("right hand", CLUB), CLUB_REACH, 1.0, is_teed=True),
 }
 _SWING_OF_TOOL = {
-    "racket": "racket", "tennis racket": "racket", "paddle": "racket", "badminton racket": "racket",
-    "club": "club", "golf club": "club",
+    "tennis racket": "racket", "badminton racket": "racket", "ping-pong paddle": "racket",
+    "golf club": "club", "hockey stick": "club", "baseball bat": "bat", "cricket bat": "bat",
 }  # fmt: skip
+TOOLS = frozenset(_SWING_OF_TOOL)
+"""Nouns that balls are hit with."""
 _SWING_OF_BALL = {"tennis ball": "racket", "shuttlecock": "racket", "golf ball": "club"}
 
 
@@ -181,9 +183,8 @@ def hit(
         arc = Arc(_vector(far), start, 0.0, contact_s, _lift(thing), -1.0)
         flight = Switched(arc, flight, contact_s)
     if tool is not None:
-        low = tool.model.height * (0.38 if tool.is_centred else -0.12)
-        offset = np.column_stack([np.eye(3), np.array([0.0, 0.0, low])])
-        tool = replace(tool, trajectory=HeldAt(subject, "right hand", offset), lead_m=0.0)
+        held = HeldAt(subject, "right hand", along_tool(tool, 0.0))
+        tool = replace(tool, trajectory=held, lead_m=0.0, is_mover=True)
     return subject, replace(thing, trajectory=flight, is_mover=True, lead_m=0.0), tool
 
 
