@@ -160,3 +160,19 @@ def test_what_begins_after_the_clip_is_reported() -> None:
                         then=(ObjectMotion("jump", start_s=5.0),))  # fmt: skip
     assert stage(walks).not_shown == ("the man's jump after 5 s (the clip ends at 2 s)",)
     assert stage(walks, duration_s=8.0).not_shown == ()
+
+
+@pytest.mark.parametrize("noun", ["tunnel", "gate", "arch"])
+def test_a_car_comes_out_of_what_it_goes_through(noun: str) -> None:
+    scene = stage(thing("car", ("drive",)), thing(noun), relations=(Relation("through", 0, (1,)),),
+                  place="road")  # fmt: skip
+    assert scene.not_shown == ()
+    car, gate = scene.actors
+    ahead = [float((car.middle(t) - gate.middle(t))[1]) for t in (0.0, 2.0)]
+    assert ahead[1] < -0.5 * gate.model.length < 0.0
+
+
+def test_what_one_cannot_go_through_is_reported() -> None:
+    scene = stage(thing("car", ("drive", "right")), thing("rock"),
+                  relations=(Relation("through", 0, (1,)),), place="road")  # fmt: skip
+    assert scene.not_shown == ("through the rock",)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.staging.placement.spatial_relations import GATES
 from texvent.scenes.staging.trajectories.phases import left_out
 
 _PLACES_TO_GO = frozenset(
@@ -30,6 +31,7 @@ def prepare(
                 f"the {scene_object.noun}'s {motion.kind} after {motion.start_s:g} s "
                 f"(the clip ends at {duration_s:g} s)"
             )
+    description = _face_passages(description)
     follows = any(move.kind == "follow" for move in description.shot.moves)
     if not follows or not description.objects:
         return description, missing
@@ -54,6 +56,20 @@ def prepare(
     )
     missing.append(f"following the {subject.noun}, which does not move")
     return replace(description, shot=replace(description.shot, moves=moves)), missing
+
+
+def _face_passages(description: SceneDescription) -> SceneDescription:
+    """Let what goes through a tunnel come towards the camera, where the prompt leaves it open."""
+    objects = list(description.objects)
+    for relation in description.relations:
+        motion = objects[relation.subject].motion
+        gates = [t for t in relation.targets if objects[t].noun in GATES]
+        if relation.kind != "through" or not gates or motion is None:
+            continue
+        if motion.direction is None and motion.is_moving:
+            turned = replace(motion, direction="towards")
+            objects[relation.subject] = replace(objects[relation.subject], motion=turned)
+    return replace(description, objects=tuple(objects))
 
 
 def _moves_on(motion: ObjectMotion | None) -> bool:

@@ -11,10 +11,9 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
+from texvent.scenes.staging.placement.spatial_relations import GATES
 from texvent.scenes.staging.trajectories.choose_trajectory import MotionPlan
 
-GATES = frozenset({"tunnel", "gate", "arch", "archway", "finish line"})
-"""Nouns that a camera goes through."""
 _SEEN = 1.8
 """What stands aside is in the picture from this many times as far ahead."""
 _GAP_M = 1.5

@@ -104,6 +104,8 @@ def _place_under(group: ObjectGroup, targets: list[ObjectGroup], height: float) 
     return Goal(_shift(base, target.half[0] + group.half[0] + 0.3, 0.0), _ALONG_X)
 
 
+GATES = frozenset({"tunnel", "gate", "arch", "hula hoop"})
+"""Nouns that one goes through, along their length."""
 _TRUNKS = frozenset({"tree", "pine", "palm", "street lamp", "traffic light", "sign", "flag",
                      "windmill", "wind turbine", "umbrella"})  # fmt: skip
 """Nouns that one stands under beside what holds them up."""
@@ -178,9 +180,12 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         start = shown * math.copysign(1.0, math.cos(yaw))
         nearer = 0.5 * (subject.models[0].width + group.models[0].width) + 0.3
         return Goal(_shift(here, start, -nearer), _FIXED)
-    if kind == "through":
+    if kind == "through" and group.noun.name in GATES and is_path:
         group.plan = replace(group.plan, yaw=yaw)
-        return Goal(here, _FIXED)
+        # It is through at about half of its way.
+        way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
+        back = 0.1 * way + 0.5 * group.models[0].length
+        return Goal(_shift(here, -back * math.cos(yaw), -back * math.sin(yaw)), _FIXED)
     away = (-x * math.cos(yaw), -y * math.sin(yaw), _AWAY)
     goals = {
         "from": away,

@@ -48,6 +48,9 @@ from texvent.scenes.staging.trajectories.trajectory import (
 MAX_LENGTHS_PER_S = 0.95
 """A usual speed is kept below this many of the object's own lengths per second, so that it stays
 in view and large; a speed stated in numbers is not."""
+MIN_LENGTHS_PER_S = 0.35
+"""A usual speed of small things is at least this many lengths per second: a snail gets on."""
+SMALL_M = 2.5
 RUN_FACTOR = 2.2
 """Running over walking speed."""
 
@@ -168,7 +171,10 @@ def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> 
         speed *= RUN_FACTOR
     # What flies has no road to be compared with: slower, it can be shown larger.
     most = MAX_LENGTHS_PER_S * (0.8 if noun.habitat == "air" else 1.0)
-    return min(speed, most * max(model.length, model.height))
+    size = max(model.length, model.height)
+    if size < SMALL_M and noun.speed_m_s > 0.0:
+        speed = max(speed, MIN_LENGTHS_PER_S * size)
+    return min(speed, most * size)
 
 
 def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) -> float:
