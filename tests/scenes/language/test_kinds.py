@@ -93,7 +93,7 @@ def test_a_compound_that_misleads_is_not_shown_as_its_last_word(compound: str) -
     except InputError:
         return
     assert nouns == ["rock"], nouns
-    assert set(compound.split()) <= set(" ".join(lost).split())
+    assert set(compound.split()) - {"of", "the"} <= set(" ".join(lost).split())
 
 
 @pytest.mark.parametrize(

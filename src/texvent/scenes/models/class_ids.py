@@ -93,6 +93,10 @@ _NOUNS: tuple[str, ...] = (
     "kangaroo", "frog", "seal", "octopus", "dinosaur", "owl", "fruit bat", "spider", "crab",
     "ant", "beetle", "ladybug", "worm", "caterpillar", "rooster", "turkey", "parrot", "swan",
     "moth", "housefly", "mosquito", "vest", "scarf", "mask", "crown", "jacket", "coat", "dress",
+    "binoculars", "safe", "necklace", "piggy bank", "harmonica", "abacus", "disco ball",
+    "treadmill", "crutch", "paddle", "stethoscope", "hammock", "sundial", "spider web",
+    "starfish", "windsock", "tank", "cannon", "snowmobile", "golf cart", "cable car",
+    "submarine",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

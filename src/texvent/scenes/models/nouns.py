@@ -31,13 +31,20 @@ from texvent.scenes.models.objects import (
     street,
     toys,
 )
-from texvent.scenes.models.objects.home import electronics, furnishing, lights, personal, screens
+from texvent.scenes.models.objects.home import (
+    electronics,
+    furnishing,
+    lights,
+    personal,
+    screens,
+    small_things,
+)
 from texvent.scenes.models.objects.kitchen import appliances, food, tableware
 from texvent.scenes.models.objects.outdoors import street_furniture, structures, wild
 from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, gear
-from texvent.scenes.models.objects.work import machines, tools
+from texvent.scenes.models.objects.work import machines, rare_vehicles, tools
 from texvent.scenes.models.people import hand, person, wearables
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
@@ -86,6 +93,8 @@ _MODULES = (
     playthings,
     gear,
     tableware,
+    small_things,
+    rare_vehicles,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}

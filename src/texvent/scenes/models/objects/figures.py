@@ -112,7 +112,8 @@ def thing(
         The noun.
     """
     habitat, motion, speed_m_s = goes
-    figure = Figure(draw, colours, moving, wheels, is_centred=habitat == "air")
+    is_centred = habitat == "air" or (habitat == "water" and motion == "swim")
+    figure = Figure(draw, colours, moving, wheels, is_centred=is_centred)
     build = partial(build_figure, figure)
     is_working = bool(moving) and habitat == "fixed"
     return Noun(name, build, habitat, speed_m_s, motion, same, plurals, is_working=is_working)

@@ -159,7 +159,7 @@ NOUNS = placed("indoor", (
             box(Material((0.35, 0.42, 0.30)), (0.008, 0.0, 0.125), (0.006, 0.064, 0.026)),
             *_button_grid(PALE, 4, 5, (0.017, 0.018), 0.018, 0.012),
             bar(INK, (0.005, 0.125), (0.026, 0.125), 0.012, 0.008, 0.0085)]),
-            ("hand-held computer", "pocket calculator")),
+            ("pocket calculator",)),
     thing("projector", (CHINA, BLACKISH),
         lambda p: [box(p, (0.0, 0.0, 0.07), (0.26, 0.32, 0.11)),
             rod(INK, (0.10, 0.08, 0.075), (0.16, 0.08, 0.075), 0.042),

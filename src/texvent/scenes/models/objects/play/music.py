@@ -138,7 +138,7 @@ NOUNS = placed("indoor", (
         box(toned(p, 2.5), (-0.06, 0.0, 0.92), (0.02, 1.2, 0.30)),
         box(PALE, (-0.04, 0.0, 0.94), (0.01, 0.34, 0.24)),
         *(box(BRASS, (0.0, y, 0.05), (0.14, 0.03, 0.02)) for y in (-0.07, 0.0, 0.07))],
-        ("upright piano", "upright")),
+        ("upright piano",)),
     thing("grand piano", (BLACKISH,), lambda p: [
         box(p, (0.0, 0.0, 0.85), (0.7, 1.45, 0.26)),
         plank(p, (-0.3, 0.28, 0.85), (-1.0, 0.45, 0.85), chord=(0.0, 0.90, 0.0),
