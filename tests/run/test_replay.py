@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.pipeline import text_to_events
 from texvent.run.replay import prepare_replay, render_again
 from texvent.run.settings import resolve
@@ -54,3 +54,16 @@ def test_recordings_from_before_an_option_was_removed_are_made_again(simulation)
     stored["settings"]["run"]["engine"] = "continuous"
     with pytest.raises(ConfigError, match="engine 'continuous' was removed; leave it out"):
         prepare_replay(stored, path=Path("events.h5"))
+
+
+def test_a_changed_asset_refuses_the_run(tmp_path) -> None:
+    path = tmp_path / "chair.glb"
+    path.write_bytes(b"as it is now")
+    facts = {"prompt": "a chair", "files": [{"file": str(path), "sha256": "as it was"}]}
+    metadata = {
+        "prompt": "a chair",
+        "source": facts,
+        "settings": {"run": {}, "generate": {"assets": str(tmp_path)}},
+    }
+    with pytest.raises(InputError, match=r"chair\.glb was changed since"):
+        prepare_replay(metadata, path=tmp_path / "events.h5")
