@@ -21,8 +21,10 @@ from texvent.scenes.raycast.trace import plane_direction, tile_at
 from texvent.scenes.raycast.vectors import Vector, along, dot, scaled, triple, turned
 from texvent.scenes.scene import Colour
 
-_DETAIL_SCALE = 2.3
+_DETAIL_SCALE = 2.8
 """Lumps of detail per radius of a puff."""
+_DETAIL_STRENGTH = 2.2
+"""How strongly detail changes the logarithm of the optical depth."""
 
 
 @jit(error_model="numpy")
@@ -70,7 +72,7 @@ def _with_detail(puff: Record, place: Vector, footprint: float) -> float:
         x, y, z = s * place[0] + seed, s * place[1] - 0.7 * seed, s * place[2] + 31.0 * octave
         lumps += 0.55**octave * fade * noise_3d(x, y, z)
         s *= 2.1
-    return max(1.0 + float(puff.detail) * 1.3 * lumps, 0.0)
+    return math.exp(_DETAIL_STRENGTH * float(puff.detail) * lumps)
 
 
 @jit(error_model="numpy")

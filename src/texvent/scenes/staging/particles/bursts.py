@@ -143,7 +143,7 @@ class Fireball(PuffEffect):
         radius = size * (0.15 + 0.5 * swollen + 0.12 * age / unit_s) * (0.7 + 0.6 * draws[:, 4])
         heat = math.exp(-age / (0.55 * unit_s))
         hot, cold = np.array([1.0, 0.45, 0.08]), np.array([0.10, 0.09, 0.085])
-        colours = cold + (hot - cold) * min(1.0, 1.6 * heat)
+        colours = cold + (hot - cold) * min(1.0, 1.6 * heat * heat)
         thick = 2.4 * min(1.0, age / 0.03) * math.exp(-age / (4.0 * unit_s))
         glow = 7.0 * heat**1.5
         return puff_rows(

@@ -58,13 +58,13 @@ class PlumeStyle:
     """Light shed at 1 m per square metre of s²."""
 
 
-_GREY: Colour = (0.42, 0.42, 0.44)
+_GREY: Colour = (0.20, 0.20, 0.21)
 _SOOT: Colour = (0.10, 0.095, 0.09)
 _WHITE: Colour = (0.92, 0.94, 0.96)
 _EARTH: Colour = (0.50, 0.38, 0.25)
 PLUMES: dict[str, PlumeStyle] = {
     "smoke": PlumeStyle(
-        46, 7.0, 0.55, 0.25, 0.10, (0.16, 0.75), (1.6, 0.35), (_GREY, (0.58, 0.58, 0.60))
+        46, 7.0, 0.55, 0.25, 0.10, (0.16, 0.75), (1.6, 0.35), (_GREY, (0.38, 0.38, 0.40))
     ),
     "black smoke": PlumeStyle(
         40, 6.0, 0.6, 0.25, 0.35, (0.3, 0.9), (1.5, 0.3), (_SOOT, (0.22, 0.21, 0.21))
@@ -147,9 +147,9 @@ class Plume(PuffEffect):
         radius = size * (start + (stop - start) * age) * (0.75 + 0.5 * draws[:, 5])
         extents = radius[:, None] * [1.0, 1.0, style.upright]
         first, last = (np.array(colour) for colour in style.colours)
-        colours = first + (last - first) * age[:, None]
+        colours = (first + (last - first) * age[:, None]) * (0.72 + 0.56 * draws[:, 6:7])
         thick = style.thickness[0] + (style.thickness[1] - style.thickness[0]) * age
-        thick *= _fade(age) * (time_s - age_s >= self.start_s)
+        thick *= (0.4 + 1.2 * draws[:, 5]) * _fade(age) * (time_s - age_s >= self.start_s)
         glow = style.emission[0] + (style.emission[1] - style.emission[0]) * age
         return puff_rows(
             places, extents, colours, thick,
@@ -203,12 +203,13 @@ class Bank(PuffEffect):
             axis=1,
         )
         places += self.middle
-        places += style.curl * size * turbulence(places, time_s, 3.0 * size, 0.08)
+        places += style.curl * size * turbulence(places, time_s, 3.0 * size, 0.15)
         radius = size * style.radius[0] * (0.7 + 0.6 * self.draws[:, 4])
         edge = np.sin(math.pi * along) ** 2
         return puff_rows(
             places, radius[:, None] * [1.3, 1.0, style.upright], style.colours[0],
-            style.thickness[0] * edge, detail=style.detail, seeds=50.0 * self.draws[:, 5],
+            style.thickness[0] * edge * (0.4 + 1.2 * self.draws[:, 5]),
+            detail=style.detail, seeds=50.0 * self.draws[:, 5],
         )  # fmt: skip
 
 
