@@ -49,6 +49,11 @@ def test_the_page_says_what_became_of_the_words(tmp_path: Path) -> None:
         run(tmp_path / "strict", prompt=prompt, options={**SCENE, "strict": True})
 
 
+def test_a_prompt_that_names_a_file_of_the_server_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no picture files"):
+        run(tmp_path, prompt="a poster of /home/somebody/holiday.png", options=SCENE)
+
+
 def test_the_same_events_as_the_command_and_the_api_give(tmp_path: Path) -> None:
     done, _ = run(tmp_path, prompt="a red ball bounces", options=SCENE)
     again = texvent.generate("a red ball bounces", **SCENE)

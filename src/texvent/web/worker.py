@@ -14,13 +14,14 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent.capture.open import open_frames
-from texvent.errors import InputError, TexventError
+from texvent.errors import InputError, TexventError, shown
 from texvent.events import EventStream
 from texvent.io.files import extension_of, open_events, save
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_video
 from texvent.run.settings import resolve
+from texvent.scenes.language.literals import find_literals
 from texvent.scenes.report import PromptReport
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
@@ -119,6 +120,8 @@ def _prepare(job: SimulateJob, progress: _JobProgress) -> Simulation:
             )
         settings = resolve("generate", options)
         _check_size(settings.size or SensorSize(1, 1), job.limits)
+        if settings.generator == OWN_GENERATOR:
+            _refuse_files(job.prompt or "")
         return prepare_prompt(job.prompt or "", settings, progress=progress)
     settings = resolve("simulate", options)
     # A damaged or crafted file shows itself here, before it can take the time of a whole job.
@@ -127,6 +130,13 @@ def _prepare(job: SimulateJob, progress: _JobProgress) -> Simulation:
     video = open_frames(job.video, settings.source, size=settings.size)
     _check_length(video, job.limits)
     return prepare_video(video, settings, progress=progress)
+
+
+def _refuse_files(prompt: str) -> None:
+    """Refuse a prompt that names a file: it would be one of this machine, not of the visitor."""
+    for begin, end, picture in find_literals(prompt):
+        if picture.kind == "file":
+            raise InputError(f"{shown(prompt[begin:end])}: this page shows no picture files")
 
 
 def _check_length(video: Any, limits: Limits) -> None:
