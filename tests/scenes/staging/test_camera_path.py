@@ -156,3 +156,17 @@ def test_channels_have_no_jumps_and_stay_in_their_range(
         total = sum(m.pace for m in shot if m.kind == move.kind)
         assert abs(channels.centred(move.kind, share)) <= 0.5 * total + 1e-9
         assert channels.below_most(move.kind, share) <= 1e-9
+
+
+@pytest.mark.parametrize("place", ["indoor", "grass", "sky", "city"])
+@pytest.mark.parametrize("kind", ["pan", "truck", "dolly"])
+def test_a_place_without_objects_is_looked_at_from_within(place: str, kind: str) -> None:
+    description = SceneDescription(
+        "", shot=Shot((CameraMove(kind, "right"),)), surroundings=Surroundings(place)
+    )
+    scene = compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)
+    assert np.isfinite(scene.primitives(1.0).to_world).all()
+    room = scene.environment(0.0).room_half_size
+    for time in (0.0, 1.0, 2.0):
+        position = scene.camera(time).position
+        assert place != "indoor" or np.abs(position[:2]).max() < room

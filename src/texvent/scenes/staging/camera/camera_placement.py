@@ -60,12 +60,7 @@ def place_camera(
     if travel is not None:
         return _travel(description, travel, actors, place, duration_s)
     if not actors:
-        height, distance = (1.2, 5.0) if is_room(place) else (2.0, 16.0)
-        target = np.array([0.0, 0.0, height])
-        empty = Framing(target, 0.0, 0.06, distance, 1.0)
-        path = CameraPath(empty, _plan_moves(description, None, duration_s), duration_s,
-                          has_floor=has_floor)  # fmt: skip
-        return replace(path, room_m=_size_room(path, target[None])) if is_room(place) else path
+        return _look_around(description, place, duration_s)
     main = _choose_main(description, actors)
     moves = _plan_moves(description, main, duration_s)
     path = _frame(description, actors, main, moves, place, (seed, aspect, duration_s))
@@ -89,6 +84,7 @@ def _frame(
     """The nearest camera that shows what matters; alone or followed, what would else be tiny."""
     duration_s = how[2]
     is_said = bool(description.shot.moves) or description.shot.framing == "wide"
+    is_said |= _has_landmark(description, main)
     attempts = [(True, moves)] if main.is_mover else []
     if main.is_mover and not is_said and _stay_together(actors, main, duration_s):
         attempts.append((True, (CameraMove("follow", "side"),)))
@@ -137,6 +133,19 @@ def _fit_path(
         if _begins_and_ends_outside(path, main, aspect):
             break
     return paths[-1]
+
+
+_LANDMARKS = frozenset(
+    {"through", "past", "from", "towards", "away from", "behind", "under", "between", "front"}
+)
+
+
+def _has_landmark(description: SceneDescription, main: Actor) -> bool:
+    """Whether the subject moves with respect to something that must stay in the picture."""
+    return any(
+        relation.kind in _LANDMARKS and relation.subject == main.object_index
+        for relation in description.relations
+    )
 
 
 def _stay_together(actors: Sequence[Actor], main: Actor, duration_s: float) -> bool:
@@ -249,6 +258,19 @@ def _runs_into(path: CameraPath, actors: Sequence[Actor]) -> bool:
             ):
                 return True
     return False
+
+
+def _look_around(description: SceneDescription, place: str, duration_s: float) -> CameraPath:
+    """A camera in a place where the prompt names no object."""
+    target = np.array([0.0, 0.0, 2.0])
+    empty = Framing(target, 0.0, 0.06, 16.0, 1.0)
+    if is_room(place):
+        empty = Framing(np.array([0.0, 0.6, 1.1]), 0.0, 0.12, 3.4, 0.9)
+    moves = _plan_moves(description, None, duration_s)
+    path = CameraPath(empty, moves, duration_s, has_floor=place not in ("sky", "space"))
+    if is_room(place):
+        path = replace(path, room_m=_size_room(path, np.zeros((1, 3))))
+    return path
 
 
 def _travel(

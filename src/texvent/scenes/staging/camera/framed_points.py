@@ -59,7 +59,9 @@ def choose_points(
     shown = [a for a in actors if a.is_mover or a is main] if is_alone else actors
     points_to_frame = _points_of(description, shown, main, times, moves if follows else ())
     if is_alone and not follows:
-        near = [_near_piece(a, main, times) for a in _related(description, actors, main)]
+        is_through = any(relation.kind == "through" for relation in description.relations)
+        reach = main.size_m * (1.6 if is_through else 0.5)
+        near = [_near_piece(a, main, times, reach) for a in _related(description, actors, main)]
         points_to_frame = np.vstack([points_to_frame, *near])
     if shot.framing == "wide":
         return points_to_frame, 0.45
@@ -131,14 +133,13 @@ def _related(description: SceneDescription, actors: Sequence[Actor], main: Actor
     return [a for a in actors if a.object_index in targets and not a.is_mover]
 
 
-def _near_piece(actor: Actor, main: Actor, times: Float64Array) -> Float64Array:
+def _near_piece(actor: Actor, main: Actor, times: Float64Array, reach: float) -> Float64Array:
     """[8, 3] the piece of an object's box that is nearest to the subject's way, m."""
     box = actor.corners(float(times[0]))
     low, high = box.min(axis=0), box.max(axis=0)
     ways = np.array([main.middle(float(time)) for time in times])
     nearest = np.clip(ways, low, high)
     point = nearest[int(np.argmin(np.linalg.norm(nearest - ways, axis=1)))]
-    reach = 0.5 * main.size_m
     low, high = np.maximum(low, point - reach), np.minimum(high, point + reach)
     return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1])
                      for z in (low[2], high[2])])  # fmt: skip

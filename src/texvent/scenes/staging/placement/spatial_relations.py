@@ -104,7 +104,7 @@ def _place_under(group: ObjectGroup, targets: list[ObjectGroup], height: float) 
     return Goal(_shift(base, target.half[0] + group.half[0] + 0.3, 0.0), _ALONG_X)
 
 
-GATES = frozenset({"tunnel", "gate", "arch", "hula hoop"})
+GATES = frozenset({"tunnel", "arch"})
 """Nouns that one goes through, along their length."""
 _TRUNKS = frozenset({"tree", "pine", "palm", "street lamp", "traffic light", "sign", "flag",
                      "windmill", "wind turbine", "umbrella"})  # fmt: skip
