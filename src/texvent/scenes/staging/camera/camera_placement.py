@@ -56,7 +56,6 @@ def place_camera(
         duration_s: length of the clip, s.
         travel: the route of a camera that travels.
     """
-    has_floor = place not in ("sky", "space")
     if travel is not None:
         return _travel(description, travel, actors, place, duration_s)
     if not actors:
