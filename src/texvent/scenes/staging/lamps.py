@@ -216,7 +216,7 @@ def lamp_row(
     row[:3] = to_world[:, :3] @ centre + to_world[:, 3]
     row[3:6] = level * lamp.intensity * np.array(part.colour) / max(max(part.colour), 1e-9)
     row[6] = min(math.sqrt(lamp.intensity / _FAINTEST), _FARTHEST_M)
-    is_long = half[2] > _LONG * half[0]
+    is_long = half[2] > _LONG * half[1]
     row[12] = half[1] if lamp.is_panel else 0.5 * half[2] if is_long else half[0]
     row[13] = float(casts)
     row[14] = float(lamp.glows and not lamp.is_panel and not is_long)

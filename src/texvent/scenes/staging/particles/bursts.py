@@ -232,7 +232,7 @@ class Splash(SolidEffect):
 
 _FIREWORK_COLOURS: tuple[Colour, ...] = (
     (1.0, 0.07, 0.04), (0.10, 0.28, 1.0), (0.10, 0.9, 0.14), (1.0, 0.45, 0.08), (0.85, 0.08, 0.7),
-    (1.0, 0.6, 0.25),
+    (1.0, 0.25, 0.35),
 )  # fmt: skip
 
 
@@ -265,7 +265,8 @@ class Fireworks:
         cycles = time_s / self.PERIOD_S + number / shells + 0.45
         draws = self.draws[number, math.floor(cycles) % lives]
         place = self.middle + self.size_m * (draws[:3] - 0.5) * [4.5, 1.0, 1.3]
-        colour = _FIREWORK_COLOURS[int(draws[3] * len(_FIREWORK_COLOURS))]
+        hue = int(draws[3] * len(_FIREWORK_COLOURS)) + 2 * number
+        colour = _FIREWORK_COLOURS[hue % len(_FIREWORK_COLOURS)]
         return place, colour, (cycles % 1.0) * self.PERIOD_S
 
     def at(self, time_s: float) -> Primitives:
@@ -290,7 +291,7 @@ class Fireworks:
             half = np.tile([wide, wide, wide * (1.0 + 2.0 * fade)], (len(ages), 1))
             maps.append(along(places, heading, half))
             colours.append(np.tile(colour, (1 + len(ages), 1)))
-            glow.append(np.concatenate([[1.5], np.full(len(ages), 1.3 * fade + 1e-3)]))
+            glow.append(np.concatenate([[1.5], np.full(len(ages), 0.9 * fade + 1e-3)]))
         return many_shapes(
             np.concatenate(maps), Shape.ELLIPSOID, np.concatenate(colours), np.concatenate(glow)
         )
