@@ -161,7 +161,12 @@ def _stay_together(actors: Sequence[Actor], main: Actor, duration_s: float) -> b
 
 
 def _creeps(path: CameraPath, main: Actor) -> bool:
-    """Whether the subject goes on, but so slowly that a still camera would see next to nothing."""
+    """Whether the subject goes on, but so slowly that a still camera would see next to nothing.
+
+    Only over ground: a camera that follows a fish through plain water would see even less.
+    """
+    if main.noun.habitat != "ground":
+        return False
     start, end = (main.middle(time) for time in (0.0, path.duration_s))
     if float(np.linalg.norm(end - start)) < 0.1 * main.size_m:
         return False
