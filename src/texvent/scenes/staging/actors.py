@@ -31,9 +31,10 @@ def is_centred(noun: Noun) -> bool:
 
 @dataclass(frozen=True)
 class Tether:
-    """A string or rope to another body."""
+    """A string or rope to another body, or to a point that stays."""
 
-    holder: Actor
+    holder: Actor | tuple[float, float, float]
+    """The other body, or a point of the world, m."""
     anchor: str
     """Place of the holder at which it begins."""
     end: tuple[float, float, float]
@@ -42,7 +43,10 @@ class Tether:
 
     def draw(self, to_world: Float64Array, time_s: float) -> ModelPart:
         """The string at that instant, in the own body's coordinates."""
-        start = self.holder.anchor(self.anchor, time_s)[:, 3]
+        if isinstance(self.holder, Actor):
+            start = self.holder.anchor(self.anchor, time_s)[:, 3]
+        else:
+            start = np.array(self.holder)
         x, y, z = to_world[:, :3].T @ (start - to_world[:, 3])
         return rod(_STRING, (float(x), float(y), float(z)), self.end, self.radius_m)
 

@@ -291,10 +291,16 @@ def test_state_of_a_map_gives_the_map_back() -> None:
         np.testing.assert_allclose(state_of(to_world).to_world(), to_world, atol=1e-12)
 
 
-def test_every_act_has_words() -> None:
-    assert set(ACTS) == {"hold", "carry", "wear", "ride", "push", "pull", "kick", "hit", "throw",
-                         "catch"}  # fmt: skip
-    assert all(each.words for each in ACTS.values())
+def test_who_plays_with_a_ball_that_the_prompt_names_kicks_it() -> None:
+    player = SceneObject("child", motion=ObjectMotion("kick"))
+    _, ball = stage(player, SceneObject("football"), acts=()).actors
+    assert np.linalg.norm(middle(ball, 1.9) - middle(ball, 0.0)) > 1.0
+
+
+def test_acts_with_one_contact() -> None:
+    single = {name for name, each in ACTS.items() if each.is_single}
+    assert single == {"kick", "hit", "throw", "catch"}
+    assert {"hold", "carry", "wear", "ride", "push", "pull"} == set(ACTS) - single
 
 
 @pytest.mark.parametrize(
@@ -369,3 +375,13 @@ def test_what_is_thrown_towards_somebody_is_caught() -> None:
     _, frisbee, dog = stage(*objects, acts=acts).actors
     gap = np.linalg.norm(middle(frisbee, 1.9) - dog.anchor("mouth", 1.9)[:, 3])
     assert gap < frisbee.model.length
+
+
+def test_a_kite_that_nobody_holds_has_a_string_too() -> None:
+    (kite,) = stage(SceneObject("kite", motion=ObjectMotion("fly")), acts=()).actors
+    assert kite.tether is not None
+    for time_s in (0.0, 1.5):
+        to_world = kite.trajectory.at(time_s).to_world()
+        rope = kite.tether.draw(to_world, time_s).to_body
+        start = to_world @ [*(rope @ [0.0, 0.0, -1.0, 1.0]), 1.0]
+        assert start == pytest.approx(kite.tether.holder, abs=1e-6)

@@ -81,7 +81,7 @@ _SPORTS: dict[str, Activity] = {
     "lift": Activity(("lift weights", "lift a weight", "lift a barbell", "do weightlifting")),
     "punch": _seen_from_side("punch", "throw punches"),
     "box": _seen_from_side("box", "shadow box", "spar", "fight"),
-    "kick": _seen_from_side("kick",),
+    "kick": _seen_from_side("kick", "play football", "play soccer"),
     "throw": _seen_from_side("throw", "toss", "pitch", "hurl", "bowl"),
     "catch": _seen_from_side("catch",),
     "swing bat": _seen_from_side("swing a bat", "bat", "play baseball", "play cricket",

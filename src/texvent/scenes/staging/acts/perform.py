@@ -45,7 +45,7 @@ def settle_motions(
     relations = [_mounted(relation, objects) for relation in description.relations]
     relations = [_thrown_to(relation, relations) for relation in relations]
     relations = _hit_with(objects, relations)
-    relations += _implied_holds(objects, relations)
+    relations += _implied_acts(objects, relations)
     for relation in relations:
         if relation.kind not in ACTS or not relation.targets:
             continue
@@ -106,14 +106,29 @@ def _hit_with(objects: list[SceneObject], relations: list[Relation]) -> list[Rel
     return found
 
 
-def _implied_holds(objects: list[SceneObject], relations: list[Relation]) -> list[Relation]:
-    """Who plays a guitar that the prompt names holds that one."""
+_ACT_OF_ACTIVITY = {
+    "kick": "kick", "throw": "throw", "catch": "catch", "swing bat": "hit", "swing racket": "hit",
+    "swing club": "hit",
+}  # fmt: skip
+_BALLS = frozenset({"ball", "football", "basketball", "volleyball", "baseball", "tennis ball",
+                    "golf ball", "american football", "shuttlecock", "frisbee"})  # fmt: skip
+
+
+def _implied_acts(objects: list[SceneObject], relations: list[Relation]) -> list[Relation]:
+    """Who plays a guitar that the prompt names holds that one; who kicks kicks its ball."""
     bound = {target for relation in relations if relation.kind in ACTS
              for target in relation.targets}  # fmt: skip
     holds = []
     for index, person in enumerate(objects):
         if person.noun not in PERSON_NOUNS or person.motion is None:
             continue
+        act = _ACT_OF_ACTIVITY.get(person.motion.kind)
+        if act is not None and not any(r.subject == index and r.kind in ACTS for r in relations):
+            ball = next((n for n, thing in enumerate(objects) if thing.noun in _BALLS
+                         and n not in bound), None)  # fmt: skip
+            if ball is not None:
+                holds.append(Relation(act, index, (ball,)))
+                bound.add(ball)
         for prop in PROPS.get(person.motion.kind, ()):
             for number, thing in enumerate(objects):
                 if thing.noun in prop.nouns and number not in bound and prop.anchor != "ground":
@@ -168,7 +183,16 @@ def perform_acts(
             if relation.kind == kind:
                 _perform(cast, relation, duration_s)
     _take_off_doubles(cast, actors)
-    return cast.actors()
+    return [_tied_to_ground(actor) for actor in cast.actors()]
+
+
+def _tied_to_ground(actor: Actor) -> Actor:
+    """A kite that nobody holds is flown by somebody out of the picture."""
+    if actor.noun.name != "kite" or actor.tether is not None:
+        return actor
+    x, y, z = actor.trajectory.at(0.0).position
+    flier = (x + 0.8 * z, y - 1.2 * z, 0.0)
+    return replace(actor, tether=Tether(flier, "", (0.0, 0.0, 0.0), 0.008))
 
 
 def _take_off_doubles(cast: _Cast, actors: list[Actor]) -> None:
