@@ -385,3 +385,14 @@ def test_a_kite_that_nobody_holds_has_a_string_too() -> None:
         rope = kite.tether.draw(to_world, time_s).to_body
         start = to_world @ [*(rope @ [0.0, 0.0, -1.0, 1.0]), 1.0]
         assert start == pytest.approx(kite.tether.holder, abs=1e-6)
+
+
+def test_more_riders_than_bicycles() -> None:
+    scene = stage(SceneObject("man", count=3), SceneObject("bicycle", count=2),
+                  acts=(Relation("ride", 0, (1,)),))  # fmt: skip
+    names = [actor.noun.name for actor in scene.actors]
+    assert (names.count("man"), names.count("bicycle")) == (1, 2)
+    assert [actor.instance for actor in scene.actors] == [1, 2, 3]
+    one = stage(SceneObject("man"), SceneObject("bicycle", count=2),
+                acts=(Relation("ride", 0, (1,)),))  # fmt: skip
+    assert [actor.noun.name for actor in one.actors] == ["bicycle", "bicycle"]

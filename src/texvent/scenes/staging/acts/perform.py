@@ -250,6 +250,8 @@ def _perform(cast: _Cast, relation: Relation, duration_s: float) -> None:
         if not subjects:
             return
         subject = subjects[turn % len(subjects)]
+        if subject not in cast.copies(relation.subject) or subject == target:
+            continue
         other = others[turn] if turn < len(others) else None
         _bind(cast, relation.kind, (subject, target, other), duration_s)
 
@@ -259,7 +261,8 @@ def _bind(cast: _Cast, kind: str, who: tuple[int, int, int | None], duration_s: 
     subject, target = cast.get(subject_at), cast.get(target_at)
     other = None if other_at is None else cast.get(other_at)
     if kind == "ride":
-        is_own = target.noun.name in MOUNTS and MOUNTS[target.noun.name].style == "built-in"
+        style = MOUNTS[target.noun.name].style if target.noun.name in MOUNTS else ""
+        is_own = style == "built-in" and is_person(subject)
         cast.put(subject_at, None if is_own else mount(subject, target))
         return
     if kind in ("push", "pull"):
