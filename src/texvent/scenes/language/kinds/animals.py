@@ -10,15 +10,15 @@ ANIMAL_KINDS: dict[str, str] = {
         retriever, labrador, flat coated retriever, curly coated retriever, chesapeake bay
         retriever, chihuahua, maltese dog, maltese, pekinese, pekingese, shih tzu,
         papillon, terrier, toy terrier, bull terrier, bullterrier, staffordshire
-        bullterrier, staffordshire terrier, pit american staffordshire terrier, bedlington
-        terrier, border terrier, kerry blue terrier, irish terrier, norfolk terrier,
-        norwich terrier, yorkshire terrier, yorkie, fox terrier, wire haired fox terrier,
-        lakeland terrier, sealyham terrier, airedale, cairn, australian terrier, dandie
-        dinmont, scotch terrier, scottish terrier, tibetan terrier, silky terrier, soft
-        coated wheaten terrier, jack russell, jack russell terrier, west highland white
-        terrier, lhasa, boston boston terrier, rhodesian ridgeback, ridgeback, afghan
-        hound, basset, basset hound, beagle, bloodhound, bluetick, coonhound, black and
-        tan coonhound, walker hound, foxhound, english foxhound, redbone, borzoi,
+        bullterrier, staffordshire terrier, pit bull, american staffordshire terrier,
+        bedlington terrier, border terrier, kerry blue terrier, irish terrier, norfolk
+        terrier, norwich terrier, yorkshire terrier, yorkie, fox terrier, wire haired fox
+        terrier, lakeland terrier, sealyham terrier, airedale, cairn, australian terrier,
+        dandie dinmont, scotch terrier, scottish terrier, tibetan terrier, silky terrier,
+        soft coated wheaten terrier, jack russell, jack russell terrier, west highland
+        white terrier, lhasa, boston bull, boston terrier, rhodesian ridgeback, ridgeback,
+        afghan hound, basset, basset hound, beagle, bloodhound, bluetick, coonhound, black
+        and tan coonhound, walker hound, foxhound, english foxhound, redbone, borzoi,
         wolfhound, irish wolfhound, greyhound, italian greyhound, whippet, ibizan hound,
         norwegian elkhound, elkhound, otterhound, saluki, deerhound, scottish deerhound,
         weimaraner, hound, pup, doggy, mutt, mongrel, schnauzer, miniature schnauzer,
@@ -58,7 +58,7 @@ ANIMAL_KINDS: dict[str, str] = {
         doe, fawn, buck, elk, moose, reindeer, caribou, antelope, gazelle, impala,
         hartebeest, white tailed deer, roe deer, gnu, wildebeest""",
     "camel": "arabian camel, bactrian camel, dromedary, llama, alpaca",
-    "elephant": "indian elephant, african elephant, tusker, elephant mammoth",
+    "elephant": "indian elephant, african elephant, tusker, elephant calf, mammoth",
     "rabbit": "hare, wood rabbit, angora, cottontail, jackrabbit",
     "squirrel": "fox squirrel, chipmunk, marmot, prairie dog, ground squirrel, groundhog",
     "mouse": "field mouse, rodent, vole, gerbil",

@@ -136,8 +136,8 @@ THING_KINDS: dict[str, str] = {
     "shoe": "cowboy boot, loafer, clog, sandal, slipper, trainer, high heel, flip flop, rain boot",
     "glove": "mitten, oven glove, oven mitt",
     "shirt": """
-        sweater, pullover, jersey, sweatshirt, blouse, cardigan, garment, clothes, clothing, poncho,
-        t shirt, tshirt""",
+        sweater, pullover, jersey, sweatshirt, blouse, cardigan, garment, clothes,
+        clothing, poncho, t shirt, tshirt""",
     "sock": "stocking, christmas stocking",
     "glasses": "goggles",
     "handbag": "shoulder bag, bag, clutch bag, satchel",
