@@ -213,9 +213,22 @@ class ActReader:
         if not able:
             return []
         motion = ObjectMotion(verb.kind, verb.direction, verb.pace, end_pace=verb.end_pace)
-        added = [index for index in able if self._add_motion(index, motion, clause)]
+        added = [
+            index
+            for index in able
+            if self._add_motion(index, self._fall_over(index, motion, clause), clause)
+        ]
         word.is_used = bool(added)
         return added
+
+    def _fall_over(self, index: int, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
+        """As in "a person falls": over, unless it is said from where."""
+        noun = self._draft.noun(index)
+        is_from = any(phrase.preposition.text in _FROM_ABOVE for phrase in clause.phrases)
+        stands = is_living(noun) and noun.habitat == "ground"
+        if motion.kind == "fall" and stands and not is_from:
+            return replace(motion, kind="topple")
+        return motion
 
     def _mount(self, index: int) -> int:
         """What the object rides, which moves in its place: "a man on a horse gallops"."""
@@ -273,6 +286,7 @@ EFFECT_BY_VERB: dict[str, str] = {
     verb: kind for kind, words in EFFECTS.items() for verb in words.verbs if " " not in verb
 }
 """Verb of one word → the effect it means."""
+_FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")
 _SWITCHES = ("turn", "change", "switch", "go")
 _SIGNALS = ("red", "yellow", "amber", "green")
 BOARDS = frozenset(

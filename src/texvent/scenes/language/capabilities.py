@@ -16,7 +16,7 @@ from texvent.scenes.models.protocol import Noun
 
 ANYTHING = frozenset(
     {"move", "stand", "fall", "rise", "sink", "spin", "slide", "roll", "bounce", "swing", "sway",
-     "throw", "orbit", "hover", "enter", "leave", "appear", "jump", "fly", "lie"}
+     "throw", "topple", "orbit", "hover", "enter", "leave", "appear", "jump", "fly", "lie"}
 )  # fmt: skip
 """What every object can do: a path through the air or over the ground."""
 _TRAVELLER = frozenset({"turn", "reverse", "zigzag"})

@@ -30,6 +30,14 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
 """Place → nouns that are usually found there; what is not listed is shown on grass."""
 
 
+_OUTDOORS = frozenset(
+    {"tree", "pine", "palm", "birch", "bush", "hedge", "house", "barn", "castle", "lighthouse",
+     "car", "bus", "truck", "horse", "cow", "sheep", "street lamp", "fence", "bench", "tent"}
+)  # fmt: skip
+"""Nouns that are not found in a room."""
+_INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", "gym")
+
+
 def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
     """The place of the scene: as stated, or the usual one for its objects.
 
@@ -70,12 +78,12 @@ def _choose_usual(members: Sequence[Noun], *, rests: bool) -> str:
         return "grass"
     if {noun.habitat for noun in members} == {"water"}:
         return "sea"
+    is_outdoors = any(noun.name in _OUTDOORS for noun in members)
     for noun in members:
-        for place, names in _USUAL_PLACES.items():
-            if noun.name in names:
-                return place
-        if noun.place:
-            return noun.place
+        usual = [place for place, names in _USUAL_PLACES.items() if noun.name in names]
+        place = usual[0] if usual else noun.place
+        if place and not (is_outdoors and place in _INSIDE):
+            return place
     if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
         return "grass" if rests else "sky"
     return "grass"

@@ -170,10 +170,14 @@ ACTIVE = frozenset({"push", "pull", "kick", "hit", "throw", "catch"})
 
 
 def _is_moving(scene_object: SceneObject) -> bool:
-    return scene_object.blink_hz is not None or (
-        scene_object.motion is not None
-        and scene_object.motion.is_moving
-        and scene_object.motion.kind != "sit"
+    return (
+        scene_object.blink_hz is not None
+        or bool(scene_object.then)
+        or (
+            scene_object.motion is not None
+            and scene_object.motion.is_moving
+            and scene_object.motion.kind != "sit"
+        )
     )
 
 

@@ -46,6 +46,7 @@ class PartialObject:
         motions = list(self.motions)
         if not motions and self.is_verb_lost:
             motions = [STANDING]
+        motions = _topple(motions)
         if not motions and self.pace != 1.0:
             motions = [ObjectMotion("move")]
         factor = self.pace * tempo
@@ -54,6 +55,12 @@ class PartialObject:
             self.noun, self.count, self.colour, self.scale, paced[0] if paced else None,
             self.side, tuple(paced[1:]), self.material, self.picture, self.blink_hz, self.is_lit,
         )  # fmt: skip
+
+
+def _topple(motions: list[ObjectMotion]) -> list[ObjectMotion]:
+    """What stands and then falls, falls over; what only falls comes down from above."""
+    found = [replace(one, kind="fall") if one.kind == "topple" else one for one in motions]
+    return [STANDING, *found] if motions and motions[0].kind == "topple" else found
 
 
 class Draft:

@@ -15,7 +15,7 @@ PLACES: dict[str, tuple[str, ...]] = {
     ),
     "grass": (
         "grass", "field", "meadow", "lawn", "park", "garden", "pasture", "yard", "grassy field",
-        "countryside", "backyard", "green",
+        "countryside", "backyard",
     ),
     "savanna": ("savanna", "savannah", "grassland", "plain", "prairie", "steppe", "grasslands"),
     "forest": ("forest", "wood", "jungle", "rainforest", "woodland", "grove", "pine forest"),
