@@ -51,11 +51,6 @@ class Attributes:
         """Whether a word tells the object from those named before."""
         return bool(self.colours) or any(word.text in ("second", "other") for word in self.words)
 
-    def use_all(self) -> None:
-        """Every word of it had an effect."""
-        for word in self.words:
-            word.is_used = True
-
     def decide_count(self, bare: int) -> tuple[int, str | None]:
         """How many, `bare` if that is not said; and a note where fewer are shown than said."""
         for word in self.numbers:

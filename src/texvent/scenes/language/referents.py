@@ -137,7 +137,7 @@ class Referents:
         return Referent("function", group)
 
     def _exclude(self, group: NounGroup, noun: str) -> Referent:
-        mark_used(group.words)
+        mark_used(word for word in (group.determiner, group.head) if word is not None)
         if group.negation is not None:
             group.negation.is_used = True
         self._draft.exclude(noun)
@@ -150,7 +150,7 @@ class Referents:
         meaning = head.read_as(Role.NOUN) or head.meaning
         noun = str(meaning.value)
         if group.negation is not None or attributes.count == 0:
-            attributes.use_all()
+            mark_used(attributes.numbers)
             return self._exclude(group, noun)
         is_ours = group.determiner is not None and group.determiner.text in OUR
         if is_ours and self._draft.nouns[noun].motion in ("drive", "sail", "fly"):
