@@ -17,26 +17,22 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
-from texvent.scenes.raycast.lamps.shadows import LIT_BITS, lamps_reach
+from texvent.scenes.raycast.lamps.lit_by import ALL_LIGHTS, lit_by
+from texvent.scenes.raycast.lamps.shadows import LIT_BITS
 from texvent.scenes.raycast.puffs.compositing import through_puffs
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.shading.lighting import shade_hit
 from texvent.scenes.raycast.trace import (
     CODES,
-    ROOM,
-    SKY,
     background_hit,
     first_hit,
     hit_again,
     ray_direction,
-    shadow_point,
     shows_code,
-    sun_reaches,
     surface_code,
-    surface_normal,
 )
 from texvent.scenes.raycast.uncounted import uncounted_world
-from texvent.scenes.raycast.vectors import along, scaled, triple
+from texvent.scenes.raycast.vectors import scaled
 from texvent.scenes.scene import Colour, Float64Array
 
 _THIN = -(1 << 40)
@@ -49,43 +45,15 @@ _MAX_EDGES = 4
 """Edges that are placed between two neighbouring probes."""
 _MAX_SURFACES = 64
 """Surfaces that may share a pixel."""
-_ALL_LIGHTS = (1 << LIT_BITS) - 1
-"""All bits of a probe that tell what light reaches a surface."""
 _SOFT_CLIP_START = 0.75
 """Light above this share of white is compressed instead of cut off."""
-
-
-@jit(error_model="numpy")
-def _lit_by(
-    world: World, x: float, y: float, hit: tuple[float, int, int], wanted: int
-) -> tuple[int, bool]:
-    """What light reaches what was hit (bit 0: sun, then lamps), and whether a thin shadow is near.
-
-    Only the lights in `wanted` are looked for; only lamps that cast shadows count.
-    """
-    depth, number, face = hit
-    instant = world.instant[0]
-    if number == SKY or (number == ROOM and instant.shadow_lamps == 0):
-        return 0, False
-    point = along(triple(instant.origin), ray_direction(instant, x, y), depth)
-    normal = surface_normal(world, number, face, point)
-    point = shadow_point(world, number, face, point)
-    is_sunlit, thin = False, False
-    if number != ROOM and wanted & 1:
-        is_sunlit, thin = sun_reaches(world, point, normal)
-    lit = int(is_sunlit)
-    if instant.shadow_lamps > 0:
-        lamps, thin_lamp = lamps_reach(world, point, normal, wanted >> 1)
-        lit |= lamps << 1
-        thin = thin or thin_lamp
-    return lit, thin
 
 
 @jit(error_model="numpy")
 def _probe(world: World, x: float, y: float) -> int:
     """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
     depth, number, face, _ = first_hit(world, x, y)
-    lit = _lit_by(world, x, y, (depth, number, face), _ALL_LIGHTS)[0]
+    lit = lit_by(world, x, y, (depth, number, face), ALL_LIGHTS)[0]
     return (surface_code(world, number, face) << LIT_BITS) + lit
 
 
@@ -107,7 +75,7 @@ def _expose(world: World, light: Colour) -> Colour:
 @jit(error_model="numpy")
 def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     """Exposed light at image point (x, y), where the surface `probe` is."""
-    number, lit = (probe >> LIT_BITS) // CODES, probe & _ALL_LIGHTS
+    number, lit = (probe >> LIT_BITS) // CODES, probe & ALL_LIGHTS
     depth, face = math.inf, 0
     if number >= 0:
         depth, face = hit_again(world, x, y, number)
@@ -198,14 +166,14 @@ def _find_edge(
     high = 1.0
     changed = 0
     if probes[0] >> LIT_BITS == probes[1] >> LIT_BITS:
-        changed = (probes[0] ^ probes[1]) & _ALL_LIGHTS
+        changed = (probes[0] ^ probes[1]) & ALL_LIGHTS
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         x, y = _between(ends[0], ends[1], middle)
         depth, number, face, _ = first_hit(world, x, y)
         is_same = surface_code(world, number, face) == probes[0] >> LIT_BITS
         if is_same and changed:  # else there is no need to know about shadow
-            lit, _ = _lit_by(world, x, y, (depth, number, face), changed)
+            lit, _ = lit_by(world, x, y, (depth, number, face), changed)
             is_same = lit & changed == probes[0] & changed
         if is_same:
             low = middle
@@ -315,7 +283,7 @@ def _probe_tile(
             if not thin and i > 0 and is_odd and probes[j, i - 1] >> LIT_BITS == surface:
                 probes[j, i] = probes[j, i - 1]
                 continue
-            lit, thin_shadow = _lit_by(world, x, y, (depth, number, face), _ALL_LIGHTS)
+            lit, thin_shadow = lit_by(world, x, y, (depth, number, face), ALL_LIGHTS)
             probes[j, i] = _THIN if thin or thin_shadow else (surface << LIT_BITS) + lit
 
 
