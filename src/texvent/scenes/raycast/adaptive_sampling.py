@@ -83,7 +83,7 @@ def _shade(world: World, x: float, y: float, probe: int) -> Colour:
         instant = world.instant[0]
         depth, number, face = background_hit(instant, ray_direction(instant, x, y))
     light = shade_hit(world, x, y, (depth, number, face), lit)
-    if len(world.puffs) > 0:
+    if world.instant[0].puff_count > 0:
         light = through_puffs(world, x, y, depth, light)
     return _expose(world, light)
 
@@ -367,7 +367,7 @@ def render_rows(
                     around[:] = probes[j : j + samples + 1, i : i + samples + 1]
                     _probe_shadows(world, column, row, (j, i), around)
                     light = _split_pixel(world, column, row, around, shares)
-                if len(world.glows) > 0:
+                if world.instant[0].glow_count > 0:
                     light = add_glows(world, column + 0.5, row + 0.5, light)
                 image[row, column, 0] = light[0]
                 image[row, column, 1] = light[1]

@@ -50,6 +50,11 @@ INSTANT_RECORD = np.dtype(
         # Where the cells of the lamps that cast shadows begin, and the screen tiles of puffs.
         ("lamp_cells", "i8"),
         ("puff_tiles", "i8"),
+        # Addresses of the puffs and glows, and how many there are; see `point_to`.
+        ("puff_table", "i8"),
+        ("puff_count", "i8"),
+        ("glow_table", "i8"),
+        ("glow_count", "i8"),
         ("shadow_lamps", "i8"),  # how many lamps, the first ones, cast shadows
         ("sun_plane", "f8", (2, 3)),
         ("sun_grid", "f8", 4),
@@ -214,23 +219,33 @@ class World(NamedTuple):
     """[g] `GLOW_RECORD`."""
 
 
-class MeshWorld(NamedTuple):
-    """A `World` with meshes or images, which its instant has the addresses of.
+class SceneView(NamedTuple):
+    """A `World` inside a kernel: fewer arrays, as each that kernels pass on makes them slower.
 
-    A type of its own: kernels are compiled for each type, so that scenes without meshes do not pay
-    for them; and every array that kernels pass on makes them slower.
+    The instant has the addresses of puffs, glows and tiles.
     """
 
     instant: NDArray[Any]
     shapes: NDArray[Any]
     lists: NDArray[np.int32]
     lamps: Float64Array
-    puffs: NDArray[Any]
-    glows: NDArray[Any]
+
+
+class MeshView(NamedTuple):
+    """An `OwnedWorld` inside a kernel; its instant has the addresses of meshes and images too.
+
+    A type of its own: kernels are compiled for each type, so that scenes without meshes do not pay
+    for them.
+    """
+
+    instant: NDArray[Any]
+    shapes: NDArray[Any]
+    lists: NDArray[np.int32]
+    lamps: Float64Array
 
 
 class OwnedWorld(NamedTuple):
-    """A `MeshWorld` with its arrays, as kernels are given it."""
+    """A `World` with meshes or images, as kernels are given it."""
 
     instant: NDArray[Any]
     shapes: NDArray[Any]
@@ -260,6 +275,13 @@ def own_world(
     instant["nodes"], instant["triangles"] = nodes.ctypes.data, triangles.ctypes.data
     instant["images"], instant["texels"] = images.ctypes.data, texels.ctypes.data
     return OwnedWorld(*world, nodes, triangles, images, texels)
+
+
+def point_to(world: World | OwnedWorld) -> None:
+    """Write into a world's instant where its puffs and glows are, and how many there are."""
+    instant = world.instant[0]
+    instant["puff_table"], instant["puff_count"] = world.puffs.ctypes.data, len(world.puffs)
+    instant["glow_table"], instant["glow_count"] = world.glows.ctypes.data, len(world.glows)
 
 
 def describe_lens(instant: NDArray[Any], lens: Lens, corner: tuple[float, float]) -> None:

@@ -17,11 +17,14 @@ from numba.extending import intrinsic, overload
 from numba.np.arrayobj import make_array
 
 from texvent.scenes.raycast.records import (
+    GLOW_RECORD,
     IMAGE_RECORD,
     NODE_RECORD,
+    PUFF_RECORD,
     TRIANGLE_RECORD,
-    MeshWorld,
+    MeshView,
     OwnedWorld,
+    SceneView,
     World,
 )
 
@@ -47,14 +50,14 @@ uncounted: Any = intrinsic(_build_view)
 
 
 def uncounted_world(owner: World | OwnedWorld) -> World:
-    """In a kernel: the same scene in arrays without an owner, meshes and images by address."""
-    kind: Any = World if isinstance(owner, World) else MeshWorld
-    return cast(World, kind(*owner[: len(World._fields)]))
+    """In a kernel: the same scene in few arrays without an owner, the others by address."""
+    kind: Any = SceneView if isinstance(owner, World) else MeshView
+    return cast(World, kind(*owner[: len(SceneView._fields)]))
 
 
 @overload(uncounted_world, strict=False)
 def _overload_uncounted_world(owner: Any) -> Any:
-    kind = World if owner.instance_class is World else MeshWorld
+    kind = SceneView if owner.instance_class is World else MeshView
 
     def build(owner: Any) -> Any:
         return kind(
@@ -62,8 +65,6 @@ def _overload_uncounted_world(owner: Any) -> Any:
             uncounted(owner.shapes),
             uncounted(owner.lists),
             uncounted(owner.lamps),
-            uncounted(owner.puffs),
-            uncounted(owner.glows),
         )
 
     return build
@@ -71,12 +72,12 @@ def _overload_uncounted_world(owner: Any) -> Any:
 
 def has_meshes(world: World) -> bool:
     """In a kernel: whether the scene has meshes or images; known when it is compiled."""
-    return not isinstance(world, World)
+    return not isinstance(world, (World, SceneView))
 
 
 @overload(has_meshes, strict=False)
 def _overload_has_meshes(world: Any) -> Any:
-    if world.instance_class is World:
+    if world.instance_class in (World, SceneView):
         return lambda world: False
     return lambda world: True
 
@@ -100,6 +101,8 @@ def _record_reader(dtype: np.dtype[Any]) -> Any:
 node_at: Any = _record_reader(NODE_RECORD)
 triangle_at: Any = _record_reader(TRIANGLE_RECORD)
 image_at: Any = _record_reader(IMAGE_RECORD)
+puff_at: Any = _record_reader(PUFF_RECORD)
+glow_at: Any = _record_reader(GLOW_RECORD)
 
 
 def _build_texel(typing_context: Any, address: Any, index: Any) -> Any:

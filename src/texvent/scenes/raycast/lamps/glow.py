@@ -19,7 +19,7 @@ from texvent.scenes.raycast.lens_kernel import plane_point
 from texvent.scenes.raycast.puffs.compositing import optical_depth
 from texvent.scenes.raycast.records import GLOW_RECORD, OwnedWorld, Record, World
 from texvent.scenes.raycast.trace import background_hit, is_between, plane_direction, tile_at
-from texvent.scenes.raycast.uncounted import uncounted_world
+from texvent.scenes.raycast.uncounted import glow_at, uncounted_world
 from texvent.scenes.raycast.vectors import triple, turned
 from texvent.scenes.scene import Colour, Float64Array
 
@@ -129,7 +129,7 @@ def see_lamps(
             if not _is_hidden(world, x, y, near):
                 count += 1
         share = count / probes.shape[1]
-        if share > 0.0 and len(world.puffs) > 0:
+        if share > 0.0 and world.instant[0].puff_count > 0:
             x, y = places[index, 0], places[index, 1]
             share *= math.exp(-optical_depth(world, x, y, depths[index]))
         visible[index] = share
@@ -188,8 +188,9 @@ def add_glows(world: World, x: float, y: float, light: Colour) -> Colour:
     if math.isnan(u):
         return light
     red, green, blue = 0.0, 0.0, 0.0
-    for index in range(len(world.glows)):
-        glow = _glow_at(world.glows[index], u, v)
+    instant = world.instant[0]
+    for index in range(instant.glow_count):
+        glow = _glow_at(glow_at(instant.glow_table, index), u, v)
         red, green, blue = red + glow[0], green + glow[1], blue + glow[2]
     return (
         1.0 - (1.0 - light[0]) * math.exp(-red),

@@ -9,7 +9,7 @@ from texvent.scenes.raycast.acceleration import Bins
 from texvent.scenes.raycast.lamps.bins import list_casters, order_lamps
 from texvent.scenes.raycast.lamps.glow import see_glows
 from texvent.scenes.raycast.puffs.bins import describe_puffs
-from texvent.scenes.raycast.records import OwnedWorld, World
+from texvent.scenes.raycast.records import OwnedWorld, World, point_to
 from texvent.scenes.scene import Environment, Primitives
 
 
@@ -42,7 +42,10 @@ def light_up(
     instant["puff_tiles"] = len(world.lists) + sum(len(bins.start) for bins in grids)
     lists = np.concatenate([world.lists, *_joined([*grids, tiles], len(world.lists))])
     world = world._replace(lists=lists.astype(np.int32), lamps=lamps, puffs=puffs)
-    return world._replace(glows=see_glows(world, rays))
+    point_to(world)
+    world = world._replace(glows=see_glows(world, rays))
+    point_to(world)
+    return world
 
 
 def _joined(grids: list[Bins], first: int) -> list[np.ndarray]:

@@ -18,6 +18,7 @@ from texvent.scenes.raycast.lens_kernel import plane_point
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.shading.value_noise import detail_fade, noise_3d
 from texvent.scenes.raycast.trace import plane_direction, tile_at
+from texvent.scenes.raycast.uncounted import puff_at
 from texvent.scenes.raycast.vectors import Vector, along, dot, scaled, triple, turned
 from texvent.scenes.scene import Colour
 
@@ -83,7 +84,7 @@ def optical_depth(world: World, u: float, v: float, depth: float) -> float:
     cell = instant.puff_tiles + tile_at(instant, u, v)
     total = 0.0
     for index in range(lists[cell], lists[cell + 1]):
-        puff = world.puffs[lists[index]]
+        puff = puff_at(instant.puff_table, lists[index])
         if puff.depth >= depth:
             continue
         thickness, place = _puff_depth(puff, direction, depth)
@@ -147,7 +148,7 @@ def through_puffs(world: World, x: float, y: float, depth: float, light: Colour)
     direction = plane_direction(instant, u, v)
     total, own = 0.0, (0.0, 0.0, 0.0)
     for index in range(lists[cell], lists[cell + 1]):
-        puff = world.puffs[lists[index]]
+        puff = puff_at(instant.puff_table, lists[index])
         window = puff.window
         if puff.depth >= depth or u < window[0] or u > window[1] or v < window[2] or v > window[3]:
             continue
