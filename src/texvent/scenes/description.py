@@ -202,6 +202,8 @@ class Surroundings:
     shown as mountains around; the ground itself stays flat."""
     road: str | None = None
     """"curved" or "crossing", where the place has a road; None = straight."""
+    is_empty: bool = False
+    """Whether nothing else is there: no scenery, no furniture."""
     has_snow: bool = False
     """Whether snow lies on the ground."""
     has_dust: bool = False

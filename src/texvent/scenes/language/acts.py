@@ -124,7 +124,8 @@ class ActReader:
     def _read_effect(self, clause: Clause, subjects: list[int]) -> bool:
         """As in "a balloon bursts", "a chimney smokes"."""
         kind = EFFECT_BY_VERB.get(clause.verb_word.lemma)
-        if kind is None or not subjects:
+        by_people = any(is_person(self._draft.noun(index)) for index in subjects)
+        if kind is None or not subjects or by_people or clause.objects:
             return False
         clause.verb_word.is_used = True
         for index in subjects:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence, Set
 
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.activities import find_activity, name_activity
-from texvent.scenes.language.acts import ActReader, is_plain_past
+from texvent.scenes.language.acts import EFFECT_BY_VERB, ActReader, is_plain_past
 from texvent.scenes.language.camera_reader import CameraReader
 from texvent.scenes.language.capabilities import is_living
 from texvent.scenes.language.circumstances import CircumstanceReader, Scope
@@ -27,6 +27,7 @@ _OF_SCENE = frozenset(
     {"place", "light", "weather", "sky", "snow", "dust", "shadow", "glow", "clouds"}
 )
 _SUN = {"set": "dusk", "rise": "dawn"}
+_OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
 _BENDS = ("curve", "wind", "bend", "twist")
 _SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
 _PLAIN_WEATHER_VERBS = frozenset(
@@ -142,11 +143,12 @@ class ClauseMeaning:
             clause.verb.is_used = True
 
     def _resolve_phrases(self, phrases: Sequence[PrepPhrase]) -> list[tuple[PrepPhrase, Referent]]:
-        return [
-            (phrase, self._referents.resolve(group, phrase.preposition.text))
-            for phrase in phrases
-            for group in phrase.groups
-        ]
+        found = []
+        for phrase in phrases:
+            for group in phrase.groups:
+                group.negation = phrase.negation or group.negation
+                found.append((phrase, self._referents.resolve(group, phrase.preposition.text)))
+        return found
 
     def _read_extra(self, one: Referent) -> None:
         """What else is named: a place, or what hangs on an object."""
@@ -157,6 +159,8 @@ class ClauseMeaning:
     def _read_scene(self, clause: Clause, subjects: Sequence[Referent]) -> None:
         """Rain falls, the light flickers, the road curves, the room is dark."""
         word = clause.verb
+        if word is not None and self._read_water(clause, word, subjects):
+            return
         for one in subjects:
             self._surroundings.read_referent(one, is_negated=clause.negation is not None)
             self._around.read_group_phrases(one, Scope([], [], has_verb=False))
@@ -172,6 +176,17 @@ class ClauseMeaning:
         self._around.read_phrases(clause.phrases, scope)
         for group in clause.objects:
             self._read_extra(self._referents.resolve(group))
+
+    def _read_water(self, clause: Clause, word: Word, subjects: Sequence[Referent]) -> bool:
+        """As in "water drips from a tap": an effect, not a place."""
+        kind = EFFECT_BY_VERB.get(word.lemma)
+        heads = [one.group.head for one in subjects if one.group.head is not None]
+        if kind not in _OF_WATER or any(head.text != "water" for head in heads):
+            return False
+        mark_used([word, *heads])
+        effects = [Referent("effect", one.group, value=kind) for one in subjects]
+        self._read_effects(clause, effects)
+        return True
 
     def _read_scene_verb(self, word: Word, kinds: Set[str]) -> bool:
         """What light, weather or a place does; whether it is shown."""

@@ -214,6 +214,9 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
             objects = (*description.objects[:index], moved, *description.objects[index + 1 :])
             note = f"no motion is said of the {scene_object.noun}, so it does what it usually does"
             return replace(description, objects=objects, notes=(*description.notes, note))
+    if description.shot.moves:
+        note = "nothing moves in the prompt and the camera is static: there will be no events"
+        return replace(description, notes=(*description.notes, note))
     light, weather = description.light, description.surroundings.weather
     if light.flicker_hz is not None or weather in ("rain", "snow"):
         return description

@@ -16,7 +16,7 @@ from texvent.scenes.language import (
     vocabulary_scene,
 )
 from texvent.scenes.language.kinds import KINDS, OPAQUE_COMPOUNDS, SUBSTITUTES
-from texvent.scenes.language.vocabulary_objects import COMPOUNDS, GENERAL_KINDS
+from texvent.scenes.language.vocabulary_objects import COMPOUNDS
 from texvent.scenes.language.vocabulary_people import PEOPLE_KINDS
 from texvent.scenes.language.words import Pos, VerbForm, list_verb_forms
 from texvent.scenes.models.effects import EFFECTS
@@ -90,7 +90,7 @@ class Lexicon:
         self._longest: dict[str, int] = {}
         for noun in nouns.values():
             self._add_noun(noun)
-        for kinds in (COMPOUNDS, PEOPLE_KINDS, GENERAL_KINDS, KINDS):
+        for kinds in (COMPOUNDS, PEOPLE_KINDS, KINDS):
             for name, words in kinds.items():
                 if name in nouns:
                     self._add_kinds(name, words)

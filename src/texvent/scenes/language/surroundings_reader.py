@@ -32,6 +32,7 @@ class SurroundingsReader:
         self._clouds: float | None = None
         self._backdrops: list[str] = []
         self._road: str | None = None
+        self._is_empty = False
         self._has_dust = False
         self._has_snow = False
         self._light: str | None = None
@@ -92,6 +93,7 @@ class SurroundingsReader:
     def read_adjectives(self, attributes: Attributes, kind: str) -> None:
         """As in "A foggy street", "dark water", "a winding road"."""
         for word in attributes.words:
+            self._is_empty = self._is_empty or (word.text == "empty" and kind == "place")
             if word.role in _SCENE_ROLES and not word.is_used:
                 if word.role is Role.SHADE and not (word.text == "dark" and kind == "place"):
                     continue
@@ -213,6 +215,7 @@ class SurroundingsReader:
             clouds=self._clouds,
             backdrops=tuple(self._backdrops),
             road=self._road,
+            is_empty=self._is_empty,
             has_dust=self._has_dust,
             has_snow=self._has_snow or self._weather == "snow",
         )

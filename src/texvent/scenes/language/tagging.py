@@ -343,6 +343,10 @@ class _Tagger:
         is_adverb = adverb is not None and adverb.role is not Role.UNKNOWN
         if is_adverb and (verb.role is Role.UNKNOWN or verb.form is VerbForm.PAST):
             return None
+        noun = by_pos.get(Pos.NOUN)
+        is_noun = verb.role is Role.UNKNOWN and noun is not None and noun.role is not Role.UNKNOWN
+        if is_noun and self._before() in _OPENS_NOUN | {None, Pos.PREPOSITION, Pos.SIGN}:
+            return None
         return self._verb_by_context(index, verb, others)
 
     def _verb_by_context(
@@ -448,6 +452,8 @@ class _Tagger:
         known = {pos: one for pos, one in by_pos.items() if one.role is not Role.UNKNOWN}
         known.pop(Pos.VERB, None)
         opens = before in _OPENS_NOUN or before in (Pos.PREPOSITION, None, Pos.NEGATION)
+        if {Pos.ADVERB, Pos.ADJECTIVE} <= known.keys() and Pos.NOUN not in known:
+            return Pos.ADJECTIVE if after & _NOMINAL and opens else Pos.ADVERB
         if len(known) == 1:
             pos = next(iter(known))
             is_substance = known[pos].role is Role.MATERIAL and Pos.NOUN in by_pos
@@ -474,6 +480,12 @@ class _Tagger:
             one.pos is Pos.VERB and (one.role is Role.VERB or one.form is VerbForm.THIRD)
             for one in after
         )
+        is_known_verb = any(
+            one.pos is Pos.VERB and one.role is not Role.UNKNOWN and one.form is VerbForm.THIRD
+            for one in after
+        )
+        if is_known_verb and not self._after(index, 2) & {Pos.NOUN, Pos.VERB, Pos.AUXILIARY}:
+            return True
         return can_be_verb and not any(
             one.pos is Pos.NOUN and one.role is not Role.UNKNOWN for one in after
         )

@@ -72,7 +72,7 @@ def _expand(word: str) -> tuple[str, ...]:
     """As in "doesn't" = "does not", "we're" = "we"."""
     folded = word.casefold().replace("’", "'")
     if folded.endswith("n't"):
-        return (word[:-3], "not")
+        return (word[:-3], "not") if len(folded) > len("n't") else ("not",)
     for ending in ("'re", "'ll", "'ve", "'d", "'m"):
         if folded.endswith(ending) and len(folded) > len(ending):
             return (word[: -len(ending)],)

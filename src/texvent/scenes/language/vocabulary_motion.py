@@ -27,7 +27,8 @@ class Verb:
 _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "move": {
         1.0: ("move", "head", "proceed", "advance", "journey", "go", "travel", "shuffle"),
-        1.7: ("race", "speed"), 1.6: ("rush",), 1.8: ("zip",), 1.5: ("hurry",), 0.4: ("creep",),
+        1.7: ("race", "speed"), 1.6: ("rush",), 1.8: ("zip",), 1.5: ("hurry",),
+        0.4: ("creep", "drift"),
         1.2: ("weave",),
     },
     "drive": {0.8: ("cruise",), 0.6: ("plough", "plow"), 1.0: ("pedal", "cycle")},
@@ -39,7 +40,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
         1.0: ("walk", "slither", "waddle"), 0.7: ("stroll", "wander", "prowl", "roam"),
         1.2: ("march", "stride"), 0.8: ("step",), 0.9: ("hike",),
     },
-    "fly": {0.8: ("glide",), 0.7: ("flutter",), 0.4: ("drift",), 1.0: ("soar",)},
+    "fly": {0.8: ("glide",), 0.7: ("flutter",), 1.0: ("soar",)},
     "hover": {1.0: ("hover", "float")},
     "swim": {1.0: ("swim",)},
     "slide": {1.0: ("slide", "slip", "glide over")},

@@ -156,14 +156,3 @@ COMPOUNDS: dict[str, tuple[str, ...]] = {
                      "calibration pattern", "calibration target", "chessboard pattern"),
 }  # fmt: skip
 """Noun → compounds that mean it, though their last word alone does not."""
-
-GENERAL_KINDS: dict[str, tuple[str, ...]] = {
-    "car": ("vehicle",),
-    "dog": ("animal", "pet", "creature"),
-    "butterfly": ("insect",),
-    "chair": ("furniture",),
-    "airplane": ("aircraft",),
-    "ball": ("toy",),
-    "cube": ("object",),
-}
-"""Noun → words for whole classes that it stands for."""

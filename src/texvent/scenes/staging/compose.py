@@ -271,7 +271,7 @@ def _scatter_all(
                     [rule], view.travel, actors, allowed, rng=rng, road_half_m=view.road_half_width
                 )
             around.extend((relation, item) for item in found)
-    rules = list(SCENERY.get(place, ()))
+    rules = [] if description.surroundings.is_empty else list(SCENERY.get(place, ()))
     for backdrop in description.surroundings.backdrops:
         rules.extend(BACKDROPS[backdrop])
     taken = [item for _, item in around]
