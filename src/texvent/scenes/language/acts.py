@@ -61,13 +61,34 @@ class ActReader:
         if self._switch(clause, subjects):
             return subjects
         if not isinstance(verb, Verb):
-            return []
+            return self._do_alike(clause, word, subjects, targets)
         if targets:
             return self._do_to(clause, verb, subjects, targets)
         acts_on_unshown = any(one.kind in ("unknown", "part") for one in objects)
         if not verb.kind or (acts_on_unshown and verb.kind not in _TAKES_ANY_OBJECT):
             return []
         return self._give(clause, verb, subjects)
+
+    def _do_alike(
+        self, clause: Clause, word: Word, subjects: list[int], targets: list[int]
+    ) -> list[int]:
+        """Show a verb by a motion near to it, and say so."""
+        moved: list[int] = []
+        for index in subjects:
+            noun = self._draft.noun(index)
+            kinds = [
+                one.value[0]
+                for one in (word.meaning, *word.others)
+                if one.role is Role.SIMILAR and one.value[1] == is_person(noun)
+            ]
+            is_able = bool(kinds) and can_do(noun, kinds[0])
+            if is_able and self._add_motion(index, ObjectMotion(kinds[0]), clause):
+                word.shown_as = kinds[0]
+                moved.append(index)
+        if moved and targets:
+            self._draft.relate("beside", moved, targets)
+        word.is_used = bool(moved)
+        return moved
 
     def undergo(self, clause: Clause, subjects: list[int], agents: list[int]) -> list[int]:
         """A passive: the subjects undergo the verb."""

@@ -16,6 +16,7 @@ from texvent.scenes.language import (
     vocabulary_scene,
 )
 from texvent.scenes.language.kinds import KINDS, OPAQUE_COMPOUNDS, SUBSTITUTES
+from texvent.scenes.language.vocabulary_acts import SIMILAR_ACTIVITIES, SIMILAR_MOTIONS
 from texvent.scenes.language.vocabulary_objects import COMPOUNDS
 from texvent.scenes.language.vocabulary_people import PEOPLE_KINDS
 from texvent.scenes.language.words import Pos, VerbForm, list_verb_forms
@@ -58,6 +59,7 @@ class Role(Enum):
     FRAMING = auto()
     EFFECT = auto()
     ACTIVITY = auto()
+    SIMILAR = auto()
     ROAD = auto()
     PICTURE = auto()
     FUNCTION = auto()
@@ -102,7 +104,7 @@ class Lexicon:
                 self._add(text, Meaning(Role.VERB, Pos.VERB, verb, form))
         for text, meaning in (*_list_table_entries(), *_list_place_kinds(), *_list_effects()):
             self._add(text, meaning)
-        for base, role, value in _list_bare_verbs():
+        for base, role, value in (*_list_bare_verbs(), *_list_similar_verbs()):
             for text, form in list_forms(base):
                 self._add(text, Meaning(role, Pos.VERB, value, form))
 
@@ -131,7 +133,8 @@ class Lexicon:
     def _add(self, text: str, meaning: Meaning) -> None:
         words = tuple(text.replace("-", " ").split())
         meanings = self._meanings.setdefault(words, [])
-        if all((known.role, known.pos) != (meaning.role, meaning.pos) for known in meanings):
+        key = (meaning.role, meaning.pos, _group_of(meaning))
+        if all((one.role, one.pos, _group_of(one)) != key for one in meanings):
             meanings.append(meaning)
         self._longest[words[0]] = max(self._longest.get(words[0], 0), len(words))
 
@@ -177,6 +180,11 @@ def _list_forms_of_noun(singular: str) -> tuple[str, ...]:
     return (singular,) if is_verb else (singular, *list_plurals(singular))
 
 
+def _group_of(meaning: Meaning) -> object:
+    """What tells two readings of one role apart: who does a similar motion."""
+    return meaning.value[1] if meaning.role is Role.SIMILAR else None
+
+
 def list_forms(base: str) -> Iterator[tuple[str, VerbForm]]:
     """All forms of a verb of one or more words, such as "take off"."""
     head, *tail = base.split()
@@ -198,6 +206,14 @@ def _list_bare_verbs() -> Iterator[tuple[str, Role, Any]]:
     for effect in EFFECTS.values():
         for verb in effect.verbs:
             yield verb.split()[0], Role.ACTIVITY, verb
+
+
+def _list_similar_verbs() -> Iterator[tuple[str, Role, Any]]:
+    """Verbs shown by a motion near to theirs: of people, and of others."""
+    for table, is_of_people in ((SIMILAR_ACTIVITIES, True), (SIMILAR_MOTIONS, False)):
+        for kind, bases in table.items():
+            for base in bases:
+                yield base, Role.SIMILAR, (kind, is_of_people)
 
 
 def _list_effects() -> Iterator[tuple[str, Meaning]]:
