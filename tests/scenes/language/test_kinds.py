@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from texvent.errors import InputError
-from texvent.scenes.language.kinds import KINDS, OPAQUE_COMPOUNDS
 from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.language.vocabulary.kinds import KINDS, OPAQUE_COMPOUNDS
 from texvent.scenes.models.nouns import NOUNS
 
 COCO = (

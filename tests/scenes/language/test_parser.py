@@ -8,11 +8,11 @@ from hypothesis import strategies as st
 
 from texvent.errors import InputError
 from texvent.scenes.description import SceneDescription
-from texvent.scenes.language.draft import MAX_OBJECTS
-from texvent.scenes.language.lexicon import Lexicon
+from texvent.scenes.language.meaning.draft import MAX_OBJECTS
 from texvent.scenes.language.parser import parse_prompt
-from texvent.scenes.language.tokens import tokenize_prompt
-from texvent.scenes.language.vocabulary_objects import MAX_COUNT
+from texvent.scenes.language.vocabulary.objects import MAX_COUNT
+from texvent.scenes.language.words.lexicon import Lexicon
+from texvent.scenes.language.words.tokens import tokenize_prompt
 from texvent.scenes.models.nouns import NOUNS
 
 SUV_PROMPT = (

@@ -10,13 +10,13 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.scenes.description import Picture, SceneDescription
-from texvent.scenes.language.clauses import read_clauses
-from texvent.scenes.language.lexicon import Lexicon
+from texvent.scenes.language.grammar.clauses import read_clauses
+from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.parser import parse_prompt
-from texvent.scenes.language.syntax import Clause
-from texvent.scenes.language.tagging import tag_words
-from texvent.scenes.language.tokens import tokenize_prompt
-from texvent.scenes.language.words import correct_spelling, list_verb_forms
+from texvent.scenes.language.words.english import correct_spelling, list_verb_forms
+from texvent.scenes.language.words.lexicon import Lexicon
+from texvent.scenes.language.words.tagging import tag_words
+from texvent.scenes.language.words.tokens import tokenize_prompt
 from texvent.scenes.models.nouns import NOUNS
 
 KNOWN = Lexicon(NOUNS)

@@ -7,8 +7,8 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.scenes.description import NamedColour, SceneDescription, SceneObject, Surroundings
-from texvent.scenes.language.vocabulary_objects import MATERIALS as WORDS
-from texvent.scenes.language.vocabulary_scene import PLACES as PLACE_WORDS
+from texvent.scenes.language.vocabulary.objects import MATERIALS as WORDS
+from texvent.scenes.language.vocabulary.scene import PLACES as PLACE_WORDS
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import MATERIALS
 from texvent.scenes.models.nouns import NOUNS

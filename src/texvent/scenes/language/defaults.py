@@ -14,7 +14,7 @@ from texvent.scenes.description import (
 )
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.default_place import choose_place
-from texvent.scenes.language.vocabulary_objects import MAX_BODIES
+from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.protocol import Noun
 
 SLOW_PAN = CameraMove("pan", "right", 0.8)

@@ -14,13 +14,13 @@ from functools import lru_cache
 
 from texvent.errors import InputError
 from texvent.scenes.description import SceneDescription, Substitution
-from texvent.scenes.language.clause_meaning import ClauseMeaning
-from texvent.scenes.language.clauses import read_clauses
 from texvent.scenes.language.defaults import complete_description
-from texvent.scenes.language.lexicon import Lexicon, Role
-from texvent.scenes.language.tagging import Word, tag_words
-from texvent.scenes.language.tokens import tokenize_prompt
-from texvent.scenes.language.words import Pos, list_readings
+from texvent.scenes.language.grammar.clauses import read_clauses
+from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
+from texvent.scenes.language.words.english import Pos, list_readings
+from texvent.scenes.language.words.lexicon import Lexicon, Role
+from texvent.scenes.language.words.tagging import Word, tag_words
+from texvent.scenes.language.words.tokens import tokenize_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from texvent.scenes.language.lexicon import Lexicon, Meaning, Role
-from texvent.scenes.language.tokens import Token
-from texvent.scenes.language.words import (
+from texvent.scenes.language.words.english import (
     Pos,
     VerbForm,
     correct_spelling,
     list_readings,
 )
+from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
+from texvent.scenes.language.words.tokens import Token
 
 _OPENS_NOUN = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE})
 """After these a noun or one more adjective follows."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from texvent.scenes.language.words import Pos
+from texvent.scenes.language.words.english import Pos
 
 DETERMINERS = (
     "a", "an", "the", "this", "that", "these", "those", "its", "their", "his", "her", "our", "my",

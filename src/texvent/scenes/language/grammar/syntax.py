@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from texvent.scenes.language.tagging import Word
-from texvent.scenes.language.words import VerbForm
+from texvent.scenes.language.words.english import VerbForm
+from texvent.scenes.language.words.tagging import Word
 
 
 @dataclass(eq=False)

@@ -6,17 +6,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion
-from texvent.scenes.language.activities import find_activity
-from texvent.scenes.language.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.defaults import WORKING
-from texvent.scenes.language.draft import Draft
-from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.referents import Referent
-from texvent.scenes.language.syntax import Clause
-from texvent.scenes.language.tagging import Word, mark_used
-from texvent.scenes.language.vocabulary_motion import Verb
-from texvent.scenes.language.vocabulary_scene import DEFAULT_BLINK_HZ
-from texvent.scenes.language.words import VerbForm
+from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.activities import find_activity
+from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
+from texvent.scenes.language.words.english import VerbForm
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.tagging import Word, mark_used
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.lamps import LAMPS
 

@@ -14,17 +14,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.noun_groups import read_group, starts_group
-from texvent.scenes.language.syntax import Clause, NounGroup, PrepPhrase
-from texvent.scenes.language.tagging import Word
-from texvent.scenes.language.vocabulary_function import (
+from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
+from texvent.scenes.language.vocabulary.function import (
     CONTRASTS,
     NOBODY,
     SENTENCE_OPENERS,
     TIME_ORDER,
 )
-from texvent.scenes.language.words import Pos, VerbForm
+from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.tagging import Word
 
 _SENTENCE_SIGNS = frozenset(".;!?:\n")
 _AWAITS_NOUN = frozenset(

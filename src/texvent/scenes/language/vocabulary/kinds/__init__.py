@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from texvent.scenes.language.kinds.animals import ANIMAL_KINDS
-from texvent.scenes.language.kinds.opaque import OPAQUE_COMPOUNDS
-from texvent.scenes.language.kinds.plants import FOOD_AND_PLANT_KINDS
-from texvent.scenes.language.kinds.things import THING_KINDS
+from texvent.scenes.language.vocabulary.kinds.animals import ANIMAL_KINDS
+from texvent.scenes.language.vocabulary.kinds.opaque import OPAQUE_COMPOUNDS
+from texvent.scenes.language.vocabulary.kinds.plants import FOOD_AND_PLANT_KINDS
+from texvent.scenes.language.vocabulary.kinds.things import THING_KINDS
 
 __all__ = ["KINDS", "OPAQUE_COMPOUNDS", "SUBSTITUTES"]
 

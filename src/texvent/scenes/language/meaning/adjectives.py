@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from texvent.scenes.description import NamedColour, ObjectMotion, Picture
-from texvent.scenes.language import vocabulary_objects
-from texvent.scenes.language.capabilities import can_do
-from texvent.scenes.language.draft import PartialObject
-from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.tagging import Word
-from texvent.scenes.language.vocabulary_motion import Verb
-from texvent.scenes.language.vocabulary_scene import DEFAULT_BLINK_HZ
-from texvent.scenes.language.words import Pos, VerbForm
+from texvent.scenes.language.meaning.capabilities import can_do
+from texvent.scenes.language.meaning.draft import PartialObject
+from texvent.scenes.language.vocabulary import objects as vocabulary_objects
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
+from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.tagging import Word
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.pictures.checking import can_show, check_picture

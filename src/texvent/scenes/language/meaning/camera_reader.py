@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import CameraMove, Shot
-from texvent.scenes.language.adjectives import Attributes
-from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.referents import Referent
-from texvent.scenes.language.syntax import Clause, PrepPhrase
-from texvent.scenes.language.tagging import Word
-from texvent.scenes.language.vocabulary_motion import Verb
-from texvent.scenes.language.vocabulary_scene import TRAVEL_MEANS
+from texvent.scenes.language.grammar.syntax import Clause, PrepPhrase
+from texvent.scenes.language.meaning.adjectives import Attributes
+from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.tagging import Word
 
 _SIDES = {"behind": "behind", "in front of": "front", "beside": "side", "alongside": "side",
           "next to": "side", "past": "side", "above": "above", "over": "above"}  # fmt: skip

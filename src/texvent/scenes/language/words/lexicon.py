@@ -9,17 +9,15 @@ from functools import cached_property
 from typing import Any
 
 from texvent.scenes.inflection import list_plurals
-from texvent.scenes.language import (
-    vocabulary_function,
-    vocabulary_motion,
-    vocabulary_objects,
-    vocabulary_scene,
-)
-from texvent.scenes.language.kinds import KINDS, OPAQUE_COMPOUNDS, SUBSTITUTES
-from texvent.scenes.language.vocabulary_acts import SIMILAR_ACTIVITIES, SIMILAR_MOTIONS
-from texvent.scenes.language.vocabulary_objects import COMPOUNDS
-from texvent.scenes.language.vocabulary_people import PEOPLE_KINDS
-from texvent.scenes.language.words import Pos, VerbForm, list_verb_forms
+from texvent.scenes.language.vocabulary import function as vocabulary_function
+from texvent.scenes.language.vocabulary import motion as vocabulary_motion
+from texvent.scenes.language.vocabulary import objects as vocabulary_objects
+from texvent.scenes.language.vocabulary import scene as vocabulary_scene
+from texvent.scenes.language.vocabulary.acts import SIMILAR_ACTIVITIES, SIMILAR_MOTIONS
+from texvent.scenes.language.vocabulary.kinds import KINDS, OPAQUE_COMPOUNDS, SUBSTITUTES
+from texvent.scenes.language.vocabulary.objects import COMPOUNDS
+from texvent.scenes.language.vocabulary.people import PEOPLE_KINDS
+from texvent.scenes.language.words.english import Pos, VerbForm, list_verb_forms
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
 from texvent.scenes.models.protocol import Noun

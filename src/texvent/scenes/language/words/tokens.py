@@ -7,7 +7,7 @@ import unicodedata
 from dataclasses import dataclass
 
 from texvent.scenes.description import Picture
-from texvent.scenes.language.literals import find_literals
+from texvent.scenes.language.words.literals import find_literals
 
 _TOKEN = re.compile(r"\d+(?:[.,]\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
 

@@ -6,17 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from texvent.scenes.description import Effect, ObjectMotion, Picture
-from texvent.scenes.language.acts import BOARDS, WEARABLE, ActReader
-from texvent.scenes.language.adjectives import read_attributes, show_picture
-from texvent.scenes.language.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.defaults import HAS_RIDER
-from texvent.scenes.language.draft import Draft
-from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.referents import OWNERS, Referent, Referents, list_parts_shown
-from texvent.scenes.language.surroundings_reader import SurroundingsReader
-from texvent.scenes.language.syntax import NounGroup, PrepPhrase
-from texvent.scenes.language.tagging import Word, mark_used
-from texvent.scenes.language.vocabulary_scene import PART_COLOURS
+from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
+from texvent.scenes.language.meaning.acts import BOARDS, WEARABLE, ActReader
+from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
+from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents, list_parts_shown
+from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
+from texvent.scenes.language.vocabulary.scene import PART_COLOURS
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.tagging import Word, mark_used
 from texvent.scenes.models.effects import EFFECTS
 
 _PLACE_PREPOSITIONS = frozenset(

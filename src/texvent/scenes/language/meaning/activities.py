@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
-from texvent.scenes.language.syntax import Clause, NounGroup
-from texvent.scenes.language.tagging import Word
-from texvent.scenes.language.vocabulary_function import DETERMINERS
-from texvent.scenes.language.vocabulary_motion import VERBS
-from texvent.scenes.language.words import Pos, list_readings
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup
+from texvent.scenes.language.vocabulary.function import DETERMINERS
+from texvent.scenes.language.vocabulary.motion import VERBS
+from texvent.scenes.language.words.english import Pos, list_readings
+from texvent.scenes.language.words.tagging import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES, Activity
 
 Key = tuple[str, ...]

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence, Set
 
 from texvent.scenes.description import ObjectMotion, SceneDescription
-from texvent.scenes.language.activities import find_activity, name_activity
-from texvent.scenes.language.acts import EFFECT_BY_VERB, ActReader, is_plain_past
-from texvent.scenes.language.camera_reader import CameraReader
-from texvent.scenes.language.capabilities import is_living
-from texvent.scenes.language.circumstances import CircumstanceReader, Scope
-from texvent.scenes.language.draft import Draft, PartialObject
-from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.referents import PERSON, Referent, Referents
-from texvent.scenes.language.surroundings_reader import SurroundingsReader
-from texvent.scenes.language.syntax import Clause, NounGroup, PrepPhrase
-from texvent.scenes.language.tagging import Word, mark_used
-from texvent.scenes.language.vocabulary_motion import Verb
-from texvent.scenes.language.vocabulary_scene import TRAVEL_MEANS, WEATHER_VERBS
-from texvent.scenes.language.words import Pos, VerbForm
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
+from texvent.scenes.language.meaning.activities import find_activity, name_activity
+from texvent.scenes.language.meaning.acts import EFFECT_BY_VERB, ActReader, is_plain_past
+from texvent.scenes.language.meaning.camera_reader import CameraReader
+from texvent.scenes.language.meaning.capabilities import is_living
+from texvent.scenes.language.meaning.circumstances import CircumstanceReader, Scope
+from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
+from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS, WEATHER_VERBS
+from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.tagging import Word, mark_used
 from texvent.scenes.models.protocol import Noun
 
 POSTER = "poster"

@@ -6,20 +6,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from texvent.scenes.description import Effect
-from texvent.scenes.language import vocabulary_scene
-from texvent.scenes.language.adjectives import Attributes, read_attributes
-from texvent.scenes.language.draft import Draft, PartialObject
-from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.syntax import NounGroup
-from texvent.scenes.language.tagging import Word, mark_used
-from texvent.scenes.language.vocabulary_function import (
+from texvent.scenes.language.grammar.syntax import NounGroup
+from texvent.scenes.language.meaning.adjectives import Attributes, read_attributes
+from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.vocabulary import scene as vocabulary_scene
+from texvent.scenes.language.vocabulary.function import (
     DEFINITE,
     NOBODY,
     SOMEONE,
     VIEWERS,
 )
-from texvent.scenes.language.vocabulary_objects import MAX_COUNT, PLURAL_COUNT, SURROUND_COUNT
-from texvent.scenes.language.words import Pos, list_readings
+from texvent.scenes.language.vocabulary.objects import MAX_COUNT, PLURAL_COUNT, SURROUND_COUNT
+from texvent.scenes.language.words.english import Pos, list_readings
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.tagging import Word, mark_used
 
 PERSON = "person"
 OUR = ("our", "my")

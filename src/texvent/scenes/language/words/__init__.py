@@ -1,0 +1,1 @@
+"""Tokens to words with a part of speech."""
