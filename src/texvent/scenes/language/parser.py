@@ -19,8 +19,9 @@ from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Role
-from texvent.scenes.language.words.tagging import Word, tag_words
+from texvent.scenes.language.words.tagging import tag_words
 from texvent.scenes.language.words.tokens import tokenize_prompt
+from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
 

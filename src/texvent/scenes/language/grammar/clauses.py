@@ -14,8 +14,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from texvent.scenes.language.grammar.group_attachment import GroupAttachment
 from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
-from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.vocabulary.function import (
     CONTRASTS,
     NOBODY,
@@ -24,7 +25,7 @@ from texvent.scenes.language.vocabulary.function import (
 )
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word
+from texvent.scenes.language.words.word import Word
 
 _SENTENCE_SIGNS = frozenset(".;!?:\n")
 _AWAITS_NOUN = frozenset(
@@ -41,28 +42,11 @@ def read_clauses(words: Sequence[Word]) -> list[Clause]:
     return _ClauseReader(words).read()
 
 
-class _ClauseReader:
+class _ClauseReader(GroupAttachment):
     """One pass over the words."""
 
     def __init__(self, words: Sequence[Word]) -> None:
-        self._words = words
-        self._at = 0
-        self._clauses: list[Clause] = []
-        self._clause = Clause()
-        self._outer: list[Clause] = []
-        """Clauses that were left open by a relative or a participle."""
-        self._last: NounGroup | None = None
-        """The noun group read last."""
-        self._is_joined: str = ""
-        """As in "and" or "," if that came directly before."""
-        self._phrase: PrepPhrase | None = None
-        """The prepositional phrase that "and" may extend."""
-        self._anchor: NounGroup | None = None
-        """The noun group that prepositions other than "of" belong to."""
-        self._negation: Word | None = None
-        self._next_order = "same"
-        self._sentence = 0
-        """Number of clauses before the sentence."""
+        super().__init__(words)
         self._readers: dict[Pos, Callable[[Word], None]] = {
             Pos.SIGN: self._read_sign,
             Pos.CONJUNCTION: self._read_conjunction,
@@ -135,10 +119,6 @@ class _ClauseReader:
         )  # fmt: skip
         return starts_group(self._words, self._at, is_opening=is_opening)
 
-    def _skip(self, word: Word) -> None:
-        word.is_used = True
-        self._at += 1
-
     def _read_sign(self, word: Word) -> None:
         self._at += 1
         word.is_used = True
@@ -153,12 +133,6 @@ class _ClauseReader:
             self._next_order = "same"
         elif word.text in _JOINING_SIGNS:
             self._is_joined = ","
-
-    def _close(self) -> None:
-        self._clauses.append(self._clause)
-        self._clause = Clause(order=self._next_order, sentence=self._clause.sentence)
-        self._next_order = "same"
-        self._phrase = None
 
     def _open_subordinate(self, word: Word) -> None:
         coming = self._words[self._at + 1 : self._at + 3]
@@ -223,23 +197,6 @@ class _ClauseReader:
         self._is_joined = ""
         self._at += 1
 
-    def _take_negation(self) -> Word | None:
-        negation, self._negation = self._negation, None
-        return negation
-
-    def _continue_with_same_subjects(self, order: str) -> None:
-        subjects = list(self._clause.subjects)
-        self._close()
-        self._clause.subjects, self._clause.order = subjects, order
-
-    def _pop_outer(self) -> Clause | None:
-        """The clause that a finite verb after a relative or participle belongs to."""
-        while self._outer:
-            outer = self._outer.pop()
-            if outer.subjects and (outer.verb is None or outer.is_participle):
-                return outer
-        return None
-
     def _read_verb(self, word: Word) -> None:
         form = word.meaning.form
         is_participle = form in (VerbForm.ING, VerbForm.PAST)
@@ -291,16 +248,6 @@ class _ClauseReader:
             self._clause.subjects, self._clause.phrases = [last], phrases
             self._clause.auxiliaries = auxiliaries
 
-    def _find_finite(self) -> Clause | None:
-        """The clause that "and" after a participle clause goes on with."""
-        outer = self._pop_outer()
-        if outer is not None:
-            return outer
-        for clause in reversed(self._clauses[self._sentence :]):
-            if clause.verb is not None and not clause.is_participle and not clause.is_relative:
-                return clause
-        return None
-
     def _open_participle(self) -> None:
         """As in ", leaving a wake" or "a dog chasing a cat"."""
         before = self._words[self._at - 1]
@@ -327,144 +274,3 @@ class _ClauseReader:
             subjects = list(clause.subjects)
         self._close()
         self._clause.subjects, self._clause.is_participle = subjects, is_participle
-
-    def _read_preposition(self, word: Word, negation: Word | None = None) -> None:
-        self._at += 1
-        if self._at < len(self._words) and self._words[self._at].pos is Pos.NEGATION:
-            negation = self._words[self._at]
-            self._at += 1
-        self._negation = None
-        opens_group = starts_group(self._words, self._at, is_opening=True)
-        is_verb = self._at < len(self._words) and self._words[self._at].pos is Pos.VERB
-        if is_verb and not opens_group:
-            word.is_used = True
-            self._continue_with_same_subjects("same")
-            return
-        if not opens_group:
-            self._clause.adverbs.append(word)
-            return
-        group, self._at = read_group(self._words, self._at)
-        is_of = word.text == "of"
-        if is_of and self._names_shot(word):
-            self._clause.subjects.append(group)
-            self._last = self._anchor = group
-            return
-        phrase = PrepPhrase(word, [group], self._last if is_of else self._anchor, negation)
-        self._attach(phrase)
-        self._phrase, self._last, self._is_joined = phrase, group, ""
-        if not is_of:
-            self._anchor = group
-
-    def _names_shot(self, word: Word) -> bool:
-        """As in "A static shot of a dog": the dog is the subject of what follows."""
-        clause = self._clause
-        if clause.verb is not None:
-            return False
-        if not clause.subjects:
-            word.is_used = bool(clause.adverbs)
-            return bool(clause.adverbs)
-        head = clause.subjects[-1].head
-        if head is None or head.role is not Role.FUNCTION or self._last is not clause.subjects[-1]:
-            return False
-        word.is_used = True
-        self._close()
-        return True
-
-    def _attach(self, phrase: PrepPhrase) -> None:
-        """To the noun before it after "of" and before the verb; else to the clause."""
-        clause, near = self._clause, phrase.near
-        is_of = phrase.preposition.text == "of"
-        is_before_verb = clause.verb is None and bool(clause.subjects)
-        if near is not None and not self._is_joined and (is_of or is_before_verb):
-            near.phrases.append(phrase)
-        else:
-            clause.phrases.append(phrase)
-
-    def _add_group(self, group: NounGroup) -> None:
-        clause, joined = self._clause, self._is_joined
-        if joined and (group.determiner is not None or self._is_counted(group)):
-            self._negation = None if self._words_since_negation(group) else self._negation
-        group.negation = self._negation
-        if clause.verb is None:
-            self._add_subject(group, joined)
-        elif self._is_inverted():
-            clause.subjects.append(group)
-        elif joined and self._verb_follows(self._at):
-            self._open_clause_with(group)
-        elif group.head is None:
-            clause.complements.append(group)
-        elif joined and self._phrase is not None and not self._opens_after_comma(joined):
-            self._phrase.groups.append(group)
-        else:
-            clause.objects.append(group)
-        self._last = self._anchor = group
-        self._is_joined = ""
-
-    def _needs_second(self) -> bool:
-        """As in "Between a house" waits for "and a tree"."""
-        phrase = self._phrase
-        return phrase is not None and phrase.preposition.text == "between" and (
-            len(phrase.groups) == 1
-        )  # fmt: skip
-
-    def _is_counted(self, group: NounGroup) -> bool:
-        return any(word.pos is Pos.NUMBER for word in group.modifiers)
-
-    def _words_since_negation(self, group: NounGroup) -> bool:
-        """Whether another noun came between the negation and this group."""
-        return self._negation is not None and group.words[:1] != [
-            self._words[self._words.index(self._negation) + 1]
-        ]
-
-    def _is_inverted(self) -> bool:
-        """As in "Behind the house stands a cow"."""
-        clause = self._clause
-        return (
-            clause.verb is not None and not clause.subjects and not clause.is_participle
-            and bool(clause.phrases) and clause.verb.meaning.form is VerbForm.THIRD
-        )  # fmt: skip
-
-    def _opens_after_comma(self, joined: str) -> bool:
-        return joined == "," and self._clause.verb is not None
-
-    def _add_subject(self, group: NounGroup, joined: str) -> None:
-        clause = self._clause
-        is_intro = joined == "," and not clause.subjects
-        if clause.complements and joined and self._verb_follows(self._at):
-            self._open_clause_with(group)
-        elif clause.auxiliaries and clause.subjects:
-            clause.complements.append(group)
-        elif (
-            joined
-            and not is_intro
-            and self._phrase is not None
-            and (not self._verb_follows(self._at) or self._needs_second())
-        ):
-            self._phrase.groups.append(group)
-        elif joined or not clause.subjects:
-            self._phrase = None
-            clause.subjects.append(group)
-        else:
-            self._close()
-            self._clause.subjects.append(group)
-
-    def _open_clause_with(self, group: NounGroup) -> None:
-        order = self._next_order
-        self._close()
-        self._clause.subjects = [group]
-        self._clause.order = order
-
-    def _verb_follows(self, at: int) -> bool:
-        """Whether the noun group that ends at `at`, and what hangs on it, is followed by a verb."""
-        words = self._words
-        while at < len(words):
-            pos = words[at].pos
-            if pos in (Pos.VERB, Pos.AUXILIARY):
-                return True
-            if pos is Pos.PREPOSITION and starts_group(words, at + 1, is_opening=True):
-                _, at = read_group(words, at + 1)
-            elif pos is Pos.ADVERB:
-                at += 1
-            else:
-                return False
-        return False

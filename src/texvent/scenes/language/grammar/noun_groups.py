@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word
+from texvent.scenes.language.words.word import Word
 
 _STARTS = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE, Pos.NOUN, Pos.PRONOUN})
 _NOMINAL = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER})

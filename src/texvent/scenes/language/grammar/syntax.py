@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from texvent.scenes.language.words.english import VerbForm
-from texvent.scenes.language.words.tagging import Word
+from texvent.scenes.language.words.word import Word
 
 
 @dataclass(eq=False)

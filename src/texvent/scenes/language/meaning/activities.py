@@ -9,7 +9,7 @@ from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.vocabulary.function import DETERMINERS
 from texvent.scenes.language.vocabulary.motion import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
-from texvent.scenes.language.words.tagging import Word
+from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES, Activity
 
 Key = tuple[str, ...]

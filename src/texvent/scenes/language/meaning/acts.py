@@ -16,7 +16,7 @@ from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word, mark_used
+from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.lamps import LAMPS
 

@@ -13,7 +13,7 @@ from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word
+from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.pictures.checking import can_show, check_picture

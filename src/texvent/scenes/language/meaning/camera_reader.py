@@ -12,7 +12,7 @@ from texvent.scenes.language.meaning.referents import Referent
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word
+from texvent.scenes.language.words.word import Word
 
 _SIDES = {"behind": "behind", "in front of": "front", "beside": "side", "alongside": "side",
           "next to": "side", "past": "side", "above": "above", "over": "above"}  # fmt: skip

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from texvent.scenes.description import Effect, ObjectMotion, Picture
-from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
-from texvent.scenes.language.meaning.acts import BOARDS, WEARABLE, ActReader
+from texvent.scenes.language.meaning.acts import WEARABLE, ActReader
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents, list_parts_shown
+from texvent.scenes.language.meaning.relations import WEAK_PREPOSITIONS, RelationReader
+from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.scene import PART_COLOURS
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word, mark_used
+from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.effects import EFFECTS
 
 _PLACE_PREPOSITIONS = frozenset(
@@ -32,24 +33,6 @@ _LIGHT_PREPOSITIONS = frozenset(
      "as", "through"}
 )  # fmt: skip
 _MOTION_BY_PREPOSITION = {"across": "across", "up": "up", "down": "down"}
-_HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
-_HELD_AT_MOST_M = 1.3
-"""A person "with" something up to this long holds it."""
-
-
-@dataclass
-class Scope:
-    """What the circumstances of a clause are about."""
-
-    subjects: list[int]
-    """Objects that relations are about."""
-    movers: list[int]
-    """Objects whose motion directions and speeds are about; empty = the verb is not shown."""
-    is_lost: bool = False
-    """Whether the clause is about something that is not shown."""
-    has_verb: bool = True
-    is_verb_shown: bool = True
-    has_object: bool = False
 
 
 class CircumstanceReader:
@@ -62,6 +45,7 @@ class CircumstanceReader:
         self._referents = referents
         self._surroundings = surroundings
         self._acts = acts
+        self._relations = RelationReader(draft, referents)
 
     def read_adverbs(self, adverbs: Sequence[Word], scope: Scope) -> None:
         """Directions, paces, sides and times."""
@@ -77,7 +61,7 @@ class CircumstanceReader:
                 self._read_side(word, scope)
             elif role is Role.STILL:
                 self._read_still(word, scope)
-            elif role is Role.FUNCTION and word.meaning.value not in _WEAK_PREPOSITIONS:
+            elif role is Role.FUNCTION and word.meaning.value not in WEAK_PREPOSITIONS:
                 word.is_used = True
             elif role in (Role.LIGHT, Role.CLOUDS, Role.PLACE, Role.WEATHER):
                 self._surroundings.read(word, is_negated=False)
@@ -135,7 +119,7 @@ class CircumstanceReader:
         found = [self._referents.resolve(group, name) for group in phrase.groups]
         things = [index for one in found if one.is_things for index in one.things]
         if things:
-            self._read_things(phrase, things, scope)
+            self._relations.read(phrase, things, scope)
         for one in found:
             if not one.is_things:
                 self._read_other(phrase, one, scope)
@@ -221,75 +205,6 @@ class CircumstanceReader:
         parts = [index for one in found if one.is_things for index in one.things]
         if whole.kind == "part" and list_parts_shown(self._draft, parts, str(whole.value)):
             self._use_part(whole, parts)
-
-    def _read_things(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
-        """Relate the clause's subjects to the things; report what cannot be honoured."""
-        word = phrase.preposition
-        scope = self._narrow(phrase, things, scope)
-        if not scope.subjects:
-            word.is_used = not scope.is_lost
-            word.is_lost = scope.is_lost
-            return
-        is_used = False
-        kind = self._relation_kind(word, things)
-        if scope.has_verb and not scope.is_verb_shown:
-            is_used = self._rest(word, kind, things, scope)
-        elif word.text == "with":
-            is_used = self._read_with(things, scope)
-        elif kind is not None and not self._is_journey_of_none(kind, scope):
-            subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
-            is_used = self._relate(kind, subjects, things)
-        word.is_used, word.is_lost = is_used, not is_used
-
-    def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
-        """As in "zebras with a giraffe behind them": the giraffe is behind them."""
-        near = self._referents.recall(phrase.near)
-        if near is None or set(things) != set(scope.subjects) or not things:
-            return scope
-        if not near.is_things or set(near.things) == set(things):
-            return scope
-        return Scope(near.things, [], has_verb=False)
-
-    def _rest(self, word: Word, kind: str | None, things: list[int], scope: Scope) -> bool:
-        """What does something that is not shown is where it is, if it acts on nothing."""
-        if kind is None or word.text not in _RESTING or scope.has_object:
-            return False
-        return self._relate(kind, scope.subjects, things)
-
-    def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
-        return kind in _JOURNEYS and scope.has_verb and not scope.movers
-
-    def _relate(self, kind: str, subjects: Sequence[int], things: Sequence[int]) -> bool:
-        """Sitting "on" a bicycle is riding it."""
-        mount = self._draft.noun(things[0])
-        is_rider = bool(subjects) and is_person(self._draft.noun(subjects[0]))
-        is_mount = mount.name in HAS_RIDER or mount.name in BOARDS or (
-            is_living(mount) and not is_person(mount)
-        )  # fmt: skip
-        if kind == "on" and is_rider and is_mount:
-            kind = "ride"
-        return self._draft.relate(kind, subjects, things)
-
-    def _relation_kind(self, word: Word, things: list[int]) -> str | None:
-        if word.text == "in" and self._draft.noun(things[0]).name in WEARABLE:
-            return "wear"
-        if word.role is Role.RELATION:
-            return str(word.meaning.value)
-        return _WEAK_PREPOSITIONS.get(word.text)
-
-    def _read_with(self, things: list[int], scope: Scope) -> bool:
-        doer, item = self._draft.noun(scope.subjects[0]), self._draft.noun(things[0])
-        if item.name in WEARABLE and is_living(doer):
-            return self._draft.relate("wear", scope.subjects, things)
-        is_held = item.name in _HELD or (item.motion == "stand" and self._is_small(things[0]))
-        if is_person(doer) and is_held:
-            return self._draft.relate("hold", scope.subjects, things)
-        return self._draft.relate("with", scope.subjects, things)
-
-    def _is_small(self, index: int) -> bool:
-        noun = self._draft.noun(index)
-        model = noun.build(colour=None, scale=self._draft.objects[index].scale, seed=0)
-        return max(model.length, model.width, model.height) <= _HELD_AT_MOST_M
 
     def _read_other(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
         """What is no object of the scene."""
@@ -442,6 +357,12 @@ class CircumstanceReader:
             if names == {colour.name}:
                 mark_used(words)
 
+    def read_extra(self, one: Referent) -> None:
+        """What else is named: a place, or what hangs on an object."""
+        if one.kind in OF_SCENE:
+            self._surroundings.read_referent(one, is_negated=False)
+        self.read_group_phrases(one, Scope(one.things, []))
+
     def person(self) -> int | None:
         """A person whom the prompt only implies: "juggling three oranges"."""
         for index in range(len(self._draft.objects)):
@@ -460,16 +381,5 @@ LIKENESSES = frozenset(
      "replica", "costume", "shadow"}
 )  # fmt: skip
 """What shows a thing without its being there: "a statue of a horse"."""
-_JOURNEYS = frozenset({"towards", "through", "past", "from"})
-_PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
-_WEAK_PREPOSITIONS: dict[object, str] = {
-    "at": "beside", "by": "beside", "across": "on", "along": "past",
-}  # fmt: skip
-"""Prepositions of many senses → the relation they mean between two objects."""
-_RESTING = frozenset(
-    {"on", "under", "beside", "next to", "behind", "in front of", "between", "near", "at", "by",
-     "above", "in", "inside", "among", "beneath", "below", "with", "on top of"}
-)  # fmt: skip
-"""Prepositions that say where something is, whatever it does there."""
 _BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
               "from": "away", "at": "towards"}  # fmt: skip

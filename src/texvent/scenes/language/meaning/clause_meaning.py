@@ -2,40 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.activities import find_activity, name_activity
-from texvent.scenes.language.meaning.acts import EFFECT_BY_VERB, ActReader, is_plain_past
+from texvent.scenes.language.meaning.acts import ActReader, is_plain_past
 from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.capabilities import is_living
-from texvent.scenes.language.meaning.circumstances import CircumstanceReader, Scope
+from texvent.scenes.language.meaning.circumstances import CircumstanceReader
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
+from texvent.scenes.language.meaning.scene_clauses import SceneClauses
+from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS, WEATHER_VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word, mark_used
+from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.protocol import Noun
 
 POSTER = "poster"
 """What shows a picture for which no surface is named."""
-_OF_SCENE = frozenset(
-    {"place", "light", "weather", "sky", "snow", "dust", "shadow", "glow", "clouds"}
-)
-_SUN = {"set": "dusk", "rise": "dawn"}
-_OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
-_BENDS = ("curve", "wind", "bend", "twist")
-_SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
-_PLAIN_WEATHER_VERBS = frozenset(
-    {"fall", "blow", "drift", "roll", "shine", "rise", "set", "hang", "kick", "kick up", "fly",
-     "float", "glitter", "cast", "cover", "fill", "pour", "come", "glow", "light", "move", "drop",
-     "descend", "billow", "swirl", "shower", "spray", "stream", "fly up"}
-)  # fmt: skip
-"""Verbs that say nothing new of rain, dust, light or smoke: "rain falls"."""
 
 
 class ClauseMeaning:
@@ -50,7 +39,7 @@ class ClauseMeaning:
         self._around = CircumstanceReader(
             self._draft, self._referents, self._surroundings, self._acts
         )
-        self._has_surroundings = False
+        self._scenes = SceneClauses(self._referents, self._surroundings, self._around)
 
     @property
     def is_anything_shown(self) -> bool:
@@ -97,10 +86,10 @@ class ClauseMeaning:
         subjects = [self._referents.resolve(group) for group in clause.subjects]
         if self._is_about_camera(clause, subjects):
             self._read_camera(clause, subjects)
-        elif subjects and all(one.kind in _OF_SCENE for one in subjects):
-            self._read_scene(clause, subjects)
+        elif subjects and all(one.kind in OF_SCENE for one in subjects):
+            self._scenes.read(clause, subjects)
         elif subjects and all(one.kind == "effect" for one in subjects):
-            self._read_effects(clause, subjects)
+            self._scenes.read_effects(clause, subjects)
         elif not subjects and clause.verb is not None:
             self._read_subjectless(clause)
         else:
@@ -136,7 +125,7 @@ class ClauseMeaning:
                 self._around.read_phrase(phrase, Scope(things, [], has_verb=False))
             self._around.read_group_phrases(one, Scope([], []))
         for one in (*objects, *self._split_scene(others)):
-            self._read_extra(one)
+            self._around.read_extra(one)
         named = [*objects, *(one for _, one in phrases)]
         self._keep_subjects([index for one in named if one.is_things for index in one.things][:1])
         if clause.verb is not None and clause.verb.text in ("taken", "filmed", "shot", "seen"):
@@ -149,88 +138,6 @@ class ClauseMeaning:
                 group.negation = phrase.negation or group.negation
                 found.append((phrase, self._referents.resolve(group, phrase.preposition.text)))
         return found
-
-    def _read_extra(self, one: Referent) -> None:
-        """What else is named: a place, or what hangs on an object."""
-        if one.kind in _OF_SCENE:
-            self._surroundings.read_referent(one, is_negated=False)
-        self._around.read_group_phrases(one, Scope(one.things, []))
-
-    def _read_scene(self, clause: Clause, subjects: Sequence[Referent]) -> None:
-        """Rain falls, the light flickers, the road curves, the room is dark."""
-        word = clause.verb
-        if word is not None and self._read_water(clause, word, subjects):
-            return
-        for one in subjects:
-            self._surroundings.read_referent(one, is_negated=clause.negation is not None)
-            self._around.read_group_phrases(one, Scope([], [], has_verb=False))
-        if word is not None:
-            word.is_used = self._read_scene_verb(word, {one.kind for one in subjects})
-        for group in clause.complements:
-            self._read_scene_complement(self._referents.resolve(group))
-        if word is not None and word.is_used:
-            for adverb in clause.adverbs:
-                adverb.is_used = adverb.is_used or adverb.role is Role.DIRECTION
-        scope = Scope([], [])
-        self._around.read_adverbs(clause.adverbs, scope)
-        self._around.read_phrases(clause.phrases, scope)
-        for group in clause.objects:
-            self._read_extra(self._referents.resolve(group))
-
-    def _read_water(self, clause: Clause, word: Word, subjects: Sequence[Referent]) -> bool:
-        """As in "water drips from a tap": an effect, not a place."""
-        kind = EFFECT_BY_VERB.get(word.lemma)
-        heads = [one.group.head for one in subjects if one.group.head is not None]
-        if kind not in _OF_WATER or any(head.text != "water" for head in heads):
-            return False
-        mark_used([word, *heads])
-        effects = [Referent("effect", one.group, value=kind) for one in subjects]
-        self._read_effects(clause, effects)
-        return True
-
-    def _read_scene_verb(self, word: Word, kinds: Set[str]) -> bool:
-        """What light, weather or a place does; whether it is shown."""
-        if word.role is Role.FLICKER and kinds & {"light", "glow"}:
-            self._surroundings.flicker()
-            return True
-        if word.lemma in _BENDS and "place" in kinds:
-            return self._surroundings.curve_road()
-        if word.lemma in _SUN and "light" in kinds:
-            return self._surroundings.read_light(_SUN[word.lemma], is_sure=True)
-        if word.lemma in _SNOWS and "snow" in kinds:
-            return self._surroundings.read_weather("snow")
-        return word.lemma in _PLAIN_WEATHER_VERBS and bool(kinds - {"place"})
-
-    def _read_scene_complement(self, one: Referent) -> None:
-        """As in "the room is dark"."""
-        self._surroundings.read_adjectives(one.attributes, "place")
-        for said in one.attributes.words:
-            if said.text == "dark":
-                self._surroundings.darken()
-                said.is_used = True
-
-    def _read_effects(self, clause: Clause, subjects: Sequence[Referent]) -> None:
-        """Smoke rises from a chimney."""
-        sources: list[int] = []
-        for phrase in (*clause.phrases, *(p for one in subjects for p in one.group.phrases)):
-            for group in phrase.groups:
-                found = self._referents.resolve(group, phrase.preposition.text)
-                if found.is_things:
-                    sources.extend(found.things)
-                    phrase.preposition.is_used = True
-                else:
-                    self._around.read_phrase(phrase, Scope([], []))
-                self._around.read_group_phrases(found, Scope(found.things, []))
-        for one in subjects:
-            self._around.add_effect(one, Scope(sources[:1], []))
-        word = clause.verb
-        if word is not None and (
-            word.lemma in _PLAIN_WEATHER_VERBS or isinstance(word.meaning.value, Verb)
-        ):
-            word.is_used = True
-            for adverb in clause.adverbs:
-                adverb.is_used = adverb.is_used or adverb.text in ("up", "out", "down")
-        self._around.read_adverbs(clause.adverbs, Scope(sources, []))
 
     def _read_subjectless(self, clause: Clause) -> None:
         """As in "Driving through a tunnel", "juggling three oranges"."""
@@ -266,7 +173,7 @@ class ClauseMeaning:
             for group in phrase.groups:
                 one = self._referents.resolve(group, phrase.preposition.text)
                 phrase.preposition.is_used = one.is_things
-                self._read_extra(one)
+                self._around.read_extra(one)
 
     def _read_objects(self, clause: Clause, subjects: Sequence[Referent]) -> None:
         """A clause about objects, or about something that is not shown."""
@@ -346,7 +253,7 @@ class ClauseMeaning:
     def _read_object(self, one: Referent, clause: Clause, scope: Scope) -> None:
         if one.kind == "unit":
             self._around.read_quantity(one, scope)
-        elif one.kind in _OF_SCENE:
+        elif one.kind in OF_SCENE:
             self._surroundings.read_referent(one, is_negated=False)
             self._cross(one, clause, scope)
         elif one.kind == "effect":
@@ -364,8 +271,8 @@ class ClauseMeaning:
         """Read the places and lights in a list of subjects; return the rest."""
         rest = []
         for one in subjects:
-            if one.kind in _OF_SCENE:
-                self._read_extra(one)
+            if one.kind in OF_SCENE:
+                self._around.read_extra(one)
             elif one.kind == "effect":
                 self._around.add_effect(one, Scope([], []))
             elif one.kind == "picture":

@@ -19,7 +19,7 @@ from texvent.scenes.language.vocabulary.function import (
 from texvent.scenes.language.vocabulary.objects import MAX_COUNT, PLURAL_COUNT, SURROUND_COUNT
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word, mark_used
+from texvent.scenes.language.words.word import Word, mark_used
 
 PERSON = "person"
 OUR = ("our", "my")

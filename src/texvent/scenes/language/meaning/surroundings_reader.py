@@ -9,7 +9,7 @@ from texvent.scenes.language.meaning.adjectives import Attributes
 from texvent.scenes.language.meaning.referents import Referent
 from texvent.scenes.language.vocabulary import scene as vocabulary_scene
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.tagging import Word, mark_used
+from texvent.scenes.language.words.word import Word, mark_used
 
 _BACKDROPS = ("mountain", "forest", "city")
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "lake", "river", "sand", "snow",

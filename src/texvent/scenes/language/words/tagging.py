@@ -1,82 +1,20 @@
-"""Tokens to words with a part of speech: the longest entry of the lexicon, then its neighbours."""
+"""Phrases to words with a part of speech: the neighbours decide."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 
-from texvent.scenes.language.words.english import (
-    Pos,
-    VerbForm,
-    correct_spelling,
-    list_readings,
-)
+from texvent.scenes.language.words.cutting import correct_token, cut_tokens
+from texvent.scenes.language.words.english import Pos, VerbForm, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.tokens import Token
+from texvent.scenes.language.words.word import Word
 
 _OPENS_NOUN = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE})
 """After these a noun or one more adjective follows."""
 _NOMINAL = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER})
 _OPENS_CLAUSE = frozenset({Pos.SUBORDINATOR, Pos.RELATIVE, Pos.SIGN})
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
-
-
-@dataclass(eq=False)
-class Word:
-    """Some tokens of a prompt that belong together, with their reading."""
-
-    tokens: tuple[Token, ...]
-    meaning: Meaning
-    lemma: str
-    is_used: bool = False
-    """Whether it had an effect on the scene, or needs none."""
-    is_lost: bool = False
-    """Whether it says something of things that are shown, which the scene does not honour."""
-    shown_as: str | None = None
-    """What is shown in its place, if that is something else."""
-    others: tuple[Meaning, ...] = field(default=())
-    """Its other readings."""
-
-    @property
-    def pos(self) -> Pos:
-        """Its part of speech."""
-        return self.meaning.pos
-
-    @property
-    def role(self) -> Role:
-        """What it does in the sentence."""
-        return self.meaning.role
-
-    @property
-    def text(self) -> str:
-        """Its words, in lower case."""
-        return " ".join(token.text for token in self.tokens)
-
-    @property
-    def written(self) -> str:
-        """Its words as the prompt has them."""
-        return " ".join(token.written for token in self.tokens)
-
-    @property
-    def is_possessive(self) -> bool:
-        """Whether it owns what follows: "the dog's tail"."""
-        written = self.tokens[-1].written.casefold()
-        is_owner = written.endswith(("'s", "’s", "s'", "s’"))
-        return is_owner and self.tokens[-1].text not in _CONTRACTED
-
-    def read_as(self, role: Role) -> Meaning | None:
-        """Its meaning in that role, if it can have it."""
-        return next((one for one in (self.meaning, *self.others) if one.role is role), None)
-
-
-_CONTRACTED = frozenset({"it", "that", "there", "he", "she", "what", "who", "let", "here"})
-"""Words after which 's is "is"."""
-
-
-def mark_used(words: Iterable[Word]) -> None:
-    """These words had an effect."""
-    for word in words:
-        word.is_used = True
 
 
 def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list[str]]:
@@ -86,8 +24,8 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
         The words, and a note for each spelling that was corrected.
     """
     notes: list[str] = []
-    tokens = [_correct(token, known, notes) for token in tokens]
-    spans = list(_cut(_own(tokens, known), known))
+    tokens = [correct_token(token, known, notes) for token in tokens]
+    spans = list(cut_tokens(tokens, known))
     tagger = _Tagger([candidates for _, candidates in spans])
     words: list[Word] = []
     for index, (span, candidates) in enumerate(spans):
@@ -97,111 +35,6 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
         lemma = next((one.lemma for one in list_readings(text) if one.pos is chosen.pos), text)
         words.append(Word(tuple(span), chosen, lemma, others=others))
     return words, notes
-
-
-def _correct(token: Token, known: Lexicon, notes: list[str]) -> Token:
-    is_word = not (token.is_punctuation or token.is_number or token.picture)
-    if not is_word or token.text in known.words:
-        return token
-    better = correct_spelling(token.text, known.words)
-    if better is None:
-        return token
-    notes.append(f"'{token.written}' is read as '{better}'")
-    return Token(better, token.written)
-
-
-def _own(tokens: Sequence[Token], known: Lexicon) -> list[Token]:
-    """As in "it's tires" is "its tires"."""
-    found = list(tokens)
-    for index, token in enumerate(tokens[:-1]):
-        if token.written.casefold() in ("it's", "it’s"):
-            _, meanings = known.find([tokens[index + 1].text])
-            if any(one.role in (Role.PART, Role.NOUN) for one in meanings):
-                found[index] = Token("its", token.written)
-    return found
-
-
-def _cut(
-    tokens: Sequence[Token], known: Lexicon
-) -> Iterable[tuple[Sequence[Token], list[Meaning]]]:
-    """Longest phrases of the lexicon, each with all its readings."""
-    start = 0
-    while start < len(tokens):
-        window = tokens[start : start + known.longest]
-        length, meanings = known.find([token.text for token in window])
-        length = _stop_at_sign(window, length) if window[0].picture is None else 0
-        length = _split_particle(window, length, known)
-        meanings = known.find([token.text for token in window[:length]])[1] if length else []
-        length = max(length, 1)
-        yield tokens[start : start + length], _complete(tokens[start : start + length], meanings)
-        start += length
-
-
-def _split_particle(window: Sequence[Token], length: int, known: Lexicon) -> int:
-    """As in "Speeds up a road" goes up a road; "speeds up" goes faster."""
-    if length != 2 or window[1].text not in _PARTICLES or len(window) < 3:
-        return length
-    _, meanings = known.find([token.text for token in window[:2]])
-    takes_object = any(
-        one.role is not Role.VERB or one.value.act or one.value.relation or one.value.object_kind
-        for one in meanings
-    )
-    _, after = known.find([window[2].text])
-    opens_group = any(one.pos is Pos.DETERMINER for one in after)
-    return 1 if opens_group and not takes_object else length
-
-
-_PARTICLES = frozenset({"up", "down", "over", "around", "off", "through", "by"})
-
-
-def _stop_at_sign(window: Sequence[Token], length: int) -> int:
-    """A possessive inside a phrase ends it: "a dog's tail" is not one word."""
-    for index, token in enumerate(window[: max(length - 1, 0)]):
-        if token.written.casefold().endswith(("'s", "’s")) and token.text not in _CONTRACTED:
-            return index + 1
-    return length
-
-
-def _read_unspelt(token: Token) -> Meaning | None:
-    """The one reading of a picture, a number or a sign."""
-    if token.picture is not None:
-        return Meaning(Role.PICTURE, Pos.NOUN, token.picture)
-    if token.is_number:
-        return Meaning(Role.COUNT, Pos.NUMBER, float(token.text.replace(",", ".")))
-    if token.is_punctuation:
-        return Meaning(Role.FUNCTION, Pos.SIGN, token.text)
-    return None if token.text[0].isalpha() else Meaning(Role.UNKNOWN, Pos.ADVERB)
-
-
-def _complete(span: Sequence[Token], meanings: list[Meaning]) -> list[Meaning]:
-    """The lexicon's readings, and those of a dictionary for a single word."""
-    if len(span) > 1:
-        return meanings
-    token = span[0]
-    fixed = _read_unspelt(token)
-    if fixed is not None:
-        return [fixed]
-    found = list(meanings)
-    listed = {meaning.pos for meaning in found}
-    if listed and listed <= _CLOSED:
-        return found
-    for one in list_readings(token.text):
-        if one.pos not in listed:
-            both = one.pos is Pos.NOUN and token.text.endswith("s") and not one.is_plural
-            found.append(Meaning(Role.UNKNOWN, one.pos, None, one.form, one.is_plural, both))
-            listed.add(one.pos)
-    if not found:
-        found.append(Meaning(Role.UNKNOWN, Pos.NOUN))
-        if token.text.endswith("ing"):
-            found.append(Meaning(Role.UNKNOWN, Pos.VERB, None, VerbForm.ING))
-    return found
-
-
-_CLOSED = frozenset(
-    {Pos.DETERMINER, Pos.PRONOUN, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.AUXILIARY, Pos.TO,
-     Pos.RELATIVE, Pos.NEGATION, Pos.PREPOSITION, Pos.ADJUNCT}
-)  # fmt: skip
-"""Parts of speech whose words are listed in full: no dictionary adds to them."""
 
 
 class _Tagger:

@@ -1,0 +1,155 @@
+"""Where noun groups and prepositional phrases belong: subject, object, noun before, or clause."""
+
+from __future__ import annotations
+
+from texvent.scenes.language.grammar.clause_state import ClauseState
+from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
+from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
+from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.word import Word
+
+
+class GroupAttachment(ClauseState):
+    """Attaches groups to the clause being read."""
+
+    def _read_preposition(self, word: Word, negation: Word | None = None) -> None:
+        self._at += 1
+        if self._at < len(self._words) and self._words[self._at].pos is Pos.NEGATION:
+            negation = self._words[self._at]
+            self._at += 1
+        self._negation = None
+        opens_group = starts_group(self._words, self._at, is_opening=True)
+        is_verb = self._at < len(self._words) and self._words[self._at].pos is Pos.VERB
+        if is_verb and not opens_group:
+            word.is_used = True
+            self._continue_with_same_subjects("same")
+            return
+        if not opens_group:
+            self._clause.adverbs.append(word)
+            return
+        group, self._at = read_group(self._words, self._at)
+        is_of = word.text == "of"
+        if is_of and self._names_shot(word):
+            self._clause.subjects.append(group)
+            self._last = self._anchor = group
+            return
+        phrase = PrepPhrase(word, [group], self._last if is_of else self._anchor, negation)
+        self._attach(phrase)
+        self._phrase, self._last, self._is_joined = phrase, group, ""
+        if not is_of:
+            self._anchor = group
+
+    def _names_shot(self, word: Word) -> bool:
+        """As in "A static shot of a dog": the dog is the subject of what follows."""
+        clause = self._clause
+        if clause.verb is not None:
+            return False
+        if not clause.subjects:
+            word.is_used = bool(clause.adverbs)
+            return bool(clause.adverbs)
+        head = clause.subjects[-1].head
+        if head is None or head.role is not Role.FUNCTION or self._last is not clause.subjects[-1]:
+            return False
+        word.is_used = True
+        self._close()
+        return True
+
+    def _attach(self, phrase: PrepPhrase) -> None:
+        """To the noun before it after "of" and before the verb; else to the clause."""
+        clause, near = self._clause, phrase.near
+        is_of = phrase.preposition.text == "of"
+        is_before_verb = clause.verb is None and bool(clause.subjects)
+        if near is not None and not self._is_joined and (is_of or is_before_verb):
+            near.phrases.append(phrase)
+        else:
+            clause.phrases.append(phrase)
+
+    def _add_group(self, group: NounGroup) -> None:
+        clause, joined = self._clause, self._is_joined
+        if joined and (group.determiner is not None or self._is_counted(group)):
+            self._negation = None if self._words_since_negation(group) else self._negation
+        group.negation = self._negation
+        if clause.verb is None:
+            self._add_subject(group, joined)
+        elif self._is_inverted():
+            clause.subjects.append(group)
+        elif joined and self._verb_follows(self._at):
+            self._open_clause_with(group)
+        elif group.head is None:
+            clause.complements.append(group)
+        elif joined and self._phrase is not None and not self._opens_after_comma(joined):
+            self._phrase.groups.append(group)
+        else:
+            clause.objects.append(group)
+        self._last = self._anchor = group
+        self._is_joined = ""
+
+    def _needs_second(self) -> bool:
+        """As in "Between a house" waits for "and a tree"."""
+        phrase = self._phrase
+        return phrase is not None and phrase.preposition.text == "between" and (
+            len(phrase.groups) == 1
+        )  # fmt: skip
+
+    def _is_counted(self, group: NounGroup) -> bool:
+        return any(word.pos is Pos.NUMBER for word in group.modifiers)
+
+    def _words_since_negation(self, group: NounGroup) -> bool:
+        """Whether another noun came between the negation and this group."""
+        return self._negation is not None and group.words[:1] != [
+            self._words[self._words.index(self._negation) + 1]
+        ]
+
+    def _is_inverted(self) -> bool:
+        """As in "Behind the house stands a cow"."""
+        clause = self._clause
+        return (
+            clause.verb is not None and not clause.subjects and not clause.is_participle
+            and bool(clause.phrases) and clause.verb.meaning.form is VerbForm.THIRD
+        )  # fmt: skip
+
+    def _opens_after_comma(self, joined: str) -> bool:
+        return joined == "," and self._clause.verb is not None
+
+    def _add_subject(self, group: NounGroup, joined: str) -> None:
+        clause = self._clause
+        is_intro = joined == "," and not clause.subjects
+        if clause.complements and joined and self._verb_follows(self._at):
+            self._open_clause_with(group)
+        elif clause.auxiliaries and clause.subjects:
+            clause.complements.append(group)
+        elif (
+            joined
+            and not is_intro
+            and self._phrase is not None
+            and (not self._verb_follows(self._at) or self._needs_second())
+        ):
+            self._phrase.groups.append(group)
+        elif joined or not clause.subjects:
+            self._phrase = None
+            clause.subjects.append(group)
+        else:
+            self._close()
+            self._clause.subjects.append(group)
+
+    def _open_clause_with(self, group: NounGroup) -> None:
+        order = self._next_order
+        self._close()
+        self._clause.subjects = [group]
+        self._clause.order = order
+
+    def _verb_follows(self, at: int) -> bool:
+        """Whether the noun group that ends at `at`, and what hangs on it, is followed by a verb."""
+        words = self._words
+        while at < len(words):
+            pos = words[at].pos
+            if pos in (Pos.VERB, Pos.AUXILIARY):
+                return True
+            if pos is Pos.PREPOSITION and starts_group(words, at + 1, is_opening=True):
+                _, at = read_group(words, at + 1)
+            elif pos is Pos.ADVERB:
+                at += 1
+            else:
+                return False
+        return False

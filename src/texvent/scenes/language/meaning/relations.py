@@ -1,0 +1,109 @@
+"""Prepositions between objects: where one is, or goes, with respect to others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.language.defaults import HAS_RIDER
+from texvent.scenes.language.grammar.syntax import PrepPhrase
+from texvent.scenes.language.meaning.acts import BOARDS, WEARABLE
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents import Referents
+from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.word import Word
+
+_HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
+_HELD_AT_MOST_M = 1.3
+"""A person "with" something up to this long holds it."""
+
+
+class RelationReader:
+    """Relates the subjects of a clause to the objects that its prepositions name."""
+
+    def __init__(self, draft: Draft, referents: Referents) -> None:
+        self._draft = draft
+        self._referents = referents
+
+    def read(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
+        """Relate the clause's subjects to the things; report what cannot be honoured."""
+        word = phrase.preposition
+        scope = self._narrow(phrase, things, scope)
+        if not scope.subjects:
+            word.is_used = not scope.is_lost
+            word.is_lost = scope.is_lost
+            return
+        is_used = False
+        kind = self._relation_kind(word, things)
+        if scope.has_verb and not scope.is_verb_shown:
+            is_used = self._rest(word, kind, things, scope)
+        elif word.text == "with":
+            is_used = self._read_with(things, scope)
+        elif kind is not None and not self._is_journey_of_none(kind, scope):
+            subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
+            is_used = self._relate(kind, subjects, things)
+        word.is_used, word.is_lost = is_used, not is_used
+
+    def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
+        """As in "zebras with a giraffe behind them": the giraffe is behind them."""
+        near = self._referents.recall(phrase.near)
+        if near is None or set(things) != set(scope.subjects) or not things:
+            return scope
+        if not near.is_things or set(near.things) == set(things):
+            return scope
+        return Scope(near.things, [], has_verb=False)
+
+    def _rest(self, word: Word, kind: str | None, things: list[int], scope: Scope) -> bool:
+        """What does something that is not shown is where it is, if it acts on nothing."""
+        if kind is None or word.text not in _RESTING or scope.has_object:
+            return False
+        return self._relate(kind, scope.subjects, things)
+
+    def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
+        return kind in _JOURNEYS and scope.has_verb and not scope.movers
+
+    def _relate(self, kind: str, subjects: Sequence[int], things: Sequence[int]) -> bool:
+        """Sitting "on" a bicycle is riding it."""
+        mount = self._draft.noun(things[0])
+        is_rider = bool(subjects) and is_person(self._draft.noun(subjects[0]))
+        is_mount = mount.name in HAS_RIDER or mount.name in BOARDS or (
+            is_living(mount) and not is_person(mount)
+        )  # fmt: skip
+        if kind == "on" and is_rider and is_mount:
+            kind = "ride"
+        return self._draft.relate(kind, subjects, things)
+
+    def _relation_kind(self, word: Word, things: list[int]) -> str | None:
+        if word.text == "in" and self._draft.noun(things[0]).name in WEARABLE:
+            return "wear"
+        if word.role is Role.RELATION:
+            return str(word.meaning.value)
+        return WEAK_PREPOSITIONS.get(word.text)
+
+    def _read_with(self, things: list[int], scope: Scope) -> bool:
+        doer, item = self._draft.noun(scope.subjects[0]), self._draft.noun(things[0])
+        if item.name in WEARABLE and is_living(doer):
+            return self._draft.relate("wear", scope.subjects, things)
+        is_held = item.name in _HELD or (item.motion == "stand" and self._is_small(things[0]))
+        if is_person(doer) and is_held:
+            return self._draft.relate("hold", scope.subjects, things)
+        return self._draft.relate("with", scope.subjects, things)
+
+    def _is_small(self, index: int) -> bool:
+        noun = self._draft.noun(index)
+        model = noun.build(colour=None, scale=self._draft.objects[index].scale, seed=0)
+        return max(model.length, model.width, model.height) <= _HELD_AT_MOST_M
+
+
+_JOURNEYS = frozenset({"towards", "through", "past", "from"})
+_PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
+WEAK_PREPOSITIONS: dict[object, str] = {
+    "at": "beside", "by": "beside", "across": "on", "along": "past",
+}  # fmt: skip
+"""Prepositions of many senses → the relation they mean between two objects."""
+_RESTING = frozenset(
+    {"on", "under", "beside", "next to", "behind", "in front of", "between", "near", "at", "by",
+     "above", "in", "inside", "among", "beneath", "below", "with", "on top of"}
+)  # fmt: skip
+"""Prepositions that say where something is, whatever it does there."""

@@ -1,0 +1,113 @@
+"""Clauses about light, weather, places and effects: "rain falls", "the road bends"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence, Set
+
+from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.acts import EFFECT_BY_VERB
+from texvent.scenes.language.meaning.circumstances import CircumstanceReader
+from texvent.scenes.language.meaning.referents import Referent, Referents
+from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.word import Word, mark_used
+
+_SUN = {"set": "dusk", "rise": "dawn"}
+_OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
+_BENDS = ("curve", "wind", "bend", "twist")
+_SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
+_PLAIN_WEATHER_VERBS = frozenset(
+    {"fall", "blow", "drift", "roll", "shine", "rise", "set", "hang", "kick", "kick up", "fly",
+     "float", "glitter", "cast", "cover", "fill", "pour", "come", "glow", "light", "move", "drop",
+     "descend", "billow", "swirl", "shower", "spray", "stream", "fly up"}
+)  # fmt: skip
+"""Verbs that say nothing new of rain, dust, light or smoke: "rain falls"."""
+
+
+class SceneClauses:
+    """Reads clauses whose subject is no object."""
+
+    def __init__(
+        self, referents: Referents, surroundings: SurroundingsReader, around: CircumstanceReader
+    ) -> None:
+        self._referents = referents
+        self._surroundings = surroundings
+        self._around = around
+
+    def read(self, clause: Clause, subjects: Sequence[Referent]) -> None:
+        """Rain falls, the light flickers, the road curves, the room is dark."""
+        word = clause.verb
+        if word is not None and self._read_water(clause, word, subjects):
+            return
+        for one in subjects:
+            self._surroundings.read_referent(one, is_negated=clause.negation is not None)
+            self._around.read_group_phrases(one, Scope([], [], has_verb=False))
+        if word is not None:
+            word.is_used = self._read_scene_verb(word, {one.kind for one in subjects})
+        for group in clause.complements:
+            self._read_scene_complement(self._referents.resolve(group))
+        if word is not None and word.is_used:
+            for adverb in clause.adverbs:
+                adverb.is_used = adverb.is_used or adverb.role is Role.DIRECTION
+        scope = Scope([], [])
+        self._around.read_adverbs(clause.adverbs, scope)
+        self._around.read_phrases(clause.phrases, scope)
+        for group in clause.objects:
+            self._around.read_extra(self._referents.resolve(group))
+
+    def _read_water(self, clause: Clause, word: Word, subjects: Sequence[Referent]) -> bool:
+        """As in "water drips from a tap": an effect, not a place."""
+        kind = EFFECT_BY_VERB.get(word.lemma)
+        heads = [one.group.head for one in subjects if one.group.head is not None]
+        if kind not in _OF_WATER or any(head.text != "water" for head in heads):
+            return False
+        mark_used([word, *heads])
+        effects = [Referent("effect", one.group, value=kind) for one in subjects]
+        self.read_effects(clause, effects)
+        return True
+
+    def _read_scene_verb(self, word: Word, kinds: Set[str]) -> bool:
+        """What light, weather or a place does; whether it is shown."""
+        if word.role is Role.FLICKER and kinds & {"light", "glow"}:
+            self._surroundings.flicker()
+            return True
+        if word.lemma in _BENDS and "place" in kinds:
+            return self._surroundings.curve_road()
+        if word.lemma in _SUN and "light" in kinds:
+            return self._surroundings.read_light(_SUN[word.lemma], is_sure=True)
+        if word.lemma in _SNOWS and "snow" in kinds:
+            return self._surroundings.read_weather("snow")
+        return word.lemma in _PLAIN_WEATHER_VERBS and bool(kinds - {"place"})
+
+    def _read_scene_complement(self, one: Referent) -> None:
+        """As in "the room is dark"."""
+        self._surroundings.read_adjectives(one.attributes, "place")
+        for said in one.attributes.words:
+            if said.text == "dark":
+                self._surroundings.darken()
+                said.is_used = True
+
+    def read_effects(self, clause: Clause, subjects: Sequence[Referent]) -> None:
+        """Smoke rises from a chimney."""
+        sources: list[int] = []
+        for phrase in (*clause.phrases, *(p for one in subjects for p in one.group.phrases)):
+            for group in phrase.groups:
+                found = self._referents.resolve(group, phrase.preposition.text)
+                if found.is_things:
+                    sources.extend(found.things)
+                    phrase.preposition.is_used = True
+                else:
+                    self._around.read_phrase(phrase, Scope([], []))
+                self._around.read_group_phrases(found, Scope(found.things, []))
+        for one in subjects:
+            self._around.add_effect(one, Scope(sources[:1], []))
+        word = clause.verb
+        if word is not None and (
+            word.lemma in _PLAIN_WEATHER_VERBS or isinstance(word.meaning.value, Verb)
+        ):
+            word.is_used = True
+            for adverb in clause.adverbs:
+                adverb.is_used = adverb.is_used or adverb.text in ("up", "out", "down")
+        self._around.read_adverbs(clause.adverbs, Scope(sources, []))

@@ -1,0 +1,122 @@
+"""Tokens to phrases of the lexicon, each with all the readings it can have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from texvent.scenes.language.words.english import (
+    Pos,
+    VerbForm,
+    correct_spelling,
+    list_readings,
+)
+from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
+from texvent.scenes.language.words.tokens import Token
+from texvent.scenes.language.words.word import CONTRACTED
+
+
+def correct_token(token: Token, known: Lexicon, notes: list[str]) -> Token:
+    """The word that a misspelt one stands for, with a note; any other token as it is."""
+    is_word = not (token.is_punctuation or token.is_number or token.picture)
+    if not is_word or token.text in known.words:
+        return token
+    better = correct_spelling(token.text, known.words)
+    if better is None:
+        return token
+    notes.append(f"'{token.written}' is read as '{better}'")
+    return Token(better, token.written)
+
+
+def _own(tokens: Sequence[Token], known: Lexicon) -> list[Token]:
+    """As in "it's tires" is "its tires"."""
+    found = list(tokens)
+    for index, token in enumerate(tokens[:-1]):
+        if token.written.casefold() in ("it's", "it’s"):
+            _, meanings = known.find([tokens[index + 1].text])
+            if any(one.role in (Role.PART, Role.NOUN) for one in meanings):
+                found[index] = Token("its", token.written)
+    return found
+
+
+def cut_tokens(
+    tokens: Sequence[Token], known: Lexicon
+) -> Iterable[tuple[Sequence[Token], list[Meaning]]]:
+    """Longest phrases of the lexicon, each with all its readings."""
+    tokens = _own(tokens, known)
+    start = 0
+    while start < len(tokens):
+        window = tokens[start : start + known.longest]
+        length, meanings = known.find([token.text for token in window])
+        length = _stop_at_sign(window, length) if window[0].picture is None else 0
+        length = _split_particle(window, length, known)
+        meanings = known.find([token.text for token in window[:length]])[1] if length else []
+        length = max(length, 1)
+        yield tokens[start : start + length], _complete(tokens[start : start + length], meanings)
+        start += length
+
+
+def _split_particle(window: Sequence[Token], length: int, known: Lexicon) -> int:
+    """As in "Speeds up a road" goes up a road; "speeds up" goes faster."""
+    if length != 2 or window[1].text not in _PARTICLES or len(window) < 3:
+        return length
+    _, meanings = known.find([token.text for token in window[:2]])
+    takes_object = any(
+        one.role is not Role.VERB or one.value.act or one.value.relation or one.value.object_kind
+        for one in meanings
+    )
+    _, after = known.find([window[2].text])
+    opens_group = any(one.pos is Pos.DETERMINER for one in after)
+    return 1 if opens_group and not takes_object else length
+
+
+_PARTICLES = frozenset({"up", "down", "over", "around", "off", "through", "by"})
+
+
+def _stop_at_sign(window: Sequence[Token], length: int) -> int:
+    """A possessive inside a phrase ends it: "a dog's tail" is not one word."""
+    for index, token in enumerate(window[: max(length - 1, 0)]):
+        if token.written.casefold().endswith(("'s", "’s")) and token.text not in CONTRACTED:
+            return index + 1
+    return length
+
+
+def _read_unspelt(token: Token) -> Meaning | None:
+    """The one reading of a picture, a number or a sign."""
+    if token.picture is not None:
+        return Meaning(Role.PICTURE, Pos.NOUN, token.picture)
+    if token.is_number:
+        return Meaning(Role.COUNT, Pos.NUMBER, float(token.text.replace(",", ".")))
+    if token.is_punctuation:
+        return Meaning(Role.FUNCTION, Pos.SIGN, token.text)
+    return None if token.text[0].isalpha() else Meaning(Role.UNKNOWN, Pos.ADVERB)
+
+
+def _complete(span: Sequence[Token], meanings: list[Meaning]) -> list[Meaning]:
+    """The lexicon's readings, and those of a dictionary for a single word."""
+    if len(span) > 1:
+        return meanings
+    token = span[0]
+    fixed = _read_unspelt(token)
+    if fixed is not None:
+        return [fixed]
+    found = list(meanings)
+    listed = {meaning.pos for meaning in found}
+    if listed and listed <= _CLOSED:
+        return found
+    for one in list_readings(token.text):
+        if one.pos not in listed:
+            both = one.pos is Pos.NOUN and token.text.endswith("s") and not one.is_plural
+            found.append(Meaning(Role.UNKNOWN, one.pos, None, one.form, one.is_plural, both))
+            listed.add(one.pos)
+    if not found:
+        found.append(Meaning(Role.UNKNOWN, Pos.NOUN))
+        if token.text.endswith("ing"):
+            found.append(Meaning(Role.UNKNOWN, Pos.VERB, None, VerbForm.ING))
+    return found
+
+
+_CLOSED = frozenset(
+    {Pos.DETERMINER, Pos.PRONOUN, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.AUXILIARY, Pos.TO,
+     Pos.RELATIVE, Pos.NEGATION, Pos.PREPOSITION, Pos.ADJUNCT}
+)  # fmt: skip
+"""Parts of speech whose words are listed in full: no dictionary adds to them."""

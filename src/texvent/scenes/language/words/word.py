@@ -1,0 +1,68 @@
+"""A word of a prompt with its reading, and what became of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.lexicon import Meaning, Role
+from texvent.scenes.language.words.tokens import Token
+
+
+@dataclass(eq=False)
+class Word:
+    """Some tokens of a prompt that belong together, with their reading."""
+
+    tokens: tuple[Token, ...]
+    meaning: Meaning
+    lemma: str
+    is_used: bool = False
+    """Whether it had an effect on the scene, or needs none."""
+    is_lost: bool = False
+    """Whether it says something of things that are shown, which the scene does not honour."""
+    shown_as: str | None = None
+    """What is shown in its place, if that is something else."""
+    others: tuple[Meaning, ...] = field(default=())
+    """Its other readings."""
+
+    @property
+    def pos(self) -> Pos:
+        """Its part of speech."""
+        return self.meaning.pos
+
+    @property
+    def role(self) -> Role:
+        """What it does in the sentence."""
+        return self.meaning.role
+
+    @property
+    def text(self) -> str:
+        """Its words, in lower case."""
+        return " ".join(token.text for token in self.tokens)
+
+    @property
+    def written(self) -> str:
+        """Its words as the prompt has them."""
+        return " ".join(token.written for token in self.tokens)
+
+    @property
+    def is_possessive(self) -> bool:
+        """Whether it owns what follows: "the dog's tail"."""
+        written = self.tokens[-1].written.casefold()
+        is_owner = written.endswith(("'s", "’s", "s'", "s’"))
+        return is_owner and self.tokens[-1].text not in CONTRACTED
+
+    def read_as(self, role: Role) -> Meaning | None:
+        """Its meaning in that role, if it can have it."""
+        return next((one for one in (self.meaning, *self.others) if one.role is role), None)
+
+
+CONTRACTED = frozenset({"it", "that", "there", "he", "she", "what", "who", "let", "here"})
+"""Words after which 's is "is"."""
+
+
+def mark_used(words: Iterable[Word]) -> None:
+    """These words had an effect."""
+    for word in words:
+        word.is_used = True
