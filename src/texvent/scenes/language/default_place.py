@@ -44,7 +44,17 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
     Fish "in the sea" are shown under water, and a house "by the sea" on the beach.
     """
     said = description.surroundings
-    members = [nouns[scene_object.noun] for scene_object in description.objects]
+    carried = {
+        target
+        for relation in description.relations
+        if relation.kind in ("carry", "hold", "wear")
+        for target in relation.targets
+    }
+    members = [
+        nouns[scene_object.noun]
+        for index, scene_object in enumerate(description.objects)
+        if index not in carried
+    ]
     habitats = {noun.habitat for noun in members}
     is_submerged = bool(members) and all(
         noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in members

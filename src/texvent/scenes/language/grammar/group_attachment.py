@@ -9,6 +9,9 @@ from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 
+_PARTICLES = ("out", "off")
+"""Prepositions that belong to the verb before them: "blows out the candles"."""
+
 
 class GroupAttachment(ClauseState):
     """Attaches groups to the clause being read."""
@@ -19,6 +22,10 @@ class GroupAttachment(ClauseState):
             negation = self._words[self._at]
             self._at += 1
         self._negation = None
+        follows_verb = self._at >= 2 and self._words[self._at - 2].pos is Pos.VERB
+        if word.text in _PARTICLES and follows_verb:
+            self._clause.adverbs.append(word)
+            return
         opens_group = starts_group(self._words, self._at, is_opening=True)
         is_verb = self._at < len(self._words) and self._words[self._at].pos is Pos.VERB
         if is_verb and not opens_group:

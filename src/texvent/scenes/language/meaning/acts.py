@@ -34,6 +34,8 @@ class ActReader:
 
     def __init__(self, draft: Draft) -> None:
         self._draft = draft
+        self.is_activity = False
+        """Whether the last verb named an activity together with its object: "plays the guitar"."""
 
     def read(self, clause: Clause, subjects: list[int], objects: Sequence[Referent]) -> list[int]:
         """Read the clause's verb.
@@ -47,6 +49,7 @@ class ActReader:
             The objects that its directions and speeds are about; empty if the verb is not shown.
         """
         word = clause.verb_word
+        self.is_activity = False
         targets = [index for one in objects if one.is_things for index in one.things]
         if clause.negation is not None:
             return self._stand(clause, subjects)
@@ -130,6 +133,7 @@ class ActReader:
         name, words, is_exact = found
         if not is_exact and self._is_act(clause, objects):
             return []
+        self.is_activity = is_exact
         for word in words:
             word.is_used = True
         for index in hands or people:
@@ -180,8 +184,9 @@ class ActReader:
             word.is_used = self._draft.relate(act, subjects, targets)
             if act == "ride":
                 return self._ride(clause, verb, subjects, targets)
-            if verb.kind in ("fly", "rise") or not verb.kind:
-                return subjects
+            if act in ("push", "pull"):
+                for index in subjects:
+                    self._add_motion(index, ObjectMotion("move", pace=verb.pace), clause)
             return subjects
         if verb.relation is not None and verb.kind:
             movers = self._give(clause, verb, subjects)

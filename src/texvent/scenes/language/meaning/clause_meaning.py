@@ -194,9 +194,14 @@ class ClauseMeaning:
         has_verb = clause.verb is not None
         is_shown = has_verb and clause.verb is not None and clause.verb.is_used
         has_object = bool(clause.objects) and not is_picture
-        scope = Scope(things, movers, is_lost, has_verb, is_shown, has_object)
+        acted_on = (
+            tuple(index for one in objects if one.is_things for index in one.things)
+            if not self._acts.is_activity
+            else ()
+        )
+        scope = Scope(things, movers, is_lost, has_verb, is_shown, has_object, acted_on)
         if has_verb and not is_shown:
-            self._lose_verb(things)
+            self._lose_verb([*things, *acted_on])
         for one in objects:
             self._read_object(one, clause, scope)
         self._read_complements(clause, scope)

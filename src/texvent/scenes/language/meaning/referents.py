@@ -159,7 +159,9 @@ class Referents:
         is_plural = attributes.is_many or meaning.is_plural
         index = self._recall(group, noun, is_plural, attributes)
         if index is None:
-            index = self._add(noun, is_plural, attributes, is_around=preposition in _AROUND)
+            bare = SURROUND_COUNT if preposition in _AROUND else PLURAL_COUNT
+            bare = meaning.count or (bare if is_plural else 1)
+            index = self._add(noun, is_plural, attributes, bare)
         if index is None:
             return Referent("unknown", group, attributes=attributes)
         head.is_used = True
@@ -175,11 +177,8 @@ class Referents:
             return None
         return self._draft.find(noun, is_plural)
 
-    def _add(
-        self, noun: str, is_plural: bool, attributes: Attributes, *, is_around: bool
-    ) -> int | None:
-        bare = SURROUND_COUNT if is_around else PLURAL_COUNT
-        count, note = attributes.decide_count(bare if is_plural else 1)
+    def _add(self, noun: str, is_plural: bool, attributes: Attributes, bare: int) -> int | None:
+        count, note = attributes.decide_count(bare)
         if note is not None:
             self._draft.note(note)
         item = PartialObject(noun, min(count, MAX_COUNT), is_plural)

@@ -48,7 +48,12 @@ class RelationReader:
     def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
         """As in "zebras with a giraffe behind them": the giraffe is behind them."""
         near = self._referents.recall(phrase.near)
-        if near is None or set(things) != set(scope.subjects) or not things:
+        if near is None or not things:
+            return scope
+        is_acted_on = near.is_things and set(near.things) <= set(scope.acted_on)
+        if is_acted_on and phrase.preposition.text in _RESTING - {"with"}:
+            return Scope(near.things, [], has_verb=False)
+        if set(things) != set(scope.subjects):
             return scope
         if not near.is_things or set(near.things) == set(things):
             return scope

@@ -23,3 +23,5 @@ class Scope:
     has_verb: bool = True
     is_verb_shown: bool = True
     has_object: bool = False
+    acted_on: tuple[int, ...] = ()
+    """Objects that the verb acts on: "candles on a cake" are on the cake, not who blows."""

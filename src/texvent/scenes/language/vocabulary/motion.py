@@ -271,6 +271,16 @@ RELATIONS: dict[str, tuple[str, ...]] = {
 
 OTHER_PREPOSITIONS: dict[str, tuple[str, ...]] = {
     "of": ("of",),
+    "with": (
+        "full of",
+        "filled with",
+        "crowded with",
+        "loaded with",
+        "packed with",
+        "covered with",
+        "covered in",
+        "decorated with",
+    ),
     "by": ("by",),
     "at": ("at",),
     "for": ("for",),

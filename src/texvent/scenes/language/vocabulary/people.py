@@ -50,3 +50,9 @@ PEOPLE_KINDS: dict[str, tuple[str, ...]] = {
     "runner": ("jogger", "marathon runner", "sprinter"),
 }  # fmt: skip
 """Noun of the models → words for kinds of people."""
+
+PEOPLE_GROUPS: dict[str, int] = {
+    "couple": 2, "pair": 2, "family": 4, "crowd": 8, "team": 5, "audience": 8, "band": 4,
+    "group of people": 5, "ground crew": 3, "orchestra": 8, "choir": 6, "class": 6,
+}  # fmt: skip
+"""Word for a group of people → how many are shown."""

@@ -16,7 +16,7 @@ from texvent.scenes.language.vocabulary import scene as vocabulary_scene
 from texvent.scenes.language.vocabulary.acts import SIMILAR_ACTIVITIES, SIMILAR_MOTIONS
 from texvent.scenes.language.vocabulary.kinds import KINDS, OPAQUE_COMPOUNDS, SUBSTITUTES
 from texvent.scenes.language.vocabulary.objects import COMPOUNDS
-from texvent.scenes.language.vocabulary.people import PEOPLE_KINDS
+from texvent.scenes.language.vocabulary.people import PEOPLE_GROUPS, PEOPLE_KINDS
 from texvent.scenes.language.words.english import Pos, VerbForm, list_verb_forms
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
@@ -78,6 +78,8 @@ class Meaning:
     """Of nouns."""
     is_substitute: bool = False
     """Of nouns: whether something else is shown, as a dog for a spaniel."""
+    count: int | None = None
+    """Of nouns: how many a word for a group means, such as "couple"."""
     can_be_both: bool = False
     """Of nouns: whether it is singular and plural alike, as "deer"."""
 
@@ -100,7 +102,12 @@ class Lexicon:
         for verb in vocabulary_motion.VERBS:
             for text, form in list_forms(verb.base):
                 self._add(text, Meaning(Role.VERB, Pos.VERB, verb, form))
-        for text, meaning in (*_list_table_entries(), *_list_place_kinds(), *_list_effects()):
+        for text, meaning in (
+            *_list_table_entries(),
+            *_list_place_kinds(),
+            *_list_effects(),
+            *_list_people_groups(),
+        ):
             self._add(text, meaning)
         for base, role, value in (*_list_bare_verbs(), *_list_similar_verbs()):
             for text, form in list_forms(base):
@@ -222,6 +229,11 @@ def _list_effects() -> Iterator[tuple[str, Meaning]]:
                 yield plural, Meaning(Role.EFFECT, Pos.NOUN, kind, is_plural=True)
         for text in effect.adjectives:
             yield text, Meaning(Role.EFFECT, Pos.ADJECTIVE, kind)
+
+
+def _list_people_groups() -> Iterator[tuple[str, Meaning]]:
+    for text, count in PEOPLE_GROUPS.items():
+        yield text, Meaning(Role.NOUN, Pos.NOUN, "person", is_substitute=True, count=count)
 
 
 def _list_place_kinds() -> Iterator[tuple[str, Meaning]]:
