@@ -1,8 +1,7 @@
 """Numbers at an address, for kernels.
 
-Kernels pass `World` on by value, so every further array in it makes every call slower (about 10 %
-of an image for each). Large tables that never change are read at their address instead, which
-stands in the instant's record; whoever makes such a table keeps it for as long as the process runs.
+Large tables that never change are read at their address, which stands in the instant's record;
+whoever makes such a table keeps it for as long as the process runs.
 """
 
 from __future__ import annotations

@@ -55,6 +55,7 @@ INSTANT_RECORD = np.dtype(
         ("puff_count", "i8"),
         ("glow_table", "i8"),
         ("glow_count", "i8"),
+        ("lamp_count", "i8"),
         ("shadow_lamps", "i8"),  # how many lamps, the first ones, cast shadows
         ("sun_plane", "f8", (2, 3)),
         ("sun_grid", "f8", 4),
@@ -220,9 +221,10 @@ class World(NamedTuple):
 
 
 class SceneView(NamedTuple):
-    """A `World` inside a kernel: fewer arrays, as each that kernels pass on makes them slower.
+    """A `World` inside a kernel: addresses, as each array that kernels pass on makes them slower.
 
-    The instant has the addresses of puffs, glows and tiles.
+    The types are what Python would see; in kernels each is a `uncounted.Table`. The instant has
+    the addresses of puffs, glows and tiles.
     """
 
     instant: NDArray[Any]

@@ -1,19 +1,19 @@
-"""Arrays that kernels pass on without counting references.
+"""Tables that kernels read at an address.
 
-Numba counts references to an array atomically at every call. The ray caster passes its arrays
-through several small functions per ray, and the counting would take most of the time.
+Numba passes an array as seven numbers or more and counts references to it, at every call. The ray
+caster passes a scene through many small functions per ray; with arrays that took most of the time.
 """
 
 from __future__ import annotations
 
+import operator
 from typing import Any, cast
 
 import numba
 import numpy as np
 from numba import types
-from numba.core import cgutils
-from numba.core.imputils import impl_ret_untracked
-from numba.extending import intrinsic, overload
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import intrinsic, lower_builtin, models, overload, register_model
 from numba.np.arrayobj import make_array
 
 from texvent.scenes.raycast.records import (
@@ -27,30 +27,72 @@ from texvent.scenes.raycast.records import (
     SceneView,
     World,
 )
+from texvent.scenes.scene import LAMP_COLUMNS
 
-_null_of: Any = cgutils.get_null_value
 _array_view: Any = make_array
-_untracked: Any = impl_ret_untracked
+_lower: Any = lower_builtin
+_use_model: Any = register_model
+_signature: Any = signature
 
 
-def _build_view(typing_context: Any, array: Any) -> Any:
-    """The same array without an owner; use it only while its owner lives (inside one kernel)."""
+class Table(types.Type):
+    """Numba's type of an address where items lie one after the other.
+
+    `table[k]` is item k: a number, a record, or in a table of rows the k-th row, as a table. There
+    is no check of `k`, which must not be negative.
+    """
+
+    def __init__(self, dtype: Any, row: int) -> None:
+        self.dtype, self.row = dtype, row
+        super().__init__(f"Table({dtype}, {row})")
+
+
+_use_model(Table)(models.OpaqueModel)
+
+
+def _build_table(typing_context: Any, array: Any) -> Any:
+    """Where an array lies; use it only while the array lives (inside one kernel)."""
+    if array.layout != "C":
+        raise numba.TypingError(f"the kernels need arrays without gaps, not {array}")
 
     def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        view = _array_view(array)(context, builder, arguments[0])
-        view.meminfo = _null_of(view.meminfo.type)
-        view.parent = _null_of(view.parent.type)
-        return _untracked(context, builder, array, view._getvalue())
+        data = _array_view(array)(context, builder, arguments[0]).data
+        return builder.bitcast(data, context.get_value_type(signature.return_type))
 
-    return array(array), build
+    return Table(array.dtype, LAMP_COLUMNS if array.ndim == 2 else 0)(array), build
 
 
-uncounted: Any = intrinsic(_build_view)
-"""`uncounted(array)`, in a kernel: the same array without an owner, valid while its owner lives."""
+_table_of: Any = intrinsic(_build_table)
+
+
+@infer_global(operator.getitem)  # type: ignore[no-untyped-call]
+class _ItemOfTable(AbstractTemplate):
+    """The type of `table[k]`."""
+
+    def generic(self, arguments: Any, keywords: Any) -> Any:
+        if not isinstance(arguments[0], Table):
+            return None
+        table = arguments[0]
+        kind = Table(table.dtype, 0) if table.row else table.dtype
+        return _signature(kind, table, types.int64)
+
+
+def _item_of_table(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    """Machine code of `table[k]`."""
+    table, kind = signature.args[0], signature.return_type
+    size = max(table.row, 1) * context.get_abi_sizeof(context.get_data_type(table.dtype))
+    place = builder.gep(arguments[0], [builder.mul(arguments[1], arguments[1].type(size))])
+    value = context.get_value_type(kind)
+    if isinstance(kind, (Table, types.Record)):
+        return builder.bitcast(place, value)
+    return builder.load(builder.bitcast(place, value.as_pointer()))
+
+
+_lower(operator.getitem, Table, types.Integer)(_item_of_table)
 
 
 def uncounted_world(owner: World | OwnedWorld) -> World:
-    """In a kernel: the same scene in few arrays without an owner, the others by address."""
+    """In a kernel: the same scene by address, for as long as its arrays live."""
     kind: Any = SceneView if isinstance(owner, World) else MeshView
     return cast(World, kind(*owner[: len(SceneView._fields)]))
 
@@ -61,10 +103,10 @@ def _overload_uncounted_world(owner: Any) -> Any:
 
     def build(owner: Any) -> Any:
         return kind(
-            uncounted(owner.instant),
-            uncounted(owner.shapes),
-            uncounted(owner.lists),
-            uncounted(owner.lamps),
+            _table_of(owner.instant),
+            _table_of(owner.shapes),
+            _table_of(owner.lists),
+            _table_of(owner.lamps),
         )
 
     return build

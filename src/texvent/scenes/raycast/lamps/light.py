@@ -63,7 +63,7 @@ def lamp_light(world: World, point: Vector, normal: Vector, lit: int) -> Colour:
     """
     light = (0.0, 0.0, 0.0)
     shadow_lamps = world.instant[0].shadow_lamps
-    for index in range(len(world.lamps)):
+    for index in range(world.instant[0].lamp_count):
         if index < shadow_lamps and not (lit >> (index + 1)) & 1:
             continue
         lamp = world.lamps[index]
@@ -80,7 +80,7 @@ def lamp_light(world: World, point: Vector, normal: Vector, lit: int) -> Colour:
 def light_through(world: World, point: Vector) -> Colour:
     """Light of all lamps at a point in the air, from all sides, without shadows."""
     light = (0.0, 0.0, 0.0)
-    for index in range(len(world.lamps)):
+    for index in range(world.instant[0].lamp_count):
         lamp = world.lamps[index]
         share, _ = falloff(lamp, towards_lamp(lamp, point))
         light = along(light, (lamp[3], lamp[4], lamp[5]), share)

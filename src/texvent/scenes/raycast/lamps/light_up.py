@@ -36,7 +36,7 @@ def light_up(
     lamps, casting = order_lamps(environment.lamps, shadows=shadows)
     inverse = world.shapes["inverse"]
     grids = [list_casters(lamp, primitives, inverse) for lamp in lamps[:casting]]
-    instant["shadow_lamps"] = casting
+    instant["lamp_count"], instant["shadow_lamps"] = len(lamps), casting
     instant["lamp_cells"] = len(world.lists)
     puffs, tiles = describe_puffs(environment.puffs, rays, instant[0])
     instant["puff_tiles"] = len(world.lists) + sum(len(bins.start) for bins in grids)

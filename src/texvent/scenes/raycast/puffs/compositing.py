@@ -115,7 +115,7 @@ def _puff_light(world: World, puff: Record, direction: Vector, place: Vector) ->
     facing = 0.5 + 0.5 * dot(normal, triple(instant.sun))
     light = scaled(triple(instant.ambient), 0.78 + 0.22 * normal[2])
     light = along(light, triple(instant.sun_colour), 0.15 + 0.65 * facing * facing)
-    if len(world.lamps) > 0:
+    if world.instant[0].lamp_count > 0:
         distance = puff.depth + puff.radius
         point = along(triple(instant.origin), direction, distance)
         light = along(light, light_through(world, point), 0.5)
