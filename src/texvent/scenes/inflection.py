@@ -44,25 +44,6 @@ def list_plurals(noun: str) -> tuple[str, ...]:
     return (f"{noun}s",)
 
 
-def list_participles(verb: str) -> tuple[str, ...]:
-    """Forms of a regular verb that can stand before a noun: "-ing" and "-ed".
-
-    A short stem gets both spellings (swiming, swimming): one of them is never met.
-
-    Example:
-        >>> list_participles("glide")
-        ('gliding', 'glided')
-        >>> list_participles("hop")
-        ('hoping', 'hoped', 'hopping', 'hopped')
-    """
-    if verb.endswith("e"):
-        return (f"{verb[:-1]}ing", f"{verb}d")
-    forms: tuple[str, ...] = (f"{verb}ing", f"{verb[:-1]}ied" if _ends_in_y(verb) else f"{verb}ed")
-    if _is_short(verb):
-        forms += (f"{verb}{verb[-1]}ing", f"{verb}{verb[-1]}ed")
-    return forms
-
-
 def list_finite_forms(verb: str) -> tuple[str, ...]:
     """Present forms of a verb.
 
@@ -79,13 +60,3 @@ def list_finite_forms(verb: str) -> tuple[str, ...]:
 
 def _ends_in_y(verb: str) -> bool:
     return verb.endswith("y") and verb[-2:-1] not in _VOWELS
-
-
-def _is_short(verb: str) -> bool:
-    """Ends in consonant, vowel, consonant: the last letter doubles."""
-    return (
-        len(verb) >= 3
-        and verb[-1] not in _VOWELS + "wxy"
-        and verb[-2] in _VOWELS
-        and verb[-3] not in _VOWELS
-    )

@@ -86,8 +86,3 @@ def place_in_image(camera: Camera, size: SensorSize, seen: Float64Array) -> Floa
     x = seen[..., 0] * scale + 0.5 * size.width
     y = seen[..., 1] * scale + 0.5 * size.height
     return np.stack([x, y, depth], axis=-1)
-
-
-def project_direction(camera: Camera, size: SensorSize, directions: Float64Array) -> Float64Array:
-    """Where infinitely far points appear: as `project`, for [..., 3] directions from the camera."""
-    return project(camera, size, directions + camera.position)

@@ -9,8 +9,6 @@ DETERMINERS = (
     "your", "another", "each", "every", "all", "any", "other", "the other", "both", "one another",
     "such",
 )  # fmt: skip
-INDEFINITE = ("a", "an", "another", "each", "every", "one")
-"""Determiners of a single new thing."""
 DEFINITE = ("the", "this", "that", "these", "those", "its", "their", "his", "her")
 """Determiners of a thing that may have been named before."""
 

@@ -22,8 +22,6 @@ class Verb:
     """Motion of the object, as in "spins a wheel"."""
     end_pace: float | None = None
     """As `ObjectMotion.end_pace`."""
-    is_similar: bool = False
-    """Whether its motion is only near to what it says, which is reported."""
 
 
 _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {

@@ -203,14 +203,10 @@ DEFAULT_BLINK_HZ = 2.0
 DEFAULT_FLICKER_HZ = 10.0
 """Flicker whose frequency is not said, Hz."""
 
-HERTZ: dict[float, tuple[str, ...]] = {1.0: ("hz", "hertz"), 1000.0: ("khz",)}
-
 SHADOW_WORDS = ("shadow", "shadows", "casting shadows", "long shadows", "casts a shadow")
 
 GLOW_NOUNS = ("light", "lights", "lighting", "glow")
 """Understood when a light is described; alone they change nothing and are reported."""
-
-EFFECTS: dict[str, tuple[str, ...]] = {}
 
 CAMERA_WORDS = ("camera", "cameras", "viewpoint", "viewer", "lens")
 

@@ -117,18 +117,6 @@ def build_fence(*, colour: Colour | None, scale: float, seed: int) -> Articulate
     return ArticulatedModel(parts, scale=scale)
 
 
-def build_sign(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a stop sign, 2.4 m, facing +x; `colour` is its plate."""
-    plate = Material(colour if colour is not None else RED)
-    parts = [
-        post(STEEL, (0.0, 0.0, 1.2), (0.08, 0.08, 2.4)),
-        rod(Material(WHITE), (0.02, 0.0, 2.1), (0.06, 0.0, 2.1), 0.40),
-        rod(plate, (0.03, 0.0, 2.1), (0.07, 0.0, 2.1), 0.36),
-        box(Material(WHITE), (0.07, 0.0, 2.1), (0.03, 0.50, 0.12)),
-    ]
-    return ArticulatedModel(parts, scale=scale)
-
-
 def build_flag(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a flag that waves along -x from a pole of 4 m; `colour` is its cloth."""
     hue = paint(colour, seed, "cloth", (RED, (0.04, 0.14, 0.45)))
