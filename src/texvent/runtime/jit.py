@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, TypeVar, overload
 
 import numba
+from numba import types
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -48,9 +49,20 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
         kernel: Any = numba.njit(nogil=nogil, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
             kernel._cache = _KernelCache(function)
+            kernel.get_call_template = functools.partial(_template_of, kernel)
         return kernel
 
     return decorate if function is None else decorate(function)
+
+
+_type_of: Any = types.unliteral
+
+
+def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
+    """How another kernel calls this one: compiled for types, not once for each constant passed."""
+    arguments = tuple(_type_of(one) for one in arguments)
+    keywords = {name: _type_of(one) for name, one in keywords.items()}
+    return type(kernel).get_call_template(kernel, arguments, keywords)
 
 
 class _KernelCache(FunctionCache):

@@ -49,7 +49,7 @@ _SOFT_CLIP_START = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _probe(world: World, x: float, y: float) -> int:
     """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
     depth, number, face, _ = first_hit(world, x, y)
@@ -57,7 +57,7 @@ def _probe(world: World, x: float, y: float) -> int:
     return (surface_code(world, number, face) << LIT_BITS) + lit
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _soft_clip(light: float) -> float:
     """Linear light as a share of white: unchanged up to `_SOFT_CLIP_START`, then smoothly to 1."""
     if light <= _SOFT_CLIP_START:
@@ -66,13 +66,13 @@ def _soft_clip(light: float) -> float:
     return _SOFT_CLIP_START + room * (1.0 - math.exp((_SOFT_CLIP_START - light) / room))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _expose(world: World, light: Colour) -> Colour:
     red, green, blue = scaled(light, world.instant[0].exposure)
     return _soft_clip(red), _soft_clip(green), _soft_clip(blue)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     """Exposed light at image point (x, y), where the surface `probe` is."""
     number, lit = (probe >> LIT_BITS) // CODES, probe & ALL_LIGHTS
@@ -88,7 +88,7 @@ def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     return _expose(world, light)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add_share(
     shares: Float64Array, count: int, probe: int, share: float, place: tuple[float, float]
 ) -> int:
@@ -112,7 +112,7 @@ def _add_share(
     return count
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _mean_light(world: World, shares: Float64Array, count: int) -> Colour:
     """Mean light of a pixel that several surfaces share.
 
@@ -133,7 +133,7 @@ def _mean_light(world: World, shares: Float64Array, count: int) -> Colour:
     return red / total, green / total, blue / total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _sample_pixel(
     world: World, column: int, row: int, pattern: Float64Array, shares: Float64Array
 ) -> Colour:
@@ -145,14 +145,14 @@ def _sample_pixel(
     return _mean_light(world, shares, count)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _between(
     start: tuple[float, float], stop: tuple[float, float], share: float
 ) -> tuple[float, float]:
     return start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1])
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _find_edge(
     world: World,
     ends: tuple[tuple[float, float], tuple[float, float]],
@@ -185,7 +185,7 @@ def _find_edge(
     return 0.5 * (low + high), _probe(world, x, y)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add_line(
     world: World,
     shares: Float64Array,
@@ -212,7 +212,7 @@ def _add_line(
     return _add_share(shares, count, probes[1], share * (1.0 - low), place)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _split_pixel(
     world: World, column: int, row: int, probes: NDArray[np.int64], shares: Float64Array
 ) -> Colour:
@@ -246,7 +246,7 @@ def _split_pixel(
     return _mean_light(world, shares, count)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _is_needed(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> bool:
     """Whether a wanted pixel lies at lattice point (j, i) of a tile."""
     height, width = wanted.shape
@@ -257,7 +257,7 @@ def _is_needed(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> bool:
     return False
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _probe_tile(
     world: World,
     corner: tuple[int, int],
@@ -287,22 +287,29 @@ def _probe_tile(
             probes[j, i] = _THIN if thin or thin_shadow else (surface << LIT_BITS) + lit
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _probe_shadows(
-    world: World, column: int, row: int, lattice: tuple[int, int], probes: NDArray[np.int64]
+    world: World,
+    column: int,
+    row: int,
+    lattice: tuple[int, int],
+    probes: NDArray[np.int64],
+    around: NDArray[np.int64],
 ) -> None:
-    """Look for shadow at the lattice points of a pixel that took it over from a neighbour.
+    """Write the probes of a pixel to `around`, and look for shadow where they took it over.
 
-    `lattice` is the place in the tile's lattice of the pixel's first point.
+    `probes` are those of the tile, `lattice` the place in them of the pixel's first point.
     """
-    last = len(probes) - 1
+    last = len(around) - 1
     for j in range(last + 1):
         for i in range(last + 1):
             if (lattice[0] + lattice[1] + i + j) % 2 == 1:
-                probes[j, i] = _probe(world, column + i / last, row + j / last)
+                around[j, i] = _probe(world, column + i / last, row + j / last)
+            else:
+                around[j, i] = probes[lattice[0] + j, lattice[1] + i]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether all probes in and around one pixel saw the same surface."""
     first = probes[top, left]
@@ -313,7 +320,7 @@ def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool
     return True
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether something thin is near one pixel."""
     for row in range(top, top + samples + 1):
@@ -364,8 +371,7 @@ def render_rows(
                 elif _agree(probes, j, i, samples):
                     light = _shade(world, column + 0.5, row + 0.5, int(probes[j, i]))
                 else:
-                    around[:] = probes[j : j + samples + 1, i : i + samples + 1]
-                    _probe_shadows(world, column, row, (j, i), around)
+                    _probe_shadows(world, column, row, (j, i), probes, around)
                     light = _split_pixel(world, column, row, around, shares)
                 if world.instant[0].glow_count > 0:
                     light = add_glows(world, column + 0.5, row + 0.5, light)

@@ -18,7 +18,7 @@ _FLAT = 1e-300
 """Replaces a direction component of 0, so that dividing by it gives a huge number, not NaN."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_ellipsoid(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the unit sphere: (parameter, face), (inf, 0) if it does not."""
     a, b, c = dot(d, d), dot(o, d), dot(o, o) - 1.0
@@ -31,7 +31,7 @@ def hit_ellipsoid(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     return t, FACE_SIDE
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_box(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the cube |x|, |y|, |z| <= 1; faces are 0..5 = -x, +x, -y, +y, -z, +z."""
     enter, leave, face = -MISS, MISS, 0
@@ -51,7 +51,7 @@ def hit_box(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     return MISS, 0
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hit_disc(o: Vector, d: Vector, height: float) -> float:
     """Where a ray crosses the unit disc at z = `height`; inf if it passes by."""
     if d[2] == 0.0:
@@ -61,7 +61,7 @@ def _hit_disc(o: Vector, d: Vector, height: float) -> float:
     return t if x * x + y * y <= 1.0 else MISS
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_cylinder(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters x² + y² <= 1, |z| <= 1: side 0, top 1, bottom 2."""
     a = d[0] * d[0] + d[1] * d[1]
@@ -83,7 +83,7 @@ def hit_cylinder(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     return MISS, FACE_SIDE
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_cone(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the cone x² + y² <= ((1 - z) / 2)², |z| <= 1: side 0, base 2."""
     w, dw = 0.5 * (1.0 - o[2]), -0.5 * d[2]

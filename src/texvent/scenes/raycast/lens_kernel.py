@@ -12,7 +12,7 @@ from texvent.scenes.raycast.vectors import Vector, along, scaled, triple
 NO_DISTORTION, RADTAN = 0, 1
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _undistorted_radtan(k: Record, tx: float, ty: float) -> tuple[float, float]:
     k1, k2, p1, p2 = k[0], k[1], k[2], k[3]
     x, y = tx, ty
@@ -33,7 +33,7 @@ def _undistorted_radtan(k: Record, tx: float, ty: float) -> tuple[float, float]:
     return x, y
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _undistorted_equidistant(k: Record, tx: float, ty: float) -> tuple[float, float]:
     distorted = math.hypot(tx, ty)
     if distorted == 0.0:
@@ -53,7 +53,7 @@ def _undistorted_equidistant(k: Record, tx: float, ty: float) -> tuple[float, fl
     return tx * ratio, ty * ratio
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def plane_point(instant: Record, x: float, y: float) -> tuple[float, float]:
     """Where the ray through image point (x, y) meets the image without distortion, pixels.
 
@@ -70,7 +70,7 @@ def plane_point(instant: Record, x: float, y: float) -> tuple[float, float]:
     return u * lens[0] + lens[2], v * lens[1] + lens[3]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def pixel_steps(instant: Record, x: float, y: float) -> tuple[Vector, Vector]:
     """Change of direction from one pixel to the next at (x, y), to the right and down."""
     right, down = triple(instant.right), triple(instant.down)

@@ -44,7 +44,7 @@ def ray_direction(rays: Record, x: float, y: float) -> Vector:
     return plane_direction(rays, u, v)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def plane_direction(rays: Record, x: float, y: float) -> Vector:
     """Direction through a point of the image without distortion."""
     return (
@@ -54,7 +54,7 @@ def plane_direction(rays: Record, x: float, y: float) -> Vector:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hit_one(world: World, shape: Record, direction: Vector) -> tuple[float, int, Vector]:
     """Where a camera ray meets one shape: depth, face (of a mesh: triangle), local direction."""
     d = turned(shape.inverse, direction)
@@ -65,14 +65,14 @@ def _hit_one(world: World, shape: Record, direction: Vector) -> tuple[float, int
     return t, face, d
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int]:
     """(depth, face) where the ray through (x, y) meets shape `number`, as if it stood alone."""
     t, face, _ = _hit_one(world, world.shapes[number], ray_direction(world.instant[0], x, y))
     return t, face
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
     """Where the ray from `o` meets a thin shape, widened; inf if even that misses.
 
@@ -83,7 +83,7 @@ def widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
     return hit_shape(kind, times(o, s), times(d, s), near)[0]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def is_between(world: World, shape: Record, o: Vector, d: Vector, far: float) -> bool:
     """Whether the ray `o + t · d`, in the shape's coordinates, meets it at 0 < t < `far`."""
     if has_meshes(world) and shape.kind == MESH:
@@ -91,7 +91,7 @@ def is_between(world: World, shape: Record, o: Vector, d: Vector, far: float) ->
     return hit_shape(shape.kind, o, d, 0.0)[0] < far
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def surface_code(world: World, number: int, face: int) -> int:
     """One number for what was hit, which differs between neighbouring surfaces."""
     if has_meshes(world) and number >= 0 and world.shapes[number].kind == MESH:
@@ -99,7 +99,7 @@ def surface_code(world: World, number: int, face: int) -> int:
     return number * CODES + face
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def tile_at(instant: Record, x: float, y: float) -> int:
     """The screen tile at a point of the image without distortion."""
     corner = instant.plane_corner
@@ -108,7 +108,7 @@ def tile_at(instant: Record, x: float, y: float) -> int:
     return int(row * instant.tile_columns + column)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def shows_code(world: World, x: float, y: float, code: int) -> bool:
     """Whether a mesh shows the surface of a `surface_code` at (x, y).
 
@@ -122,7 +122,7 @@ def shows_code(world: World, x: float, y: float, code: int) -> bool:
     return depth < math.inf and surface_code(world, number, face) == code
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
     """What the ray through image point (x, y) meets first.
 
@@ -153,7 +153,7 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
     return best, found, best_face, thin < math.inf and thin <= best
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]:
     """(depth, GROUND / SKY / ROOM, face) of what lies behind all shapes."""
     origin = instant.origin
@@ -174,7 +174,7 @@ def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]
     return depth, what, face
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _blocked_in_cell(world: World, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
     """As `sun_blocked`, by the shapes that one cell of the sun grid lists.
 
@@ -197,7 +197,7 @@ def _blocked_in_cell(world: World, cell: int, point: Vector, place: Vector) -> t
     return False, thin
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
     """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
     instant = world.instant[0]
@@ -216,7 +216,7 @@ def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
     return blocked, thin or big_thin
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def surface_normal(world: World, number: int, face: int, point: Vector) -> Vector:
     """Unit normal of what was hit at `point`, metres."""
     if number in (GROUND, NOTHING):
@@ -235,7 +235,7 @@ def surface_normal(world: World, number: int, face: int, point: Vector) -> Vecto
     return scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-300))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def shadow_point(world: World, number: int, face: int, point: Vector) -> Vector:
     """Where shadow rays of a surface start: at its point, for a mesh where it would be smooth."""
     if has_meshes(world) and number >= 0 and world.shapes[number].kind == MESH:
@@ -243,7 +243,7 @@ def shadow_point(world: World, number: int, face: int, point: Vector) -> Vector:
     return point
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sun_reaches(world: World, point: Vector, normal: Vector) -> tuple[bool, bool]:
     """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
     if dot(world.instant[0].sun, normal) <= 0.0:

@@ -6,8 +6,10 @@ caster passes a scene through many small functions per ray; with arrays that too
 
 from __future__ import annotations
 
+import functools
 import operator
-from typing import Any, cast
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
 
 import numba
 import numpy as np
@@ -28,6 +30,8 @@ from texvent.scenes.raycast.records import (
     World,
 )
 from texvent.scenes.scene import LAMP_COLUMNS
+
+Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 _array_view: Any = make_array
 _lower: Any = lower_builtin
@@ -122,6 +126,29 @@ def _overload_has_meshes(world: Any) -> Any:
     if world.instance_class in (World, SceneView):
         return lambda world: False
     return lambda world: True
+
+
+def only_with_meshes(stand_in: Kernel) -> Callable[[Kernel], Kernel]:
+    """Decorator of a kernel whose first argument is the scene: without meshes, it is `stand_in`.
+
+    So kernels for scenes without meshes are compiled sooner. `stand_in` is a plain function with
+    the same arguments and results; it is never called.
+    """
+
+    def decorate(kernel: Kernel) -> Kernel:
+        whole: Any = getattr(kernel, "py_func", kernel)
+
+        @functools.wraps(whole)
+        def chosen(world: Any, *rest: Any) -> Any:
+            return kernel(world, *rest)
+
+        @overload(chosen, strict=False, jit_options={"error_model": "numpy", "nogil": True})
+        def choose(world: Any, *rest: Any) -> Any:
+            return stand_in if world.instance_class in (World, SceneView) else whole
+
+        return cast(Kernel, chosen)
+
+    return decorate
 
 
 def _record_reader(dtype: np.dtype[Any]) -> Any:

@@ -13,7 +13,7 @@ POSITION, LIGHT, REACH, BEAM, FULL, DARK, RADIUS, CASTS, GLOWS = 0, 3, 6, 7, 10,
 """Columns of a lamp; see `scene.LAMP_COLUMNS`."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def beam_share(lamp: Record, away: Vector) -> float:
     """Share of a lamp's light that it sends along a unit vector: a beam with a soft edge."""
     if lamp[FULL] < -1.0:
@@ -27,7 +27,7 @@ def beam_share(lamp: Record, away: Vector) -> float:
     return float(share * share * (3.0 - 2.0 * share))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def falloff(lamp: Record, towards: Vector) -> tuple[float, float]:
     """(light on a surface that faces the lamp, as a share of that at 1 m; distance in metres).
 
@@ -45,7 +45,7 @@ def falloff(lamp: Record, towards: Vector) -> tuple[float, float]:
     return share * window * window / (square + lamp[RADIUS] * lamp[RADIUS]), distance
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def towards_lamp(lamp: Record, point: Vector) -> Vector:
     """From a point to a lamp, metres."""
     return lamp[0] - point[0], lamp[1] - point[1], lamp[2] - point[2]
@@ -76,7 +76,7 @@ def lamp_light(world: World, point: Vector, normal: Vector, lit: int) -> Colour:
     return light
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def light_through(world: World, point: Vector) -> Colour:
     """Light of all lamps at a point in the air, from all sides, without shadows."""
     light = (0.0, 0.0, 0.0)

@@ -19,7 +19,7 @@ ALL_LIGHTS = (1 << LIT_BITS) - 1
 """All bits of a probe that tell what light reaches a surface."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def lit_by(
     world: World, x: float, y: float, hit: tuple[float, int, int], wanted: int
 ) -> tuple[int, bool]:

@@ -15,7 +15,7 @@ LIT_BITS = 1 + MOST_SHADOW_LAMPS
 """Bits of a probe that tell what light reaches a surface: the sun, then lamps."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def direction_cell(towards: Vector, distance: float) -> int:
     """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp.
 
@@ -33,7 +33,7 @@ def direction_cell(towards: Vector, distance: float) -> int:
     return row * LONGITUDES + column
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _blocked(
     world: World, cell: int, point: Vector, towards: Vector, near: float
 ) -> tuple[bool, bool]:

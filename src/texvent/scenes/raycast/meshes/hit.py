@@ -12,7 +12,7 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.uncounted import node_at, triangle_at
+from texvent.scenes.raycast.uncounted import node_at, only_with_meshes, triangle_at
 from texvent.scenes.raycast.vectors import (
     Vector,
     along,
@@ -27,14 +27,14 @@ _FLAT = 1e-300
 _FROM_PARENT, _FROM_SIBLING, _FROM_CHILD = 0, 1, 2
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _component(v: Vector, axis: int) -> float:
     if axis == 0:
         return v[0]
     return v[1] if axis == 1 else v[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hit_triangle(triangle: Record, o: Vector, shear: Vector, axes: tuple[int, int, int]) -> float:
     """Ray parameter at a triangle, from either side; inf if the ray misses it.
 
@@ -57,7 +57,7 @@ def _hit_triangle(triangle: Record, o: Vector, shear: Vector, axes: tuple[int, i
     return float((u * az + v * bz + w * cz) * shear[2] / total)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _meets_box(node: Record, o: Vector, inverse: Vector, near: float, far: float) -> bool:
     """Whether the ray is in a box between two parameters, with slack."""
     for axis in range(3):
@@ -68,7 +68,7 @@ def _meets_box(node: Record, o: Vector, inverse: Vector, near: float, far: float
     return near <= far
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _first_child(nodes: int, parent: int, d: Vector) -> int:
     """The child that the ray comes to first."""
     if _component(d, node_at(nodes, parent).axis) >= 0.0:
@@ -76,12 +76,19 @@ def _first_child(nodes: int, parent: int, d: Vector) -> int:
     return int(node_at(nodes, parent).second)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _other_child(nodes: int, parent: int, child: int) -> int:
     return int(node_at(nodes, parent).second) if child == parent + 1 else parent + 1
 
 
-@jit(error_model="numpy")
+def _missed(
+    world: World, root: int, o: Vector, d: Vector, near: float, any_hit: bool
+) -> tuple[float, int]:
+    return math.inf, root
+
+
+@only_with_meshes(_missed)
+@jit(error_model="numpy", inner=True)
 def hit_mesh(
     world: World, root: int, o: Vector, d: Vector, near: float, any_hit: bool
 ) -> tuple[float, int]:
@@ -126,7 +133,7 @@ def hit_mesh(
         current, state = _step_on(nodes, current, state, d)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hit_leaf(
     triangles: int,
     node: Record,
@@ -144,7 +151,7 @@ def _hit_leaf(
     return best, found
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _step_on(nodes: int, current: int, state: int, d: Vector) -> tuple[int, int]:
     """The node after one that is done with, and where it is come from."""
     parent = int(node_at(nodes, current).parent)
@@ -156,7 +163,7 @@ def _step_on(nodes: int, current: int, state: int, d: Vector) -> tuple[int, int]
     return parent, _FROM_CHILD
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _long_axis_last(d: Vector) -> tuple[int, int, int]:
     x, y, z = abs(d[0]), abs(d[1]), abs(d[2])
     if x >= y and x >= z:
@@ -166,20 +173,20 @@ def _long_axis_last(d: Vector) -> tuple[int, int, int]:
     return 0, 1, 2
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def weights_at(triangle: Record, p: Vector) -> tuple[float, float, float]:
     """Barycentric weights of a point of a triangle's plane."""
     second, third = slopes_of(triangle, along(p, triple(triangle.corner[0]), -1.0))
     return 1.0 - second - third, second, third
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def cross(a: Vector, b: Vector) -> Vector:
     """Vector product."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def slopes_of(triangle: Record, v: Vector) -> tuple[float, float]:
     """How the weights of a triangle's second and third corner change along a vector."""
     a = triple(triangle.corner[0])
@@ -190,7 +197,7 @@ def slopes_of(triangle: Record, v: Vector) -> tuple[float, float]:
     return dot(cross(v, e2), n) / square, dot(cross(e1, v), n) / square
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _to_world_normal(m: Record, n: Vector) -> Vector:
     """Unit normal in the world, from one in a shape's coordinates."""
     normal = (
@@ -201,7 +208,12 @@ def _to_world_normal(m: Record, n: Vector) -> Vector:
     return scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-300))
 
 
-@jit(error_model="numpy")
+def _no_normals(world: World, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
+    return point, point
+
+
+@only_with_meshes(_no_normals)
+@jit(error_model="numpy", inner=True)
 def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
     """Unit normals of a mesh at a world point, towards the camera.
 
@@ -232,7 +244,12 @@ def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[V
     return smooth, flat
 
 
-@jit(error_model="numpy")
+def _same_point(world: World, number: int, face: int, point: Vector) -> Vector:
+    return point
+
+
+@only_with_meshes(_same_point)
+@jit(error_model="numpy", inner=True)
 def smooth_point(world: World, number: int, face: int, point: Vector) -> Vector:
     """A point of a mesh moved out to the smooth surface that its corner normals stand for.
 

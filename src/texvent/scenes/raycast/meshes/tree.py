@@ -139,25 +139,25 @@ def join_labels(
         label[item] = label[label[item]]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _area(low: Float64Array, high: Float64Array) -> float:
     x, y, z = high[0] - low[0], high[1] - low[1], high[2] - low[2]
     return float(x * y + y * z + z * x)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _grow(low: Float64Array, high: Float64Array, by_low: Float64Array, by_high: Any) -> None:
     for axis in range(3):
         low[axis] = min(low[axis], by_low[axis])
         high[axis] = max(high[axis], by_high[axis])
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _bin_of(place: float, bottom: float, width: float) -> int:
     return min(max(int((place - bottom) / width * _BINS), 0), _BINS - 1)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _fill_bins(
     low: Float64Array,
     high: Float64Array,
@@ -178,7 +178,7 @@ def _fill_bins(
         _grow(bounds[0, one], bounds[1, one], low[item], high[item])
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _best_split(
     low: Float64Array, high: Float64Array, middle: Float64Array, order: NDArray[np.int64]
 ) -> tuple[int, int, float, float]:

@@ -22,7 +22,7 @@ _DARK_FRAME = (0.10, 0.06, 0.035)
 _SKIRTING = (0.3, 0.24, 0.2)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def ground_look(world: World, point: Vector, patch: tuple[Vector, Vector], view_up: float) -> Look:
     """Reflectance and relief of the ground.
 
@@ -39,7 +39,7 @@ def ground_look(world: World, point: Vector, patch: tuple[Vector, Vector], view_
     return land_look(world, point[0], point[1], axes)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _box_share(place: tuple[float, float], half: tuple[float, float], feet: Colour) -> float:
     """Share of a pixel within a rectangle around (0, 0)."""
     return box_coverage(place[0], -half[0], half[0], feet[0]) * box_coverage(
@@ -47,7 +47,7 @@ def _box_share(place: tuple[float, float], half: tuple[float, float], feet: Colo
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hang(
     instant: Record, wall: Colour, place: tuple[float, float], feet: Colour, side: int
 ) -> Colour:
@@ -77,7 +77,7 @@ def _hang(
     return mix(colour, inside, _box_share(at, half, feet))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def wall_look(
     world: World, point: Vector, face: int, patch: tuple[Vector, Vector]
 ) -> tuple[Colour, Vector]:

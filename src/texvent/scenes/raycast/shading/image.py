@@ -8,7 +8,7 @@ from texvent.runtime.jit import jit
 from texvent.scenes.raycast.meshes.hit import slopes_of, weights_at
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.shading.sky import mix
-from texvent.scenes.raycast.uncounted import image_at, texel_at, triangle_at
+from texvent.scenes.raycast.uncounted import image_at, only_with_meshes, texel_at, triangle_at
 from texvent.scenes.raycast.vectors import Vector, along, mapped, scaled, times, triple, turned
 from texvent.scenes.scene import Colour
 
@@ -21,7 +21,14 @@ Footprint = tuple[tuple[float, float], tuple[float, float]]
 """Change of (u, v) from one pixel to the next, to the right and down."""
 
 
-@jit(error_model="numpy")
+def _no_colour(
+    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
+) -> Colour:
+    return point
+
+
+@only_with_meshes(_no_colour)
+@jit(error_model="numpy", inner=True)
 def mesh_colour(
     world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
@@ -59,7 +66,8 @@ def mesh_colour(
     return times(colour, image_colour(world, triangle.image, u, v, footprint))
 
 
-@jit(error_model="numpy")
+@only_with_meshes(_no_colour)
+@jit(error_model="numpy", inner=True)
 def shown_colour(
     world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
@@ -84,7 +92,7 @@ def shown_colour(
     return mix(triple(shape.colour), colour, share)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _face_place(face: int, p: Vector) -> tuple[float, float]:
     """The image's right and down, of a point or a vector in a box's coordinates, seen from outside.
 
@@ -103,7 +111,7 @@ def _face_place(face: int, p: Vector) -> tuple[float, float]:
     return p[1], p[0]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _overlap(place: float, width: float) -> float:
     """Share of an interval of a width around a place that lies within 0..1."""
     half = 0.5 * max(width, 1e-12)
@@ -111,7 +119,7 @@ def _overlap(place: float, width: float) -> float:
     return min(max(inside / (2.0 * half), 0.0), 1.0)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def image_colour(world: World, number: int, u: float, v: float, footprint: Footprint) -> Colour:
     """Mean of an image over a pixel's footprint.
 
@@ -144,7 +152,7 @@ def image_colour(world: World, number: int, u: float, v: float, footprint: Footp
     return scaled(total, 1.0 / (rows * columns))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _trilinear(world: World, image: Record, u: float, v: float, level: float) -> Colour:
     level = min(level, image.levels - 1.0)
     low = int(level)
@@ -154,7 +162,7 @@ def _trilinear(world: World, image: Record, u: float, v: float, level: float) ->
     return colour
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _bilinear(world: World, image: Record, u: float, v: float, level: int) -> Colour:
     width, height = max(image.width >> level, 1), max(image.height >> level, 1)
     x, y = u * width - 0.5, v * height - 0.5
@@ -176,20 +184,20 @@ def _bilinear(world: World, image: Record, u: float, v: float, level: int) -> Co
     return mix(upper, lower, share_y)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _texel(index: int, count: int, repeats: int) -> int:
     if repeats:
         return index % count
     return min(max(index, 0), count - 1)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _at(world: World, index: int) -> Colour:
     texels = world.instant[0].texels
     return texel_at(texels, index), texel_at(texels, index + 1), texel_at(texels, index + 2)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _checks_colour(image: Record, u: float, v: float, footprint: Footprint) -> Colour:
     columns, rows = image.checks[0], image.checks[1]
     across, tall = columns + 2.0, rows + 2.0
@@ -209,7 +217,7 @@ def _checks_colour(image: Record, u: float, v: float, footprint: Footprint) -> C
     return grey, grey, grey
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _mean_within(place: float, width: float, count: int) -> float:
     """Mean over an interval of what is 1 in 0..count and 0 beside it."""
     half = 0.5 * max(width, 1e-9)
@@ -217,7 +225,7 @@ def _mean_within(place: float, width: float, count: int) -> float:
     return (high - low) / (2.0 * half)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _mean_sign(place: float, width: float, count: int) -> float:
     """Mean over an interval of what is +1 and -1 by turns in 0..count, and 0 beside it."""
     half = 0.5 * max(width, 1e-9)
@@ -225,7 +233,7 @@ def _mean_sign(place: float, width: float, count: int) -> float:
     return (_sign_sum(high) - _sign_sum(low)) / (2.0 * half)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _sign_sum(place: float) -> float:
     rest = place % 2.0
     return min(rest, 2.0 - rest)

@@ -22,14 +22,14 @@ Look = tuple[Colour, float, float]
 """Reflectance, and slopes along x and y."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def painted(sample: Sample, first: Colour, second: Colour, factor: float) -> Look:
     """A material in two colours."""
     colour = along(scaled(first, factor * sample[0]), second, factor * sample[1])
     return colour, sample[2], sample[3]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def mixed(first: Look, second: Look, share: float) -> Look:
     """`first` at share 0, `second` at share 1."""
     return (
@@ -39,7 +39,7 @@ def mixed(first: Look, second: Look, share: float) -> Look:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def land_look(world: World, x: float, y: float, axes: Patch) -> Look:
     """The ground's material at (x, y), metres; `axes` of the patch from `patch_axes`."""
     instant = world.instant[0]

@@ -33,21 +33,21 @@ _FOG_HEIGHT_M = 40.0
 """Fog and water above this height do not count for rays that go up."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add_fog(instant: Record, colour: Colour, distance: float) -> Colour:
     if instant.fog == 0.0:
         return colour
     return mix(triple(instant.fog_colour), colour, math.exp(-distance * instant.fog))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Sky in a unit direction, behind the fog."""
     path = _FOG_HEIGHT_M / max(abs(direction[2]), 1e-6)
     return _add_fog(instant, sky_colour(instant, direction, pixel), path)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _reflected(
     world: World, colour: Colour, point: Colour, normal: Colour, footprint: float, lit: int
 ) -> Colour:
@@ -64,7 +64,7 @@ def _reflected(
     return times(colour, along(light, lamps, 1.0))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _shape_light(
     world: World,
     hit: tuple[float, int, int],
@@ -88,7 +88,7 @@ def _shape_light(
     return along(light, colour, world.shapes[number].emission)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _ground_light(
     world: World,
     depth: float,
@@ -113,14 +113,14 @@ def _ground_light(
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _angle_of_step(direction: Colour, step: Colour) -> float:
     """Angle by which a small step turns a direction, radians: |step × direction| / |direction|²."""
     square, along_it = dot(direction, direction), dot(direction, step)
     return math.sqrt(max(dot(step, step) * square - along_it * along_it, 0.0)) / square
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def shade_hit(world: World, x: float, y: float, hit: tuple[float, int, int], lit: int) -> Colour:
     """Linear light that reaches image point (x, y).
 

@@ -51,7 +51,7 @@ def patch_axes(patch: Patch) -> Patch:
     return long * x / size, long * y / size, long, short
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _corners(level: int, u: float, v: float) -> tuple[Corners, Sample]:
     """Where the four texels around (u, v), in tiles, begin in the array, and their weights."""
     side = SIDE >> level
@@ -72,7 +72,7 @@ def _corners(level: int, u: float, v: float) -> tuple[Corners, Sample]:
     return places, ((1.0 - across) * up, across * up, (1.0 - across) * down, across * down)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add_texels(
     tile: int, level: int, place: tuple[float, float], share: float, total: Sample
 ) -> Sample:
@@ -87,7 +87,7 @@ def _add_texels(
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _taps(axes: Patch, most: int) -> tuple[int, float]:
     """How many averages along a patch's longer axis, and which level of the tile they read."""
     long, short = SIDE * axes[2], SIDE * axes[3]
@@ -124,7 +124,7 @@ def tile_average(tile: int, u: float, v: float, axes: Patch) -> Sample:
     return total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _first_channel(tile: int, level: int, u: float, v: float) -> float:
     """A tile's first channel at (u, v)."""
     corners, weights = _corners(level, u, v)
@@ -136,7 +136,7 @@ def _first_channel(tile: int, level: int, u: float, v: float) -> float:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _tile_factor(tile: int, u: float, v: float, axes: Patch) -> float:
     """As `tile_average`, the first channel doubled: patterns of one colour share it evenly."""
     taps, level = _taps(axes, _MAX_LARGE_TAPS)
@@ -154,7 +154,7 @@ def _tile_factor(tile: int, u: float, v: float, axes: Patch) -> float:
     return 2.0 * total / taps
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sample_material(
     instant: Record, texture: int, u: float, v: float, axes: Patch, fineness: float
 ) -> Sample:
@@ -180,7 +180,7 @@ def sample_material(
     return near[0] * factor, near[1] * factor, near[2], near[3]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _large_factor(instant: Record, number: int, place: tuple[float, float], axes: Patch) -> float:
     """Factor of a material's large patches; they are turned, so that tiles do not line up."""
     c, s = _LARGE_TURN

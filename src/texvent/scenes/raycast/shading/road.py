@@ -62,7 +62,7 @@ def strip_place(instant: Record, x: float, y: float) -> Strip:
     return turn / abs(bend), across, -side * from_y / radius, side * from_x / radius
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _crossing_place(instant: Record, number: int, x: float, y: float) -> Strip:
     x0, y0, cosine, sine = instant.crossings[number]
     return (
@@ -73,7 +73,7 @@ def _crossing_place(instant: Record, number: int, x: float, y: float) -> Strip:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _feet(strip: Strip, patch: Patch) -> tuple[float, float]:
     """Metres that a pixel covers along and across a strip."""
     cosine, sine = strip[2], strip[3]
@@ -83,7 +83,7 @@ def _feet(strip: Strip, patch: Patch) -> tuple[float, float]:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _inside_share(instant: Record, strip: Strip, foot: float) -> float:
     """Share of a pixel that shows the strip rather than what lies beside it."""
     half = instant.road[2]
@@ -99,7 +99,7 @@ def _inside_share(instant: Record, strip: Strip, foot: float) -> float:
     return smooth((half + wobble - abs(strip[1])) / soft + 0.5)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _line_marks(strip: Strip, half: float, feet: tuple[float, float]) -> float:
     """Share of white paint: edge lines and a dashed middle line."""
     edge = box_coverage(abs(strip[1]), half - 3.0 * _LINE_M, half - 2.0 * _LINE_M, feet[1])
@@ -107,7 +107,7 @@ def _line_marks(strip: Strip, half: float, feet: tuple[float, float]) -> float:
     return max(edge, middle * square_wave(strip[0] / _DASH_M, feet[0] / _DASH_M))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _zebra_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
     """Share of a pixel within a zebra crossing's length; they come at even distances."""
     if instant.ground != _CITY:
@@ -116,7 +116,7 @@ def _zebra_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> fl
     return box_coverage(place, 0.0, _ZEBRA_M, feet[0])
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _manhole_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
     """Share of a pixel that shows a manhole's lid."""
     if instant.ground != _CITY:
@@ -130,7 +130,7 @@ def _manhole_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> 
     return share * min(1.0, 0.4 / foot)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _asphalt(world: World, x: float, y: float, axes: Patch, marks: float, lid: float) -> Look:
     """Carriageway with worn paint; `marks` and `lid` are shares of a pixel."""
     instant = world.instant[0]
@@ -142,7 +142,7 @@ def _asphalt(world: World, x: float, y: float, axes: Patch, marks: float, lid: f
     return mix(colour, scaled(_IRON, brightness), lid), surface[1], surface[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _track(
     world: World, x: float, y: float, axes: Patch, strip: Strip, feet: tuple[float, float]
 ) -> Look:
@@ -156,7 +156,7 @@ def _track(
     return painted(sample, soil, scaled(soil, 1.3), factor)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _water(world: World, strip: Strip, axes: Patch, view_up: float) -> Look:
     """Rippled water that flows along the strip and mirrors the sky."""
     instant = world.instant[0]
@@ -175,7 +175,7 @@ def _water(world: World, strip: Strip, axes: Patch, view_up: float) -> Look:
     return look[0], 0.0, 0.0
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _carriageway(
     world: World,
     point: tuple[float, float],
@@ -202,7 +202,7 @@ def _carriageway(
     return _asphalt(world, point[0], point[1], axes, marks, lid)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _road_look(world: World, x: float, y: float, patch: Patch, axes: Patch, strip: Strip) -> Look:
     """A road with those that cross it, and what lies beside it."""
     instant = world.instant[0]
@@ -235,7 +235,7 @@ def _road_look(world: World, x: float, y: float, patch: Patch, axes: Patch, stri
     return mixed(_kerbed(land_look(world, x, y, axes), instant, kerb), surface, covered)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _kerbed(land: Look, instant: Record, kerb: float) -> Look:
     if instant.ground != _CITY or kerb == 0.0:
         return land
@@ -243,7 +243,7 @@ def _kerbed(land: Look, instant: Record, kerb: float) -> Look:
     return colour, land[1], land[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def strip_look(world: World, x: float, y: float, patch: Patch, axes: Patch, view_up: float) -> Look:
     """Reflectance and relief of a ground with a road, a river or a shore.
 

@@ -15,13 +15,13 @@ _CLOUD_SPEED = 0.012
 """Drift of the clouds, in cloud heights per second."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def mix(first: Colour, second: Colour, share: float) -> Colour:
     """`first` at share 0, `second` at share 1."""
     return along(scaled(first, 1.0 - share), second, share)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sky_gradient(instant: Record, height: float) -> Colour:
     """Clear sky where the ray's unit direction has this z: horizon at 0, zenith at 1."""
     return mix(
@@ -29,7 +29,7 @@ def sky_gradient(instant: Record, height: float) -> Colour:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _stars(x: float, y: float, z: float, pixel: float) -> float:
     """Light of the stars in a unit direction; each is a soft dot at least a pixel wide."""
     ax, ay, az = abs(x), abs(y), abs(z)
@@ -50,7 +50,7 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
     return brightness * math.exp(-(du * du + dv * dv) / (2.0 * width * width))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _cloud_cover(instant: Record, x: float, y: float, z: float, pixel: float) -> float:
     """Share of the sky that cloud hides in a unit direction with z > 0."""
     height = max(z, 0.02)
@@ -61,7 +61,7 @@ def _cloud_cover(instant: Record, x: float, y: float, z: float, pixel: float) ->
     return cover * smooth((z - 0.01) / 0.12)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sky_colour(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Light from the sky, before fog and exposure.
 

@@ -12,7 +12,7 @@ import math
 from texvent.runtime.jit import jit
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def lattice(x: int, y: int, z: int) -> float:
     """A fixed pseudo-random number in [0, 1) for each lattice point."""
     mixed = x * 0x2545F4914F6CDD1D + y * 0x369DEA0F31A53F85 + z * 0x27BB2EE687B0B0FD
@@ -24,7 +24,7 @@ def lattice(x: int, y: int, z: int) -> float:
     return (mixed & 0xFFFFFF) / 16777216.0
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def smooth(x: float) -> float:
     """0 below 0, 1 above 1, smooth between (continuous second derivative)."""
     if x <= 0.0:
@@ -76,7 +76,7 @@ def fractal_2d(x: float, y: float, octaves: int, footprint: float) -> float:
     return 1.6 * total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _square_integral(x: float) -> float:
     """Integral from 0 to x of the square wave that is 1 on [0, 1/2) and 0 on [1/2, 1)."""
     whole = math.floor(x)

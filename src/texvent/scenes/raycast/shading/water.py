@@ -12,7 +12,7 @@ from texvent.scenes.raycast.vectors import along, dot, times, triple
 from texvent.scenes.scene import Colour
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -> Colour:
     """Moving waves that mirror the sky; waves smaller than a pixel fade out."""
     slope_x, slope_y = 0.0, 0.0
@@ -45,7 +45,7 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
     return along(colour, sun_colour, 0.5 * max(shine, 0.0) ** 60)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def caustics(instant: Record, point: Colour, footprint: float) -> float:
     """Ripples of light that waves throw on what is under water: a factor around 1."""
     share = detail_fade(1.2 * footprint)
