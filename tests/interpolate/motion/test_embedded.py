@@ -54,7 +54,7 @@ def test_chosen_pixels_are_those_of_the_whole_frame():
     assert np.mean(np.abs(scene.luma_of(70_000, wanted) - whole[wanted]) > 1e-3) < 0.01
 
 
-@pytest.mark.parametrize("prompt", ["a ball bounces on a table", "the camera flies over a city"])
+@pytest.mark.parametrize("prompt", ["a ball bounces", "the camera flies over a city"])
 def test_events_agree_with_those_of_every_instant_rendered(prompt):
     streams = {}
     for interpolate in ("motion", "exact"):
@@ -66,7 +66,7 @@ def test_events_agree_with_those_of_every_instant_rendered(prompt):
 
 
 def test_light_that_beats_is_rendered_at_every_instant():
-    scene = video("a ball on a table, flickering at 100 Hz")
+    scene = video("a ball on a table, the light flickers at 100 Hz")
     assert scene.flicker_hz == 100
     moving = scene.with_motion()
     first, second = list(moving)[:2]

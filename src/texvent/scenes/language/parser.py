@@ -30,7 +30,7 @@ LONGEST_LIST = 120
 MOST_WORDS = 2000
 """Words of a prompt that are read; what follows is reported as a whole."""
 _FEWEST_FOREIGN = 3
-_FOREIGN_SHARE = 0.45
+_FOREIGN_SHARE = 0.6
 _SILENT = frozenset(
     {Pos.SIGN, Pos.DETERMINER, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.RELATIVE, Pos.AUXILIARY,
      Pos.TO, Pos.PRONOUN}
@@ -93,7 +93,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
 
 
 def _is_foreign(words: Sequence[Word]) -> bool:
-    """Whether about half of its words, three or more, are in no English dictionary."""
+    """Whether most of its words, three or more, are in no English dictionary."""
     content = {word.text for word in words if word.role is not Role.FUNCTION}
     unlisted = {
         word.text for word in words if word.role is Role.UNKNOWN and not list_readings(word.text)

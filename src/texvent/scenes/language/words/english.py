@@ -13,6 +13,8 @@ from functools import lru_cache
 
 SHORTEST_CORRECTED = 5
 """Letters of the shortest word whose spelling is corrected."""
+LONGEST_WORD = 40
+"""Letters of the longest word that is looked up."""
 LIKENESS = 0.85
 """How like a known word a misspelt one must be (`difflib` ratio)."""
 
@@ -80,6 +82,8 @@ def list_readings(word: str) -> tuple[Reading, ...]:
     """
     from lemminflect import getAllLemmas  # loads its tables, which help texts do not need
 
+    if len(word) > LONGEST_WORD:
+        return ()
     found: list[Reading] = []
     for tag, lemmas in getAllLemmas(word).items():
         pos = _POS.get(tag)
@@ -149,7 +153,11 @@ def correct_spelling(word: str, known: Collection[str]) -> str | None:
         >>> correct_spelling("cart", ["car"]) is None
         True
     """
-    if len(word) < SHORTEST_CORRECTED or not word.isalpha() or list_readings(word):
+    if (
+        not SHORTEST_CORRECTED <= len(word) <= LONGEST_WORD
+        or not word.isalpha()
+        or list_readings(word)
+    ):
         return None
     if word.removesuffix("s") in known:
         return None

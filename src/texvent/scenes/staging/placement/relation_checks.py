@@ -142,7 +142,8 @@ def _passes(subject: _Body, targets: list[_Body]) -> bool:
     moved = float(np.linalg.norm(subject.places[-1] - subject.places[0]))
     moved += float(np.linalg.norm(targets[0].places[-1] - targets[0].places[0]))
     ahead = _along(subject, targets[0])
-    return moved < 0.1 or bool(ahead.min() < 0.0 < ahead.max())
+    beside = 0.5 * (_size(subject) + _size(targets[0]))
+    return moved < 0.1 or bool(ahead.min() < beside and ahead.max() > -beside)
 
 
 def _overtakes(subject: _Body, targets: list[_Body]) -> bool:
