@@ -61,12 +61,6 @@ _CREWS: dict[str, tuple[SceneObject, ...]] = {
 """Places with usual objects at work."""
 
 
-WORKING = frozenset(
-    {"windmill", "wind turbine", "flag", "traffic light", "clock", "fan", "pendulum", "crane"}
-)
-"""Nouns that stay in place and move by themselves."""
-
-
 def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """Add the usual objects of a place where the prompt names none."""
     crew = _CREWS.get(description.surroundings.place or "", ())
@@ -193,9 +187,7 @@ def _rest_inside(description: SceneDescription) -> SceneDescription:
 
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
     motion = scene_object.motion
-    if (scene_object.noun in WORKING or noun.is_working) and (
-        motion is None or motion.kind in ("stand", "swing", "spin")
-    ):
+    if noun.is_working and (motion is None or motion.kind in ("stand", "swing", "spin")):
         return replace(scene_object, motion=ObjectMotion("work"))
     if motion is None and noun.habitat in ("air", "water") and noun.motion != "stand":
         return replace(scene_object, motion=ObjectMotion(noun.motion))

@@ -7,7 +7,7 @@ An object that flies, swims or is thrown has its origin at its middle instead (`
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
 import numpy as np
@@ -116,3 +116,10 @@ def fixed_noun(
 ) -> Noun:
     """A noun that stays where it is."""
     return Noun(name, build, "fixed", 0.0, "stand", synonyms, plurals)
+
+
+def working_noun(
+    name: str, build: ModelBuilder, synonyms: tuple[str, ...] = (), plurals: tuple[str, ...] = ()
+) -> Noun:
+    """A noun that stays where it is and moves by itself: a windmill, a fan."""
+    return replace(fixed_noun(name, build, synonyms, plurals), is_working=True)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion
-from texvent.scenes.language.defaults import WORKING
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.activities import find_activity
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
@@ -234,7 +233,7 @@ class ActReader:
         """Give a motion to the objects that can do it; the others are left as they are."""
         word = clause.verb_word
         things = [self._mount(index) for index in things]
-        if verb.kind == "wave" and any(self._draft.objects[i].noun in WORKING for i in things):
+        if verb.kind == "wave" and any(self._draft.noun(i).is_working for i in things):
             verb = replace(verb, kind="work")
         able = [index for index in things if can_do(self._draft.noun(index), verb.kind)]
         if not able:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from texvent.scenes.language.defaults import WORKING
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -56,7 +55,7 @@ def can_do(noun: Noun, kind: str) -> bool:
         noun: the object.
         kind: an `ObjectMotion.kind`.
     """
-    if kind in ANYTHING or kind == noun.motion or (kind == "work" and noun.name in WORKING):
+    if kind in ANYTHING or kind == noun.motion or (kind == "work" and noun.is_working):
         return True
     if is_person(noun):
         return kind in ACTIVITIES or kind in _TRAVELLER or kind in _ANIMAL

@@ -20,7 +20,7 @@ from texvent.scenes.models.materials import (
     stone,
     wood,
 )
-from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun
+from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun, working_noun
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -216,6 +216,6 @@ NOUNS = (
         ("skyscraper", "high-rise", "tower block", "office", "apartment", "hotel"),
     ),
     fixed_noun("barn", build_barn, ("shed",)),
-    fixed_noun("windmill", build_windmill, ("mill",)),
-    fixed_noun("wind turbine", build_wind_turbine, ("turbine",)),
+    working_noun("windmill", build_windmill, ("mill",)),
+    working_noun("wind turbine", build_wind_turbine, ("turbine",)),
 )  # fmt: skip

@@ -18,7 +18,7 @@ from texvent.scenes.models.materials import (
     glowing,
     shade,
 )
-from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun
+from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun, working_noun
 from texvent.scenes.models.shapes import (
     ball,
     blade,
@@ -202,10 +202,10 @@ def build_umbrella(*, colour: Colour | None, scale: float, seed: int) -> Articul
 NOUNS = (
     fixed_noun("cup", build_cup, ("coffee cup", "teacup", "espresso cup")),
     fixed_noun("bottle", build_bottle, ("wine bottle", "glass bottle")),
-    fixed_noun("clock", build_clock, ("alarm clock", "wall clock")),
+    working_noun("clock", build_clock, ("alarm clock", "wall clock")),
     fixed_noun("lamp", build_lamp, ("floor lamp", "standing lamp")),
     fixed_noun("candle", build_candle),
-    fixed_noun("fan", build_fan, ("ventilator", "electric fan", "table fan")),
-    fixed_noun("pendulum", build_pendulum, (), ("pendula",)),
+    working_noun("fan", build_fan, ("ventilator", "electric fan", "table fan")),
+    working_noun("pendulum", build_pendulum, (), ("pendula",)),
     fixed_noun("umbrella", build_umbrella, ("parasol",)),
 )

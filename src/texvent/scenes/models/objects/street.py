@@ -18,7 +18,7 @@ from texvent.scenes.models.materials import (
     shade,
     striped,
 )
-from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun
+from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun, working_noun
 from texvent.scenes.models.shapes import ball, box, peak, plank, post, rod, spike
 from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
@@ -167,7 +167,7 @@ NOUNS = (
     ),
     fixed_noun("barrier", build_barrier, ("road block", "roadblock", "barricade")),
     fixed_noun("fence", build_fence, ("picket fence",)),
-    fixed_noun("flag", build_flag, ("banner", "flagpole")),
+    working_noun("flag", build_flag, ("banner", "flagpole")),
     fixed_noun("bridge", build_bridge, ("overpass",)),
-    fixed_noun("traffic light", build_traffic_light, ("stoplight", "stop light")),
+    working_noun("traffic light", build_traffic_light, ("stoplight", "stop light")),
 )  # fmt: skip

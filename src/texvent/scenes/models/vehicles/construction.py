@@ -15,7 +15,7 @@ from texvent.scenes.models.materials import (
     checked,
     shade,
 )
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose, fixed_noun
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose, working_noun
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -143,7 +143,7 @@ def _tracks(distance: float) -> list[ModelPart]:
 
 
 NOUNS = (
-    fixed_noun("crane", build_crane, ("tower crane", "construction crane", "building crane")),
+    working_noun("crane", build_crane, ("tower crane", "construction crane", "building crane")),
     Noun(
         "excavator", build_excavator, "ground", 1.0, "drive",
         ("digger", "backhoe", "construction vehicle"),

@@ -56,7 +56,6 @@ RUN_FACTOR = 2.2
 
 FLAT = 0.62
 """Objects whose length is below this share of their width show their front to the camera."""
-PEOPLE = PERSON_NOUNS
 _SIDEWAYS = frozenset({"flag", "crane", "bridge"})
 """Objects that are known by their side."""
 _WEAVING = frozenset({"swim"})
@@ -183,11 +182,15 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
-    if noun.name in PEOPLE and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:
+    if (
+        noun.name in PERSON_NOUNS
+        and motion.kind in ACTIVITIES
+        and ACTIVITIES[motion.kind].is_sideways
+    ):
         return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
     if noun.name in _SIDEWAYS:
         return 0.3 * tilt
-    if model.length < FLAT * model.width or noun.name in PEOPLE:
+    if model.length < FLAT * model.width or noun.name in PERSON_NOUNS:
         return -0.5 * math.pi + 0.5 * tilt
     if noun.habitat == "fixed":
         return -0.5 * math.pi + math.copysign(0.45, tilt) + 0.3 * tilt
