@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from texvent.runtime.jit import jit
+
 SOURCE = Path(__file__).parents[2] / "src" / "texvent"
 
 ENTRY = """
@@ -123,3 +125,16 @@ def test_every_kernel_of_the_library_uses_this_decorator():
     raw = re.compile(r"numba\.n?jit|from numba import .*jit")
     files = [file for file in SOURCE.rglob("*.py") if file != SOURCE / "runtime" / "jit.py"]
     assert [file.name for file in files if raw.search(file.read_text("utf-8"))] == []
+
+
+def test_a_kernel_is_compiled_once_for_all_constants_that_callers_pass():
+    @jit
+    def add(x, y):
+        return x + y
+
+    @jit
+    def several(x):
+        return add(add(add(x, 1), 2), 3)
+
+    assert several(4) == 10
+    assert len(getattr(add, "signatures", [()])) == 1
