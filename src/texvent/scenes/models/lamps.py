@@ -34,6 +34,8 @@ class Lamp:
     """Whether the camera sees a bright spot with a halo: not where flames are drawn."""
     always_on: bool = True
     """Whether it is usually on by day as well."""
+    least_dark: float = 0.0
+    """For what is not always on: strength of artificial light above which it is usually on."""
     blink_hz: float | None = None
     """How often it usually blinks; None = steady."""
     wave: Wave = "square"
@@ -53,8 +55,13 @@ class Lamp:
     """How often its beam turns round the upright axis each second."""
 
 
-_HEAD = Lamp(60.0, (1.0, 0.0, -0.09), 32.0, 0.75, always_on=False, hue="white", boost=4.0)
-_TAIL = Lamp(0.35, (-1.0, 0.0, 0.0), 80.0, 1.0, always_on=False, hue="red", boost=3.0)
+_NIGHT = 0.9
+_HEAD = Lamp(
+    60.0, (1.0, 0.0, -0.09), 32.0, 0.75, always_on=False, least_dark=_NIGHT, hue="white", boost=4.0
+)
+_TAIL = Lamp(
+    0.35, (-1.0, 0.0, 0.0), 80.0, 1.0, always_on=False, least_dark=_NIGHT, hue="red", boost=3.0
+)
 _VEHICLE = (_HEAD, _TAIL)
 _BEACONS = (
     Lamp(4.0, hue="blue", boost=2.0, own_hz=2.0),

@@ -63,7 +63,9 @@ class Switch:
 
     def is_on(self, lamp: Lamp) -> bool:
         """Whether a lamp is on."""
-        return (lamp.always_on or self.strength > 0.0) if self.is_lit is None else self.is_lit
+        if self.is_lit is not None:
+            return self.is_lit
+        return lamp.always_on or self.strength > lamp.least_dark
 
     def blink_of(self, lamp: Lamp) -> float | None:
         """Frequency at which a lamp blinks, Hz; None = it is steady."""
