@@ -14,9 +14,11 @@ _ENDINGS = "png|jpe?g|bmp|tiff?|webp|pgm|ppm|mp4|m4v|mov|avi|mkv|webm|gif|mpg"
 _QUOTE = "[\"“‘']([^\"”’']{1,200})[\"”’']"
 _QUOTED = 3
 """Number of the group between quotation marks."""
+_LONGEST_PATH = 250
+"""Characters of a path; a longer run of letters is no path."""
 _SAYS = r"says?|saying|reads?|reading|text|words?|labell?ed|title|spelling|displaying|message"
 _LITERAL = re.compile(
-    rf"(?P<file>[\w~./\\-]*\w\.(?i:{_ENDINGS}))\b"
+    rf"(?<![\w~./\\-])(?P<file>[\w~./\\-]{{1,{_LONGEST_PATH}}}\.(?i:{_ENDINGS}))\b"
     r"|(?<![\w.])(?P<checks>\d{1,3}\s?[x×]\s?\d{1,3})(?=[\s-]+\w*(?:board|squares|pattern|grid))"
     rf"|(?<=\b)(?i:(?:{_SAYS})\s*:?\s+){_QUOTE}"
     rf"|(?<=\b)(?i:(?:says?|saying|reads?|reading)\s+)([A-Z0-9]{{2,}}(?:\s[A-Z0-9!]+)*)\b"

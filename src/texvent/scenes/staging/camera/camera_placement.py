@@ -30,7 +30,7 @@ _WORTH = 1.15
 """How much larger the subject must become for less of the rest to be shown."""
 _OUTSIDE_SHARES = (0.3, 0.38, 0.46, 0.54, 0.62, 0.7)
 """Shares of the clip at whose beginning or end what enters or leaves may be out of the picture."""
-_VISIBLE_SHARE = 0.92
+_VISIBLE_SHARE = 0.97
 """Share of the clip in which the subject's middle is in the image at least."""
 _CHECKS = 41
 
