@@ -37,7 +37,7 @@ demo: $(VENV)/.base
 	@echo "Open $(basename $(DEMO_OUT)).events.html in a browser, or watch $(basename $(DEMO_OUT)).events.mp4"
 
 test: $(VENV)/.dev
-	$(VENV)/bin/python -m pytest -q -n 2 --durations=5
+	$(VENV)/bin/python -m pytest -q -n 2 --dist worksteal --durations=5
 
 fuzz: $(VENV)/.dev
 	$(VENV)/bin/python -m tests.fuzz

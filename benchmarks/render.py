@@ -3,8 +3,10 @@
     python -m benchmarks.render
     python -m benchmarks.render --prompt "a red car drives left past two trees"
     python -m benchmarks.render --light
+    python -m benchmarks.render --reuse
 
-Prints the median over frames of a moving scene; compiling is done before and timed apart.
+Prints the median over frames of a moving scene; compiling is done before and timed apart. `--reuse`
+compares whole frames with those of which only tiles are drawn that can differ from the one before.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ from texvent.scenes.description import (
     Surroundings,
 )
 from texvent.scenes.raycast.render import render
+from texvent.scenes.raycast.reuse.memory import FrameMemory
 from texvent.scenes.scene import Camera, Environment, Primitives, Scene
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
@@ -45,7 +48,11 @@ def main() -> None:
     parser.add_argument("--prompt", action="append", help="scene to time (may be repeated)")
     parser.add_argument("--frames", type=int, default=7, help="frames per scene and size")
     parser.add_argument("--light", action="store_true", help="time lamps, smoke and fire")
+    parser.add_argument("--reuse", action="store_true", help="time frames after one another")
     options = parser.parse_args()
+    if options.reuse:
+        time_reuse(options)
+        return
     if options.light:
         time_light(options)
         return
@@ -132,6 +139,39 @@ def time_light(options: argparse.Namespace) -> None:
             f"{name:46s} {len(there.lamps):5d} {len(there.puffs):5d} "
             + " ".join(f"{one:7.1f}" for one in times)
         )
+
+
+REUSE_PROMPTS = (
+    "a red car drives left past two trees",
+    "a red car drives left past two trees at night",
+    "a person walks through a living room",
+    "a crowd of people in a city street",
+    "a dog walks through a city street at night",
+    "smoke rises from a house",
+    "the camera flies over a city",
+)
+
+
+def time_reuse(options: argparse.Namespace) -> None:
+    """Print what a frame takes whole, and after one 1/96 s before it, timed in turns."""
+    os.environ[THREADS_VARIABLE] = "1"
+    size = SIZES[0]
+    print(f"{'scene at 346x260':46s} {'whole':>7s} {'after':>7s}")
+    for prompt in options.prompt or REUSE_PROMPTS:
+        scene = make_scene(prompt, size)
+        memory = FrameMemory(scene, size, samples=2, shadows=True)
+        render(scene, 0.5, size)
+        memory.render(0.5)
+        whole, after = [], []
+        for index in range(1, options.frames + 1):
+            time_s = 0.5 + index / 96.0
+            started = time.process_time()
+            render(scene, time_s, size)
+            between = time.process_time()
+            memory.render(time_s)
+            after.append((time.process_time() - between) * 1e3)
+            whole.append((between - started) * 1e3)
+        print(f"{prompt:46.46s} {min(whole):7.1f} {min(after):7.1f}", flush=True)
 
 
 def time_frames(scene: Scene, size: SensorSize, options: argparse.Namespace) -> float:

@@ -23,8 +23,10 @@ if shutil.which("nvidia-smi") is None:
 sys.path.insert(0, str(Path(__file__).parent / "generate" / "stand_ins"))
 
 # The first example may compile a kernel, and machines are busy: no property is held to a time.
-settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("untimed")
+UNTIMED = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("quick", UNTIMED, max_examples=50)
+settings.register_profile("thorough", UNTIMED, max_examples=1000)
+settings.load_profile("quick")
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 DRIVER = shutil.which("chromedriver")

@@ -118,7 +118,7 @@ def test_standard_input_is_read(film):
         "print([f.t_us for f in open_frames('-', CaptureConfig(stop=0.1))])"
     )
     done = subprocess.run(
-        [sys.executable, "-c", script], input=film, capture_output=True, check=True, timeout=60
+        [sys.executable, "-c", script], input=film, capture_output=True, check=True, timeout=300
     )
     assert done.stdout.decode().strip() == "[0, 40000, 80000]"
 

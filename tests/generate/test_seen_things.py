@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
 from texvent.errors import InputError, TexventWarning
+from texvent.generate.landmarks import SKY, Landmark
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.generate.seen_things import image_points, list_unseen
 from texvent.scenes.description import SceneDescription, SceneObject
+from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.report import PromptReport
+from texvent.scenes.scene import Camera, Shape
 from texvent.scenes.staging import compose
+from texvent.scenes.staging.assemble import PlacedModel, assemble
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(173, 130)
@@ -37,7 +42,7 @@ def test_a_thing_behind_the_camera_is_not():
             return replace(camera, rotation=np.stack([-axes[0], axes[1], -axes[2]]))
 
     turned = Turned(**vars(scene))
-    assert list_unseen(turned, SIZE, 1.0) == ("ball",)
+    assert list_unseen(turned, SIZE, 1.0) == ("ball (out of view)",)
 
 
 def test_one_of_several_is_counted():
@@ -45,7 +50,100 @@ def test_one_of_several_is_counted():
     scene = compose.compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
     assert list_unseen(scene, SIZE, 1.0) == ()
     fewer = replace(scene, actors=scene.actors[1:])
-    assert list_unseen(fewer, SIZE, 1.0) == ("1 of 3 balls",)
+    assert list_unseen(fewer, SIZE, 1.0) == ("1 of 3 balls (out of view)",)
+
+
+def test_a_thing_behind_a_wall_is_hidden_and_a_sky_behind_it_out_of_view():
+    scene = ball_scene()
+    camera = scene.camera(0.0)
+    ahead = camera.position + 0.3 * camera.rotation[2]
+
+    class Walled(type(scene)):
+        def primitives(self, time_s):
+            shapes = super().primitives(time_s)
+            wall = np.column_stack([9.0 * np.eye(3) * [1.0, 1e-4, 1.0], ahead])
+            to_world = np.concatenate([shapes.to_world[:-1], wall[None]])
+            shape, instance = shapes.shape.copy(), shapes.instance.copy()
+            shape[-1], instance[-1] = Shape.BOX, 0  # the last piece of scenery becomes the wall
+            return replace(shapes, to_world=to_world, shape=shape, instance=instance)
+
+    walled = Walled(**vars(scene))
+    sky = [Landmark("starry sky", frozenset({SKY}))]
+    assert list_unseen(walled, SIZE, 1.0) == ("ball (hidden)",)
+    assert list_unseen(walled, SIZE, 1.0, landmarks=sky)[1:] == ("starry sky (out of view)",)
+    assert list_unseen(scene, SIZE, 1.0, landmarks=sky) == ()
+
+
+class Discs:
+    """Flat discs before a camera at the origin that looks north, 10 m away: 10 m fill the width."""
+
+    class_names: ClassVar = {1: "plate", 2: "lid"}
+
+    def __init__(self, *discs: tuple[int, float, float, float]) -> None:
+        self.discs = discs
+        """Instance, metres to the right, radius, distance."""
+
+    def primitives(self, time_s):
+        parts = []
+        for _, x, radius, distance in self.discs:
+            upright = np.diag([radius, 1e-3, radius])
+            to_body = np.column_stack([upright, [x, distance, 0.0]])
+            parts.append(ModelPart(Shape.ELLIPSOID, to_body, (0.5, 0.5, 0.5)))
+        still = np.eye(4)[:3]
+        return assemble(
+            [
+                PlacedModel([part], still, disc[0])
+                for part, disc in zip(parts, self.discs, strict=True)
+            ]
+        )
+
+    def camera(self, time_s):
+        axes = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+        return Camera(np.zeros(3), axes, 1.0)
+
+    def environment(self, time_s):
+        return ball_scene().environment(time_s)
+
+
+@pytest.mark.parametrize(
+    ("discs", "reported"),
+    [
+        # A disc of 1 m fills 20 % of the width, one of 10 cm 2 %, one of 30 cm 6 % and 0.38 % of
+        # the points, one of 15 cm 3 % and 0.09 %.
+        (((1, 0.0, 1.0, 10.0),), ()),
+        (((1, 0.0, 0.3, 10.0),), ()),
+        (((1, 0.0, 0.15, 10.0),), ("plate (too small)",)),
+        (((1, 0.0, 0.1, 10.0),), ("plate (too small)",)),
+        # The lid before the middle hides 0.9² = 81 % of it, a smaller one 0.7² = 49 %.
+        (((1, 0.0, 1.0, 10.0), (2, 0.0, 0.9, 9.99)), ("plate (mostly hidden)",)),
+        (((1, 0.0, 1.0, 10.0), (2, 0.0, 0.7, 9.99)), ()),
+        # The picture's edge is 5 m to the right: 0.5 m of 4 m are inside, or 1.5 m.
+        (((1, 6.5, 2.0, 10.0),), ("plate (cut off)",)),
+        (((1, 5.5, 2.0, 10.0),), ()),
+        (((1, 8.0, 2.0, 10.0),), ("plate (out of view)",)),
+    ],
+)
+def test_a_thing_that_is_hardly_seen_is_named_with_the_reason(discs, reported):
+    scene = Discs(*discs)
+    scene.class_names = {disc[0]: Discs.class_names[disc[0]] for disc in discs}
+    assert list_unseen(scene, SIZE, 0.0) == reported
+
+
+def test_copies_that_are_hardly_seen_are_counted_by_reason():
+    scene = Discs((1, 0.0, 1.0, 10.0), (2, 2.0, 0.1, 10.0), (3, 9.0, 1.0, 10.0))
+    scene.class_names = dict.fromkeys((1, 2, 3), "hand")
+    found = list_unseen(scene, SIZE, 0.0)
+    assert set(found) == {"1 of 3 hands (too small)", "1 of 3 hands (out of view)"}
+
+
+def test_a_place_is_in_view_if_its_scenery_is():
+    scene = ball_scene()
+    nouns = scene.list_scenery()
+    assert len(nouns) <= len(scene.primitives(0.0).shape)
+    assert set(nouns) > {"", "bush"}
+    seen, unseen = Landmark("shrubs", frozenset({"bush"})), Landmark("forest", frozenset({"pine"}))
+    found = list_unseen(scene, SIZE, 1.0, landmarks=[seen, unseen], scenery=nouns)
+    assert found == ("forest (out of view)",)
 
 
 @pytest.mark.parametrize("size", [(346, 260), (1280, 720), (32, 24)])
@@ -73,7 +171,7 @@ def test_what_is_never_in_view_is_reported_and_refused_by_strict(monkeypatch):
     with pytest.warns(TexventWarning, match="prompt words not shown: ball .out of view"):
         video = ProceduralGenerator(config, size=SIZE).generate(prompt)
     report = PromptReport.of_metadata(video.metadata)
-    assert report.not_shown == ("ball (out of view, hidden or too small)",)
+    assert report.not_shown == ("ball (out of view)",)
     assert "ball" not in report.shown
     with pytest.raises(InputError, match=r"strict: .* not shown: ball"):
         ProceduralGenerator(replace(config, strict=True), size=SIZE).generate(prompt)

@@ -29,7 +29,7 @@ def test_slices_make_up_the_whole(size, parts, unit):
 
 
 def test_results_come_in_the_order_of_the_parts_and_threads_work_at_once():
-    waiting = threading.Barrier(2, timeout=10)
+    waiting = threading.Barrier(2, timeout=300)
 
     def work(part):
         waiting.wait()

@@ -29,7 +29,7 @@ def served(temporary: Path) -> Iterator[str]:
         assert list(temporary.glob("texvent-app-*"))
         yield line
         server.send_signal(signal.SIGTERM)
-        assert server.wait(timeout=30) == 0
+        assert server.wait(timeout=300) == 0
         assert not list(temporary.glob("texvent-app-*"))
     finally:
         server.kill()

@@ -46,7 +46,7 @@ def test_an_endless_job_is_stopped(tmp_path: Path, monkeypatch) -> None:
     began = time.monotonic()
     with pytest.raises(InputError, match="longer than 1 s and was stopped"):
         list(Supervisor(time_limit_s=1).run(job(tmp_path)))
-    assert time.monotonic() - began < 20
+    assert time.monotonic() - began < 90
 
 
 def test_closing_the_answers_ends_the_worker(tmp_path: Path, monkeypatch) -> None:

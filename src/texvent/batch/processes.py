@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import threading
+import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
@@ -15,6 +16,8 @@ from texvent.runtime.interrupts import raise_interrupted
 from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 
 ORPHAN_EXIT, INTERRUPTED_EXIT = 3, 130
+PATIENCE_S = 10.0
+"""How long processes that are ended may take to clean up."""
 
 
 def start_pool(processes: int, *, of: int | None = None) -> ProcessPoolExecutor:
@@ -33,10 +36,18 @@ def start_pool(processes: int, *, of: int | None = None) -> ProcessPoolExecutor:
 
 
 def stop_pools(*pools: ProcessPoolExecutor) -> None:
-    """End the processes of pools at once; they clean up what they are at."""
-    for pool in pools:
-        for process in list((pool._processes or {}).values()):
-            process.terminate()
+    """End the processes of pools at once; they clean up what they are at.
+
+    One that the signal does not end is killed: Python drops an interrupt that meets it in the
+    callback of a weak reference, and may then hold the lock of its imports for ever.
+    """
+    ending = [process for pool in pools for process in list((pool._processes or {}).values())]
+    for process in ending:
+        process.terminate()
+    last_s = time.monotonic() + PATIENCE_S
+    for process in ending:
+        if not wait([process.sentinel], max(0.0, last_s - time.monotonic())):
+            process.kill()
     for pool in pools:
         pool.shutdown(cancel_futures=True)
 

@@ -8,7 +8,7 @@ import resource
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
@@ -25,6 +25,8 @@ EXCERPTS = 5
 EXCERPT_PAIRS = 8
 WHOLE_PAIRS = 48
 """A video of so few pairs is tried whole."""
+SPREAD, SPREAD_PAIRS = 4, 5
+"""Excerpts, and pairs of each, of a video that can begin anywhere: nothing between is rendered."""
 TRIAL_SECONDS = 6.0
 """No further excerpt is begun after this long."""
 BLOCKS_BYTES = 48 * 2**20
@@ -91,8 +93,11 @@ def estimate_run(simulation: Simulation, files: RunFiles) -> Estimate:
         frames = iter(video)
         first = scratch.run(itertools.islice(frames, 2))  # imports and compiles
         began_s = _process_seconds()
+        begin_at = getattr(video, "from_frame", None)
         frames = frames if video.is_live else iter(video)
-        if total is not None and total <= WHOLE_PAIRS:
+        if begin_at is not None and total is not None and total > SPREAD * SPREAD_PAIRS:
+            trials = _run_spread(scratch, begin_at, total)
+        elif total is not None and total <= WHOLE_PAIRS:
             short_video = [*frames]
             total = len(short_video) - 1
             trials = [scratch.run(iter(part)) for part in (short_video[:2], short_video)]
@@ -122,6 +127,17 @@ def estimate_run(simulation: Simulation, files: RunFiles) -> Estimate:
 
 def _seconds(trial: Trial) -> float:
     return trial.seconds
+
+
+def _run_spread(
+    scratch: _Scratch, begin_at: Callable[[int], Iterator[Frame]], total: int
+) -> list[Trial]:
+    """A single pair, which tells what a run takes in any case, and the middles of equal parts."""
+    trials = [scratch.run(itertools.islice(begin_at(0), 2))]
+    for part in range(SPREAD):
+        first = ((2 * part + 1) * total // SPREAD - SPREAD_PAIRS) // 2
+        trials.append(scratch.run(itertools.islice(begin_at(first), SPREAD_PAIRS + 1)))
+    return trials
 
 
 def _run_excerpts(scratch: _Scratch, frames: Iterator[Frame], total: int | None) -> list[Trial]:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from texvent.scenes.description import SceneDescription
     from texvent.scenes.models.protocol import Noun
     from texvent.scenes.raycast.ground_truth import GroundTruth
+    from texvent.scenes.raycast.reuse.memory import FrameMemory
     from texvent.scenes.report import PromptReport
     from texvent.scenes.scene import Camera, Scene
     from texvent.scenes.staging.compose import ComposedScene
@@ -117,13 +118,19 @@ class ProceduralVideo:
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, each rendered on demand."""
-        for index in range(self.frame_count):
-            frame = self._frame(frame_time_us(index, self.fps), is_source=True)
+        return self.from_frame(0)
+
+    def from_frame(self, first: int) -> Iterator[Frame]:
+        """The frames from number `first` on; those before it are not rendered."""
+        memory = self._make_memory()
+        for index in range(first, self.frame_count):
+            t_us = frame_time_us(index, self.fps)
+            frame = Frame(memory.render(t_us / MICROSECONDS), t_us, is_source=True)
             yield replace(frame, motion=self._motion(index)) if self.has_motion else frame
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        return self._frame(t_us, is_source=False)
+        return Frame(self._memory.render(t_us / MICROSECONDS), t_us, is_source=False)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
@@ -180,17 +187,16 @@ class ProceduralVideo:
             self.scene, now, before if index else None, after if index < last else None, self.size
         )
 
-    def _frame(self, t_us: int, *, is_source: bool) -> Frame:
-        from texvent.scenes.raycast.render import render
+    @cached_property
+    def _memory(self) -> FrameMemory:
+        """The last frame of `at`: what stands still since then is not drawn again."""
+        return self._make_memory()
 
-        pixels = render(
-            self.scene,
-            t_us / MICROSECONDS,
-            self.size,
-            samples=self.config.samples,
-            shadows=self.config.shadows,
-        )
-        return Frame(pixels, t_us, is_source)
+    def _make_memory(self) -> FrameMemory:
+        from texvent.scenes.raycast.reuse.memory import FrameMemory
+
+        config = self.config
+        return FrameMemory(self.scene, self.size, samples=config.samples, shadows=config.shadows)
 
 
 class ProceduralGenerator:
@@ -267,6 +273,7 @@ class ProceduralGenerator:
 
     def _stage(self, prompt: str) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
+        from texvent.generate.landmarks import list_landmarks
         from texvent.generate.seen_things import list_unseen
         from texvent.scenes.assets import list_files
         from texvent.scenes.language.parser import parse_prompt
@@ -281,9 +288,11 @@ class ProceduralGenerator:
             duration_s=self.config.duration,
             nouns=self._shown_nouns(description),
         )
-        unseen = list_unseen(scene, self.size, self.config.duration)
-        hidden = (f"{noun} (out of view, hidden or too small)" for noun in unseen)
-        report = self._accepted(description.report((*scene.not_shown, *hidden)))
+        unseen = list_unseen(
+            scene, self.size, self.config.duration,
+            landmarks=list_landmarks(description), scenery=scene.list_scenery(),
+        )  # fmt: skip
+        report = self._accepted(description.report((*scene.not_shown, *unseen)))
         return scene, report, list_files(description, self._nouns)
 
     @cached_property

@@ -119,7 +119,7 @@ class Relation:
     "right of", "past", "overtake", "through" (a tunnel, a gate), "around", "surround", "among",
     "towards", "away from", "from" (with "towards": from one to the other), "follow" or "with"; or
     an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull", "kick",
-    "hit", "throw" or "catch"."""
+    "hit", "throw", "catch" or "collide" (the subject itself is its target if its copies do)."""
     subject: int
     """Index into `SceneDescription.objects`."""
     targets: tuple[int, ...]
@@ -247,8 +247,7 @@ class SceneDescription:
         """What becomes of the prompt's words.
 
         Args:
-            not_shown: words that are understood but that the staged scene does not show, perhaps
-                with a reason, as "dog (hidden)".
+            not_shown: what the staged scene does not show, as "dog (hidden)" or "on the table".
         """
         hidden = {words.partition(" (")[0] for words in not_shown}
         lines = [self._describe_object(index) for index in range(len(self.objects))]
@@ -275,9 +274,9 @@ class SceneDescription:
         if scene_object.scale != 1.0:
             words.append(f"{scene_object.scale:g} times its usual size")
         if scene_object.motion is not None:
-            words.append(_describe_motion(scene_object.motion, is_plural=scene_object.count > 1))
+            words.append(describe_motion(scene_object.motion, is_plural=scene_object.count > 1))
         for motion in scene_object.then:
-            words.append(f"then {_describe_motion(motion, is_plural=scene_object.count > 1)}")
+            words.append(f"then {describe_motion(motion, is_plural=scene_object.count > 1)}")
         if scene_object.side is not None:
             words.append(_SIDES[scene_object.side])
         if scene_object.is_lit is not None:
@@ -286,10 +285,9 @@ class SceneDescription:
             words.append(f"blinking at {scene_object.blink_hz:g} Hz")
         for relation in self.relations:
             if relation.subject == index:
-                targets = " and ".join(
-                    _describe_count(self.objects[target]) for target in relation.targets
-                )
-                words.append(f"{_RELATIONS.get(relation.kind, relation.kind)} {targets}")
+                others = (_describe_count(self.objects[target]) for target in relation.targets)
+                targets = "each other" if relation.targets == (index,) else " and ".join(others)
+                words.append(f"{RELATION_WORDS.get(relation.kind, relation.kind)} {targets}")
         return ", ".join(words)
 
     def _describe_effect(self, effect: Effect) -> str:
@@ -306,7 +304,7 @@ _SIDES = {
     "far": "far away",
     "near": "in the foreground",
 }
-_RELATIONS = {
+RELATION_WORDS = {
     "front": "in front of",
     "surround": "surrounded by",
     "follow": "following",
@@ -321,7 +319,9 @@ _RELATIONS = {
     "hit": "hitting",
     "throw": "throwing",
     "catch": "catching",
+    "collide": "meeting",
 }
+"""Relation → words for it, where they differ from its name."""
 _BACKDROPS = {
     "mountain": "mountains around (the ground itself stays flat)",
     "forest": "forest around",
@@ -339,7 +339,8 @@ def _describe_count(scene_object: SceneObject) -> str:
     return f"{scene_object.count} {name if scene_object.count == 1 else pluralise(name)}"
 
 
-def _describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
+def describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
+    """A motion in words, such as "runs towards the camera"."""
     if motion.kind in _NAMED or " " in motion.kind:
         words = [f"{'do' if is_plural else 'does'} '{motion.kind}'"]
     else:

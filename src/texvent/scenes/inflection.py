@@ -4,10 +4,12 @@ from __future__ import annotations
 
 _VOWELS = "aeiou"
 _IRREGULAR = {
-    "person": "people", "child": "children", "fish": "fish", "sheep": "sheep", "leaf": "leaves",
-    "wolf": "wolves", "shelf": "shelves", "bookshelf": "bookshelves", "knife": "knives",
-    "mouse": "mice", "goose": "geese", "scissors": "scissors",
+    "person": "people", "child": "children", "leaf": "leaves", "wolf": "wolves", "calf": "calves",
+    "shelf": "shelves", "bookshelf": "bookshelves", "knife": "knives", "mouse": "mice",
+    "goose": "geese", "ox": "oxen", "scissors": "scissors",
 }  # fmt: skip
+_UNCHANGED = ("fish", "sheep", "deer", "moose", "bison", "squid", "salmon", "tuna", "trout", "cod")
+"""Ends of nouns whose plural is the same word."""
 
 
 def pluralise(noun: str) -> str:
@@ -17,16 +19,29 @@ def pluralise(noun: str) -> str:
         >>> pluralise("person"), pluralise("tree")
         ('people', 'trees')
     """
-    return _IRREGULAR.get(noun) or list_plurals(noun)[0]
+    return list_plurals(noun)[0]
 
 
 def list_plurals(noun: str) -> tuple[str, ...]:
-    """Regular plurals of a noun of one or more words.
+    """Plurals of a noun of one or more words, the usual one first.
 
     Example:
-        >>> list_plurals("traffic cone"), list_plurals("bus"), list_plurals("butterfly")
-        (('traffic cones',), ('buses', 'busses'), ('butterflies',))
+        >>> list_plurals("traffic cone"), list_plurals("bus"), list_plurals("snow goose")
+        (('traffic cones',), ('buses', 'busses'), ('snow geese', 'snow gooses'))
+        >>> list_plurals("bird of prey")
+        ('birds of prey',)
     """
+    head, of, rest = noun.partition(" of ")
+    if of:
+        return tuple(f"{plural}{of}{rest}" for plural in list_plurals(head))
+    first, last = noun[: noun.rfind(" ") + 1], noun.split()[-1]
+    usual = noun if last.endswith(_UNCHANGED) else None
+    usual = f"{first}{_IRREGULAR[last]}" if last in _IRREGULAR else usual
+    regular = _list_regular_plurals(noun)
+    return regular if usual is None else (usual, *(one for one in regular if one != usual))
+
+
+def _list_regular_plurals(noun: str) -> tuple[str, ...]:
     if noun.endswith("s"):
         return (f"{noun}es", f"{noun}ses")
     if noun.endswith(("x", "z", "ch", "sh")):

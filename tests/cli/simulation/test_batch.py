@@ -210,31 +210,41 @@ def test_mistakes_are_one_line(folder, capsys):
     assert all(len(line) < 300 for line in capsys.readouterr().err.splitlines())
 
 
+TREES = "\n".join(f"a red car drives left past {count} trees" for count in range(2, 8))
+SMALL = ("--sensor", "64x48", "--duration", "0.2", "--no-video", "--no-page")
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The samples of `TREES` made in one go, by this process."""
+    folder = tmp_path_factory.mktemp("whole")
+    (folder / "p.txt").write_text(TREES)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        assert run("batch", "p.txt", "--jobs", 1, *SMALL, "-o", "whole", "-q") == 0
+    return folder / "whole"
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 @pytest.mark.parametrize("jobs", [1, 2])
-def test_a_killed_batch_goes_on_without_loss(folder, number, jobs):
-    prompts = [f"a red car drives left past {count} trees" for count in range(2, 8)]
-    (folder / "p.txt").write_text("\n".join(prompts))
+def test_a_killed_batch_goes_on_without_loss(folder, whole, number, jobs):
+    (folder / "p.txt").write_text(TREES)
     words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", str(jobs)]
-    quick = ["--sensor", "64x48", "--duration", "0.2", "--no-video", "--no-page"]
-    process = subprocess.Popen(
-        [*words, *quick, "-o", "killed"], stderr=subprocess.PIPE, start_new_session=True
-    )
-    deadline = time.monotonic() + 120
+    words += [*SMALL, "-o", "killed"]
+    process = subprocess.Popen(words, stderr=subprocess.PIPE, start_new_session=True)
     manifest = Path("killed", "samples.jsonl")
-    while time.monotonic() < deadline and not (manifest.exists() and manifest.read_text()):
+    while process.poll() is None and not (manifest.exists() and manifest.read_text()):
         time.sleep(0.02)
     if number == signal.SIGKILL:
         os.killpg(process.pid, number)
     else:
         process.send_signal(number)
-    _, said = process.communicate(timeout=60)
+    _, said = process.communicate(timeout=300)
     if number == signal.SIGTERM:
         assert b"of 6 samples; the same command goes on" in said
     done = [json.loads(line)["name"] for line in manifest.read_text().splitlines()]
     assert len(done) >= 1
-    subprocess.run([*words, *quick, "-o", "killed"], check=True, capture_output=True)
-    subprocess.run([*words, *quick, "-o", "whole"], check=True, capture_output=True)
-    assert recordings(folder / "killed") == recordings(folder / "whole")
-    names = {path.name for path in Path("whole").iterdir()}
+    subprocess.run(words, check=True, capture_output=True)
+    assert recordings(folder / "killed") == recordings(whole)
+    names = {path.name for path in whole.iterdir()}
     assert {path.name for path in Path("killed").iterdir()} == names

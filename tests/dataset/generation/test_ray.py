@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import socket
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +40,23 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
         )
         yield nodes
         nodes.shutdown()
+
+
+@contextmanager
+def no_cpu_of_the_head(cluster: Any) -> Iterator[None]:
+    """Keep the head's CPU busy, so that work goes to the other nodes; needs a connection."""
+    import ray
+    from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy
+
+    class Occupant:
+        def is_there(self) -> bool:
+            return True
+
+    here = NodeAffinitySchedulingStrategy(cluster.head_node.node_id, soft=False)
+    occupant = ray.remote(num_cpus=1, scheduling_strategy=here)(Occupant).remote()
+    assert ray.get(occupant.is_there.remote())
+    yield
+    ray.kill(occupant)
 
 
 def video_recipe(folder: Path, videos: int) -> Recipe:
@@ -111,6 +128,7 @@ def test_a_node_without_texvent_or_with_other_packages_ends_the_run_in_one_line(
     try:
         with (
             closing(RayEngine(cluster.address)) as engine,
+            no_cpu_of_the_head(cluster),
             pytest.raises(MissingDependencyError, match=message) as found,
         ):
             make_shards(find_work(recipe, folder), engine, lambda outcome: None)

@@ -182,7 +182,7 @@ def test_ranks_of_torch_distributed_are_taken(folder, tmp_path):
     ]
     for process in processes:
         process.start()
-    found = dict(results.get(timeout=60) for _ in processes)
+    found = dict(results.get(timeout=300) for _ in processes)
     for process in processes:
         process.join()
         assert process.exitcode == 0

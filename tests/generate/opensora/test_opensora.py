@@ -217,7 +217,7 @@ def test_stopping_ends_the_program_and_its_children(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         run_program([str(tmp_path / "slow")], cwd=tmp_path, log=tmp_path / "log")
     child = int(marker.read_text())
-    deadline = time.monotonic() + 5
+    deadline = time.monotonic() + 60
     while is_running(child) and time.monotonic() < deadline:
         time.sleep(0.01)
     assert not is_running(child)

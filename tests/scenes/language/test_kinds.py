@@ -6,7 +6,8 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.scenes.language.parser import parse_prompt
-from texvent.scenes.language.vocabulary.kinds import KINDS, OPAQUE_COMPOUNDS
+from texvent.scenes.language.vocabulary.opaque import OPAQUE_COMPOUNDS
+from texvent.scenes.models.kinds import KINDS, find_kind
 from texvent.scenes.models.nouns import NOUNS
 
 COCO = (
@@ -22,7 +23,7 @@ COCO = (
     "clock", "vase", "scissors", "teddy bear", "hair drier", "toothbrush",
 )  # fmt: skip
 WORDS = {
-    word: noun.name
+    word.replace("-", " "): noun.name
     for noun in NOUNS.values()
     for word in (noun.name, *noun.synonyms, *noun.plurals)
 }
@@ -47,16 +48,46 @@ def test_cocos_classes_are_shown() -> None:
         assert set(said.values()) <= set(nouns)
 
 
-def test_kinds_are_kinds_of_nouns_and_each_means_one() -> None:
+def test_every_alias_is_a_synonym_or_a_kind_of_one_noun() -> None:
     assert set(KINDS) <= set(NOUNS)
     owner: dict[str, str] = {}
     for noun, words in KINDS.items():
         for word in words:
             assert word == word.lower()
             assert owner.setdefault(word, noun) == noun, word
-            assert WORDS.get(word, noun) == noun, word
-            assert word not in NOUNS, word
-    assert len(owner) > 1200
+            assert word not in WORDS, f"{word} is a synonym too"
+    assert len(owner) > 1700
+    assert {word: find_kind(word) for word in owner} == owner
+
+
+@pytest.mark.parametrize("noun", sorted(KINDS))
+def test_every_kind_is_shown_as_its_noun_and_named(noun: str) -> None:
+    for word in KINDS[noun]:
+        nouns, substituted, _ = read(f"the {word}")
+        assert nouns == [noun], word
+        assert substituted == {word.replace("-", " "): noun}, word
+
+
+@pytest.mark.parametrize("noun", sorted(NOUNS))
+def test_a_synonym_is_no_substitution(noun: str) -> None:
+    for word in NOUNS[noun].synonyms:
+        assert read(f"the {word}")[1] == {}, word
+
+
+OTHERS = (
+    "jaguar", "leopard", "banjo", "mandolin", "toad", "alligator", "sea lion", "tarantula",
+    "wasp", "vulture", "puppy", "calf", "crystal ball", "comet", "bracelet", "moped", "rowboat",
+    "cathedral", "viaduct", "bass guitar", "dreidel", "gramophone", "hoodie", "tepee", "crayon",
+    "rugby ball", "toddler", "athlete", "tourist", "businesswoman", "geese", "oxen",
+    "birds of prey", "sunglasses",
+)  # fmt: skip
+"""What somebody who sees the model of its noun would call another thing."""
+
+
+@pytest.mark.parametrize("word", OTHERS)
+def test_another_thing_is_named_as_shown_by_its_noun(word: str) -> None:
+    nouns, substituted, _ = read(f"the {word}")
+    assert substituted == {word: nouns[0]}
 
 
 def test_what_misleads_is_neither_noun_nor_kind() -> None:

@@ -13,11 +13,13 @@ from texvent.scenes.description import Picture, SceneDescription
 from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ
 from texvent.scenes.language.words.english import correct_spelling, list_verb_forms
 from texvent.scenes.language.words.lexicon import Lexicon
 from texvent.scenes.language.words.tagging import tag_words
 from texvent.scenes.language.words.tokens import tokenize_prompt
 from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.protocol import Pose
 
 KNOWN = Lexicon(NOUNS)
 
@@ -228,3 +230,299 @@ def test_lamps_blink_and_things_smoke() -> None:
 def test_crossings_and_bends_of_roads() -> None:
     assert parse_prompt("a car at a junction").surroundings.road == "crossing"
     assert parse_prompt("a truck on a winding road").surroundings.road == "curved"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "lines"),
+    [
+        ("A striker kicks the ball and the goalkeeper catches it.",
+         ["kicking 1 ball", "1 ball, stands still", "catching 1 ball"]),
+        ("A girl holds a balloon, which rises. She jumps.", ["1 child, jumps", "1 balloon"]),
+        ("A man sits on a bench near pigeons. They all fly up. He waves.",
+         ["then waves", "1 bench", "3 birds, fly up"]),
+        ("A drone hovers. It then flies forward and lands.", ["then flies forward, then sinks"]),
+        ("Two dogs chase a cat. It jumps.", ["2 dogs, run", "1 cat, jumps"]),
+        ("A dog chases a ball and catches it.", ["catching 1 ball", "1 ball"]),
+        ("Neither the dog nor the cat moves.", ["1 dog, stands still", "1 cat, stands still"]),
+        ("Two people with umbrellas walk.", ["holding 2 umbrellas", "2 umbrellas"]),
+        ("Six eggs roll off the table.", ["6 eggs, roll", "1 table, stands still"]),
+        ("Half a dozen ducks swim.", ["6 ducks, swim"]),
+        ("1,000 birds fly.", ["24 birds, fly"]),
+        ("Two balls collide.", ["2 balls, stand still, meeting each other"]),
+        ("Cars crash into each other.", ["3 cars, stand still, meeting each other"]),
+        ("A man and a woman meet.", ["meeting 1 woman", "1 woman"]),
+        ("A car crashes into a tree.", ["meeting 1 tree", "1 tree"]),
+        ("A red car hits a blue car.", ["1 car, red, stands still, meeting 1 car", "1 car, blue"]),
+        ("A man hits a ball.", ["hitting 1 ball", "1 ball"]),
+        ("A ball falls from above.", ["1 ball, falls down"]),
+        ("A flag flutters.", ["1 flag, moves in place"]),
+        ("An eagle dives.", ["1 eagle, flies down"]),
+        ("A ball bounces five times and comes to rest.", ["1 ball, bounces, then stands still"]),
+        ("**A car** _drives_ to the `left`.", ["1 car, drives left"]),
+        ("# Cars\n- a red car\n- a blue van", ["3 cars", "1 car, red", "1 van, blue"]),
+    ],
+)  # fmt: skip
+def test_who_does_what_in_everyday_sentences(prompt: str, lines: list[str]) -> None:
+    description = parse_prompt(prompt)
+    said = description.report().scene[: len(description.objects)]
+    assert len(said) == len(lines), said
+    assert all(line in found for line, found in zip(lines, said, strict=True)), said
+
+
+@pytest.mark.parametrize(
+    ("prompt", "objects", "reported"),
+    [
+        ("a car with black wheels drives", ["car"], ("black",)),
+        ("a bird with red wings flies", ["bird"], ("red",)),
+        ("a boy kicks a ball and then throws a stone", ["child", "ball", "rock"], ("throws",)),
+        ("0 cars and a dog", ["dog"], ()),
+        ("a car starts", ["car"], ("starts",)),
+        ("a car crashes", ["car"], ("crashes",)),
+        ("nothing moves but a dog", ["dog"], ("nothing",)),
+        ("lava fountains glow while a boat rocks", ["boat"], ("lava", "fountains")),
+        ("a stream of cars moves", ["car"], ("stream",)),
+        ("a sea of flags waves", ["flag"], ("sea",)),
+        ("a tower of light behind a car", ["car"], ("tower",)),
+        ("a bowl of apples stands", ["bowl", "apple"], ()),
+        ("a camel caravan of five animals crosses a dune", ["camel"], ()),
+        ("a man saws the trunk of a birch", ["man", "tree"], ("trunk",)),
+        ("a potter with clay-covered hands sits", ["person"], ("clay", "covered")),
+        ("a three-legged dog runs", ["dog"], ("three", "legged")),
+        ("an elephant walks, a calf follows", ["elephant", "elephant"], ()),
+        ("a boy juggles three oranges", ["child"], ()),
+        ("the red team's goal stands", ["goal"], ("red", "team")),
+        ("a van with flashing lights drives", ["van"], ("flashing", "lights")),
+        ("a bowl of tomato soup stands", ["bowl"], ("soup",)),
+        ("a waiter serves a cake", ["person", "cake"], ("serves",)),
+        ("a door painted orange opens", ["door"], ("painted",)),
+        ("a plane taxis on a runway", ["airplane"], ("taxis",)),
+    ],
+)
+def test_no_part_count_second_act_or_other_sense_is_invented(
+    prompt: str, objects: list[str], reported: tuple[str, ...]
+) -> None:
+    description = parse_prompt(prompt)
+    assert [one.noun for one in description.objects] == objects
+    assert set(reported) <= set(description.not_understood)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("a batter waits while the catcher crouches behind him", ["person", "person"]),
+        ("a collie barks and the dog runs", ["dog"]),
+        ("a flock of sheep stands, then the sheep run", ["sheep"]),
+        ("people and stalls slide by", ["person"]),
+        ("the lamps of a lorry blind the driver", ["person"]),
+    ],
+)
+def test_each_thing_named_is_one_thing(prompt: str, nouns: list[str]) -> None:
+    found = [one.noun for one in parse_prompt(prompt).objects if one.noun in (*nouns, "slide")]
+    assert found == nouns
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kind"),
+    [
+        ("a goalkeeper dives late", "stand"),
+        ("a batter swings at a ball", "stand"),
+        ("a man rises from a chair", "stand"),
+        ("a jeep climbs a slope", "drive"),
+        ("an excavator dumps its load", "stand"),
+        ("a woman pulls out two loaves", "stand"),
+    ],
+)
+def test_a_verb_of_several_senses_has_the_one_that_fits(prompt: str, kind: str) -> None:
+    description = parse_prompt(prompt)
+    assert description.objects[0].motion is not None
+    assert description.objects[0].motion.kind == kind
+    assert all(move.kind != "dolly" for move in description.shot.moves)
+
+
+def test_it_is_no_person() -> None:
+    description = parse_prompt("two men run towards a ball, and a boy kicks it")
+    kicked = [one for one in description.relations if one.kind == "kick"]
+    assert [description.objects[i].noun for i in kicked[0].targets] == ["ball"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "objects"),
+    [
+        ("a train of mules rests", ["donkey"]),
+        ("a seal pup sleeps", ["seal"]),
+        ("a cow follows its mother", ["cow"]),
+        ("a third one watches from a bench", ["bench"]),
+        ("spray flies over the bow of a boat", ["boat"]),
+    ],
+)
+def test_words_beside_others_are_not_shown_by_themselves(prompt: str, objects: list[str]) -> None:
+    assert [one.noun for one in parse_prompt(prompt).objects] == objects
+
+
+@pytest.mark.parametrize("prompt", ["a cook flips a plate", "a woman raises a flag"])
+def test_what_is_done_to_a_thing_is_no_motion_of_oneself(prompt: str) -> None:
+    description = parse_prompt(prompt)
+    assert description.objects[0].motion is not None
+    assert description.objects[0].motion.kind == "stand"
+
+
+@pytest.mark.parametrize("prompt", ["a man climbs a ladder", "a cat climbs a tree"])
+def test_who_climbs_a_thing_moves_beside_it_and_the_report_says_so(prompt: str) -> None:
+    description = parse_prompt(prompt)
+    motion = description.objects[0].motion
+    assert motion is not None
+    assert [str(one) for one in description.substituted] == [f"climbs → {motion.kind} beside it"]
+    assert [one.kind for one in description.relations] == ["beside"]
+    assert parse_prompt("a plane climbs").substituted == ()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "note"),
+    [
+        ("a crane lifts a box", "the crane does not touch the box (lifts)"),
+        ("a traffic light turns green", "the traffic light goes through all its colours"),
+    ],
+)
+def test_what_is_shown_in_part_is_noted(prompt: str, note: str) -> None:
+    assert note in parse_prompt(prompt).notes
+
+
+def test_nouns_before_a_letter_are_reported() -> None:
+    assert {"sign", "language"} <= set(parse_prompt("sign language letter B").not_understood)
+
+
+def test_things_that_pass_each_other_come_from_opposite_sides() -> None:
+    description = parse_prompt("three trains pass each other")
+    moved = [(one.count, one.motion and one.motion.direction) for one in description.objects]
+    assert moved == [(2, "right"), (1, "left")]
+    assert [(one.kind, one.subject, one.targets) for one in description.relations] == [
+        ("past", 1, (0,))
+    ]
+
+
+def test_things_that_chase_each_other_follow_one_ahead() -> None:
+    for prompt in ("two dogs chase each other", "a cat and a dog chase each other"):
+        description = parse_prompt(prompt)
+        assert [one.count for one in description.objects] == [1, 1]
+        assert [(one.kind, one.subject, one.targets) for one in description.relations] == [
+            ("follow", 1, (0,))
+        ]
+
+
+@pytest.mark.parametrize(("noun", "own_hz"), WORK_RATES_HZ.items())
+def test_a_stated_rate_is_kept_by_what_spins_by_itself(noun: str, own_hz: float) -> None:
+    motion = parse_prompt(f"a {noun} rotates at 300 rpm").objects[0].motion
+    assert motion is not None
+    assert (motion.kind, motion.pace * own_hz) == ("work", pytest.approx(5.0))
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    poses = [Pose(time / own_hz, 0.0, 0.0, "work") for time in (0.0, 0.3, 1.0)]
+    start, part, turn = (np.array([one.to_body for one in model.parts(each)]) for each in poses)
+    assert np.allclose(start, turn)
+    assert not np.allclose(start, part)
+
+
+def test_a_rate_that_is_not_shown_is_reported() -> None:
+    assert {"300", "rpm"} <= set(parse_prompt("a fan rotates at 300 rpm").not_understood)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "note"),
+    [
+        ("3.5 cars drive", "a count of 3.5 is shown as 4"),
+        ("a ball rolls left and hits a box", "the ball may go another way than left: to the hit"),
+    ],
+)
+def test_what_is_rounded_or_turned_is_noted(prompt: str, note: str) -> None:
+    assert note in parse_prompt(prompt).notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [
+        ("a pitcher throws a baseball", "person"),
+        ("a woman pours from a pitcher", "jug"),
+        ("a tray of glasses", "glass"),
+        ("a man with glasses", "glasses"),
+        ("a picture of a car on a wall", "poster"),
+        ("a picture of a car on a road", "car"),
+        ("a glass on a table", "glass"),
+    ],
+)
+def test_a_word_of_several_senses_fits_its_neighbours(prompt: str, noun: str) -> None:
+    assert noun in [one.noun for one in parse_prompt(prompt).objects]
+
+
+def test_the_glass_of_a_window_is_no_vessel() -> None:
+    description = parse_prompt("a car with a crack in the glass")
+    assert [one.noun for one in description.objects] == ["car"]
+    assert "glass" in description.not_understood
+
+
+def test_hands_of_a_person_are_that_person() -> None:
+    description = parse_prompt("gloved hands of a surgeon tie a suture")
+    assert [one.noun for one in description.objects] == ["person"]
+    assert {"tie", "suture"} <= set(description.not_understood)
+
+
+def test_both_words_beside_a_slash_do_it() -> None:
+    description = parse_prompt("a car/truck drives")
+    assert [one.motion and one.motion.kind for one in description.objects] == ["drive", "drive"]
+
+
+def test_sprinkling_from_above_is_no_view() -> None:
+    assert parse_prompt("a chef sprinkles sugar from above").shot.view is None
+    assert parse_prompt("a dog runs, from above").shot.view is not None
+
+
+@pytest.mark.parametrize(("prompt", "kind"), [("a bell", "stand"), ("a bell rings", "work")])
+def test_a_bell_swings_if_it_rings(prompt: str, kind: str) -> None:
+    motion = parse_prompt(prompt).objects[0].motion
+    assert motion is not None
+    assert motion.kind == kind
+
+
+def test_a_game_without_players_is_one_person_and_reported() -> None:
+    description = parse_prompt("table tennis rally on a beach")
+    assert [one.noun for one in description.objects] == ["person"]
+    assert description.surroundings.place == "sand"
+    assert [one.shown for one in description.substituted] == ["one person, swing racket"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "kind"),
+    [
+        ("fans wave flags", "person", "wave"),
+        ("a fan spins", "fan", "work"),
+        ("a police car chases a van", "police car", "drive"),
+        ("a dog chases a cat", "dog", "run"),
+        ("a turtle glides above a diver", "turtle", "swim"),
+        ("an eagle glides", "eagle", "fly"),
+        ("a boat rolls", "boat", "sway"),
+        ("a ball rolls", "ball", "roll"),
+    ],
+)
+def test_a_verb_is_done_as_its_subject_does_it(prompt: str, noun: str, kind: str) -> None:
+    first = parse_prompt(prompt).objects[0]
+    assert first.motion is not None
+    assert (first.noun, first.motion.kind) == (noun, kind)
+
+
+def test_from_behind_a_thing_is_no_view() -> None:
+    description = parse_prompt("a man watches from behind a fence")
+    assert description.shot.view is None
+    assert [one.kind for one in description.relations] == ["behind"]
+    assert parse_prompt("a man walks, seen from behind").shot.view == "back"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("firefighters spray water on a burning house", "grass"),
+        ("a clock in heavy rain", "grass"),
+        ("a clock", "indoor"),
+        ("rain on a window", "indoor"),
+        ("a fish in the water", "underwater"),
+    ],
+)
+def test_water_that_is_sprayed_and_rain_on_things_fit_the_place(prompt: str, place: str) -> None:
+    assert parse_prompt(prompt).surroundings.place == place

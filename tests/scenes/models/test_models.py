@@ -2,6 +2,8 @@
 
 import inspect
 import math
+from collections.abc import Callable
+from functools import cache, wraps
 from itertools import pairwise
 
 import numpy as np
@@ -20,7 +22,6 @@ from texvent.scenes.models.vehicles.wheels import Wheel, rolled
 from texvent.scenes.scene import Shape
 
 ALL = list(NOUNS.values())
-BY_NAME = pytest.mark.parametrize("noun", ALL, ids=[noun.name for noun in ALL])
 POSES = [
     Pose(time_s, distance_m, speed, activity)
     for time_s, distance_m, speed, activity in (
@@ -41,19 +42,40 @@ def build(noun: Noun, *, scale: float = 1.0, seed: int = 0) -> Model:
     return noun.build(colour=None, scale=scale, seed=seed)
 
 
-def surface_points(part: ModelPart) -> np.ndarray:
-    """Points all over a unit shape, in body coordinates: [n, 3]."""
+def for_every_noun(check: Callable[[Noun], None]) -> Callable[[], None]:
+    """One test of all nouns, which names those that fail and says why."""
+
+    @wraps(check)
+    def test() -> None:
+        failures = {}
+        for noun in ALL:
+            try:
+                check(noun)
+            except AssertionError as error:
+                failures[noun.name] = str(error)
+        assert not failures
+
+    del test.__wrapped__  # pytest would look for a fixture called noun
+    return test
+
+
+@cache
+def unit_points(shape: Shape) -> np.ndarray:
+    """Points all over a unit shape: [n, 3]."""
     u = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
-    if part.shape is Shape.BOX:
-        unit = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-    elif part.shape is Shape.ELLIPSOID:
+    if shape is Shape.BOX:
+        return np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    if shape is Shape.ELLIPSOID:
         v = np.linspace(0.0, math.pi, 13)
-        unit = np.array([[math.sin(b) * math.cos(a), math.sin(b) * math.sin(a), math.cos(b)]
+        return np.array([[math.sin(b) * math.cos(a), math.sin(b) * math.sin(a), math.cos(b)]
                          for a in u for b in v])  # fmt: skip
-    else:
-        ends = (-1.0, 1.0) if part.shape is Shape.CYLINDER else (-1.0,)
-        unit = np.array([[math.cos(a), math.sin(a), z] for a in u for z in ends] + [[0, 0, 1.0]])
-    return unit @ part.to_body[:, :3].T + part.to_body[:, 3]
+    ends = (-1.0, 1.0) if shape is Shape.CYLINDER else (-1.0,)
+    return np.array([[math.cos(a), math.sin(a), z] for a in u for z in ends] + [[0, 0, 1.0]])
+
+
+def surface_points(part: ModelPart) -> np.ndarray:
+    """Points all over a part, in body coordinates: [n, 3]."""
+    return unit_points(part.shape) @ part.to_body[:, :3].T + part.to_body[:, 3]
 
 
 def all_points(model: Model, pose: Pose) -> np.ndarray:
@@ -121,14 +143,15 @@ def test_habitat_motion_and_speed_agree() -> None:
     assert all(NOUNS[name].habitat == "water" for name in AFLOAT)
 
 
-@BY_NAME
+@for_every_noun
 def test_parts_keep_their_number_order_and_handedness(noun: Noun) -> None:
     for seed, colour, scale in ((0, None, 1.0), (7, RED, 0.3), (3, None, 4.0)):
         model = noun.build(colour=colour, scale=scale, seed=seed)
-        shapes = [[part.shape for part in model.parts(pose)] for pose in POSES]
+        posed = [model.parts(pose) for pose in POSES]
+        shapes = [[part.shape for part in parts] for parts in posed]
         assert all(row == shapes[0] for row in shapes)
         assert 1 <= len(shapes[0]) <= 60
-        parts = [part for pose in POSES for part in model.parts(pose)]
+        parts = [part for each in posed for part in each]
         maps = np.array([part.to_body for part in parts])
         assert maps.shape == (len(parts), 3, 4)
         assert np.isfinite(maps).all()
@@ -141,7 +164,7 @@ def test_parts_keep_their_number_order_and_handedness(noun: Noun) -> None:
         assert min(part.emission for part in parts) >= 0.0
 
 
-@BY_NAME
+@for_every_noun
 def test_size_holds_all_parts_and_is_not_loose(noun: Noun) -> None:
     model = build(noun, seed=2)
     points = np.concatenate([all_points(model, pose) for pose in POSES if pose.activity != "sit"])
@@ -155,7 +178,7 @@ def test_size_holds_all_parts_and_is_not_loose(noun: Noun) -> None:
         assert 0.30 * model.height <= reach[2] <= 0.55 * model.height
 
 
-@BY_NAME
+@for_every_noun
 def test_scale_scales_everything(noun: Noun) -> None:
     usual, double = build(noun, seed=5), build(noun, scale=2.0, seed=5)
     assert double.length == pytest.approx(2.0 * usual.length)
@@ -167,7 +190,7 @@ def test_scale_scales_everything(noun: Noun) -> None:
         np.testing.assert_allclose(2.0 * a.to_body, b.to_body, rtol=0, atol=1e-9)
 
 
-@BY_NAME
+@for_every_noun
 def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
     if noun.habitat not in ("ground", "fixed"):
         return
@@ -179,7 +202,7 @@ def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
             assert lowest <= 0.02 + 0.06 * model.height, pose
 
 
-@BY_NAME
+@for_every_noun
 def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
     model = build(noun, seed=4)
     speed = max(noun.speed_m_s, 1.0)
@@ -204,7 +227,7 @@ def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
             assert np.abs(fade).max(initial=0.0) <= 0.1
 
 
-@BY_NAME
+@for_every_noun
 def test_a_seed_fixes_every_detail(noun: Noun) -> None:
     pose = Pose(0.7, 1.9, 1.0)
     for a, b in zip(build(noun, seed=9).parts(pose), build(noun, seed=9).parts(pose), strict=True):
@@ -212,7 +235,7 @@ def test_a_seed_fixes_every_detail(noun: Noun) -> None:
         assert (a.colour, a.emission) == (b.colour, b.emission)
 
 
-@BY_NAME
+@for_every_noun
 def test_a_colour_word_shows(noun: Noun) -> None:
     violet = (0.31, 0.02, 0.47)
     pose = Pose(0.3, 0.4, 1.0)

@@ -238,16 +238,16 @@ def test_actors_do_not_stand_in_one_another(prompt: str) -> None:
                 assert shared < 0.15 * smaller, (names, time)
 
 
-@pytest.mark.parametrize("name", sorted(NOUNS))
-def test_every_noun_alone_is_large_in_the_image(name: str) -> None:
-    scene = staged(f"a {name}")
-    actor = scene.actors[[a.noun.name for a in scene.actors].index(name)]
-    for time in (0.0, 2.0):
-        points = seen(scene, actor, time)
-        assert points[:, 2].min() > 0.0
-        pixels = np.ptp(points[:, :2], axis=0) * [SIZE.width / 2, SIZE.height / 2]
-        assert pixels.max() > 40.0
-        assert np.abs(points[:, :2].mean(axis=0)).max() < 0.9
+def test_every_noun_alone_is_large_in_the_image() -> None:
+    for name in NOUNS:
+        scene = staged(f"a {name}")
+        actor = scene.actors[[a.noun.name for a in scene.actors].index(name)]
+        for time in (0.0, 2.0):
+            points = seen(scene, actor, time)
+            assert points[:, 2].min() > 0.0, name
+            pixels = np.ptp(points[:, :2], axis=0) * [SIZE.width / 2, SIZE.height / 2]
+            assert pixels.max() > 40.0, name
+            assert np.abs(points[:, :2].mean(axis=0)).max() < 0.9, name
 
 
 @pytest.mark.parametrize("duration_s", [0.1, 0.5, 8.0])

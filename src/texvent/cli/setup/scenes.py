@@ -133,11 +133,16 @@ def _show(options: ShowOptions) -> int:
 
 
 def _find(said: str, nouns: Mapping[str, Noun]) -> Noun:
-    """The noun of a name or synonym."""
+    """The noun of a name or synonym, or the one that shows a kind."""
+    from texvent.scenes.models.kinds import find_kind
+
     wanted = said.lower().strip()
     for noun in nouns.values():
         if wanted == noun.name or wanted in noun.synonyms or wanted in noun.plurals:
             return noun
+    kind = find_kind(wanted)
+    if kind is not None:
+        return nouns[kind]
     raise InputError(f"{shown(said)} is no noun; {suggest(wanted, tuple(nouns), longest=220)}")
 
 

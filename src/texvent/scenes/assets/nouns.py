@@ -17,6 +17,7 @@ from texvent.scenes.assets.gltf_figure import GltfFigure
 from texvent.scenes.assets.index import Asset
 from texvent.scenes.assets.trimesh_files import load_with_trimesh
 from texvent.scenes.mesh import Colour, Float64Array
+from texvent.scenes.models.kinds import find_kind
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.variation import choose
@@ -163,7 +164,7 @@ def _scale(asset: Asset, extents: Float64Array) -> tuple[Float64Array, str]:
 
 
 def usual_noun(name: str) -> Noun | None:
-    """The embedded noun of that name, of its last words, or one that it is a synonym of."""
+    """The embedded noun of that name, of its last words, or one that it is a synonym or kind of."""
     words = name.split()
     for first in range(len(words)):
         said = " ".join(words[first:])
@@ -172,6 +173,9 @@ def usual_noun(name: str) -> Noun | None:
         for noun in NOUNS.values():
             if said in noun.synonyms:
                 return noun
+        kind = find_kind(said)
+        if kind is not None:
+            return NOUNS[kind]
     return None
 
 

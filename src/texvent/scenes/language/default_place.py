@@ -24,7 +24,7 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
         "table", "chair", "sofa", "bed", "cup", "bottle", "clock", "candle", "lamp", "fan",
         "basketball", "pendulum", "bookshelf", "tennis ball",
     ),
-    "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket"),
+    "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket", "hand"),
     "forest": ("bear", "wolf", "fox", "deer"),
 }  # fmt: skip
 """Place → nouns that are usually found there; what is not listed is shown on grass."""
@@ -32,7 +32,8 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
 
 _OUTDOORS = frozenset(
     {"tree", "pine", "palm", "birch", "bush", "hedge", "house", "barn", "castle", "lighthouse",
-     "car", "bus", "truck", "horse", "cow", "sheep", "street lamp", "fence", "bench", "tent"}
+     "car", "bus", "truck", "horse", "cow", "sheep", "street lamp", "fence", "bench", "tent",
+     "temple", "church", "tractor", "taxi"}
 )  # fmt: skip
 """Nouns that are not found in a room."""
 _INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", "gym")
@@ -80,17 +81,20 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         one.motion is not None and one.motion.kind in ("stand", "sit", "lie")
         for one in description.objects
     )
-    return _choose_usual(members, rests=rests)
+    return _choose_usual(members, rests=rests, is_wet=said.weather in ("rain", "snow"))
 
 
-def _choose_usual(members: Sequence[Noun], *, rests: bool) -> str:
+def _choose_usual(members: Sequence[Noun], *, rests: bool, is_wet: bool) -> str:
     if not members:
         return "grass"
     if {noun.habitat for noun in members} == {"water"}:
         return "sea"
-    is_outdoors = any(noun.name in _OUTDOORS for noun in members)
+    is_seen_through = any(noun.name == "window" for noun in members)
+    is_outdoors = (is_wet and not is_seen_through) or any(
+        noun.name in _OUTDOORS for noun in members
+    )
     for noun in members:
-        usual = [place for place, names in _USUAL_PLACES.items() if noun.name in names]
+        usual = [place for place, found in _USUAL_PLACES.items() if noun.name in found]
         place = usual[0] if usual else noun.place
         if place and not (is_outdoors and place in _INSIDE):
             return place

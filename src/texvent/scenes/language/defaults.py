@@ -15,6 +15,7 @@ from texvent.scenes.description import (
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.default_place import choose_place
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
+from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
 from texvent.scenes.models.protocol import Noun
 
 SLOW_PAN = CameraMove("pan", "right", 0.8)
@@ -30,7 +31,7 @@ def complete_description(
     nothing moves, objects that can move do what they usually do; when none can, the camera pans.
     """
     description = _add_crew(description, nouns)
-    description = _rest_inside(_limit_bodies(_move_to_background(description, nouns)))
+    description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
     objects = tuple(
         _decide_motion(scene_object, nouns[scene_object.noun])
         for scene_object in description.objects
@@ -159,7 +160,7 @@ def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     return replace(description, objects=tuple(objects))
 
 
-ACTIVE = frozenset({"push", "pull", "kick", "hit", "throw", "catch"})
+ACTIVE = frozenset({"push", "pull", "kick", "hit", "throw", "catch", "collide"})
 """Acts in which something moves."""
 
 
@@ -175,20 +176,54 @@ def _is_moving(scene_object: SceneObject) -> bool:
     )
 
 
-def _rest_inside(description: SceneDescription) -> SceneDescription:
-    """What is in something, and not said to move, stays there: "a goldfish in a bowl"."""
-    inside = {one.subject for one in description.relations if one.kind == "in"}
-    objects = tuple(
-        replace(each, motion=STANDING) if index in inside and each.motion is None else each
-        for index, each in enumerate(description.objects)
-    )
-    return replace(description, objects=objects)
+_KEEPS_PLACE = frozenset(
+    {"behind", "front", "beside", "between", "under", "left of", "right of", "around"}
+)
+"""Relations that what moves off would undo."""
+
+
+def _rest_in_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """What the prompt only says the place of stays there: "a dog behind a fence".
+
+    What flies or swims rests in or on something only.
+    """
+    objects = list(description.objects)
+    for relation in description.relations:
+        subject, target = (objects[each] for each in (relation.subject, relation.targets[0]))
+        if relation.kind in ("in", "on"):
+            if _sits_down(description, subject, target):
+                objects[relation.subject] = replace(subject, motion=ObjectMotion("sit"))
+            elif subject.motion is None and (relation.kind == "in" or target.motion is None):
+                objects[relation.subject] = replace(subject, motion=STANDING)
+        elif relation.kind in _KEEPS_PLACE:
+            for index in (relation.subject, *relation.targets):
+                each = objects[index]
+                noun = nouns[each.noun]
+                floats = noun.motion in ("sail", "paddle")
+                if each.motion is None and (noun.habitat == "ground" or floats):
+                    objects[index] = replace(each, motion=STANDING)
+    return replace(description, objects=tuple(objects))
+
+
+def _sits_down(description: SceneDescription, subject: SceneObject, target: SceneObject) -> bool:
+    """Whether a person is on a seat and the prompt does not say that it stands there."""
+    if subject.noun not in PERSON_NOUNS or target.noun not in SEATS:
+        return False
+    is_said = any(word.startswith("stand") for word in description.shown)
+    return subject.motion is None or (subject.motion == STANDING and not is_said)
+
+
+_AT_REST = frozenset({"bell"})
+"""Nouns with moving parts that rest until somebody moves them."""
 
 
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
     motion = scene_object.motion
     if noun.is_working and (motion is None or motion.kind in ("stand", "swing", "spin")):
-        return replace(scene_object, motion=ObjectMotion("work"))
+        if noun.name in _AT_REST and (motion is None or motion.kind == "stand"):
+            return replace(scene_object, motion=STANDING)
+        pace = 1.0 if motion is None else motion.pace
+        return replace(scene_object, motion=ObjectMotion("work", pace=pace))
     if motion is None and noun.habitat in ("air", "water") and noun.motion != "stand":
         return replace(scene_object, motion=ObjectMotion(noun.motion))
     if motion is not None and motion.kind == "move":

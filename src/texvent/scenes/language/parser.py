@@ -122,7 +122,7 @@ def _account(
     for word in words:
         if word.shown_as is not None:
             substituted[word.text] = Substitution(word.text, word.shown_as)
-        elif word.pos in _SILENT:
+        elif word.pos in _SILENT and not word.is_lost:
             continue
         elif word.is_used:
             shown[word.text] = None

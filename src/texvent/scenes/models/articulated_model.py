@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.errors import InputError
 from texvent.scenes.models.protocol import ModelPart, Pose
-from texvent.scenes.models.shapes import Affine, half_extents
+from texvent.scenes.models.shapes import Affine, bounds
 
 Articulation = Callable[[Pose], Sequence[ModelPart]]
 Anchorage = Callable[[str, Pose], Affine | None]
@@ -27,6 +27,8 @@ _SAMPLE_POSES = tuple(
     for what in ("stand", "move", "run")
     for step in range(12)
 )
+STANDING_POSES = _SAMPLE_POSES[:12]
+"""The sample for what moves with time alone."""
 
 
 class ArticulatedModel:
@@ -45,6 +47,7 @@ class ArticulatedModel:
         articulate: Articulation | None = None,
         is_centred: bool = False,
         anchor: Anchorage | None = None,
+        poses: Sequence[Pose] = _SAMPLE_POSES,
     ) -> None:
         """Measure the figure.
 
@@ -54,6 +57,7 @@ class ArticulatedModel:
             articulate: gives the parts that move; None = there are none.
             is_centred: whether the origin is its middle rather than the ground below it.
             anchor: places at which other things are held; None = those of its box.
+            poses: what its size is measured over.
 
         Raises:
             InputError: scale is not a positive number.
@@ -65,7 +69,7 @@ class ArticulatedModel:
         self._articulate = articulate
         self._anchor = anchor
         self.is_centred = is_centred
-        low, high = (self._scale * corner for corner in _measure(rigid, articulate))
+        low, high = (self._scale * corner for corner in _measure(rigid, articulate, poses))
         reach = np.maximum(np.abs(low), np.abs(high))
         self.length = float(2.0 * reach[0])
         self.width = float(2.0 * reach[1])
@@ -106,17 +110,16 @@ class ArticulatedModel:
         )
 
 
-def _measure(rigid: Sequence[ModelPart], articulate: Articulation | None) -> tuple[Affine, Affine]:
+def _measure(
+    rigid: Sequence[ModelPart], articulate: Articulation | None, poses: Sequence[Pose]
+) -> tuple[Affine, Affine]:
     """Lowest and highest x, y, z that the parts reach, at the usual size, m."""
     parts = list(rigid)
     if articulate is not None:
-        for pose in _SAMPLE_POSES:
+        for pose in poses:
             parts += articulate(pose)
-    corners = [half_extents(each.shape, each.to_body) for each in parts]
-    return np.min([low for low, _ in corners], axis=0), np.max(
-        [high for _, high in corners], axis=0
-    )
+    return bounds(parts)
 
 
 def _scaled(each: ModelPart, scale: float) -> ModelPart:
-    return each if scale == 1.0 else replace(each, to_body=scale * each.to_body)
+    return each if scale == 1.0 else each.at(scale * each.to_body)

@@ -41,6 +41,12 @@ class ModelPart:
     image_face: int = 1
     """That face: 0..5 = -x, +x, -y, +y, -z, +z."""
 
+    def at(self, to_body: NDArray[np.float64]) -> ModelPart:
+        """The same part at another place; ten times as fast as `dataclasses.replace`."""
+        part = object.__new__(ModelPart)
+        part.__dict__.update(self.__dict__, to_body=to_body)
+        return part
+
 
 @dataclass(frozen=True)
 class Pose:

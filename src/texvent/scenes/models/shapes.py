@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -165,7 +164,7 @@ def part_way(start: Point, end: Point, share: float) -> Point:
 
 def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:
     """The same parts carried along by a motion."""
-    return [replace(each, to_body=compose(motion, each.to_body)) for each in parts]
+    return [each.at(compose(motion, each.to_body)) for each in parts]
 
 
 def compose(outer: Affine, inner: Affine) -> Affine:
@@ -198,25 +197,35 @@ def turn_z(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
     return _about(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), pivot)
 
 
+def bounds(parts: Iterable[ModelPart]) -> tuple[Affine, Affine]:
+    """Two arrays [3]: least and greatest x, y, z of all parts, m."""
+    maps: dict[Shape, list[Affine]] = {}
+    for each in parts:
+        maps.setdefault(each.shape, []).append(each.to_body)
+    corners = [half_extents(shape, np.array(placed)) for shape, placed in maps.items()]
+    lows, highs = (np.concatenate(ends) for ends in zip(*corners, strict=True))
+    return lows.min(axis=0), highs.max(axis=0)
+
+
 def half_extents(shape: Shape, to_body: Affine) -> tuple[Affine, Affine]:
-    """Lowest and highest body coordinates of a placed unit shape.
+    """Lowest and highest body coordinates of placed unit shapes.
 
     Args:
         shape: the unit shape.
-        to_body: [3, 4] map to body coordinates.
+        to_body: [..., 3, 4] maps to body coordinates.
 
     Returns:
-        Two arrays [3]: least and greatest x, y, z, m.
+        Two arrays [..., 3]: least and greatest x, y, z, m.
     """
-    linear, middle = to_body[:, :3], to_body[:, 3]
+    linear, middle = to_body[..., :3], to_body[..., 3]
     if shape is Shape.ELLIPSOID:
-        reach = np.linalg.norm(linear, axis=1)
+        reach = np.linalg.norm(linear, axis=-1)
         return middle - reach, middle + reach
     if shape in (Shape.BOX, Shape.MESH):
-        reach = np.abs(linear).sum(axis=1)
+        reach = np.abs(linear).sum(axis=-1)
         return middle - reach, middle + reach
-    round_reach = np.hypot(linear[:, 0], linear[:, 1])
-    axis = linear[:, 2]
+    round_reach = np.hypot(linear[..., 0], linear[..., 1])
+    axis = linear[..., 2]
     if shape is Shape.CYLINDER:
         reach = round_reach + np.abs(axis)
         return middle - reach, middle + reach

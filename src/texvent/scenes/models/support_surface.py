@@ -35,11 +35,20 @@ class Support:
         return 0.5 * (self.low[0] + self.high[0]), 0.5 * (self.low[1] + self.high[1])
 
 
-def find_support(model: Model) -> Support:
+_SEAT_BAND = (0.5, 1.7)
+"""Heights that count as near a wanted one, in multiples of it."""
+
+
+def find_support(model: Model, near_m: float | None = None) -> Support:
     """The largest level surface of a model that is open to above; on a ridge, its top.
 
     The model is looked at from above on a grid of 17 x 17 points; heights are collected in levels
     of 3 cm.
+
+    Args:
+        model: the model, at rest.
+        near_m: height of the surface that is wanted, m; where no part of the model is about as
+            high, the largest surface is taken.
     """
     parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
     xs = np.linspace(-0.48, 0.48, _GRID) * model.length
@@ -53,8 +62,12 @@ def find_support(model: Model) -> Support:
     bins = np.round(tops[covered] / level).astype(int)
     values, counts = np.unique(bins, return_counts=True)
     # Of two surfaces of about the same size the higher one is meant.
-    best = int(np.argmax(counts * (1.0 + 0.25 * values / max(int(values.max()), 1))))
-    if counts[best] < _LEAST_SHARE * covered.sum() or values[best] * level < 0.1 * model.height:
+    sizes = counts * (1.0 + 0.25 * values / max(int(values.max()), 1))
+    low, high = (share * (near_m or 0.0) for share in _SEAT_BAND)
+    is_near = (values * level > low) & (values * level < high)
+    best = int(np.argmax(np.where(is_near, sizes, 0.0) if is_near.any() else sizes))
+    is_small = counts[best] < _LEAST_SHARE * covered.sum()
+    if not is_near.any() and (is_small or values[best] * level < 0.1 * model.height):
         here = top_heights(parts, np.zeros(1), np.zeros(1))[0]
         height = float(here) if math.isfinite(here) else float(tops[covered].max())
         return Support(height, (0.0, 0.0), (0.0, 0.0))

@@ -8,9 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import av
 import numpy as np
-from av.error import FFmpegError
 
 from texvent.errors import FileFormatError
 from texvent.scenes.image import SurfaceImage, decode_srgb, surface_image
@@ -69,6 +67,9 @@ class PlayedVideo:
         return np.maximum.accumulate(counted), float(counted[-1]) + max(last, 1e-3)
 
     def _open(self) -> Iterator[Any]:
+        import av  # most scenes show no video
+        from av.error import FFmpegError
+
         try:
             with av.open(str(self._path)) as container:
                 yield from container.decode(video=0)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import world_at
-from texvent.scenes.raycast.surface_motion import cast, cast_centres, move_to
+from texvent.scenes.raycast.surface_motion import Seen, cast, cast_centres, move_to
 from texvent.scenes.raycast.visibility import count_unoccluded
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
@@ -94,7 +94,7 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
         instance=instances.reshape(shape),
         flow=flow.astype(np.float32).reshape(*shape, 2),
         occluded=hidden.reshape(shape),
-        boxes=_boxes(scene, t0_s, world, instances.reshape(shape)),
+        boxes=_boxes(scene, t0_s, seen, instances.reshape(shape)),
     )
 
 
@@ -133,14 +133,11 @@ def _hidden(world: World | OwnedWorld, place: Float64Array, size: SensorSize) ->
     return np.asarray(hidden, dtype=np.bool_)
 
 
-def _boxes(
-    scene: Scene, time_s: float, world: World | OwnedWorld, instance: NDArray[np.int32]
-) -> tuple[Box, ...]:
+def _boxes(scene: Scene, time_s: float, seen: Seen, instance: NDArray[np.int32]) -> tuple[Box, ...]:
     """Boxes around the visible pixels of each object."""
     owner = scene.primitives(time_s).instance.astype(np.int32)
     alone = np.zeros(1 + max(owner.max(initial=0), 0), dtype=np.int64)
-    height, width = instance.shape
-    count_unoccluded(world, owner, height, width, alone)
+    count_unoccluded(seen.world, owner, seen.points, alone)
     boxes = []
     for one in np.unique(instance[instance > 0]):
         rows, columns = np.nonzero(instance == one)

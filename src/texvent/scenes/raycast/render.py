@@ -16,7 +16,7 @@ from texvent.scenes.raycast.acceleration import TILE, build_world
 from texvent.scenes.raycast.adaptive_sampling import render_rows
 from texvent.scenes.raycast.lamps.light_up import light_up
 from texvent.scenes.raycast.records import OwnedWorld, World
-from texvent.scenes.scene import Float32Array, Float64Array, Scene
+from texvent.scenes.scene import Float32Array, Float64Array, Primitives, Scene
 from texvent.sensor import SensorSize
 
 
@@ -24,13 +24,20 @@ def world_at(
     scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
 ) -> World | OwnedWorld:
     """What the kernels read about one instant of a scene."""
+    return world_and_shapes(scene, time_s, size, shadows=shadows, samples=samples)[0]
+
+
+def world_and_shapes(
+    scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
+) -> tuple[World | OwnedWorld, Primitives]:
+    """What the kernels read about one instant of a scene, and the shapes that it is made of."""
     camera = scene.camera(time_s)
     rays = camera_rays(camera, size)
     primitives, environment = scene.primitives(time_s), scene.environment(time_s)
     world = build_world(
         primitives, environment, rays, size, shadows=shadows, samples=samples, lens=camera.lens
     )
-    return light_up(world, primitives, environment, rays, shadows=shadows)
+    return light_up(world, primitives, environment, rays, shadows=shadows), primitives
 
 
 def render(

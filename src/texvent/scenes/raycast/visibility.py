@@ -87,37 +87,34 @@ def see_from(
 def count_unoccluded(
     owner: World | OwnedWorld,
     instance: NDArray[np.int32],
-    height: int,
-    width: int,
+    points: Float64Array,
     counts: NDArray[np.int64],
 ) -> None:
-    """How many pixels each instance would cover if no other object stood before it.
+    """At how many points of the image each instance would be seen if nothing stood before it.
 
     Args:
         owner: the scene.
         instance: [n] instance of each shape.
-        height: image height, pixels.
-        width: image width, pixels.
+        points: [k, 2] x and y, pixels.
         counts: [1 + highest instance] is added to.
     """
     world = uncounted_world(owner)
     instant = world.instant[0]
     lists = world.lists
     last = np.full(len(counts), -1, dtype=np.int64)
-    for row in range(height):
-        for column in range(width):
-            u, v = plane_point(instant, column + 0.5, row + 0.5)
-            if math.isnan(u):
+    for number in range(len(points)):
+        x, y = points[number]
+        u, v = plane_point(instant, x, y)
+        if math.isnan(u):
+            continue
+        cell = tile_at(instant, u, v)
+        direction = plane_direction(instant, u, v)
+        behind = background_hit(instant, direction)[0]
+        for index in range(lists[cell], lists[cell + 1]):
+            one = instance[lists[index]]
+            if last[one] == number:
                 continue
-            cell = tile_at(instant, u, v)
-            pixel = row * width + column
-            direction = plane_direction(instant, u, v)
-            behind = background_hit(instant, direction)[0]
-            for index in range(lists[cell], lists[cell + 1]):
-                one = instance[lists[index]]
-                if last[one] == pixel:
-                    continue
-                t, _ = hit_again(world, column + 0.5, row + 0.5, lists[index])
-                if t < behind:
-                    last[one] = pixel
-                    counts[one] += 1
+            t, _ = hit_again(world, x, y, lists[index])
+            if t < behind:
+                last[one] = number
+                counts[one] += 1

@@ -12,7 +12,7 @@ from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import AFLOAT
 from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import compose, half_extents, moved, rod
+from texvent.scenes.models.shapes import bounds, compose, moved, rod
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
@@ -60,7 +60,7 @@ _STRING = Material((0.5, 0.5, 0.48))
 def lowest_point(model: Model) -> float:
     """Height of its lowest point above its origin when it stands, m."""
     parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
-    return float(min(half_extents(part.shape, part.to_body)[0][2] for part in parts))
+    return float(bounds(parts)[0][2])
 
 
 @dataclass(frozen=True)
@@ -176,9 +176,7 @@ class Actor:
             parts = [*self.model.parts(pose)]
             for prop in self.props:
                 parts += moved(prop.draw(pose.time_s), locate(self.model, prop.anchor, pose))
-            corners = [half_extents(part.shape, part.to_body) for part in parts]
-            low = np.min([corner for corner, _ in corners], axis=0)
-            return low, np.max([corner for _, corner in corners], axis=0)
+            return bounds(parts)
         half = 0.5 * np.array([self.model.length, self.model.width, self.model.height])
         lift = np.array([0.0, 0.0, 0.0 if self.is_centred else half[2]])
         return lift - half, lift + half

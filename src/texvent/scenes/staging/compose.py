@@ -24,6 +24,9 @@ from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitiv
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import plan_travel
+from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
+from texvent.scenes.staging.claims.relations import list_not_shown
+from texvent.scenes.staging.claims.shots import list_moves_not_shown
 from texvent.scenes.staging.environment import (
     PLACES,
     AnimatedEnvironment,
@@ -39,7 +42,6 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
-from texvent.scenes.staging.placement.relation_checks import list_not_shown
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.road_choice import find_road
 from texvent.scenes.staging.scenery import SceneryItem, ViewClearance, scatter
@@ -68,6 +70,13 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """Words of the prompt that the scene could not show, such as "under the table"."""
+    still_nouns: tuple[str, ...] = ()
+    """Noun of each shape of `still`."""
+
+    def list_scenery(self) -> list[str]:
+        """Noun of each shape of the scene that is scenery, "" for those of actors before it."""
+        acting = sum(len(self._place(actor, 0.0).parts) for actor in self.actors)
+        return [""] * acting + list(self.still_nouns)
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -169,6 +178,10 @@ def compose_scene(
         description, place=place, road=view.road,
         distance_m=distance, room_m=camera_path.room_m if ground is Ground.FLOOR else 9.0,
     )  # fmt: skip
+    surroundings = animated_environment.at(0.0)
+    stage = Stage(description, actors, camera_path, surroundings, place, duration_s)
+    missing += list_acts_not_shown(stage)
+    missing += list_moves_not_shown(description.shot, camera_path, duration_s)
     strength = choose_lighting(place, description.light).lamps
     lamps = plan_lamps(
         description, actors, strength=strength, instant_s=0.5 * duration_s,
@@ -178,8 +191,17 @@ def compose_scene(
     particles = stage_effects(description, setting)
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)),
+        tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed),
     )  # fmt: skip
+
+
+def _name_shapes(
+    items: Sequence[SceneryItem],
+    surrounding: Sequence[tuple[Relation, SceneryItem]],
+    placed: Sequence[PlacedModel],
+) -> tuple[str, ...]:
+    nouns = [item.noun for item in (*items, *(item for _, item in surrounding))]
+    return tuple(noun for noun, model in zip(nouns, placed, strict=True) for _ in model.parts)
 
 
 _HIGH_PLACES = ("mountain", "forest", "city")

@@ -72,7 +72,7 @@ PLACES: dict[str, GroundAppearance] = {
     "sea": GroundAppearance(Ground.SEA, (0.012, 0.07, 0.11), (0.03, 0.13, 0.16)),
     "underwater": GroundAppearance(Ground.UNDERWATER, (0.34, 0.31, 0.22), (0.5, 0.47, 0.36)),
     "sand": GroundAppearance(Ground.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),
-    "snow": GroundAppearance(Ground.SNOW, (0.80, 0.83, 0.88), (0.85, 0.88, 0.92)),
+    "snow": GroundAppearance(Ground.SNOW, (0.66, 0.70, 0.75), (0.76, 0.79, 0.83)),
     "mountain": GroundAppearance(Ground.GRASS, (0.10, 0.13, 0.05), (0.22, 0.20, 0.12)),
     "indoor": _room(Texture.BOARDS, _OAK, Texture.PLASTER, (0.75, 0.69, 0.61)),
     "living room": _room(Texture.BOARDS, _OAK, Texture.WALLPAPER, (0.62, 0.60, 0.48)),

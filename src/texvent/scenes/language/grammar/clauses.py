@@ -24,7 +24,7 @@ from texvent.scenes.language.vocabulary.function import (
     TIME_ORDER,
 )
 from texvent.scenes.language.words.english import Pos, VerbForm
-from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
 
 _SENTENCE_SIGNS = frozenset(".;!?:\n")
@@ -68,7 +68,12 @@ class _ClauseReader(GroupAttachment):
     def _step(self) -> None:
         word = self._words[self._at]
         read = self._readers.get(word.pos)
-        if read is not None:
+        coming = self._words[self._at + 1 : self._at + 2]
+        if word.text == "from behind" and coming and coming[0].pos is Pos.DETERMINER:
+            # As in "watches from behind a fence": no view of the camera.
+            word.meaning = Meaning(Role.RELATION, Pos.PREPOSITION, "behind")
+            self._read_preposition(word)
+        elif read is not None:
             read(word)
         elif word.pos is Pos.DETERMINER and self._is_before_adjunct():
             self._skip(word)
@@ -93,10 +98,22 @@ class _ClauseReader(GroupAttachment):
         if word.text.split()[0] in ("without", "with", "free"):
             self._read_preposition(word, negation=word)
             return
-        self._negation = word
         self._at += 1
+        if word.text == "neither" and self._verb_comes():
+            self._clause.negation = word
+            return
+        self._negation = word
         if word.text in NOBODY:
             self._add_group(NounGroup(head=word))
+
+    def _verb_comes(self) -> bool:
+        """Whether a verb comes before the sentence ends."""
+        for word in self._words[self._at :]:
+            if word.pos is Pos.VERB:
+                return True
+            if word.pos is Pos.SIGN and word.text in _SENTENCE_SIGNS:
+                return False
+        return False
 
     def _read_to(self, word: Word) -> None:
         self._skip(word)
@@ -131,6 +148,9 @@ class _ClauseReader(GroupAttachment):
             self._last = self._anchor = None
             self._is_joined = ""
             self._next_order = "same"
+        elif word.text == "/":
+            self._is_joined = "and"
+            self._clause.is_listed = self._clause.is_listed or self._clause.verb is None
         elif word.text in _JOINING_SIGNS:
             self._is_joined = ","
 

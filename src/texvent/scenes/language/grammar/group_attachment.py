@@ -5,10 +5,19 @@ from __future__ import annotations
 from texvent.scenes.language.grammar.clause_state import ClauseState
 from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
+from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
-from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
 
+_GOING = frozenset(
+    {"roll", "fall", "jump", "drive", "run", "walk", "slide", "move", "bounce", "fly"}
+)
+_PICTURES = frozenset({"picture", "photo", "photograph", "image"})
+_HANGS_ON = frozenset(
+    {"wall", "desk", "shelf", "fridge", "easel", "billboard", "mantelpiece", "fireplace", "door"}
+)
+"""What pictures are on: a picture "on a table" may show the table."""
 _PARTICLES = ("out", "off")
 """Prepositions that belong to the verb before them: "blows out the candles"."""
 
@@ -23,7 +32,7 @@ class GroupAttachment(ClauseState):
             self._at += 1
         self._negation = None
         follows_verb = self._at >= 2 and self._words[self._at - 2].pos is Pos.VERB
-        if word.text in _PARTICLES and follows_verb:
+        if word.text in _PARTICLES and follows_verb and not self._goes(self._words[self._at - 2]):
             self._clause.adverbs.append(word)
             return
         opens_group = starts_group(self._words, self._at, is_opening=True)
@@ -47,6 +56,14 @@ class GroupAttachment(ClauseState):
         if not is_of:
             self._anchor = group
 
+    @staticmethod
+    def _goes(verb: Word) -> bool:
+        """Whether it says that its subject moves: "rolls off a table"."""
+        value = verb.meaning.value
+        if verb.role is Role.SIMILAR:
+            return value[0] in _GOING
+        return isinstance(value, Verb) and value.kind in _GOING and value.act is None
+
     def _names_shot(self, word: Word) -> bool:
         """As in "A static shot of a dog": the dog is the subject of what follows."""
         clause = self._clause
@@ -58,9 +75,22 @@ class GroupAttachment(ClauseState):
         head = clause.subjects[-1].head
         if head is None or head.role is not Role.FUNCTION or self._last is not clause.subjects[-1]:
             return False
+        if head.text in _PICTURES and self._hangs():
+            head.meaning = Meaning(Role.NOUN, Pos.NOUN, "poster", is_substitute=True)
+            return False
         word.is_used = True
         self._close()
         return True
+
+    def _hangs(self) -> bool:
+        """As in "a picture of a car on a wall": a thing of the scene, not what is filmed."""
+        coming = [one.text for one in self._words[self._at : self._at + 6]]
+        for place, text in enumerate(coming):
+            if text in ("on", "above", "in", "onto"):
+                return bool(set(coming[place + 1 :]) & _HANGS_ON)
+            if text.startswith("hang"):
+                return True
+        return False
 
     def _attach(self, phrase: PrepPhrase) -> None:
         """To the noun before it after "of" and before the verb; else to the clause."""

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion
+from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion, Relation
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.activities import find_activity
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.fitting import choose_act, fit_verb, is_played
 from texvent.scenes.language.meaning.referents import Referent
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.acts import OF_ONESELF
+from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ, Verb
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
-from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.lamps import LAMPS
 
 STAND = ObjectMotion("stand")
-_ACTED_BY_ANYTHING = frozenset({"push", "pull", "hit", "carry"})
-"""What a vehicle or a machine does to another object."""
-_ACTED_BY_LIVING = frozenset({"hold", "carry", "push", "pull", "kick", "hit", "throw", "catch"})
+_SINGLE = frozenset({"kick", "hit", "throw", "catch"})
+"""Acts of which each subject does one."""
 _TAKES_ANY_OBJECT = frozenset({"walk", "run", "swim", "dance", "jump", "move", "drive", "climb"})
 """Motions that are the subject's own, whatever their object: "runs a race"."""
-_RIDEABLE = frozenset({"drive", "sail"})
 
 
 class ActReader:
@@ -50,6 +50,8 @@ class ActReader:
         word = clause.verb_word
         self.is_activity = False
         targets = [index for one in objects if one.is_things for index in one.things]
+        if isinstance(word.meaning.value, Verb) and word.meaning.value.act == "collide":
+            return self._collide(clause, subjects, targets)
         if clause.negation is not None:
             return self._stand(clause, subjects)
         movers = self._read_activity(clause, subjects, objects)
@@ -63,34 +65,63 @@ class ActReader:
         if self._switch(clause, subjects):
             return subjects
         if not isinstance(verb, Verb):
-            return self._do_alike(clause, word, subjects, targets)
+            is_done_to = any(one.kind in ("things", "unknown", "part") for one in objects)
+            return self._do_alike(clause, word, subjects, targets, is_done_to=is_done_to)
         if targets:
             return self._do_to(clause, verb, subjects, targets)
-        acts_on_unshown = any(one.kind in ("unknown", "part") for one in objects)
+        acts_on_unshown = any(
+            one.kind in ("unknown", "part") and one.group.text.split()[-1:] != ["times"]
+            for one in objects
+        )
         if not verb.kind or (acts_on_unshown and verb.kind not in _TAKES_ANY_OBJECT):
             return []
         return self._give(clause, verb, subjects)
 
     def _do_alike(
-        self, clause: Clause, word: Word, subjects: list[int], targets: list[int]
+        self,
+        clause: Clause,
+        word: Word,
+        subjects: list[int],
+        targets: list[int],
+        *,
+        is_done_to: bool,
     ) -> list[int]:
-        """Show a verb by a motion near to it, and say so."""
+        """Show a verb by a motion near to it, and say so.
+
+        What is no person only moves: "dumps its load" is no motion of its own.
+        """
         moved: list[int] = []
         for index in subjects:
             noun = self._draft.noun(index)
+            if is_done_to and not is_person(noun):
+                continue
             kinds = [
                 one.value[0]
                 for one in (word.meaning, *word.others)
                 if one.role is Role.SIMILAR and one.value[1] == is_person(noun)
             ]
-            is_able = bool(kinds) and can_do(noun, kinds[0])
+            if is_done_to and kinds[:1] and kinds[0] in OF_ONESELF:
+                continue
+            is_able = (
+                bool(kinds) and can_do(noun, kinds[0]) and is_played(kinds[0], clause, self._draft)
+            )
             if is_able and self._add_motion(index, ObjectMotion(kinds[0]), clause):
                 word.shown_as = kinds[0]
                 moved.append(index)
         if moved and targets:
             self._draft.relate("beside", moved, targets)
+            if word.shown_as == "climb":
+                word.shown_as = "climb beside it"
         word.is_used = bool(moved)
         return moved
+
+    def _note_untouched(self, clause: Clause, subjects: list[int], targets: list[int]) -> None:
+        """As in "a crane lifts a box": the box rises beside the crane."""
+        for index in subjects[:1]:
+            doer, target = self._draft.noun(index), self._draft.noun(targets[0])
+            if not is_living(doer) and not is_hand(doer):
+                said = clause.verb_word.text
+                self._draft.note(f"the {doer.name} does not touch the {target.name} ({said})")
 
     def undergo(self, clause: Clause, subjects: list[int], agents: list[int]) -> list[int]:
         """A passive: the subjects undergo the verb."""
@@ -162,6 +193,7 @@ class ActReader:
         if names != {"traffic light"} or clause.verb_word.lemma not in _SWITCHES:
             return False
         clause.verb_word.is_used = True
+        self._draft.note("the traffic light goes through all its colours")
         groups = [group for phrase in clause.phrases for group in phrase.groups]
         for group in (*groups, *clause.complements, *clause.objects):
             mark_used(word for word in group.words if word.text in _SIGNALS)
@@ -177,45 +209,83 @@ class ActReader:
     def _do_to(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
     ) -> list[int]:
-        word = clause.verb_word
-        act = self._choose_act(verb, subjects, targets)
+        doer, target = self._draft.noun(subjects[0]), self._draft.noun(targets[0])
+        act = choose_act(verb, doer, target)
+        if act == "collide":
+            return self._collide(clause, subjects, targets)
         if act is not None:
-            word.is_used = self._draft.relate(act, subjects, targets)
-            if act == "ride":
-                return self._ride(clause, verb, subjects, targets)
-            if act in ("push", "pull"):
-                for index in subjects:
-                    self._add_motion(index, ObjectMotion("move", pace=verb.pace), clause)
-            return subjects
+            return self._act(clause, verb, act, subjects, targets)
         if verb.relation is not None and verb.kind:
+            if set(targets) <= set(subjects):
+                return self._do_to_each_other(clause, verb, subjects)
             movers = self._give(clause, verb, subjects)
             if movers:
                 self._draft.relate(verb.relation, movers, targets)
             return movers
         if verb.object_kind is not None:
+            self._note_untouched(clause, subjects, targets)
             return self._give(clause, replace(verb, kind=verb.object_kind), targets)
-        if verb.kind:
+        if verb.kind and verb.kind not in OF_ONESELF - {"jump", "walk", "run"}:
             movers = self._give(clause, verb, subjects)
-            if movers:
+            if movers and verb.kind == "rise":
+                # As in "climbs a ladder": it moves beside it.
+                kind = self._draft.objects[movers[0]].motions[-1].kind
+                clause.verb_word.shown_as = f"{kind} beside it"
+                self._draft.relate("beside", movers, targets)
+            elif movers:
                 self._draft.relate("with", movers, targets)
                 self._give(clause, verb, [i for i in targets if is_living(self._draft.noun(i))])
             return movers
         return []
 
-    def _choose_act(self, verb: Verb, subjects: list[int], targets: list[int]) -> str | None:
-        """The act, if these subjects can do it to these objects."""
-        act = verb.act
-        if act is None or not subjects:
-            return None
-        doer, target = self._draft.noun(subjects[0]), self._draft.noun(targets[0])
+    def _do_to_each_other(self, clause: Clause, verb: Verb, subjects: list[int]) -> list[int]:
+        """As in "two trains pass each other": the two come from opposite sides.
+
+        One of those that "chase each other" runs ahead.
+        """
+        pair = subjects if len(subjects) > 1 else self._draft.split(subjects[0])
+        movers = self._give(clause, verb, pair)
+        if len(movers) < len(pair) or len(pair) < 2:
+            clause.verb_word.is_used = False
+            return movers
+        if verb.relation == "past":
+            for index, way in zip(pair, itertools.cycle(("right", "left"))):
+                motions = self._draft.objects[index].motions
+                motions[-1] = replace(motions[-1], direction=way)
+        self._draft.relate(str(verb.relation), pair[1:], pair[:1])
+        return movers
+
+    def _collide(self, clause: Clause, subjects: list[int], targets: list[int]) -> list[int]:
+        """As in "a car crashes into a wall", "two balls collide"; one alone meets nothing."""
+        others = [index for index in targets if index not in subjects] or subjects[1:]
+        is_group = len(subjects) == 1 and self._draft.objects[subjects[0]].count > 1
+        if clause.negation is not None or not subjects or not (others or is_group):
+            return []
+        target = others[0] if others else subjects[0]
+        self._draft.relations.append(Relation("collide", subjects[0], (target,)))
+        for index in subjects:
+            item = self._draft.objects[index]
+            ways = [one.direction for one in item.motions if one.direction is not None]
+            if ways:
+                self._draft.note(f"the {item.noun} may go another way than {ways[-1]}: to the hit")
+        clause.verb_word.is_used = True
+        return []
+
+    def _act(
+        self, clause: Clause, verb: Verb, act: str, subjects: list[int], targets: list[int]
+    ) -> list[int]:
+        is_second = act in _SINGLE and any(
+            one.kind in _SINGLE and one.subject in subjects for one in self._draft.relations
+        )
+        if is_second:
+            return []
+        clause.verb_word.is_used = self._draft.relate(act, subjects, targets)
         if act == "ride":
-            is_mount = target.motion in _RIDEABLE or is_living(target) or target.name in BOARDS
-            return "ride" if is_living(doer) and is_mount else None
-        if act == "wear":
-            return "wear" if is_living(doer) and target.name in WEARABLE else None
-        if is_living(doer) or is_hand(doer):
-            return act if act in _ACTED_BY_LIVING else None
-        return act if act in _ACTED_BY_ANYTHING else None
+            return self._ride(clause, verb, subjects, targets)
+        if act in ("push", "pull"):
+            for index in subjects:
+                self._add_motion(index, ObjectMotion("move", pace=verb.pace), clause)
+        return subjects
 
     def _ride(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
@@ -233,18 +303,25 @@ class ActReader:
         """Give a motion to the objects that can do it; the others are left as they are."""
         word = clause.verb_word
         things = [self._mount(index) for index in things]
-        if verb.kind == "wave" and any(self._draft.noun(i).is_working for i in things):
+        nouns = [self._draft.noun(index) for index in things]
+        if verb.kind in ("wave", "fly", "sway") and any(noun.is_working for noun in nouns):
             verb = replace(verb, kind="work")
-        able = [index for index in things if can_do(self._draft.noun(index), verb.kind)]
-        if not able:
-            return []
-        motion = ObjectMotion(verb.kind, verb.direction, verb.pace, end_pace=verb.end_pace)
-        added = [
-            index
-            for index in able
-            if self._add_motion(index, self._fall_over(index, motion, clause), clause)
-        ]
-        word.is_used = bool(added)
+        if verb.kind == "swim" and nouns and all(noun.habitat == "air" for noun in nouns):
+            verb = replace(verb, kind="fly")
+        if verb.kind == "fly" and nouns and all(noun.motion == "swim" for noun in nouns):
+            verb = replace(verb, kind="swim")
+        added = []
+        for index in things:
+            noun = self._draft.noun(index)
+            fitting = fit_verb(verb, noun, clause)
+            if fitting is None or not can_do(noun, fitting.kind):
+                continue
+            motion = ObjectMotion(fitting.kind, verb.direction, verb.pace, end_pace=verb.end_pace)
+            if self._add_motion(index, self._fall_over(index, motion, clause), clause):
+                added.append(index)
+                if fitting is not verb and verb.relation != "follow":
+                    word.shown_as = noun.motion if fitting.kind == "move" else fitting.kind
+        word.is_used = word.is_used or bool(added)
         return added
 
     def _fall_over(self, index: int, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
@@ -297,7 +374,11 @@ class ActReader:
             if item.blink_hz is not None:
                 item.blink_hz, is_used = rate_hz, True
             elif item.motions and item.motions[-1].kind == "spin":
-                item.motions[-1] = replace(item.motions[-1], pace=rate_hz / SPIN_RATE_HZ)
+                own_hz = WORK_RATES_HZ.get(item.noun)
+                if own_hz is None and self._draft.noun(index).is_working:
+                    continue
+                pace = rate_hz / (own_hz or SPIN_RATE_HZ)
+                item.motions[-1] = replace(item.motions[-1], pace=pace)
                 is_used = True
         return is_used
 
@@ -315,20 +396,3 @@ EFFECT_BY_VERB: dict[str, str] = {
 _FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")
 _SWITCHES = ("turn", "change", "switch", "go")
 _SIGNALS = ("red", "yellow", "amber", "green")
-BOARDS = frozenset(
-    {"skateboard", "surfboard", "snowboard", "scooter", "skis", "wave", "sled", "carousel horse"}
-)
-"""What is ridden besides vehicles and animals."""
-WEARABLE = frozenset(
-    {"hat", "cap", "helmet", "backpack", "glasses", "scarf", "tie", "vest", "jacket", "dress",
-     "shirt", "skirt", "mask", "crown", "sunglasses", "coat", "glove", "boots", "shoe"}
-)  # fmt: skip
-"""What is worn."""
-
-
-def is_plain_past(word: Word) -> bool:
-    """Whether a past form stands for the present: "a man walked"; not for "a hoop held by"."""
-    verb = word.meaning.value
-    if word.meaning.form is not VerbForm.PAST or not isinstance(verb, Verb):
-        return False
-    return bool(verb.kind) and verb.act is None and verb.object_kind is None

@@ -59,7 +59,9 @@ class Attributes:
             most = vocabulary_objects.MAX_COUNT
             if self.number > most:
                 return most, f"a count of {self.number:g} is shown as {most}, the most of one thing"
-            return max(round(self.number), 1), None
+            whole = max(round(self.number), 1)
+            note = f"a count of {self.number:g} is shown as {whole}"
+            return whole, note if whole != self.number else None
         if self.count is not None:
             return self.count, None
         return bare, None

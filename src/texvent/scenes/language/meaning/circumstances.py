@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import Effect, ObjectMotion, Picture
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
-from texvent.scenes.language.meaning.acts import WEARABLE, ActReader
+from texvent.scenes.language.meaning.acts import ActReader
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
@@ -15,7 +15,9 @@ from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referent
 from texvent.scenes.language.meaning.relations import WEAK_PREPOSITIONS, RelationReader
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
-from texvent.scenes.language.vocabulary.scene import PART_COLOURS
+from texvent.scenes.language.vocabulary.acts import WEARABLE
+from texvent.scenes.language.vocabulary.scene import PART_COLOURS, SPELT
+from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.effects import EFFECTS
@@ -116,7 +118,7 @@ class CircumstanceReader:
         if phrase.negation is not None:
             for group in phrase.groups:
                 group.negation = phrase.negation
-        found = [self._referents.resolve(group, name) for group in phrase.groups]
+        found = [self._referents.resolve(group, name, scope.subjects) for group in phrase.groups]
         things = [index for one in found if one.is_things for index in one.things]
         if things:
             self._relations.read(phrase, things, scope)
@@ -168,6 +170,9 @@ class CircumstanceReader:
             return
         if is_living(item):
             return
+        head = owner.head
+        if item.name not in WEARABLE and head is not None and not self._is_known(head):
+            return
         found = self._referents.resolve(owner)
         if not found.is_things:
             return
@@ -175,6 +180,11 @@ class CircumstanceReader:
             self._draft.relate("wear", found.things, owned.things)
         else:
             self._draft.relate("with", owned.things, found.things)
+
+    def _is_known(self, owner: Word) -> bool:
+        """Whether the owner is there: "the farmer's barn" shows no farmer."""
+        noun = owner.read_as(Role.NOUN)
+        return noun is None or any(item.noun == noun.value for item in self._draft.objects)
 
     def _read_of(self, phrase: PrepPhrase, whole: Referent, scope: Scope) -> None:
         """As in "A bowl of soup", "a set of buckets", "the side of the road"."""
@@ -189,7 +199,6 @@ class CircumstanceReader:
         phrase.preposition.is_used = True
         for group in phrase.groups:
             if whole.is_things and group.head is not None and group.head.lemma in LIQUIDS:
-                group.head.is_used = True
                 attributes = read_attributes(group.modifiers)
                 self._referents.add_effect(attributes, whole.things)
                 return
@@ -244,6 +253,8 @@ class CircumstanceReader:
     def _read_surroundings(
         self, word: Word, one: Referent, scope: Scope, *, is_negated: bool
     ) -> None:
+        if one.kind == "glow" and word.text == "with" and scope.subjects:
+            return
         names = _PLACE_PREPOSITIONS if one.kind == "place" else _LIGHT_PREPOSITIONS
         if word.text not in names and one.kind in ("place", "light"):
             return
@@ -327,7 +338,11 @@ class CircumstanceReader:
             return False
         for index in things:
             if show_picture(self._draft.objects[index], picture):
-                mark_used(one.group.words)
+                mark_used(
+                    word
+                    for word in one.group.words
+                    if word is one.group.head or word.pos is not Pos.NOUN or word.text in SPELT
+                )
                 return True
         return False
 

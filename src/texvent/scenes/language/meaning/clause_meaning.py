@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.activities import find_activity, name_activity
-from texvent.scenes.language.meaning.acts import ActReader, is_plain_past
+from texvent.scenes.language.meaning.acts import ActReader
 from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.circumstances import CircumstanceReader
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.meaning.fitting import is_plain_past
 from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
 from texvent.scenes.language.meaning.scene_clauses import SceneClauses
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
@@ -19,7 +20,7 @@ from texvent.scenes.language.meaning.surroundings_reader import SurroundingsRead
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS, WEATHER_VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm
-from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.protocol import Noun
 
@@ -73,6 +74,7 @@ class ClauseMeaning:
 
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
+        self._turn_views(clause)
         for word in clause.adverbs:
             if word.role in (Role.VIEW, Role.FRAMING, Role.CAMERA_MOVE):
                 self._camera.read_word(word)
@@ -81,9 +83,11 @@ class ClauseMeaning:
         if clause.verb is not None and clause.verb.text in WEATHER_VERBS:
             self._read_weather_verb(clause, clause.verb)
             return
-        if clause.verb is None and self._read_named_activity(clause):
+        if (clause.verb is None or not clause.objects) and self._read_named_activity(clause):
             return
+        self._referents.verb = clause.verb.lemma if clause.verb is not None else ""
         subjects = [self._referents.resolve(group) for group in clause.subjects]
+        self._referents.verb = ""
         if self._is_about_camera(clause, subjects):
             self._read_camera(clause, subjects)
         elif subjects and all(one.kind in OF_SCENE for one in subjects):
@@ -95,15 +99,47 @@ class ClauseMeaning:
         else:
             self._read_objects(clause, subjects)
 
+    @staticmethod
+    def _take_partners(clause: Clause) -> None:
+        """As in "crashes into a wall", "collide with each other": what they meet is the object."""
+        verb = clause.verb.meaning.value if clause.verb is not None else None
+        if not isinstance(verb, Verb) or verb.act != "collide":
+            return
+        for phrase in list(clause.phrases):
+            if phrase.preposition.text in ("into", "with", "against"):
+                phrase.preposition.is_used = True
+                clause.objects.extend(phrase.groups)
+                clause.phrases.remove(phrase)
+
+    @staticmethod
+    def _turn_views(clause: Clause) -> None:
+        """As in "a ball drops from above": the ball does, not the camera."""
+        if clause.verb is None:
+            return
+        verb = clause.verb.meaning.value
+        is_vertical = isinstance(verb, Verb) and verb.kind in _VERTICAL
+        if not is_vertical and clause.verb.lemma not in _POURED:
+            return
+        for word in clause.adverbs:
+            if word.role is Role.VIEW and word.text in _FROM:
+                word.meaning = Meaning(Role.DIRECTION, word.pos, _FROM[word.text])
+
     def _is_about_camera(self, clause: Clause, subjects: Sequence[Referent]) -> bool:
         if any(one.kind in ("camera", "function") for one in subjects):
             return True
         if clause.verb is None:
             return False
         if clause.verb.role is Role.CAMERA_MOVE:
-            return True
+            is_order = clause.verb.meaning.form is VerbForm.BASE and not clause.objects
+            return is_order or not any(self._does_it(one, clause) for one in subjects)
         is_move = clause.verb.read_as(Role.CAMERA_MOVE) is not None
         return is_move and not subjects and self._camera.has_moves
+
+    @staticmethod
+    def _does_it(subject: Referent, clause: Clause) -> bool:
+        """As in "a baker pulls out two loaves": no camera does."""
+        is_other = subject.kind == "unknown" and bool(clause.objects)
+        return is_other or subject.kind in ("things", "part", "effect")
 
     def _read_camera(self, clause: Clause, subjects: Sequence[Referent]) -> None:
         others = [one for one in subjects if one.kind not in ("camera", "function")]
@@ -180,7 +216,11 @@ class ClauseMeaning:
         subjects = self._split_scene(subjects)
         things = [index for one in subjects if one.is_things for index in one.things]
         is_lost = bool(subjects) and not things
+        if clause.verb is not None and clause.verb.lemma == _JUGGLE:
+            self._take_in_hand(clause)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
+        self._referents.doers = things
+        self._take_partners(clause)
         objects = [self._referents.resolve(group) for group in clause.objects]
         agents = self._find_agents(clause)
         self._read_subject_phrases(clause, subjects, things)
@@ -191,6 +231,10 @@ class ClauseMeaning:
                 movers = self._acts.undergo(clause, things, agents)
             else:
                 movers = self._acts.read(clause, things, objects)
+        if clause.verb is None and not clause.complements:
+            for word in clause.auxiliaries:
+                word.is_lost = word.text.split()[0].rstrip("s") in _ASPECTS
+                word.is_used = not word.is_lost
         has_verb = clause.verb is not None
         is_shown = has_verb and clause.verb is not None and clause.verb.is_used
         has_object = bool(clause.objects) and not is_picture
@@ -207,21 +251,43 @@ class ClauseMeaning:
         self._read_complements(clause, scope)
         self._around.read_adverbs(clause.adverbs, scope)
         self._around.read_phrases(clause.phrases, scope)
-        self._referents.has_body = False
+        self._referents.has_body, self._referents.doers = False, []
         self._keep_subjects(things)
+
+    @staticmethod
+    def _take_in_hand(clause: Clause) -> None:
+        """As in "juggles three oranges": three balls, which the juggler has, and no others."""
+        for group in clause.objects:
+            for word in group.words:
+                word.is_used = word is group.head or word.meaning.value == _BALLS_JUGGLED
+            if group.head is not None and "ball" not in group.head.text:
+                group.head.shown_as = "ball"
+        clause.objects = []
 
     def _read_named_activity(self, clause: Clause) -> bool:
         """As in "jumping jacks", "right arm clockwise", "thumbs up"."""
         words = [word for group in clause.subjects for word in group.words]
+        if clause.verb is not None:
+            # What seems to be a verb is none if it does not agree: "a tennis serve".
+            is_plural = any(word.text != word.lemma for word in words)
+            if clause.verb.text != clause.verb.lemma or clause.auxiliaries or is_plural:
+                return False
+            words.append(clause.verb)
         said = [w for w in (*words, *clause.adverbs) if w.pos is not Pos.DETERMINER]
         found = name_activity(said) if len(" ".join(w.text for w in said).split()) > 1 else None
         if found is None:
             return False
         noun, activity = found
         mark_used([*words, *clause.adverbs])
+        if activity == "swing racket":
+            words[-1].shown_as = f"one person, {activity}"
         item = PartialObject(noun, motions=[ObjectMotion(activity)])
-        if self._draft.add(item) is not None:
+        index = self._draft.add(item)
+        if index is not None:
             self._draft.note(f"a {noun} does it ({activity}): no one is named")
+            of_subjects = [phrase for group in clause.subjects for phrase in group.phrases]
+            scope = Scope([index], [index], is_verb_shown=True)
+            self._around.read_phrases([*of_subjects, *clause.phrases], scope)
         return True
 
     def _read_subject_phrases(
@@ -258,7 +324,7 @@ class ClauseMeaning:
     def _read_object(self, one: Referent, clause: Clause, scope: Scope) -> None:
         if one.kind == "unit":
             self._around.read_quantity(one, scope)
-        elif one.kind in OF_SCENE:
+        elif one.kind in OF_SCENE and one.group.text != "water":
             self._surroundings.read_referent(one, is_negated=False)
             self._cross(one, clause, scope)
         elif one.kind == "effect":
@@ -314,4 +380,15 @@ class ClauseMeaning:
             self._draft.subjects = list(things)
 
 
+_JUGGLE = "juggle"
+_BALLS_JUGGLED = 3
 _NOBODY = NounGroup()
+_ASPECTS = ("start", "begin", "keep")
+"""Auxiliaries that say something even where no verb follows: "a car starts"."""
+_VERTICAL = frozenset({"fall", "sink", "rise", "fly", "jump", "topple"})
+_POURED = frozenset(
+    {"sprinkle", "pour", "drizzle", "scatter", "dust", "drip", "shine", "light", "illuminate",
+     "shower", "spray", "dangle", "hang", "lower", "attack", "reach", "land", "descend"}
+)  # fmt: skip
+"""Verbs of things that come from above, besides those of motion."""
+_FROM = {"from above": "down", "from below": "up"}

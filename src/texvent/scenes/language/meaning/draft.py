@@ -16,6 +16,7 @@ from texvent.scenes.description import (
 )
 from texvent.scenes.models.protocol import Noun
 
+_ONE_EACH = ("hold", "carry", "wear", "ride", "push", "pull")
 MAX_OBJECTS = 12
 """Most different things of a prompt that are shown."""
 
@@ -27,6 +28,10 @@ class PartialObject:
     noun: str
     count: int = 1
     is_plural: bool = False
+    is_counted: bool = True
+    """Whether the prompt says how many there are."""
+    said: str | None = None
+    """The word for it, where that is a kind such as "goalkeeper"."""
     colour: NamedColour | None = None
     scale: float = 1.0
     pace: float = 1.0
@@ -85,13 +90,31 @@ class Draft:
         self.objects.append(item)
         return len(self.objects) - 1
 
-    def find(self, noun: str, is_plural: bool) -> int | None:
-        """The last object of that noun, singular or plural alike."""
+    def find(self, noun: str, is_plural: bool | None, said: str | None = None) -> int | None:
+        """The last object of that noun, singular or plural alike, and of that kind, if any.
+
+        None as `is_plural` fits both: "the sheep".
+        """
         for index in range(len(self.objects) - 1, -1, -1):
             item = self.objects[index]
-            if item.noun == noun and (item.count > 1) == is_plural:
+            is_of_kind = said is None or item.said == said
+            if item.noun == noun and is_plural in (None, item.count > 1) and is_of_kind:
                 return index
         return None
+
+    def split(self, index: int) -> list[int]:
+        """Several things of one noun as two halves that move each in its own way.
+
+        Returns:
+            Both halves; the thing alone if it is only one or there is no room.
+        """
+        item = self.objects[index]
+        if item.count < 2 or len(self.objects) >= MAX_OBJECTS:
+            return [index]
+        rest = item.count // 2
+        item.count -= rest
+        self.objects.append(replace(item, count=rest, motions=list(item.motions)))
+        return [index, len(self.objects) - 1]
 
     def noun(self, index: int) -> Noun:
         """The model of an object."""
@@ -103,11 +126,20 @@ class Draft:
         for subject in subjects:
             kept = tuple(target for target in targets if target != subject)
             if kept:
+                self._share_out(kind, subject, kept)
                 relation = Relation(kind, subject, kept)
                 if relation not in self.relations:
                     self.relations.append(relation)
                 is_related = True
         return is_related
+
+    def _share_out(self, kind: str, subject: int, targets: Sequence[int]) -> None:
+        """As in "two people with umbrellas": one each."""
+        count = self.objects[subject].count
+        for target in targets:
+            item = self.objects[target]
+            if kind in _ONE_EACH and count > 1 and not item.is_counted:
+                item.count = count
 
     def note(self, text: str) -> None:
         """Say something once."""

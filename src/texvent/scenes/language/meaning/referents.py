@@ -8,12 +8,22 @@ from dataclasses import dataclass, field
 from texvent.scenes.description import Effect
 from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.meaning.adjectives import Attributes, read_attributes
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.meaning.senses import (
+    choose_sense,
+    is_figurative,
+    is_of_drinks,
+    is_pane,
+    read_herd,
+    read_young,
+)
 from texvent.scenes.language.vocabulary import scene as vocabulary_scene
 from texvent.scenes.language.vocabulary.function import (
     DEFINITE,
     NOBODY,
     SOMEONE,
+    UNNAMED,
     VIEWERS,
 )
 from texvent.scenes.language.vocabulary.objects import MAX_COUNT, PLURAL_COUNT, SURROUND_COUNT
@@ -38,6 +48,8 @@ _LOCATIVE = frozenset(
 """Prepositions after which a mountain is a place to be, not an object to look at."""
 
 
+_OUTSIDE = frozenset({"above", "past", "around", "over", "towards", "toward", "from", "to", "at"})
+"""Prepositions after which a building is looked at from outside."""
 _AROUND = ("surrounded by", "among", "amongst", "amid", "lined with", "lined by")
 """Prepositions after which a bare plural means many."""
 
@@ -69,18 +81,29 @@ class Referents:
     def __init__(self, draft: Draft) -> None:
         self._draft = draft
         self._known: dict[int, Referent] = {}
+        self._wholes: Sequence[int] = ()
+        self._named: list[int] = []
+        """Objects in the order in which they were named."""
+        self.doers: list[int] = []
+        """Subjects of the clause, whom no pronoun after the verb means."""
+        self.verb = ""
+        """Verb of the clause whose subjects are being read."""
         self.has_body = False
         """Whether the clause is about people or animals: "claps hands" shows no further hands."""
 
-    def resolve(self, group: NounGroup, preposition: str | None = None) -> Referent:
+    def resolve(
+        self, group: NounGroup, preposition: str | None = None, wholes: Sequence[int] = ()
+    ) -> Referent:
         """What a group means.
 
         Args:
             group: the noun group.
             preposition: what stands before it, if any.
+            wholes: objects that it may be a part of: "a car with black wheels".
         """
         found = self._known.get(id(group))
         if found is None:
+            self._wholes = wholes if preposition == "with" else ()
             found = self._read(group, preposition)
             self._known[id(group)] = found
         return found
@@ -98,7 +121,21 @@ class Referents:
         if head.pos is Pos.NEGATION or head.text in NOBODY:
             return self._exclude(group, PERSON)
         head = _find_head(group)
+        herd = None if read_young(group, self._draft) else read_herd(group, self._draft)
+        head = group.head_word
         attributes = read_attributes(group.modifiers)
+        bodies = self._find_bodies(group)
+        if bodies:
+            mark_used([head])
+            return Referent("things", group, bodies, attributes=attributes)
+        if herd is not None:
+            attributes.count = herd
+        elif is_figurative(group, preposition) or is_pane(group, self._draft):
+            return Referent("unknown", group, attributes=attributes)
+        signal = self._find_signal(group)
+        if signal is not None:
+            mark_used([head])
+            return Referent("things", group, [signal], attributes=attributes)
         role = self._choose_role(head, preposition, group)
         if role is Role.NOUN:
             return self._read_thing(group, attributes, preposition)
@@ -109,21 +146,45 @@ class Referents:
         value = meaning.value if meaning is not None else None
         return Referent(kind, group, value=value, attributes=attributes)
 
+    def _find_signal(self, group: NounGroup) -> int | None:
+        """As in "the light changes", where a traffic light is."""
+        is_known = group.determiner is not None and group.determiner.text in DEFINITE
+        if group.head_word.text not in ("light", "signal") or not is_known:
+            return None
+        return self._draft.find("traffic light", None)
+
     def _choose_role(self, head: Word, preposition: str | None, group: NounGroup) -> Role:
         """A word that is a thing and a place, or a thing and a part of one."""
         is_thing = head.read_as(Role.NOUN) is not None
-        if is_thing and head.read_as(Role.PLACE) is not None:
+        place = head.read_as(Role.PLACE)
+        if is_thing and place is not None:
+            if place.value == "indoor" and preposition in _OUTSIDE:
+                return Role.NOUN
             return Role.PLACE if preposition in _LOCATIVE else Role.NOUN
         if is_thing and self.has_body and head.lemma in BODY_PARTS:
             return Role.PART
         if is_thing and head.read_as(Role.PART) is not None:
-            is_owned = group.owner is not None or (
-                group.determiner is not None and group.determiner.text in OWNERS
+            is_owned = (
+                group.owner is not None
+                or (group.determiner is not None and group.determiner.text in OWNERS)
+                or list_parts_shown(self._draft, self._wholes, head.text)
             )
             return Role.PART if is_owned else Role.NOUN
         if is_thing:
             return Role.NOUN
         return head.role
+
+    def _find_bodies(self, group: NounGroup) -> list[int]:
+        """As in "a surgeon's hands": the surgeon, not hands without a body."""
+        meaning = group.head_word.read_as(Role.NOUN)
+        owners = [one for phrase in group.phrases if phrase.preposition.text == "of"
+                  for one in phrase.groups]  # fmt: skip
+        owned_by = group.owner or (owners[0] if owners else None)
+        if owned_by is None or meaning is None or not meaning.is_plural:
+            return []
+        owner = self.resolve(owned_by) if meaning.value == "hand" else None
+        things = owner.things if owner is not None and owner.is_things else []
+        return things if all(is_person(self._draft.noun(index)) for index in things) else []
 
     def _read_pronoun(self, group: NounGroup, head: Word) -> Referent:
         head.is_used = True
@@ -132,9 +193,35 @@ class Referents:
         if head.text in SOMEONE:
             index = self._draft.add(PartialObject(PERSON))
             return Referent("things", group, [] if index is None else [index])
-        if self._draft.subjects and head.text not in ("there", "here"):
-            return Referent("things", group, list(self._draft.subjects))
+        if head.text in UNNAMED:
+            head.is_used, head.is_lost = False, True
+            return Referent("unknown", group)
+        if head.text in ("each other", "one another") and self.doers:
+            return Referent("things", group, list(self.doers))
+        meant = self._look_back(head.text)
+        if meant and head.text not in ("there", "here"):
+            return Referent("things", group, meant)
         return Referent("function", group)
+
+    def _look_back(self, pronoun: str) -> list[int]:
+        """What a pronoun means: the subject before, or else what was named last, if it fits."""
+        # Within the first clause it is the first thing: "a house with a tree behind it".
+        first = self._draft.subjects or self._named[:1]
+        candidates = [first, *([one] for one in reversed(self._named))] if first else []
+        if pronoun.endswith(("self", "selves")):
+            return list(self._draft.subjects)
+        for things in candidates:
+            if things != self.doers and self._fits(pronoun, things):
+                return list(things)
+        return list(first)
+
+    def _fits(self, pronoun: str, things: Sequence[int]) -> bool:
+        is_plural = len(things) > 1 or self._draft.objects[things[0]].count > 1
+        if pronoun in _OF_ONE_PERSON:
+            return not is_plural and is_living(self._draft.noun(things[0]))
+        if pronoun == "it":
+            return not is_plural and not is_person(self._draft.noun(things[0]))
+        return is_plural
 
     def _exclude(self, group: NounGroup, noun: str) -> Referent:
         mark_used(word for word in (group.determiner, group.head) if word is not None)
@@ -148,40 +235,54 @@ class Referents:
     ) -> Referent:
         head = group.head_word
         meaning = head.read_as(Role.NOUN) or head.meaning
-        noun = str(meaning.value)
-        if group.negation is not None or attributes.count == 0:
+        noun = choose_sense(head, str(meaning.value), self._draft, self.verb)
+        is_drinks = is_of_drinks(group, preposition) and "glass" in self._draft.nouns
+        if is_drinks:
+            noun = "glass"
+        if group.negation is not None or attributes.number == 0.0:
             mark_used(attributes.numbers)
             return self._exclude(group, noun)
         is_ours = group.determiner is not None and group.determiner.text in OUR
         if is_ours and self._draft.nouns[noun].motion in ("drive", "sail", "fly"):
             head.is_used = True
             return Referent("camera", group, attributes=attributes)
-        is_plural = attributes.is_many or meaning.is_plural
-        index = self._recall(group, noun, is_plural, attributes)
+        is_plural = attributes.is_many or meaning.is_plural or is_drinks
+        said = name_kind(head) if meaning.is_substitute else None
+        is_either = meaning.can_be_both and not attributes.is_many
+        index = self._recall(group, noun, None if is_either else is_plural, attributes, said)
         if index is None:
             bare = SURROUND_COUNT if preposition in _AROUND else PLURAL_COUNT
             bare = meaning.count or (bare if is_plural else 1)
             index = self._add(noun, is_plural, attributes, bare)
         if index is None:
             return Referent("unknown", group, attributes=attributes)
+        self._draft.objects[index].said = said or self._draft.objects[index].said
+        self._named.append(index)
         head.is_used = True
-        head.shown_as = noun if meaning.is_substitute else None
+        is_other = meaning.is_substitute or (noun != meaning.value and not is_drinks)
+        head.shown_as = noun if is_other else None
         return Referent("things", group, [index], attributes=attributes)
 
     def _recall(
-        self, group: NounGroup, noun: str, is_plural: bool, attributes: Attributes
+        self,
+        group: NounGroup,
+        noun: str,
+        is_plural: bool | None,
+        attributes: Attributes,
+        said: str | None,
     ) -> int | None:
         """The object that "the dog" was said of already."""
         determiner = group.determiner
         if determiner is None or determiner.text not in DEFINITE or attributes.is_new:
             return None
-        return self._draft.find(noun, is_plural)
+        return self._draft.find(noun, is_plural, said)
 
     def _add(self, noun: str, is_plural: bool, attributes: Attributes, bare: int) -> int | None:
         count, note = attributes.decide_count(bare)
         if note is not None:
             self._draft.note(note)
-        item = PartialObject(noun, min(count, MAX_COUNT), is_plural)
+        is_counted = not is_plural or attributes.is_many
+        item = PartialObject(noun, min(count, MAX_COUNT), is_plural, is_counted)
         index = self._draft.add(item)
         if index is not None:
             attributes.apply(item, self._draft.nouns[noun])
@@ -196,6 +297,12 @@ class Referents:
             word.is_used = True
 
 
+def name_kind(head: Word) -> str:
+    """The last word of a noun in the singular: "collie" for "border collies"."""
+    last = head.tokens[-1].text
+    return next((one.lemma for one in list_readings(last) if one.pos is Pos.NOUN), last)
+
+
 def _find_head(group: NounGroup) -> Word:
     """Its head; the known noun before it where the last word cannot be a noun: "a car blorp"."""
     head = group.head_word
@@ -207,6 +314,7 @@ def _find_head(group: NounGroup) -> Word:
     return group.head_word
 
 
+_OF_ONE_PERSON = ("he", "she", "him", "her")
 BODY_PARTS = frozenset({"hand", "finger", "fist", "arm", "head", "leg", "foot", "tail", "wing"})
 OWNERS = ("its", "their", "his", "her")
 

@@ -6,15 +6,17 @@ from collections.abc import Sequence
 
 from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import PrepPhrase
-from texvent.scenes.language.meaning.acts import BOARDS, WEARABLE
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import Referents
 from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 
 _HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
+_CARRIES = frozenset({"conveyor belt", "tray", "turntable"})
+"""What has the things on it that are "with" it."""
 _HELD_AT_MOST_M = 1.3
 """A person "with" something up to this long holds it."""
 
@@ -93,6 +95,10 @@ class RelationReader:
         is_held = item.name in _HELD or (item.motion == "stand" and self._is_small(things[0]))
         if is_person(doer) and is_held:
             return self._draft.relate("hold", scope.subjects, things)
+        if item.name in _CARRIES and doer.name not in _CARRIES:
+            return self._draft.relate("on", scope.subjects, things)
+        if doer.name in _CARRIES and self._is_small(things[0]):
+            return self._draft.relate("on", things, scope.subjects)
         return self._draft.relate("with", scope.subjects, things)
 
     def _is_small(self, index: int) -> bool:
@@ -109,6 +115,7 @@ WEAK_PREPOSITIONS: dict[object, str] = {
 """Prepositions of many senses → the relation they mean between two objects."""
 _RESTING = frozenset(
     {"on", "under", "beside", "next to", "behind", "in front of", "between", "near", "at", "by",
-     "above", "in", "inside", "among", "beneath", "below", "with", "on top of"}
+     "above", "in", "inside", "among", "beneath", "below", "with", "on top of",
+     "from behind"}
 )  # fmt: skip
 """Prepositions that say where something is, whatever it does there."""

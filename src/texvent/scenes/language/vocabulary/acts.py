@@ -1,29 +1,23 @@
-"""Verbs that are shown by a motion near to theirs, and reported so: "slicing → cook"."""
+"""Verbs that are shown by a motion near to theirs, and reported so: "whisks → cook"."""
 
 from __future__ import annotations
 
 SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "cook": (
-        "slice", "cut", "chop", "knead", "mix", "peel", "pipette", "season", "whisk",
-        "bake", "fry", "grill", "roast", "prepare", "grate", "mince", "boil", "serve food",
-        "spread", "decorate", "ice", "frost",
+        "mix", "season", "whisk", "fry", "grill", "roast", "prepare", "boil",
     ),
     "wash": (
-        "wipe", "scrub", "brush", "polish", "pet", "stroke", "groom", "fold", "iron", "rub",
-        "clean", "rinse", "comb", "massage", "shave", "dry", "shampoo",
+        "wipe", "scrub", "brush", "polish", "rub", "clean", "rinse", "iron", "knead", "stroke",
+        "pet", "groom", "dry", "massage", "sand", "shampoo",
     ),
     "write": (
-        "draw", "sketch", "sign", "note", "solder", "sew", "knit", "tie", "assemble",
-        "carve", "engrave", "embroider", "tighten", "adjust", "inspect", "examine",
-        "repair", "fix", "change", "shape", "mold", "mould", "sculpt", "thread", "unscrew",
-        "screw", "weave",
+        "draw", "sketch", "sign", "note",
     ),
-    "hammer": ("forge", "nail", "chisel", "pound", "knock", "smash"),
-    "dig": ("shovel", "rake", "plant", "hoe", "scoop", "garden"),
-    "lift": ("pick", "pick up", "raise", "hoist", "weigh", "load", "unload", "stack"),
+    "hammer": ("forge", "nail", "chisel", "pound"),
+    "dig": ("shovel", "hoe", "scoop", "rake"),
     "stretch": ("do yoga", "practice yoga", "exercise", "warm up", "meditate", "train"),
     "swing racket": ("rally", "volley", "smash", "serve"),
-    "throw": ("rope", "lasso", "shoot", "fling", "sling", "cast", "pitch", "bowl"),
+    "throw": ("lasso", "fling", "sling", "pitch", "bowl", "cast"),
     "crouch": ("duck", "hide", "stoop"),
     "punch": ("jab", "hook", "fight", "spar"),
     "point": ("signal", "direct", "conduct", "indicate"),
@@ -31,25 +25,54 @@ SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "talk": ("shout", "yell", "laugh", "whisper", "recite", "interview", "present"),
     "kneel": ("pray",),
     "clap": ("high five",),
-    "climb": ("clamber", "cling", "scale"),
-    "jump": ("somersault", "cartwheel", "flip", "vault", "frolic"),
+    "climb": ("clamber", "cling", "scale", "climb up", "shin up"),
+    "jump": ("somersault", "cartwheel", "flip", "vault"),
 }  # fmt: skip
 """Activity of people → verbs it stands for."""
 
-SIMILAR_MOTIONS: dict[str, tuple[str, ...]] = {
+SIMILAR_GAITS: dict[str, tuple[str, ...]] = {
     "walk": (
-        "scurry", "scuttle", "pad", "limp", "tiptoe", "sneak", "stalk", "pace", "plod",
-        "trudge", "toddle", "sniff", "forage",
+        "scurry", "scuttle", "pad", "limp", "tiptoe", "sneak", "stalk", "pace", "plod", "amble",
+        "trudge", "toddle", "stagger", "stumble", "lumber", "saunter", "parade", "wade", "hobble",
     ),
-    "run": ("hustle", "scamper", "bolt", "dart", "play"),
-    "jump": ("pounce", "bob", "spring", "frolic"),
+    "run": ("hustle", "scamper", "bolt", "dart", "stampede"),
+    "jump": ("pounce", "spring", "frolic"),
+    "topple": ("faint", "trip"),
+}  # fmt: skip
+"""Motion → verbs it stands for, for people and for others."""
+
+SIMILAR_MOTIONS: dict[str, tuple[str, ...]] = {
+    "walk": ("sniff", "forage"),
+    "run": ("play",),
+    "jump": ("bob", "breach", "rear"),
     "sit": ("crouch", "squat", "curl up", "watch", "stare", "lean", "relax", "lounge"),
-    "sway": ("wiggle", "quiver", "jiggle", "shudder", "rattle", "bob", "tug"),
-    "spin": ("gyrate", "whirr", "twist", "swirl"),
+    "sway": (
+        "wiggle", "quiver", "jiggle", "shudder", "rattle", "bob", "tug", "wriggle", "squirm",
+        "billow", "ripple", "twitch",
+    ),
+    "spin": ("gyrate", "whirr", "twist", "swirl", "flip"),
+    "turn": ("bank",),
+    "topple": ("capsize",),
     "fly": ("swarm", "buzz", "wheel"),
+    "slide": ("skid",),
     "move": ("slither", "cut", "emerge", "flow", "stream", "navigate", "patrol"),
     "rise": ("lift", "float up", "climb up", "soar up"),
-    "fall": ("tumble", "cascade", "plunge", "dump"),
+    "fall": ("tumble", "cascade", "plunge"),
     "bounce": ("ricochet", "rebound"),
 }  # fmt: skip
 """Motion → verbs it stands for, for what is not a person."""
+
+BOARDS = frozenset(
+    {"skateboard", "surfboard", "snowboard", "scooter", "skis", "wave", "sled", "carousel horse"}
+)
+"""What is ridden besides vehicles and animals."""
+WEARABLE = frozenset(
+    {"hat", "cap", "helmet", "backpack", "glasses", "scarf", "tie", "vest", "jacket", "dress",
+     "shirt", "skirt", "mask", "crown", "sunglasses", "coat", "glove", "boots", "shoe"}
+)  # fmt: skip
+"""What is worn."""
+OF_ONESELF = frozenset(
+    {"jump", "crouch", "kneel", "stretch", "walk", "run", "topple", "slide", "sway", "hover",
+     "sink"}
+)  # fmt: skip
+"""Motions that are done to nothing: who "flips a pancake" does not jump."""

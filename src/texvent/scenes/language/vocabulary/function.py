@@ -14,19 +14,22 @@ DEFINITE = ("the", "this", "that", "these", "those", "its", "their", "his", "her
 
 PRONOUNS = (
     "it", "they", "he", "she", "them", "him", "her", "itself", "themselves", "himself", "herself",
+    "they all", "they both", "all of them", "both of them", "them all", "them both",
     "i", "we", "us", "me", "you", "one another", "each other", "there", "here", "someone",
-    "somebody", "everyone",
+    "somebody", "everyone", "nothing", "something", "everything",
 )  # fmt: skip
 VIEWERS = ("i", "we", "us", "me", "you")
 """Pronouns of whoever looks: the camera."""
 SOMEONE = ("someone", "somebody", "everyone")
 """Pronouns of a person who is not named."""
-NOBODY = ("nobody", "no one", "nothing")
+UNNAMED = ("nothing", "something", "everything")
+"""Pronouns of things that are not named."""
+NOBODY = ("nobody", "no one")
 
 NEGATIONS = (
     "no", "without", "without any", "with no", "with no other", "no other", "without other",
     "without any other", "not any", "not a", "no more", "not", "never", "free of", "neither",
-    "there are no", "there is no", "n't", "nobody", "no one", "nothing", "empty of",
+    "there are no", "there is no", "n't", "nobody", "no one", "empty of",
 )  # fmt: skip
 CONTRASTS = ("but", "only", "just")
 """Words after which a negation no longer holds: "no cars, only bicycles"."""

@@ -57,10 +57,10 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "jump": {1.0: ("jump",), 0.7: ("hop",), 0.8: ("skip",), 1.2: ("leap",)},
     "work": {1.0: ("flap", "work", "operate", "beat", "pulse")},
     "stand": {
-        1.0: ("park", "wait", "rest", "stay", "pause", "pose", "graze", "stand", "hang", "remain",
-              "perch", "idle", "freeze"),
+        1.0: ("park", "wait", "rest", "stay", "pause", "pose", "graze", "stand", "stand up", "hang",
+              "remain", "perch", "idle", "freeze"),
     },
-    "sit": {1.0: ("sit", "sleep")},
+    "sit": {1.0: ("sit", "sit down", "sleep")},
     "lie": {1.0: ("lie", "lie down", "doze")},
 }  # fmt: skip
 """Motion → pace → verbs of which there is nothing else to say."""
@@ -91,6 +91,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("stop", "stand"),
     Verb("halt", "stand"),
     Verb("come to a stop", "stand"),
+    Verb("come to rest", "stand"),
     Verb("turn", "turn", object_kind="spin"),
     Verb("swerve", "turn", 1.3),
     Verb("curve", "turn"),
@@ -138,6 +139,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("kick", "kick", act="kick"),
     Verb("hit", "", act="hit"),
     Verb("strike", "", act="hit"),
+    *(Verb(base, "", act="collide") for base in ("collide", "crash", "bump", "meet")),
     Verb("catch", "catch", act="catch"),
     Verb("grab", "", act="hold"),
     Verb("hold", "", act="hold"),
@@ -151,6 +153,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("dribble", "dribble", object_kind="bounce"),
     Verb("wave", "wave"),
     Verb("dig", "work"),
+    *(Verb(base, "work", object_kind="work") for base in ("ring", "toll", "chime")),
     Verb("blow", "work"),
     *(
         Verb(base, kind, pace)
@@ -241,6 +244,14 @@ UNITS: dict[tuple[str, float], tuple[str, ...]] = {
     ("time", 0.001): ("ms", "millisecond"),
 }  # fmt: skip
 """(Quantity, factor to m/s, Hz or s) → units."""
+
+WORK_RATES_HZ: dict[str, float] = {
+    "spinning disc": 1.5, "spinning top": 3.0, "gyroscope": 4.0, "fidget spinner": 3.0,
+    "propeller": 2.5, "pinwheel": 1.2, "hard disk": 2.0, "disco ball": 0.25, "globe": 0.25,
+    "roulette wheel": 0.6, "record player": 0.55, "merry-go-round": 0.12, "ferris wheel": 0.05,
+    "washing machine": 0.8,
+}  # fmt: skip
+"""Noun whose parts spin → turns per second of its model at its usual pace."""
 
 RELATIONS: dict[str, tuple[str, ...]] = {
     "beside": (

@@ -39,7 +39,7 @@ PLACES: dict[str, tuple[str, ...]] = {
     "workshop": ("workshop",),
     "warehouse": ("warehouse", "storeroom", "storage room"),
     "gym": ("gym", "gymnasium", "sports hall"),
-    "space": ("space", "outer space", "galaxy"),
+    "space": ("space", "outer space", "galaxy", "star field", "starfield", "field of stars"),
     "construction site": (
         "construction site", "building site", "construction zone", "construction work",
         "construction", "roadworks", "work site",
@@ -286,7 +286,7 @@ PARTS_SHOWN: dict[str, tuple[str, ...]] = {
     "suv": ("roof rack", "rack"),
     "walk": ("leg", "legs", "head", "tail", "ear", "ears", "foot", "feet", "paw", "paws", "body"),
     "swim": ("tail", "fin", "fins"),
-    "fly": ("wing", "wings", "tail"),
+    "fly": ("wing", "wings", "tail", "rotor", "rotors", "propeller", "propellers"),
     "sail": ("sail", "sails", "mast", "hull"),
     "person": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
     "man": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
@@ -301,3 +301,5 @@ PART_COLOURS: dict[tuple[str, str], str] = {
     ("suv", "roof rack"): "black",
 }
 """(noun, part) that a model shows in any case → the colour it has."""
+SPELT = ("letter", "letters", "digit", "number", "word", "words")
+"""Nouns before what is written: "the letter B"."""

@@ -50,9 +50,41 @@ def cut_tokens(
         length = _stop_at_sign(window, length) if window[0].picture is None else 0
         length = _split_particle(window, length, known)
         meanings = known.find([token.text for token in window[:length]])[1] if length else []
+        joined = _count_joined(window, length, known)
+        if joined:
+            yield tokens[start : start + joined], [Meaning(Role.UNKNOWN, Pos.ADJECTIVE)]
+            start += joined
+            continue
         length = max(length, 1)
         yield tokens[start : start + length], _complete(tokens[start : start + length], meanings)
         start += length
+
+
+def _count_joined(window: Sequence[Token], length: int, known: Lexicon) -> int:
+    """Words of an adjective with hyphens that is in no lexicon: "clay-covered", "three-legged".
+
+    None of its words means anything by itself: three-legged dogs are not three dogs. "Slow-moving"
+    is as slow as "slow", and "red-painted" as red.
+    """
+    count = 1
+    while count < len(window) and window[count - 1].is_joined:
+        count += 1
+    if count < 2 or length >= count:
+        return 0
+    last = window[count - 1].text
+    is_participle = any(
+        one.pos is Pos.VERB and one.form in (VerbForm.ING, VerbForm.PAST)
+        for one in list_readings(last)
+    )
+    _, first = known.find([window[0].text])
+    if any(one.role is Role.COUNT for one in first) or window[0].is_number:
+        return 0 if known.find([last])[1] else count
+    is_said = any(one.role in _KEPT for one in first)
+    return count if (is_participle or last in _ENDINGS) and not is_said else 0
+
+
+_KEPT = frozenset({Role.COLOUR, Role.SHADE, Role.PACE, Role.SIZE, Role.SNOW, Role.WEATHER})
+_ENDINGS = frozenset({"like", "free", "up", "off", "in", "old", "sized", "shaped", "legged"})
 
 
 def _split_particle(window: Sequence[Token], length: int, known: Lexicon) -> int:
@@ -85,7 +117,7 @@ def _read_unspelt(token: Token) -> Meaning | None:
     if token.picture is not None:
         return Meaning(Role.PICTURE, Pos.NOUN, token.picture)
     if token.is_number:
-        return Meaning(Role.COUNT, Pos.NUMBER, float(token.text.replace(",", ".")))
+        return Meaning(Role.COUNT, Pos.NUMBER, token.value)
     if token.is_punctuation:
         return Meaning(Role.FUNCTION, Pos.SIGN, token.text)
     return None if token.text[0].isalpha() else Meaning(Role.UNKNOWN, Pos.ADVERB)

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from functools import lru_cache
 
+from texvent.scenes.language.words.dictionary import open_dictionary
+
 SHORTEST_CORRECTED = 5
 """Letters of the shortest word whose spelling is corrected."""
 LONGEST_WORD = 40
@@ -80,12 +82,10 @@ def list_readings(word: str) -> tuple[Reading, ...]:
         >>> [(one.pos.name, one.lemma) for one in list_readings("leaves")]
         [('NOUN', 'leaf'), ('VERB', 'leave')]
     """
-    from lemminflect import getAllLemmas  # loads its tables, which help texts do not need
-
     if len(word) > LONGEST_WORD:
         return ()
     found: list[Reading] = []
-    for tag, lemmas in getAllLemmas(word).items():
+    for tag, lemmas in open_dictionary().getAllLemmas(word).items():
         pos = _POS.get(tag)
         if pos is None:
             continue
@@ -127,9 +127,8 @@ def list_verb_forms(base: str) -> tuple[tuple[str, VerbForm], ...]:
         >>> [word for word, _ in list_verb_forms("swim")]
         ['swim', 'swims', 'swimming', 'swam', 'swum']
     """
-    from lemminflect import getAllInflections, getAllInflectionsOOV
-
-    tables = getAllInflections(base, "VERB") or getAllInflectionsOOV(base, "VERB")
+    words = open_dictionary()
+    tables = words.getAllInflections(base, "VERB") or words.getAllInflectionsOOV(base, "VERB")
     forms: dict[str, VerbForm] = {base: VerbForm.BASE}
     for tag in ("VBZ", "VBG", "VBD", "VBN"):
         for word in tables.get(tag, ()):

@@ -13,12 +13,17 @@ from texvent.scenes.language.vocabulary import function as vocabulary_function
 from texvent.scenes.language.vocabulary import motion as vocabulary_motion
 from texvent.scenes.language.vocabulary import objects as vocabulary_objects
 from texvent.scenes.language.vocabulary import scene as vocabulary_scene
-from texvent.scenes.language.vocabulary.acts import SIMILAR_ACTIVITIES, SIMILAR_MOTIONS
-from texvent.scenes.language.vocabulary.kinds import KINDS, OPAQUE_COMPOUNDS, SUBSTITUTES
+from texvent.scenes.language.vocabulary.acts import (
+    SIMILAR_ACTIVITIES,
+    SIMILAR_GAITS,
+    SIMILAR_MOTIONS,
+)
 from texvent.scenes.language.vocabulary.objects import COMPOUNDS
-from texvent.scenes.language.vocabulary.people import PEOPLE_GROUPS, PEOPLE_KINDS
+from texvent.scenes.language.vocabulary.opaque import OPAQUE_COMPOUNDS
 from texvent.scenes.language.words.english import Pos, VerbForm, list_verb_forms
 from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.kinds import KINDS
+from texvent.scenes.models.kinds.people import PEOPLE_GROUPS
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
 from texvent.scenes.models.protocol import Noun
 
@@ -92,7 +97,7 @@ class Lexicon:
         self._longest: dict[str, int] = {}
         for noun in nouns.values():
             self._add_noun(noun)
-        for kinds in (COMPOUNDS, PEOPLE_KINDS, KINDS):
+        for kinds in (COMPOUNDS, KINDS):
             for name, words in kinds.items():
                 if name in nouns:
                     self._add_kinds(name, words)
@@ -152,23 +157,22 @@ class Lexicon:
                 Meaning(Role.NOUN, Pos.NOUN, noun.name, is_plural=not both, can_be_both=both),
             )
         for singular in (noun.name, *noun.synonyms):
-            is_kind = (noun.name, singular) in SUBSTITUTES
             for number, text in enumerate(_list_forms_of_noun(singular)):
-                meaning = Meaning(
-                    Role.NOUN, Pos.NOUN, noun.name, is_plural=number > 0, is_substitute=is_kind
-                )
-                self._add(text, meaning)
+                self._add(text, Meaning(Role.NOUN, Pos.NOUN, noun.name, is_plural=number > 0))
 
     def _add_kinds(self, noun: str, words: Iterable[str]) -> None:
         for singular in words:
-            for number, text in enumerate(_list_forms_of_noun(singular)):
-                if tuple(text.split()) not in self._meanings:
+            forms = _list_forms_of_noun(singular)
+            both = singular in forms[1:]
+            for number, text in enumerate(forms):
+                if tuple(text.replace("-", " ").split()) not in self._meanings:
                     self._add(
                         text,
                         Meaning(
-                            Role.NOUN, Pos.NOUN, noun, is_plural=number > 0, is_substitute=True
+                            Role.NOUN, Pos.NOUN, noun, is_plural=number > 0 and not both,
+                            is_substitute=True, can_be_both=both,
                         ),
-                    )
+                    )  # fmt: skip
 
     def _add_opaque(self, words: Iterable[str]) -> None:
         """Compounds that cannot be shown, so that their last word is not taken for them."""
@@ -178,10 +182,13 @@ class Lexicon:
                     self._add(text, Meaning(Role.UNKNOWN, Pos.NOUN, is_plural=number > 0))
 
 
+_VERBS = frozenset(verb.base for verb in vocabulary_motion.VERBS)
+
+
 def _list_forms_of_noun(singular: str) -> tuple[str, ...]:
     """Singular and plurals; no plurals of compounds that end in a verb: "a bus stops"."""
     *first, last = singular.split()
-    is_verb = bool(first) and any(verb.base == last for verb in vocabulary_motion.VERBS)
+    is_verb = bool(first) and last in _VERBS
     return (singular,) if is_verb else (singular, *list_plurals(singular))
 
 
@@ -215,7 +222,12 @@ def _list_bare_verbs() -> Iterator[tuple[str, Role, Any]]:
 
 def _list_similar_verbs() -> Iterator[tuple[str, Role, Any]]:
     """Verbs shown by a motion near to theirs: of people, and of others."""
-    for table, is_of_people in ((SIMILAR_ACTIVITIES, True), (SIMILAR_MOTIONS, False)):
+    for table, is_of_people in (
+        (SIMILAR_ACTIVITIES, True),
+        (SIMILAR_GAITS, True),
+        (SIMILAR_GAITS, False),
+        (SIMILAR_MOTIONS, False),
+    ):
         for kind, bases in table.items():
             for base in bases:
                 yield base, Role.SIMILAR, (kind, is_of_people)

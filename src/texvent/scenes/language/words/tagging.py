@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from texvent.scenes.language.vocabulary.function import SENTENCE_OPENERS
 from texvent.scenes.language.words.cutting import correct_token, cut_tokens
 from texvent.scenes.language.words.english import Pos, VerbForm, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
@@ -14,6 +15,8 @@ _OPENS_NOUN = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE})
 """After these a noun or one more adjective follows."""
 _NOMINAL = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER})
 _OPENS_CLAUSE = frozenset({Pos.SUBORDINATOR, Pos.RELATIVE, Pos.SIGN})
+_ONLY_OPENS = frozenset({Pos.DETERMINER, Pos.PRONOUN})
+"""Before these a noun cannot end: "the headlights of a lorry blind the driver"."""
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
 
 
@@ -107,6 +110,9 @@ class _Tagger:
                 continue
             if meaning.pos is Pos.ADJUNCT and number > 0 and meaning.role is Role.SIDE:
                 continue
+            is_opener = meaning.pos is Pos.SUBORDINATOR and meaning.value in SENTENCE_OPENERS
+            if is_opener and number > 0 and self._chosen[number - 1].pos is Pos.PRONOUN:
+                continue
             return meaning.pos
         return None
 
@@ -170,6 +176,10 @@ class _Tagger:
         if verb is None:
             return None
         others = by_pos.keys() - {Pos.VERB}
+        last = self._chosen[-1] if self._chosen else None
+        is_one = last is not None and last.role is Role.COUNT and last.value == 1
+        if is_one and verb.form is VerbForm.THIRD:
+            return Pos.VERB
         if not others or self._before() is Pos.TO:
             return Pos.VERB
         adverb = by_pos.get(Pos.ADVERB)
@@ -228,6 +238,8 @@ class _Tagger:
             return None
         if after & {Pos.AUXILIARY} or (self._finite_follows(index) and not after & _NOMINAL):
             return None
+        if after and after <= _ONLY_OPENS and verb.form is VerbForm.BASE:
+            return Pos.VERB
         is_singular = verb.form is VerbForm.THIRD
         numbers = (self._is_plural, self._subject_is_plural)
         agrees = any(plural is None or is_singular != plural for plural in numbers)
@@ -273,6 +285,10 @@ class _Tagger:
         for meaning in reversed(self._chosen):
             if meaning.pos is Pos.SIGN and meaning.value in ".;!?":
                 return None
+            if meaning.pos is Pos.RELATIVE or (
+                meaning.pos is Pos.SUBORDINATOR and meaning.value not in SENTENCE_OPENERS
+            ):
+                return None
             if meaning.pos is Pos.AUXILIARY and meaning.value in ("is", "are"):
                 return VerbForm.THIRD if meaning.value == "is" else VerbForm.BASE
             if meaning.pos is Pos.VERB and meaning.form in (VerbForm.THIRD, VerbForm.BASE):
@@ -294,6 +310,10 @@ class _Tagger:
                 return Pos.NOUN
             if pos in _NOMINAL or not (opens and by_pos.keys() & {Pos.NOUN}):
                 return pos
+        colour = by_pos.get(Pos.ADJECTIVE)
+        is_colour = colour is not None and colour.role is Role.COLOUR
+        if is_colour and self._chosen and self._chosen[-1].form is VerbForm.PAST:
+            return Pos.ADJECTIVE
         if Pos.ADJECTIVE in by_pos and Pos.NOUN in by_pos:
             if after & {Pos.NOUN, Pos.ADJECTIVE} and not self._ends_group(index):
                 return Pos.ADJECTIVE

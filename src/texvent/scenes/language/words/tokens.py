@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from texvent.scenes.description import Picture
 from texvent.scenes.language.words.literals import find_literals
 
-_TOKEN = re.compile(r"\d+(?:[.,]\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
+_TOKEN = re.compile(r"\d{1,3}(?:,\d{3})+|\d+(?:[.,]\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
+
+_BULLET = re.compile(r"^[ \t]*(?:[-*+•]|#+|\d{1,2}[.)])[ \t]+", re.MULTILINE)
+"""What opens a heading or an item of a list."""
+
+_JOINT = re.compile(r"[-\u2010\u2011](?=[^\W\d_])")
+"""A hyphen inside a word."""
 
 
 @dataclass(frozen=True)
@@ -22,11 +28,19 @@ class Token:
     """As the prompt has it."""
     picture: Picture | None = None
     """What it names, if it is a picture's file, number of squares or text."""
+    is_joined: bool = False
+    """Whether a hyphen joins it to the next: "clay" in "clay-covered"."""
 
     @property
     def is_number(self) -> bool:
         """Whether it is written in digits."""
         return self.text[0].isdigit() and self.picture is None
+
+    @property
+    def value(self) -> float:
+        """The number that is written in digits: "1,000" = 1000, "3,5" = 3.5."""
+        is_grouped = re.fullmatch(r"\d{1,3}(?:,\d{3})+", self.text) is not None
+        return float(self.text.replace(",", "" if is_grouped else "."))
 
     @property
     def is_punctuation(self) -> bool:
@@ -47,7 +61,7 @@ def tokenize_prompt(prompt: str) -> list[Token]:
         >>> [token.text for token in tokenize_prompt("It's 3.5 km/h, Close-up!")]
         ['it', '3.5', 'km', '/', 'h', ',', 'close', 'up', '!']
     """
-    normal = unicodedata.normalize("NFKC", prompt)
+    normal = _BULLET.sub(". ", unicodedata.normalize("NFKC", prompt))
     tokens: list[Token] = []
     start = 0
     for begin, end, picture in find_literals(normal):
@@ -58,14 +72,19 @@ def tokenize_prompt(prompt: str) -> list[Token]:
 
 
 def _list_words(text: str) -> list[Token]:
-    words = (part for match in _TOKEN.finditer(text) for part in _expand(match[0]))
-    tokens = (Token(_fold(word), word) for word in words)
-    return [token for token in tokens if not _only_joins(token.text[0])]
+    found: list[Token] = []
+    for match in _TOKEN.finditer(text):
+        joined = _JOINT.match(text, match.end()) is not None
+        words = _expand(match[0])
+        tokens = [Token(_fold(word), word) for word in words]
+        tokens[-1] = replace(tokens[-1], is_joined=joined)
+        found.extend(token for token in tokens if not _only_joins(token.text[0]))
+    return found
 
 
 def _only_joins(sign: str) -> bool:
-    """Hyphens and quotation marks."""
-    return sign in '"“”' or unicodedata.category(sign) == "Pd"
+    """Hyphens, quotation marks and marks of emphasis."""
+    return sign in '"“”*_`~#' or unicodedata.category(sign) == "Pd"
 
 
 def _expand(word: str) -> tuple[str, ...]:

@@ -182,12 +182,11 @@ _WORM = partial(build_crawler, 0.16, 0.014, ((0.42, 0.17, 0.12),), False)
 _CATERPILLAR = partial(build_crawler, 0.09, 0.018, ((0.12, 0.34, 0.04), (0.45, 0.35, 0.03)), True)
 
 NOUNS = (
-    Noun("spider", partial(build_arthropod, SPIDER), "ground", 0.08, "walk", ("tarantula",)),
+    Noun("spider", partial(build_arthropod, SPIDER), "ground", 0.08, "walk"),
     Noun("crab", partial(build_arthropod, CRAB), "ground", 0.15, "walk"),
     Noun("ant", partial(build_arthropod, ANT), "ground", 0.05, "walk"),
     Noun("beetle", partial(build_arthropod, BEETLE), "ground", 0.05, "walk"),
-    Noun("ladybug", partial(build_arthropod, LADYBUG), "ground", 0.04, "walk",
-         ("ladybird",)),
+    Noun("ladybug", partial(build_arthropod, LADYBUG), "ground", 0.04, "walk"),
     Noun("worm", _WORM, "ground", 0.02, "walk", ("earthworm",)),
     Noun("caterpillar", _CATERPILLAR, "ground", 0.02, "walk"),
 )  # fmt: skip

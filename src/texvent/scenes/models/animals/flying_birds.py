@@ -205,14 +205,12 @@ def build_duck(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 NOUNS = (
     Noun(
         "bird", partial(build_flier, SMALL), "air", 5.0, "fly",
-        ("swallow", "sparrow", "pigeon", "songbird", "robin", "dove"),
     ),
     Noun(
         "eagle", partial(build_flier, EAGLE), "air", 9.0, "fly",
-        ("hawk", "falcon", "vulture", "bird of prey", "condor"), ("birds of prey",),
     ),
-    Noun("gull", partial(build_flier, GULL), "air", 8.0, "fly", ("seagull", "albatross", "tern")),
-    Noun("parrot", partial(build_flier, PARROT), "air", 5.0, "fly", ("macaw", "cockatoo")),
+    Noun("gull", partial(build_flier, GULL), "air", 8.0, "fly", ("seagull",)),
+    Noun("parrot", partial(build_flier, PARROT), "air", 5.0, "fly"),
     Noun("swan", build_swan, "water", 0.5, "paddle"),
-    Noun("duck", build_duck, "water", 0.6, "paddle", ("mallard", "duckling")),
+    Noun("duck", build_duck, "water", 0.6, "paddle"),
 )  # fmt: skip

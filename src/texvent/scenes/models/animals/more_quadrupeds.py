@@ -157,7 +157,7 @@ SAUROPOD = Animal(
 )  # fmt: skip
 
 NOUNS = (
-    animal_noun("camel", CAMEL, 1.5, ("dromedary",)),
+    animal_noun("camel", CAMEL, 1.5),
     animal_noun("donkey", DONKEY, 1.3),
     animal_noun("squirrel", SQUIRREL, 1.2),
     animal_noun("hedgehog", HEDGEHOG, 0.3),
@@ -169,8 +169,8 @@ NOUNS = (
     animal_noun("raccoon", RACCOON, 0.9),
     animal_noun("rhino", RHINO, 1.5, ("rhinoceros",), ("rhinoceroses",)),
     animal_noun("hippo", HIPPO, 1.1, ("hippopotamus",), ("hippopotamuses",)),
-    animal_noun("crocodile", CROCODILE, 0.7, ("alligator",)),
-    animal_noun("lizard", LIZARD, 0.4, ("gecko", "iguana")),
-    animal_noun("sauropod", SAUROPOD, 2.2, ("brontosaurus", "diplodocus", "brachiosaurus")),
+    animal_noun("crocodile", CROCODILE, 0.7),
+    animal_noun("lizard", LIZARD, 0.4),
+    animal_noun("sauropod", SAUROPOD, 2.2),
 )
 """All walk unless told otherwise."""

@@ -105,6 +105,6 @@ def build_fruit_bat(*, colour: Colour | None, scale: float, seed: int) -> Articu
 
 
 NOUNS = (
-    Noun("owl", build_owl, "ground", 0.2, "walk", ("barn owl",)),
-    Noun("fruit bat", build_fruit_bat, "air", 2.5, "fly", ("flying fox",)),
+    Noun("owl", build_owl, "ground", 0.2, "walk"),
+    Noun("fruit bat", build_fruit_bat, "air", 2.5, "fly"),
 )

@@ -340,11 +340,11 @@ def build_dinosaur(*, colour: Colour | None, scale: float, seed: int) -> Articul
 
 
 NOUNS = (
-    Noun("monkey", partial(build_ape, *_MONKEY), "ground", 1.0, "walk", ("macaque",)),
+    Noun("monkey", partial(build_ape, *_MONKEY), "ground", 1.0, "walk"),
     Noun("gorilla", partial(build_ape, *_GORILLA), "ground", 1.1, "walk"),
-    Noun("kangaroo", build_kangaroo, "ground", 2.5, "walk", ("wallaby",)),
-    Noun("frog", build_frog, "ground", 0.25, "walk", ("toad", "tree frog", "bullfrog")),
-    Noun("seal", build_seal, "water", 1.2, "swim", ("sea lion",)),
+    Noun("kangaroo", build_kangaroo, "ground", 2.5, "walk"),
+    Noun("frog", build_frog, "ground", 0.25, "walk"),
+    Noun("seal", build_seal, "water", 1.2, "swim"),
     Noun("octopus", build_octopus, "water", 0.4, "swim", (), ("octopi",)),
     Noun(
         "dinosaur",

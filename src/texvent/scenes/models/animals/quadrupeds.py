@@ -334,25 +334,23 @@ def animal_noun(
 
 
 NOUNS = (
-    animal_noun("dog", DOG, 1.6, ("puppy", "hound", "labrador", "retriever")),
-    animal_noun("cat", CAT, 1.0, ("kitten", "kitty")),
+    animal_noun("dog", DOG, 1.6),
+    animal_noun("cat", CAT, 1.0, ("kitty",)),
     animal_noun("fox", FOX, 1.4),
-    animal_noun("wolf", WOLF, 1.8, ("husky", "coyote")),
-    animal_noun("horse", HORSE, 2.0, ("pony", "stallion", "mare", "foal")),
+    animal_noun("wolf", WOLF, 1.8),
+    animal_noun("horse", HORSE, 2.0, ("stallion", "mare")),
     animal_noun("zebra", ZEBRA, 1.8),
-    animal_noun("cow", COW, 1.1, ("bull", "calf", "ox"), ("cattle", "oxen")),
-    animal_noun("elephant", ELEPHANT, 1.8, ("mammoth",)),
-    animal_noun(
-        "deer", DEER, 1.6, ("stag", "antelope", "gazelle", "reindeer"), ("deer", "reindeer")
-    ),
+    animal_noun("cow", COW, 1.1, (), ("cattle",)),
+    animal_noun("elephant", ELEPHANT, 1.8),
+    animal_noun("deer", DEER, 1.6, ("stag",), ("deer",)),
     animal_noun("lion", LION, 1.5),
     animal_noun("tiger", TIGER, 1.5),
-    animal_noun("cheetah", CHEETAH, 2.0, ("leopard", "jaguar")),
+    animal_noun("cheetah", CHEETAH, 2.0),
     animal_noun("goat", GOAT, 1.0),
     animal_noun("giraffe", GIRAFFE, 1.8),
-    animal_noun("sheep", SHEEP, 0.9, ("lamb", "ewe"), ("sheep",)),
-    animal_noun("pig", PIG, 0.9, ("boar", "piglet")),
-    animal_noun("bear", BEAR, 1.3, ("grizzly", "brown bear")),
+    animal_noun("sheep", SHEEP, 0.9, ("ewe",), ("sheep",)),
+    animal_noun("pig", PIG, 0.9),
+    animal_noun("bear", BEAR, 1.3, ("brown bear",)),
     animal_noun("polar bear", POLAR_BEAR, 1.3),
-    animal_noun("rabbit", RABBIT, 1.2, ("bunny", "hare")),
+    animal_noun("rabbit", RABBIT, 1.2, ("bunny",)),
 )

@@ -253,12 +253,12 @@ def _tentacle(material: Material, angle: float, out: float, turn: float) -> list
 NOUNS = (
     Noun(
         "fish", partial(build_swimmer, FISH), "water", 0.6, "swim",
-        ("goldfish", "clownfish", "tuna", "salmon", "koi"),
-        ("fish", "goldfish", "tuna", "salmon", "clownfish"),
+        (),
+        ("fish",),
     ),
-    Noun("shark", partial(build_swimmer, SHARK), "water", 1.6, "swim", ("hammerhead",)),
-    Noun("dolphin", partial(build_swimmer, DOLPHIN), "water", 2.2, "swim", ("porpoise",)),
-    Noun("whale", partial(build_swimmer, WHALE), "water", 2.5, "swim", ("orca", "humpback")),
+    Noun("shark", partial(build_swimmer, SHARK), "water", 1.6, "swim"),
+    Noun("dolphin", partial(build_swimmer, DOLPHIN), "water", 2.2, "swim"),
+    Noun("whale", partial(build_swimmer, WHALE), "water", 2.5, "swim"),
     Noun("turtle", build_turtle, "water", 0.6, "swim", ("sea turtle",)),
     Noun("jellyfish", build_jellyfish, "water", 0.15, "swim", (), ("jellyfish",)),
 )  # fmt: skip

@@ -211,9 +211,9 @@ NOUNS = (
     Noun("butterfly", partial(build_insect, BUTTERFLY), "air", 0.8, "fly"),
     Noun("moth", partial(build_insect, MOTH), "air", 0.8, "fly"),
     Noun("housefly", partial(build_insect, FLY), "air", 0.8, "fly", ("house fly",)),
-    Noun("mosquito", partial(build_insect, MOSQUITO), "air", 0.5, "fly", ("gnat",)),
-    Noun("bee", partial(build_insect, BEE), "air", 1.2, "fly", ("bumblebee", "wasp", "honeybee")),
-    Noun("dragonfly", partial(build_insect, DRAGONFLY), "air", 1.5, "fly", ("damselfly",)),
-    Noun("snake", build_snake, "ground", 0.5, "walk", ("python", "serpent")),
+    Noun("mosquito", partial(build_insect, MOSQUITO), "air", 0.5, "fly"),
+    Noun("bee", partial(build_insect, BEE), "air", 1.2, "fly", ("honeybee",)),
+    Noun("dragonfly", partial(build_insect, DRAGONFLY), "air", 1.5, "fly"),
+    Noun("snake", build_snake, "ground", 0.5, "walk"),
     Noun("snail", build_snail, "ground", 0.02, "walk"),
 )

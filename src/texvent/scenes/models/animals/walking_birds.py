@@ -205,10 +205,10 @@ def build_penguin(*, colour: Colour | None, scale: float, seed: int) -> Articula
 
 
 NOUNS = (
-    Noun("ostrich", partial(build_strider, OSTRICH), "ground", 2.5, "walk", ("emu",)),
+    Noun("ostrich", partial(build_strider, OSTRICH), "ground", 2.5, "walk"),
     Noun("flamingo", partial(build_strider, FLAMINGO), "ground", 0.6, "walk"),
     Noun("chicken", partial(build_strider, CHICKEN), "ground", 0.4, "walk", ("hen",)),
-    Noun("rooster", partial(build_strider, ROOSTER), "ground", 0.4, "walk", ("cockerel",)),
+    Noun("rooster", partial(build_strider, ROOSTER), "ground", 0.4, "walk"),
     Noun("turkey", partial(build_strider, TURKEY), "ground", 0.4, "walk"),
     Noun("penguin", build_penguin, "ground", 0.4, "walk"),
 )

@@ -210,12 +210,12 @@ def _mill(rigid: list[ModelPart], rotor: _Rotor, *, scale: float, seed: int) -> 
 
 
 NOUNS = (
-    fixed_noun("house", build_house, ("home", "cottage", "farmhouse", "cabin", "villa")),
+    fixed_noun("house", build_house, ("home",)),
     fixed_noun(
         "building", build_high_rise,
-        ("skyscraper", "high-rise", "tower block", "office", "apartment", "hotel"),
+        ("skyscraper", "high-rise", "tower block"),
     ),
-    fixed_noun("barn", build_barn, ("shed",)),
+    fixed_noun("barn", build_barn),
     working_noun("windmill", build_windmill, ("mill",)),
     working_noun("wind turbine", build_wind_turbine, ("turbine",)),
 )  # fmt: skip

@@ -19,8 +19,8 @@ from texvent.scenes.models.protocol import Habitat, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,
     Point,
+    bounds,
     compose,
-    half_extents,
     limb,
     moved,
     plank,
@@ -164,9 +164,7 @@ def lying(parts: Sequence[ModelPart]) -> list[ModelPart]:
 
 def centred(parts: Sequence[ModelPart]) -> list[ModelPart]:
     """Parts shifted so that they stand on z = 0, their middle over the origin."""
-    corners = [half_extents(each.shape, each.to_body) for each in parts]
-    low = np.min([corner for corner, _ in corners], axis=0)
-    high = np.max([corner for _, corner in corners], axis=0)
+    low, high = bounds(parts)
     x, y = -0.5 * (low + high)[:2]
     return moved(parts, shift(float(x), float(y), -float(low[2])))
 

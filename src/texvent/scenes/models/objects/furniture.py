@@ -110,7 +110,7 @@ def build_bench(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 
 NOUNS = (
-    fixed_noun("table", build_table, ("dining table", "coffee table", "kitchen table")),
+    fixed_noun("table", build_table, ("dining table", "kitchen table")),
     fixed_noun("chair", build_chair, ("wooden chair", "kitchen chair")),
     fixed_noun("sofa", build_sofa, ("couch", "settee")),
     fixed_noun("bed", build_bed, ("double bed",)),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.articulated_model import STANDING_POSES, ArticulatedModel
 from texvent.scenes.models.materials import (
     BARK,
     GREEN,
@@ -164,17 +164,17 @@ def _swaying(
         across = amount * math.sin(0.9 * pose.time_s + 2.0 * start)
         return moved(moved(crown, turn_y(forth)), turn_x(across))
 
-    return ArticulatedModel(trunk, scale=scale, articulate=articulate)
+    return ArticulatedModel(trunk, scale=scale, articulate=articulate, poses=STANDING_POSES)
 
 
 NOUNS = (
-    fixed_noun("tree", build_tree, ("oak", "maple", "apple tree", "oak tree", "birch", "willow")),
+    fixed_noun("tree", build_tree),
     fixed_noun(
         "pine", build_pine,
-        ("pine tree", "fir", "fir tree", "spruce", "conifer", "christmas tree"),
+        ("pine tree",),
     ),
-    fixed_noun("palm", build_palm, ("palm tree", "coconut tree")),
-    fixed_noun("bush", build_bush, ("shrub", "hedge")),
-    fixed_noun("flower", build_flower, ("blossom",)),
+    fixed_noun("palm", build_palm, ("palm tree",)),
+    fixed_noun("bush", build_bush, ("shrub",)),
+    fixed_noun("flower", build_flower),
     fixed_noun("cactus", build_cactus, (), ("cacti",)),
 )  # fmt: skip

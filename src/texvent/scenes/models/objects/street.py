@@ -167,7 +167,7 @@ NOUNS = (
     ),
     fixed_noun("barrier", build_barrier, ("road block", "roadblock", "barricade")),
     fixed_noun("fence", build_fence, ("picket fence",)),
-    working_noun("flag", build_flag, ("banner", "flagpole")),
+    working_noun("flag", build_flag, ("flagpole",)),
     fixed_noun("bridge", build_bridge, ("overpass",)),
     working_noun("traffic light", build_traffic_light, ("stoplight", "stop light")),
 )  # fmt: skip

@@ -87,7 +87,10 @@ _SPORTS: dict[str, Activity] = {
     "swing bat": _seen_from_side("swing a bat", "bat", "play baseball", "play cricket",
                                  "play softball"),
     "swing racket": _seen_from_side("swing a racket", "play tennis", "play badminton",
-                                    "play squash", "play table tennis", "play ping pong"),
+                                    "play squash", "play table tennis", "play ping pong",
+                                   "tennis serve", "tennis rally", "tennis volley", "tennis match",
+                                   "table tennis rally", "table tennis match", "ping pong rally",
+                                   "badminton rally", "badminton match", "squash rally"),
     "swing club": Activity(("swing a club", "swing a golf club", "golf", "play golf", "putt")),
     "dribble": _seen_from_side("dribble", "dribble a ball", "dribble a basketball",
                                "play basketball"),
@@ -202,6 +205,18 @@ DVS_GESTURES: Mapping[str, str] = MappingProxyType(
     }
 )
 """Class of DVS-Gesture (Amir et al., CVPR 2017) → activity."""
+
+SEATS = frozenset({"chair", "armchair", "office chair", "rocking chair", "sofa", "bench", "stool",
+                   "bed", "swing", "seesaw", "wheelchair", "throne"})  # fmt: skip
+"""Nouns on which a person sits, unless the prompt says otherwise."""
+DONE_SEATED = frozenset(
+    {"wave", "wave left", "wave right", "wave both", "clap", "point", "nod", "shake head", "talk",
+     "play guitar", "play violin", "play flute", "write", "read", "eat", "drink", "phone", "text",
+     "photograph", "sing", "fish"}
+)  # fmt: skip
+"""What a person does just as well sitting: torso, head and arms move, the hips do not."""
+SEATED = "sit and "
+"""Begins the name of what is done sitting, as "sit and read"."""
 
 PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "runner", "worker"})
 """Nouns whose models take every posture of `ACTIVITIES`."""

@@ -128,4 +128,4 @@ def _draw_thumb(shape: HandShape, surface: Material) -> list[ModelPart]:
     return parts
 
 
-NOUNS = (Noun("hand", build_hand, "air", 0.3, "float", ("fist", "palm of a hand", "finger")),)
+NOUNS = (Noun("hand", build_hand, "air", 0.3, "float", ("palm of a hand",)),)

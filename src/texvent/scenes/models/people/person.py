@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
+from texvent.scenes.models.people.activities import SEATED
 from texvent.scenes.models.people.anchors import locate_anchor
 from texvent.scenes.models.people.daily import DAILY
 from texvent.scenes.models.people.figure import draw_figure
@@ -89,7 +90,7 @@ def _choose_posture(kind: PersonKind, pose: Pose) -> Posture:
     if activity == "crawl":
         return _grip(_crawl(pose), pose)
     runs = activity == "run" or (kind.runs and activity == "move")
-    amount = 0.0 if activity == "sit" else step_amount(activity, pose.speed_m_s, 0.5)
+    amount = 0.0 if activity.startswith("sit") else step_amount(activity, pose.speed_m_s, 0.5)
     base = step(RUN if runs else WALK, pose.distance_m, amount)
     if activity == "jump":
         return _grip(fill(_jump(pose.act_s), base), pose)
@@ -99,6 +100,9 @@ def _choose_posture(kind: PersonKind, pose: Pose) -> Posture:
         return _grip(blend(base, act, share), pose)
     if activity in _LEANING:
         return _grip(fill(Posture(lean=_LEANING[activity]), base), pose)
+    if activity.startswith(SEATED):
+        base = fill(MOVEMENTS["sit"](pose.time_s), base)
+        activity = activity.removeprefix(SEATED)
     movement = MOVEMENTS.get(activity)
     if movement is None:
         return _grip(base, pose)
@@ -177,20 +181,20 @@ def _grip(posture: Posture, pose: Pose) -> Posture:
 NOUNS = (
     Noun(
         "person", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("pedestrian", "human", "walker", "somebody", "tourist", "hiker"), ("people",),
+        ("pedestrian", "human", "walker", "somebody"), ("people",),
     ),
     Noun(
         "man", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("guy", "gentleman", "businessman"),
+        ("guy", "gentleman"),
     ),
-    Noun("woman", partial(build_person, WOMAN), "ground", 1.3, "walk", ("lady", "businesswoman")),
+    Noun("woman", partial(build_person, WOMAN), "ground", 1.3, "walk", ("lady",)),
     Noun(
         "child", partial(build_person, CHILD), "ground", 1.1, "walk",
-        ("kid", "boy", "girl", "toddler"), ("children",),
+        ("kid", "boy", "girl"), ("children",),
     ),
     Noun(
         "runner", partial(build_person, RUNNER), "ground", 3.5, "run",
-        ("jogger", "athlete", "sprinter", "marathon runner"),
+        ("jogger", "sprinter", "marathon runner"),
     ),
     Noun(
         "worker", partial(build_person, WORKER), "ground", 1.2, "walk",

@@ -88,15 +88,15 @@ def build_garment(
 
 
 NOUNS = (
-    fixed_noun("vest", build_vest, ("safety vest", "waistcoat", "reflective vest", "hi-vis vest")),
-    fixed_noun("scarf", build_scarf, ("shawl",), ("scarves",)),
+    fixed_noun("vest", build_vest, ("safety vest", "reflective vest", "hi-vis vest")),
+    fixed_noun("scarf", build_scarf, (), ("scarves",)),
     fixed_noun("mask", build_mask, ("surgical mask",)),
-    fixed_noun("crown", build_crown, ("tiara",)),
-    fixed_noun("jacket", partial(build_garment, 0.72, False), ("hoodie", "blazer")),
+    fixed_noun("crown", build_crown),
+    fixed_noun("jacket", partial(build_garment, 0.72, False)),
     fixed_noun(
         "coat",
         partial(build_garment, 1.05, False),
-        ("overcoat", "raincoat", "trench coat", "lab coat", "fur coat"),
+        ("overcoat",),
     ),
     fixed_noun("dress", partial(build_garment, 1.10, True), ("gown",)),
 )

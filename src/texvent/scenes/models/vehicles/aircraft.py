@@ -212,7 +212,7 @@ NOUNS = (
     Noun("drone", build_drone, "air", 2.5, "fly", ("quadcopter", "quadrotor", "uav")),
     Noun(
         "rocket", build_rocket, "air", 8.0, "fly",
-        ("spaceship", "missile", "spacecraft"), ("spacecraft",),
+        (),
     ),
     Noun("hot air balloon", build_hot_air_balloon, "air", 2.0, "float", ("hot-air balloon",)),
     Noun("ufo", build_ufo, "air", 6.0, "fly", ("flying saucer", "alien ship")),

@@ -134,10 +134,10 @@ def _rocking(parts: list[ModelPart], scale: float, seed: int, amount: float) -> 
 
 
 NOUNS = (
-    Noun("boat", build_boat, "water", 4.0, "sail", ("motorboat", "speedboat", "fishing boat")),
+    Noun("boat", build_boat, "water", 4.0, "sail", ("motorboat", "speedboat")),
     Noun(
         "sailboat", build_sailboat, "water", 2.5, "sail",
-        ("sailing boat", "yacht", "sailing ship"),
+        ("sailing boat", "yacht"),
     ),
     Noun(
         "ship", build_ship, "water", 6.0, "sail",

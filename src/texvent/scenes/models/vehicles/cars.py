@@ -218,18 +218,18 @@ def _triangle(phase: float) -> float:
 NOUNS = (
     Noun(
         "car", partial(build_car, SEDAN), "ground", 10.0, "drive",
-        ("automobile", "sedan", "hatchback", "coupe", "race car", "sports car", "vehicle", "auto"),
+        ("automobile", "sedan", "auto"),
     ),
     Noun(
         "suv", partial(build_car, SUV), "ground", 9.0, "drive",
-        ("jeep", "off-roader", "four-wheel drive", "sport utility vehicle", "land rover"),
+        ("off-roader", "four-wheel drive", "sport utility vehicle"),
     ),
     Noun("taxi", partial(build_car, TAXI), "ground", 9.0, "drive", ("cab", "taxicab")),
     Noun(
         "police car", partial(build_car, POLICE), "ground", 14.0, "drive",
         ("patrol car", "squad car", "cop car"),
     ),
-    Noun("van", partial(build_car, VAN), "ground", 9.0, "drive", ("minivan", "minibus", "camper")),
+    Noun("van", partial(build_car, VAN), "ground", 9.0, "drive", ("minivan",)),
     Noun(
         "pickup", partial(build_car, PICKUP), "ground", 9.0, "drive",
         ("pickup truck", "pick-up", "pick-up truck"),

@@ -146,6 +146,6 @@ NOUNS = (
     working_noun("crane", build_crane, ("tower crane", "construction crane", "building crane")),
     Noun(
         "excavator", build_excavator, "ground", 1.0, "drive",
-        ("digger", "backhoe", "construction vehicle"),
+        ("digger",),
     ),
 )  # fmt: skip

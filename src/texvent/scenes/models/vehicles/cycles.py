@@ -116,6 +116,6 @@ NOUNS = (
     ),
     Noun(
         "motorcycle", build_motorcycle, "ground", 11.0, "drive",
-        ("motorbike", "motorcyclist", "moped", "biker"),
+        ("motorbike", "motorcyclist", "biker"),
     ),
 )  # fmt: skip

@@ -150,10 +150,10 @@ def _axles(places: tuple[float, ...], side: float, radius: float) -> list[Wheel]
 NOUNS = (
     Noun(
         "truck", build_truck, "ground", 8.0, "drive",
-        ("lorry", "delivery truck", "semi", "cargo truck"),
+        ("lorry", "delivery truck", "cargo truck"),
     ),
-    Noun("bus", build_bus, "ground", 8.0, "drive", ("coach", "school bus")),
-    Noun("train", build_train, "ground", 14.0, "drive", ("tram", "metro", "locomotive")),
+    Noun("bus", build_bus, "ground", 8.0, "drive"),
+    Noun("train", build_train, "ground", 14.0, "drive"),
     Noun("tractor", build_tractor, "ground", 4.0, "drive", ("farm tractor",)),
     Noun("fire engine", build_fire_engine, "ground", 12.0, "drive", ("fire truck", "firetruck")),
 )  # fmt: skip

@@ -47,7 +47,7 @@ def list_casters(lamp: Float64Array, primitives: Primitives, inverse: Float64Arr
     distance = np.linalg.norm(offset, axis=1)
     near = distance - radius < lamp[6]
     if lamp[10] >= -1.0:
-        near &= _in_beam(lamp, offset, distance, radius)
+        near &= in_beam(lamp, offset, distance, radius)
     numbers, offset = numbers[near], offset[near]
     start_mm = np.floor(1e3 * np.maximum(distance - radius, 0.0)[near]).astype(np.int64)
     rectangles, owner = _rectangles(offset, distance[near], radius[near])
@@ -82,7 +82,7 @@ def _split_long(
     return chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner]
 
 
-def _in_beam(
+def in_beam(
     lamp: Float64Array, offset: Float64Array, distance: Float64Array, radius: Float64Array
 ) -> NDArray[np.bool_]:
     """Which balls the beam touches."""

@@ -23,6 +23,8 @@ Sample = tuple[float, float, float, float]
 Patch = tuple[float, float, float, float]
 """Change of (u, v) from one pixel to the next, to the right and down."""
 Corners = tuple[int, int, int, int]
+Place = tuple[float, float, float]
+"""(u, v) in tiles, and the ease of weights between texels there."""
 
 _SHARPNESS = 0.5
 """Levels finer than the one whose texels are as large as the patch is wide: blending blurs too."""
@@ -52,13 +54,26 @@ def patch_axes(patch: Patch) -> Patch:
 
 
 @jit(error_model="numpy", inner=True)
-def _corners(level: int, u: float, v: float) -> tuple[Corners, Sample]:
-    """Where the four texels around (u, v), in tiles, begin in the array, and their weights."""
+def _eased(share: float, ease: float) -> float:
+    """A weight between two texels: straight at ease 0, level at both of them at ease 1.
+
+    Straight weights have a kink at every texel. As it passes a pixel, the brightest instant falls
+    between two frames, so that few frames would fire fewer events than many.
+    """
+    return share * ((1.0 - ease) + (ease * share) * (3.0 - 2.0 * share))
+
+
+@jit(error_model="numpy", inner=True)
+def _corners(level: int, u: float, v: float, ease: float) -> tuple[Corners, Sample]:
+    """Where the four texels around (u, v), in tiles, begin in the array, and their weights.
+
+    `ease` is that of `_eased`.
+    """
     side = SIDE >> level
     start = (4 * SIDE * SIDE - ((4 * SIDE * SIDE) >> (2 * level))) // 3
     x, y = u * side - 0.5, v * side - 0.5
     column, row = math.floor(x), math.floor(y)
-    across, down = x - column, y - row
+    across, down = _eased(x - column, ease), _eased(y - row, ease)
     left, top = int(column) & (side - 1), int(row) & (side - 1)
     right, bottom = (left + 1) & (side - 1), (top + 1) & (side - 1)
     upper, lower = start + top * side, start + bottom * side
@@ -73,11 +88,9 @@ def _corners(level: int, u: float, v: float) -> tuple[Corners, Sample]:
 
 
 @jit(error_model="numpy", inner=True)
-def _add_texels(
-    tile: int, level: int, place: tuple[float, float], share: float, total: Sample
-) -> Sample:
+def _add_texels(tile: int, level: int, place: Place, share: float, total: Sample) -> Sample:
     """`total` and `share` times the blend of a tile's texels at `place`."""
-    corners, weights = _corners(level, place[0], place[1])
+    corners, weights = _corners(level, place[0], place[1], place[2])
     here = blend_four(tile, corners, weights)
     return (
         total[0] + share * here[0],
@@ -88,14 +101,18 @@ def _add_texels(
 
 
 @jit(error_model="numpy", inner=True)
-def _taps(axes: Patch, most: int) -> tuple[int, float]:
-    """How many averages along a patch's longer axis, and which level of the tile they read."""
+def _taps(axes: Patch, most: int) -> tuple[int, float, float]:
+    """How many averages along a patch's longer axis, which level they read, and with what ease.
+
+    A texel that covers two pixels or more is not eased: it would show as a square.
+    """
     long, short = SIDE * axes[2], SIDE * axes[3]
     taps = 1
     if long > 1.0:
         taps = min(math.ceil(long / max(short, 1.0) - 1e-6), most)
     width = max(short, long / taps)
-    return taps, 0.0 if width < 1.0 else max(math.log2(width) - _SHARPNESS, 0.0)
+    ease = min(max(2.0 * width - 1.0, 0.0), 1.0)
+    return taps, 0.0 if width < 1.0 else max(math.log2(width) - _SHARPNESS, 0.0), ease
 
 
 @jit(error_model="numpy")
@@ -108,26 +125,26 @@ def tile_average(tile: int, u: float, v: float, axes: Patch) -> Sample:
         v: place in tiles.
         axes: of the patch, in tiles, from `patch_axes`.
     """
-    taps, level = _taps(axes, _MAX_TAPS)
+    taps, level, ease = _taps(axes, _MAX_TAPS)
     total = (0.0, 0.0, 0.0, 0.0)
     fine = int(level)
     if fine >= _LAST:
-        return _add_texels(tile, _LAST, (0.5, 0.5), 1.0, total)
+        return _add_texels(tile, _LAST, (0.5, 0.5, 0.0), 1.0, total)
     coarse_share = (level - fine) / taps
     fine_share = 1.0 / taps - coarse_share
     for tap in range(taps):
         place = (tap + 0.5) / taps - 0.5
         x, y = u + place * axes[0], v + place * axes[1]
-        total = _add_texels(tile, fine, (x, y), fine_share, total)
+        total = _add_texels(tile, fine, (x, y, ease), fine_share, total)
         if coarse_share > 0.0:
-            total = _add_texels(tile, fine + 1, (x, y), coarse_share, total)
+            total = _add_texels(tile, fine + 1, (x, y, ease), coarse_share, total)
     return total
 
 
 @jit(error_model="numpy", inner=True)
-def _first_channel(tile: int, level: int, u: float, v: float) -> float:
-    """A tile's first channel at (u, v)."""
-    corners, weights = _corners(level, u, v)
+def _first_channel(tile: int, level: int, place: Place) -> float:
+    """A tile's first channel at `place`."""
+    corners, weights = _corners(level, place[0], place[1], place[2])
     return float(
         weights[0] * texel_at(tile, corners[0])
         + weights[1] * texel_at(tile, corners[1])
@@ -139,7 +156,7 @@ def _first_channel(tile: int, level: int, u: float, v: float) -> float:
 @jit(error_model="numpy", inner=True)
 def _tile_factor(tile: int, u: float, v: float, axes: Patch) -> float:
     """As `tile_average`, the first channel doubled: patterns of one colour share it evenly."""
-    taps, level = _taps(axes, _MAX_LARGE_TAPS)
+    taps, level, ease = _taps(axes, _MAX_LARGE_TAPS)
     fine = int(level)
     if fine >= _LAST:
         return 1.0
@@ -147,9 +164,9 @@ def _tile_factor(tile: int, u: float, v: float, axes: Patch) -> float:
     for tap in range(taps):
         place = (tap + 0.5) / taps - 0.5
         x, y = u + place * axes[0], v + place * axes[1]
-        here = _first_channel(tile, fine, x, y)
+        here = _first_channel(tile, fine, (x, y, ease))
         if level > fine:
-            here += (level - fine) * (_first_channel(tile, fine + 1, x, y) - here)
+            here += (level - fine) * (_first_channel(tile, fine + 1, (x, y, ease)) - here)
         total += here
     return 2.0 * total / taps
 

@@ -36,14 +36,20 @@ def stone() -> Pattern:
 
 
 def concrete() -> Pattern:
-    """Formwork lines, pores, streaks of damp."""
+    """Formwork lines, pores, chips, streaks of damp, stains of oil and rust, cracks."""
     pores, _, chance = cells(60, 231)
     pore = (1.0 - smooth_step(pores, 0.15, 0.3)) * smooth_step(chance, 0.7, 0.75)
     streaks = fractal(2, 5, 232, gain=0.9, stretch=4)
-    rough = fractal(3, 7, 233, gain=0.95)
+    rough = fractal(8, 5, 233, gain=1.0)
     inside, _ = courses(1, 4, (0.004, 0.012), is_staggered=False, salt=234)
-    factor = exponential(0.19 * rough + 0.09 * streaks - 0.7 * pore - 0.35 * (1.0 - inside))
-    return Pattern(factor, smooth_step(streaks, 0.0, 2.0), 0.3 * rough - pore)
+    spot, _, which = cells(9, 235)
+    stain = 1.0 - smooth_step(spot + 0.10 * rough, 0.10, 0.40)
+    stain = stain * smooth_step(which, 0.55, 0.85)
+    middle, gap, _ = cells(3, 236)
+    crack = 1.0 - smooth_step(gap - middle + 0.04 * fractal(6, 5, 237), 0.004, 0.02)
+    factor = exponential(0.23 * rough + 0.10 * streaks - 0.7 * pore - 0.35 * (1.0 - inside)
+                         - 0.5 * stain - 0.5 * crack)  # fmt: skip
+    return Pattern(factor, smooth_step(streaks + stain, 0.0, 2.0), 0.3 * rough - pore - crack)
 
 
 def plaster() -> Pattern:

@@ -116,20 +116,22 @@ def cells(columns: int, salt: int, rows: int | None = None) -> tuple[Field, Fiel
         number in [0, 1) of the nearest one's cell; [SIDE, SIDE] each.
     """
     rows = columns if rows is None else rows
-    x, y = grid()
-    x, y = x * columns, y * rows
+    middle = (np.arange(SIDE) + 0.5) / SIDE
+    x, y = middle * columns, middle * rows
     column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-    nearest, second = np.full(x.shape, 9.0), np.full(x.shape, 9.0)
-    names = np.zeros(x.shape)
+    lattice = np.meshgrid(np.arange(columns), np.arange(rows))
+    right, low, name = (hashed(*lattice, salt + number) for number in range(3))
+    nearest, second = np.full((SIDE, SIDE), 9.0), np.full((SIDE, SIDE), 9.0)
+    names = np.zeros((SIDE, SIDE))
     for dj in (-1, 0, 1):
         for di in (-1, 0, 1):
-            i, j = (column + di) % columns, (row + dj) % rows
-            across = column + di + 0.1 + 0.8 * hashed(i, j, salt) - x
-            down = row + dj + 0.1 + 0.8 * hashed(i, j, salt + 1) - y
+            there = np.ix_((row + dj) % rows, (column + di) % columns)
+            across = (column + di + 0.1) + 0.8 * right[there] - x
+            down = (row + dj + 0.1)[:, None] + 0.8 * low[there] - y[:, None]
             distance = np.sqrt(across * across + down * down)
             is_nearer = distance < nearest
             second = np.where(is_nearer, nearest, np.minimum(second, distance))
-            names = np.where(is_nearer, hashed(i, j, salt + 2), names)
+            names = np.where(is_nearer, name[there], names)
             nearest = np.where(is_nearer, distance, nearest)
     return nearest, second, names
 

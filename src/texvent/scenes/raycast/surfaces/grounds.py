@@ -76,14 +76,17 @@ def soil() -> Pattern:
 
 
 def sand() -> Pattern:
-    """Grains, wind ripples, footprints smoothed by wind."""
+    """Grains, wind ripples, dents of feet smoothed by wind, shells and weed."""
     grains = fractal(24, 4, 61, gain=1.0)
-    ripples = fractal(3, 3, 62, gain=0.5, stretch=1)
+    hollows = fractal(3, 4, 62, gain=0.7)
     spots, _, chance = cells(26, 65)
     shells = (1.0 - smooth_step(spots, 0.10, 0.25)) * (smooth_step(chance, 0.8, 0.82) - 0.5)
-    waves = noise(2, 63, 22) + 0.7 * noise(5, 64, 34)
-    factor = exponential(0.20 * grains + 0.10 * ripples - 0.5 * shells)
-    return Pattern(factor, smooth_step(waves, -1.5, 1.5), 0.22 * grains + 0.9 * waves + ripples)
+    ripples = _ripples(22, 63)
+    dents = _dents(8, 10, 66)
+    factor = exponential(0.22 * grains + 0.10 * hollows + 0.16 * ripples - 0.45 * dents
+                         - 0.5 * shells)  # fmt: skip
+    height = 0.22 * grains + 1.1 * ripples + 1.5 * hollows - 4.0 * dents
+    return Pattern(factor, smooth_step(ripples + hollows, -2.0, 2.0), height)
 
 
 def gravel() -> Pattern:
@@ -112,11 +115,14 @@ def leaves() -> Pattern:
 
 
 def snow() -> Pattern:
-    """Drifts and crusts."""
+    """Drifts, ridges that the wind cuts, dents of feet, crusts."""
     drifts = fractal(2, 7, 91, gain=0.72)
-    return Pattern(
-        exponential(0.11 * fractal(4, 6, 92, gain=0.95)), smooth_step(drifts, -1.5, 1.5), drifts
-    )
+    crusts = fractal(6, 6, 92, gain=0.95)
+    ridges = _ripples(14, 93)
+    dents = _dents(10, 13, 94)
+    factor = exponential(0.15 * crusts + 0.10 * drifts + 0.14 * ridges - 0.40 * dents)
+    height = drifts + 0.25 * crusts + 1.2 * ridges - 5.0 * dents
+    return Pattern(factor, smooth_step(drifts + ridges, -2.0, 2.0), height)
 
 
 def paving() -> Pattern:
@@ -169,6 +175,19 @@ def water() -> Pattern:
     ripples = fractal(8, 5, 141, gain=0.8)
     glints = smooth_step(fractal(6, 5, 143, gain=0.8), 0.9, 1.9)
     return Pattern(exponential(0.35 * ripples), glints, ripples)
+
+
+def _ripples(count: int, salt: int) -> Field:
+    """Ridges across y that wind has made, that many per tile: they fork and fade."""
+    ridges = noise(3, salt, count) + 0.7 * noise(5, salt + 1, count + count // 2)
+    return np.asarray(ridges * (0.5 + 0.5 * smooth_step(noise(3, salt + 2), -1.0, 1.0)))
+
+
+def _dents(columns: int, rows: int, salt: int) -> Field:
+    """Dents as of feet, 0..1, in some of that many squares of a lattice."""
+    middle, _, chance = cells(columns, salt, rows)
+    ragged = middle + 0.05 * fractal(12, 4, salt + 5)
+    return (1.0 - smooth_step(ragged, 0.12, 0.42)) * smooth_step(chance, 0.35, 0.75)
 
 
 def _grain(salt: int) -> Field:

@@ -18,7 +18,7 @@ class Act:
 ACTS: Mapping[str, Act] = MappingProxyType(
     {
         **dict.fromkeys(("hold", "carry", "wear", "ride", "push", "pull"), Act()),
-        **dict.fromkeys(("kick", "hit", "throw", "catch"), Act(is_single=True)),
+        **dict.fromkeys(("kick", "hit", "throw", "catch", "collide"), Act(is_single=True)),
     }
 )
 """Relation kind → act."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import Affine, compose
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
@@ -54,6 +55,40 @@ class HeldAt:
             speed_m_s=holder.speed_m_s,
             activity=self.activity,
         )
+
+
+_UPRIGHT = 0.7
+"""Least z of a part's third axis for its axes to be those of what is on it."""
+
+
+@dataclass(frozen=True)
+class OnPart:
+    """At a fixed place of a part that moves in another body: the board of a swing."""
+
+    carrier: Trajectory
+    model: Model
+    part: int
+    """Index into the model's parts."""
+    place: Vector
+    """In the carrier's body coordinates when the clip begins, m."""
+    activity: str = "sit"
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        first, now = self._part(0.0), self._part(time_s)
+        turn = now[:, :3] @ np.linalg.inv(first[:, :3])
+        x, y, z = now[:, 3] + turn @ (np.array(self.place) - first[:, 3])
+        # A board's own axes say how far it is tipped; those of a rod say nothing of up.
+        axes = now[:, :3] / np.linalg.norm(now[:, :3], axis=0)
+        tipped = axes if axes[2, 2] > _UPRIGHT else turn
+        placed = compose(self.carrier.at(time_s).to_world(), np.column_stack([tipped, [x, y, z]]))
+        return replace(state_of(placed), activity=self.activity)
+
+    def _part(self, time_s: float) -> Affine:
+        """[3, 4] the part's map to the carrier's body coordinates."""
+        state = self.carrier.at(time_s)
+        pose = Pose(state.tempo * time_s, state.distance_m, state.speed_m_s, state.activity)
+        return np.asarray(self.model.parts(pose)[self.part].to_body)
 
 
 @dataclass(frozen=True)

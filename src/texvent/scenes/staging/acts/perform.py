@@ -10,7 +10,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import PROPS, Prop
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.actors import Actor, Tether, seeded
-from texvent.scenes.staging.acts import striking
+from texvent.scenes.staging.acts import colliding, striking
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
 from texvent.scenes.staging.acts.holding import (
@@ -30,7 +30,19 @@ from texvent.scenes.staging.acts.holding import (
 from texvent.scenes.staging.acts.riding import MOUNTS, mount
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
-_ORDER = ("ride", "push", "pull", "kick", "throw", "catch", "hit", "hold", "carry", "wear")
+_ORDER = (
+    "ride",
+    "push",
+    "pull",
+    "kick",
+    "throw",
+    "catch",
+    "hit",
+    "collide",
+    "hold",
+    "carry",
+    "wear",
+)
 """What moves bodies comes before what hangs on them."""
 
 
@@ -59,6 +71,8 @@ def settle_motions(
                 way = motion.direction if motion is not None else None
                 objects[subject] = replace(objects[subject], motion=ObjectMotion("walk", way))
             objects[target] = _still(objects[target])
+        elif relation.kind == "collide":
+            objects[subject], objects[target] = _still(objects[subject]), _still(objects[target])
         elif ACTS[relation.kind].is_single:
             way = _choose_way(objects[subject], objects[target], seed, subject)
             objects[subject] = replace(
@@ -245,6 +259,13 @@ class _Cast:
 def _perform(cast: _Cast, relation: Relation, duration_s: float) -> None:
     subjects = cast.copies(relation.subject)
     targets = cast.copies(relation.targets[0])
+    if relation.kind == "collide":
+        met = list(dict.fromkeys([*subjects, *targets]))
+        for one, two in zip(met[::2], met[1::2], strict=False):
+            first, second = colliding.collide(cast.get(one), cast.get(two), duration_s)
+            cast.put(one, first)
+            cast.put(two, second)
+        return
     others = cast.copies(relation.targets[1]) if len(relation.targets) > 1 else []
     for turn, target in enumerate(targets):
         if not subjects:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -12,9 +13,15 @@ from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
-from texvent.scenes.staging.camera.framed_points import INSTANTS, choose_points
+from texvent.scenes.staging.camera.framed_points import (
+    INSTANTS,
+    TOGETHER,
+    list_related,
+    list_views,
+)
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
 from texvent.scenes.staging.camera.view_angles import choose_angles
 from texvent.scenes.staging.environment import is_room
 
@@ -22,12 +29,14 @@ SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
 TRACKING_LENGTHS = 4.5
 """An object that covers more of its own lengths in the clip is followed from the side."""
-LEAST_SHARE = 0.16
-"""Share of the image's width that a moving subject extends over at least, on average."""
+_SMALL = 0.5
+"""Prominence below which a subject is followed that all others go along with."""
+_TINY = 0.35
+"""Prominence below which it is followed, whatever else moves."""
 SLOWEST = 0.16
 """What crosses fewer image widths per second is followed from the side."""
 _WORTH = 1.15
-"""How much larger the subject must become for less of the rest to be shown."""
+"""How much larger the subject must become for the camera to follow it."""
 _OUTSIDE_SHARES = (0.3, 0.38, 0.46, 0.54, 0.62, 0.7)
 """Shares of the clip at whose beginning or end what enters or leaves may be out of the picture."""
 _VISIBLE_SHARE = 0.97
@@ -80,69 +89,77 @@ def _frame(
     place: str,
     how: tuple[int, float, float],
 ) -> CameraPath:
-    """The nearest camera that shows what matters; alone or followed, what would else be tiny."""
+    """The camera from which the subject is large enough; followed where it is small or creeps."""
     duration_s = how[2]
     is_said = bool(description.shot.moves) or description.shot.framing == "wide"
     is_said |= _has_landmark(description, main)
-    attempts = [(True, moves)] if main.is_mover else []
-    if main.is_mover and not is_said and _stay_together(actors, main, duration_s):
-        attempts.append((True, (CameraMove("follow", "side"),)))
-    path = _fit_path(description, actors, main, (False, moves), place, how)
-    share = _share_of_image(path, main)
-    if share >= LEAST_SHARE and len(attempts) > 1 and _creeps(path, main):
-        return _fit_path(description, actors, main, attempts[1], place, how)
-    for attempt in attempts:
-        if share >= LEAST_SHARE:
-            break
-        tried = _fit_path(description, actors, main, attempt, place, how)
-        if _share_of_image(tried, main) > _WORTH * share:
-            path, share = tried, _share_of_image(tried, main)
-    return path
+    path = _fit_path(description, actors, main, moves, place, how)
+    if is_said or not main.is_mover:
+        return path
+    copies = [actor for actor in actors if actor.object_index == main.object_index]
+    prominence = Prominence.of(copies, np.linspace(0.0, duration_s, INSTANTS), how[1])
+    size = prominence(path)
+    is_tiny, is_small = size < _TINY, size < _SMALL or _creeps(path, main)
+    if not (is_tiny or (is_small and _stay_together(actors, main, duration_s))):
+        return path
+    followed = _fit_path(description, actors, main, (CameraMove("follow", "side"),), place, how)
+    least = _WORTH if size < _SMALL else 1.0 / _WORTH
+    return followed if prominence(followed) > least * size else path
 
 
 def _fit_path(
     description: SceneDescription,
     actors: Sequence[Actor],
     main: Actor,
-    attempt: tuple[bool, tuple[CameraMove, ...]],
+    moves: tuple[CameraMove, ...],
     place: str,
     how: tuple[int, float, float],
 ) -> CameraPath:
-    """The nearest camera for an attempt: whether only what moves counts, and the moves.
+    """The widest camera with a large subject, for moves.
 
     `how` are the seed, the image's height over its width, and the length of the clip, s.
     """
     seed, aspect, duration_s = how
-    is_alone, moves = attempt
     has_floor = place not in ("sky", "space")
     is_open = has_floor and place != "underwater" and not is_room(place)
     azimuth, elevation = choose_angles(description, main, moves, place, seed)
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
-    paths: list[CameraPath] = []
-    for times in _instants(main, duration_s):
-        points, fill = choose_points(description, actors, main, moves, times, is_alone=is_alone)
-        framing = fit(
-            points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift
-        )
-        path = CameraPath(
+    copies = [actor for actor in actors if actor.object_index == main.object_index]
+
+    def path_of(framing: Framing) -> CameraPath:
+        return CameraPath(
             framing, moves, duration_s, main.trajectory, main.noun.habitat != "ground",
             has_floor, subject_corners=main.corners,
         )  # fmt: skip
-        paths.append(path)
-        if _begins_and_ends_outside(path, main, aspect):
+
+    paths: list[CameraPath] = []
+    for times in _instants(main, duration_s):
+        views = list_views(description, actors, main, moves, times)
+        framings = [
+            fit(view.points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=view.fill,
+                lift=lift)
+            for view in views
+        ]  # fmt: skip
+        goals = [view.goal for view in views[1:]]
+        prominence = Prominence.of(copies, times, aspect)
+        known = {main.object_index, *list_related(description, main)}
+        others = [actor for actor in actors if actor.object_index not in known]
+        is_clear = partial(has_clear_view, main=main, others=others, times=times, aspect=aspect)
+        paths.append(come_near(framings, path_of, prominence, goals, is_clear))
+        if _begins_and_ends_outside(paths[-1], main, aspect):
             break
     return paths[-1]
 
 
-_LANDMARKS = frozenset(
-    {"through", "past", "from", "towards", "away from", "behind", "under", "between", "front"}
-)
+_LANDMARKS = TOGETHER | {"through", "past", "from", "towards", "away from"}
 
 
-def _has_landmark(description: SceneDescription, main: Actor) -> bool:
+def _has_landmark(
+    description: SceneDescription, main: Actor, kinds: frozenset[str] = _LANDMARKS
+) -> bool:
     """Whether the subject moves with respect to something that must stay in the picture."""
     return any(
-        relation.kind in _LANDMARKS and relation.subject == main.object_index
+        relation.kind in kinds and relation.subject == main.object_index
         for relation in description.relations
     )
 
@@ -207,16 +224,6 @@ def _begins_and_ends_outside(path: CameraPath, main: Actor, aspect: float) -> bo
         if not (np.any(low > half) or np.any(high < -half)):
             return False
     return True
-
-
-def _share_of_image(path: CameraPath, main: Actor) -> float:
-    """Mean extent of the subject, image widths."""
-    times = np.linspace(0.0, path.duration_s, INSTANTS)
-    extents = []
-    for time in times:
-        seen = _project(path, main.corners(float(time)), float(time))
-        extents.append(float(np.ptp(seen[:, :2], axis=0).max()))
-    return float(np.mean(extents))
 
 
 def _keep_in_view(
@@ -300,12 +307,19 @@ def _travel(
 
 
 def _choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
-    """The object the camera is about: as said, or the first that moves."""
+    """The object the camera is about: as said, or the first that moves or could."""
     target = description.shot.target
     for actor in actors:
         if target is not None and actor.object_index == target:
             return actor
-    return next((actor for actor in actors if actor.is_mover), actors[0])
+    if any(actor.enters or actor.leaves for actor in actors):
+        return next(actor for actor in actors if actor.enters or actor.leaves)
+    able = (actor for actor in actors if actor.is_mover or _is_able(actor))
+    return next(able, actors[0])
+
+
+def _is_able(actor: Actor) -> bool:
+    return actor.noun.speed_m_s > 0.0 and actor.noun.habitat != "fixed"
 
 
 def _plan_moves(
@@ -317,6 +331,8 @@ def _plan_moves(
     span = max(main.model.length, main.model.height)
     start, end = main.middle(0.0), main.middle(duration_s)
     travel = float(np.hypot(*(end - start)[:2]))
+    if _has_landmark(description, main, TOGETHER):
+        return ()
     if main.is_mover and travel > TRACKING_LENGTHS * span:
         return (CameraMove("follow", "side"),)
     return ()

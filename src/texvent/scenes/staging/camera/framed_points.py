@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.prominence import GOALS
 
 FILL = 0.84
 """Share of the image that what matters may fill."""
@@ -20,22 +22,38 @@ WHOLE = 3.5
 INSTANTS = 13
 _FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
                  "crane": 0.7, "handheld": 0.78, "roll": 0.7, "dolly zoom": 0.6}  # fmt: skip
+_LARGE_IN_WIDE = 0.6
+"""How much less prominent the subject is in a wide shot."""
+_LARGE_AIM = 1.3
+"""Prominence of what a camera moves in on, at least."""
+_WIDE_FILL = 0.55
+_FAR_FILL = 1.3
+"""The same at the near end of a move in: at the far end all fits."""
 _APPROACHES = frozenset({"zoom", "dolly", "dolly zoom"})
 TYING = frozenset({"follow", "orbit"})
 """Moves that go along with the subject."""
 _TURNING = frozenset({"behind", "front"})
 
 
-def choose_points(
+class View(NamedTuple):
+    """What the image is to hold."""
+
+    points: Float64Array
+    """[n, 3] m."""
+    fill: float
+    """Share of the image that they may fill."""
+    goal: float = 1.0
+    """Prominence of the subject for which the image may hold no more than this."""
+
+
+def list_views(
     description: SceneDescription,
     actors: Sequence[Actor],
     main: Actor,
     moves: Sequence[CameraMove],
     times: Float64Array,
-    *,
-    is_alone: bool = False,
-) -> tuple[Float64Array, float]:
-    """What must fit the image.
+) -> list[View]:
+    """What the image may hold, from all there is to the subject alone.
 
     Args:
         description: what the prompt says of the camera.
@@ -43,32 +61,42 @@ def choose_points(
         main: the subject.
         moves: of the camera.
         times: instants at which it must fit, s.
-        is_alone: whether only what moves counts.
-
-    Returns:
-        [n, 3] points, m, and the share of the image that they may fill.
     """
     shot = description.shot
-    follows = any(move.kind in TYING for move in moves) and main.is_mover
-    approaches = any(move.kind in _APPROACHES for move in moves)
-    is_aimed = approaches and main.object_index == shot.target
-    if is_aimed or shot.framing == "close":
-        is_still = follows and not is_aimed
-        points = [main.corners(float(time)) for time in (times[:1] if is_still else times)]
-        return np.vstack(points), 0.55 if is_aimed else 0.95
-    shown = [a for a in actors if a.is_mover or a is main] if is_alone else actors
-    points_to_frame = _points_of(description, shown, main, times, moves if follows else ())
-    if is_alone and not follows:
-        is_through = any(relation.kind == "through" for relation in description.relations)
-        reach = main.size_m * (1.6 if is_through else 0.5)
-        near = [_near_piece(a, main, times, reach) for a in _related(description, actors, main)]
-        points_to_frame = np.vstack([points_to_frame, *near])
-    if shot.framing == "wide":
-        return points_to_frame, 0.45
+    tying = moves if any(move.kind in TYING for move in moves) and main.is_mover else ()
+    aims = is_aimed(description, main, moves)
+    if aims or shot.framing == "close":
+        is_still = bool(tying) and not aims
+        near = np.vstack([main.corners(float(t)) for t in (times[:1] if is_still else times)])
+        if not aims:
+            return [View(near, 0.95)]
+        # At the far end of the move the image shows what else there is, about the subject.
+        rest = _points_of(description, actors, main, times, ())
+        aim = 0.5 * (near.min(axis=0) + near.max(axis=0))
+        return [View(np.vstack([rest, 2.0 * aim - rest]), _FAR_FILL), View(near, 0.55, _LARGE_AIM)]
     fill = min([FILL, *(_FILL_BY_MOVE.get(move.kind, FILL) for move in moves)])
-    if follows:
-        fill = min(fill, 0.56)
-    return points_to_frame, fill
+    fill = min(fill, 0.56) if tying else fill
+    fill = _WIDE_FILL if shot.framing == "wide" else fill
+    partners = _list_partners_of(description, actors, main, times)
+    group = [actor for actor in actors if actor.object_index == main.object_index]
+    others = [actor for actor in actors if actor not in group]
+    kept = [a for a in partners if _goes(a, times) and a.size_m <= WHOLE * main.size_m]
+    if main.is_mover:
+        others = [actor for actor in others if actor in kept or _goes(actor, times)]
+    views = [list(actors), [*group, *others], [*group, *kept]]
+    choices = [_points_of(description, some, main, times, tying) for some in views]
+    if not tying:
+        pieces = _pieces_of(description, [a for a in partners if a not in kept], main, times)
+        choices = [choices[0], *(np.vstack([points, *pieces]) for points in choices[1:])]
+    least = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
+    goals = (1.0, *GOALS)
+    return [View(points, fill, least * goal) for points, goal in zip(choices, goals, strict=True)]
+
+
+def is_aimed(description: SceneDescription, main: Actor, moves: Sequence[CameraMove]) -> bool:
+    """Whether the camera moves in on the subject, or out from it."""
+    approaches = any(move.kind in _APPROACHES for move in moves)
+    return approaches and main.object_index == description.shot.target
 
 
 def _points_of(
@@ -91,10 +119,14 @@ def _points_of(
         if relation.kind in ("past", "among", "overtake", "through")
         for target in relation.targets
     }
+    partners = _list_partners(description, actors)
     points = []
     for actor in actors:
         is_far = description.objects[actor.object_index].side == "far"
         if actor is not main and (is_far or (tying and not actor.is_mover)):
+            continue
+        if actor is not main and actor.object_index in partners:
+            points.append(_piece_beside(actor, partners[actor.object_index], times))
             continue
         limit = math.inf if actor in movers else _limit_extent(actor, passed, largest)
         for time in times:
@@ -121,16 +153,111 @@ def to_subject(
     return np.asarray(points + then)
 
 
-def _related(description: SceneDescription, actors: Sequence[Actor], main: Actor) -> list[Actor]:
-    """What the subject has to do with, and does not move itself."""
-    targets = {
-        target
+TOGETHER = frozenset(
+    {"on", "in", "above", "under", "behind", "front", "beside", "between", "around", "left of",
+     "right of"}
+)  # fmt: skip
+"""Relations of which both things must be in the picture."""
+_RECOGNISED = 0.35
+_REACH_OF_PARTNER = 0.8
+"""How much of a partner must be seen each way from the subject: the lesser of a share of its own
+size and a multiple of the subject's."""
+_STIRS = 0.25
+"""How far, in its own sizes, a thing that works in its place may stir."""
+_CLOSE = 2.0
+"""What is named next belongs to the subject within this multiple of the subject's size."""
+_MUCH_LARGER = 6.0
+_PIECE = 0.3
+_REACH = 4.0
+"""How much of a much larger thing must be seen each way from what is beside it: the lesser of a
+share of its own size and a multiple of the other's."""
+
+
+def _list_partners(description: SceneDescription, actors: Sequence[Actor]) -> dict[int, Actor]:
+    """Object at rest → the smallest thing that the prompt places with respect to it."""
+    by_object = {actor.object_index: actor for actor in reversed(actors)}
+    partners: dict[int, Actor] = {}
+    for relation in description.relations:
+        if relation.kind not in TOGETHER:
+            continue
+        for one, other in [(relation.subject, t) for t in relation.targets]:
+            for large, small in ((one, other), (other, one)):
+                if {large, small} <= set(by_object) and not by_object[large].is_mover:
+                    known = partners.get(large, by_object[small])
+                    partners[large] = min(known, by_object[small], key=lambda actor: actor.size_m)
+    return partners
+
+
+def _piece_beside(actor: Actor, partner: Actor, times: Float64Array) -> Float64Array:
+    """[n, 3] the whole of an object at rest, or of a much larger one a piece by its partner, m."""
+    if actor.size_m <= _MUCH_LARGER * partner.size_m:
+        return np.vstack([actor.corners(float(time)) for time in times])
+    reach = min(_PIECE * actor.size_m, _REACH * partner.size_m)
+    return _near_piece(actor, partner, times, reach)
+
+
+def _goes(actor: Actor, times: Float64Array) -> bool:
+    """Whether it moves from where it is; a lighthouse and a swing only work there."""
+    if not actor.is_mover or actor.noun.habitat != "fixed":
+        return actor.is_mover
+    places = [actor.middle(float(time)) for time in times]
+    return float(np.ptp(places, axis=0).max()) > _STIRS * actor.size_m
+
+
+def list_related(description: SceneDescription, main: Actor) -> set[int]:
+    """The objects that a relation ties to the subject."""
+    related = {
+        index
         for relation in description.relations
-        if relation.subject == main.object_index
-        for target in relation.targets
-        if description.objects[target].side != "far"
+        if main.object_index in (relation.subject, *relation.targets)
+        for index in (relation.subject, *relation.targets)
     }
-    return [a for a in actors if a.object_index in targets and not a.is_mover]
+    return related - {main.object_index}
+
+
+def _list_partners_of(
+    description: SceneDescription, actors: Sequence[Actor], main: Actor, times: Float64Array
+) -> list[Actor]:
+    """What a relation ties to the subject, or what is named next, close and not much larger."""
+    related = list_related(description, main)
+
+    def belongs(actor: Actor) -> bool:
+        is_next = actor.object_index == main.object_index + 1
+        is_next = is_next and actor.size_m <= WHOLE * main.size_m
+        return is_next and _gap(actor, main, times) < _CLOSE * main.size_m
+
+    return [
+        actor
+        for actor in actors
+        if description.objects[actor.object_index].side != "far"
+        and (actor.object_index in related or belongs(actor))
+    ]
+
+
+def _gap(actor: Actor, main: Actor, times: Float64Array) -> float:
+    """Least distance between the subject's middle and the other's box, m."""
+    gaps = []
+    for time in map(float, times):
+        box, middle = actor.corners(time), main.middle(time)
+        nearest = np.clip(middle, box.min(axis=0), box.max(axis=0))
+        gaps.append(float(np.linalg.norm(nearest - middle)))
+    return min(gaps)
+
+
+def _pieces_of(
+    description: SceneDescription, partners: Sequence[Actor], main: Actor, times: Float64Array
+) -> list[Float64Array]:
+    """As much of the nearest copy of each partner as it takes to recognise it, m."""
+    kinds = {relation.kind for relation in description.relations}
+    least = main.size_m * (1.6 if "through" in kinds else 0.5)
+    nearest: dict[int, Actor] = {}
+    for actor in sorted(partners, key=lambda one: _gap(one, main, times)):
+        nearest.setdefault(actor.object_index, actor)
+    pieces = []
+    for actor in nearest.values():
+        reach = min(_RECOGNISED * actor.size_m, _REACH_OF_PARTNER * main.size_m)
+        pieces.append(_near_piece(actor, main, times, max(reach, least)))
+    return pieces
 
 
 def _near_piece(actor: Actor, main: Actor, times: Float64Array, reach: float) -> Float64Array:

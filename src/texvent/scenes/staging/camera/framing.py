@@ -49,11 +49,9 @@ def look_at(position: Float64Array, target: Float64Array, focal: float) -> Camer
     forward = forward / np.linalg.norm(forward)
     right = np.array([forward[1], -forward[0], 0.0])
     right = right / max(float(np.linalg.norm(right)), 1e-9)
-    return Camera(
-        np.asarray(position, dtype=np.float64),
-        np.stack([right, np.cross(forward, right), forward]),
-        focal,
-    )
+    (fx, fy, fz), (rx, ry, rz) = forward, right
+    down = (fy * rz - fz * ry, fz * rx - fx * rz, fx * ry - fy * rx)
+    return Camera(np.asarray(position, dtype=np.float64), np.array([right, down, forward]), focal)
 
 
 def fit(

@@ -36,6 +36,8 @@ class ObjectGroup:
     clear_m: float = 0.0
     """Height of what it jumps over, m."""
     carrier: ObjectGroup | None = None
+    carried_on: int | None = None
+    """Index of the part of the carrier's model that it is on, where that part moves."""
     grips: tuple[tuple[str, Vector], ...] = ()
     """`Pose.grips` of those who rest on something."""
     orbits: ObjectGroup | None = None
@@ -121,6 +123,21 @@ def half_extents_over_clip(
     if plan.motion.direction == "circle":
         travel = np.array([1.3, 1.3, 0.0]) * max(model.length, model.width)
     return np.asarray(half + spread + travel)
+
+
+def part_in_midst(group: ObjectGroup, room_m: float) -> None:
+    """Set the copies of a group in two rows, left and right of a gap of twice that room."""
+    count, model = len(group.models), group.models[0]
+    if count < 2:
+        return
+    across = 1.3 * max(model.length, model.width)
+    group.offsets = []
+    for number in range(count):
+        row, side = number // 2, -1.0 if number % 2 == 0 else 1.0
+        rows = (count + 1 - number % 2) // 2
+        aside = side * (room_m + 0.5 * max(model.length, model.width))
+        group.offsets.append((aside, (row - 0.5 * (rows - 1)) * across, 0.0))
+    group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
 
 
 def overlap(centre: Float64Array, group: ObjectGroup, other: ObjectGroup) -> bool:

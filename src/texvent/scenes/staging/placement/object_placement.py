@@ -18,17 +18,20 @@ from texvent.scenes.models.shapes import post
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.attached import Performed
+from texvent.scenes.staging.acts.attached import OnPart, Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
+from texvent.scenes.staging.placement.fitting import fit_contents
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     half_extents_over_clip,
     overlap,
+    part_in_midst,
     place_copies,
 )
 from texvent.scenes.staging.placement.spatial_relations import (
+    INVERSE,
     Goal,
     place_by_subject,
     place_on_targets,
@@ -62,7 +65,7 @@ class ObjectPlacer:
         level_m: Mapping[str, float],
         travel: TravelPlan | None = None,
     ) -> None:
-        self._description = settle_motions(description, nouns, seed)
+        self._description = fit_contents(settle_motions(description, nouns, seed), nouns)
         self._nouns = nouns
         self._seed = seed
         self._duration_s = duration_s
@@ -178,6 +181,10 @@ class ObjectPlacer:
                     if other.kind == relation.kind and other.targets == relation.targets
                 ]
                 return place_on_targets(group, relation.kind, targets, height, shared)
+        for relation in related:
+            if relation.kind in INVERSE and relation.targets[0] in self.groups:
+                target = self.groups[relation.targets[0]]
+                return place_by_subject(group, INVERSE[relation.kind], target, height)
         for relation in self._description.relations:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
@@ -199,14 +206,18 @@ class ObjectPlacer:
         return Goal(wanted, np.array([1.0, 0.35, 0.0]))
 
     def _spread_apart(self, group: ObjectGroup) -> float:
-        """Metres to the side that leave room for what is to stand between this and another."""
+        """Metres to the side that leave room for what is to stand between this and another.
+
+        Between the copies of one object the room is in their midst.
+        """
         for relation in self._description.relations:
-            if relation.kind == "between" and len(relation.targets) > 1:
-                if group.index not in relation.targets:
-                    continue
-                middle = self.build_group(relation.subject)
+            if relation.kind != "between" or group.index not in relation.targets:
+                continue
+            room = float(self.build_group(relation.subject).half[0]) + 0.4
+            if len(relation.targets) > 1:
                 side = -1.0 if relation.targets.index(group.index) == 0 else 1.0
-                return float(side * (group.half[0] + middle.half[0] + 0.4))
+                return side * (float(group.half[0]) + room)
+            part_in_midst(group, room)
         return 0.0
 
     def _stagger(self, group: ObjectGroup) -> float:
@@ -300,6 +311,9 @@ class ObjectPlacer:
             offset = np.array(home) - group.carrier.centre
             turned = _unturn(offset, group.carrier.plan.yaw)
             activity = group.plan.gesture or "sit"
+            if group.carried_on is not None:
+                on = OnPart(carrier, group.carrier.models[0], group.carried_on, turned, activity)
+                return _gripping(on, group)
             return _gripping(Riding(carrier, turned, activity), group)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
         path = choose_trajectory(plan, model, home, rng, clear_m=group.clear_m)

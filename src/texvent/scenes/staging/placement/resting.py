@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.activities import DONE_SEATED, PERSON_NOUNS, SEATED, SEATS
 from texvent.scenes.models.people.daily import SEAT
 from texvent.scenes.models.people.posture import ANKLE
 from texvent.scenes.models.protocol import Pose
-from texvent.scenes.models.shapes import half_extents
+from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.support_surface import Support, find_support, top_heights
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
@@ -19,7 +19,9 @@ from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_ext
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _SEEN_SHARE = 0.6
-"""Share of what is in something that looks out of it."""
+"""Share of the height of what is in something that looks out of it."""
+_ALIVE_SHARE = 0.75
+"""The same of an animal, whose ears and antlers reach above its head."""
 _CLOSED = frozenset({"car", "suv", "taxi", "police car", "van", "bus", "truck", "train", "pickup",
                      "fire engine", "airplane", "helicopter", "house", "building"})  # fmt: skip
 """What hides who is in it."""
@@ -38,18 +40,23 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     """
     if target.plan.motion.is_moving:
         group.carrier = target
-    support = _find_surface(target)
+    sits = _sits(group, target)
+    support = _find_seat(target) if sits else _find_surface(target)
     scale = float(getattr(group.models[0], "scale", 1.0))
     is_person = group.noun.name in PERSON_NOUNS
     kind = group.plan.motion.kind
     _line_up(group, target, support, neighbours)
     x, y = support.middle
     height = support.height + _origin_height(group)
-    if is_person and (kind in ("sit", "drive", "sail") or group.carrier is not None):
+    if sits:
+        part = _moving_part(target, (x, y))
+        if part is not None:
+            group.carrier, group.carried_on = target, part
         height = support.height - SEAT * scale
-        if support.high[0] > support.low[0]:
+        if part is None and support.high[0] > support.low[0]:
             x = max(x, support.high[0] - 0.40 * scale)
-        group.plan = replace(group.plan, yaw=target.plan.yaw, gesture="sit")
+        doing = SEATED + kind if kind in DONE_SEATED else "sit"
+        group.plan = replace(group.plan, yaw=target.plan.yaw, gesture=doing)
         group.grips = _feet_on_ground(height, scale) if -0.3 < height < 0.0 else ()
     elif is_person and kind == "lie":
         group.plan = replace(group.plan, yaw=_lying_yaw(target), gesture="lie")
@@ -75,9 +82,38 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     place = rest_on(group, target, neighbours)
     own, deep = group.models[0].height, target.models[0].height
     top = _find_surface(target).height
-    low = max(top - (1.0 - _SEEN_SHARE) * own, 0.08 * deep)
+    seen = _SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
+    low = max(top - (1.0 - seen) * own, 0.08 * deep)
     base = target.centre[2] + low + _origin_height(group)
     return np.array([place[0], place[1], base])
+
+
+def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
+    """Whether somebody sits there: on a seat, unless the prompt has them stand, lie or jump."""
+    if group.noun.name not in PERSON_NOUNS:
+        return False
+    kind = group.plan.motion.kind
+    is_seat = target.noun.name in SEATS and kind in DONE_SEATED
+    return is_seat or kind in ("sit", "drive", "sail") or group.carrier is not None
+
+
+def _find_seat(target: ObjectGroup) -> Support:
+    """Where one sits on it: a level surface about as high as a chair's, else the largest."""
+    if target.noun.name not in SEATS:
+        return _find_surface(target)
+    scale = float(getattr(target.models[0], "scale", 1.0))
+    return find_support(target.models[0], near_m=SEAT * scale)
+
+
+def _moving_part(target: ObjectGroup, place: tuple[float, float]) -> int | None:
+    """Index of the part at a place of the surface, if it moves in the model: a swing's board."""
+    model = target.models[0]
+    first, later = (model.parts(Pose(time, 0.0, 0.0, "stand")) for time in (0.0, 0.61))
+    x, y = (np.array([value]) for value in place)
+    tops = [float(top_heights([part], x, y)[0]) for part in first]
+    number = int(np.argmax(tops))
+    is_still = np.allclose(first[number].to_body, later[number].to_body)
+    return None if is_still else number
 
 
 def _find_surface(target: ObjectGroup) -> Support:
@@ -139,7 +175,7 @@ def _origin_height(group: ObjectGroup) -> float:
     if not is_centred(group.noun):
         return 0.0
     parts = group.models[0].parts(Pose(0.0, 0.0, 0.0, "sit"))
-    return -float(min(half_extents(part.shape, part.to_body)[0][2] for part in parts))
+    return -float(bounds(parts)[0][2])
 
 
 def _in_world(target: ObjectGroup, place: Vector) -> Float64Array:

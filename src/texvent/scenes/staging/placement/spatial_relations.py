@@ -9,11 +9,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from texvent.scenes.description import STANDING
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
+    half_extents_over_clip,
 )
 from texvent.scenes.staging.placement.resting import rest_in, rest_on
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
@@ -115,8 +117,10 @@ _UNDERSIDES = {"chair": 0.42, "sofa": 0.15, "bed": 0.25, "bench": 0.42, "bridge"
 
 
 def _place_between(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
+    """In the middle, where `object_placement` has left room between them."""
     middle = np.mean([target.centre for target in targets], axis=0)
-    return Goal(np.array([middle[0], middle[1], height]), -_AWAY)
+    slide = _FIXED if len(targets) == 1 else -_AWAY
+    return Goal(np.array([middle[0], middle[1], height]), slide)
 
 
 def _place_behind(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
@@ -192,14 +196,49 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "away from": away,
         "overtake": (0.0, y + 0.3, _AWAY),
         "past": (x + 0.3, 0.0, _ALONG_X),
-        "behind": (-0.55 * x, -y, -_AWAY),
-        "front": (0.0, y, _AWAY),
+        "behind": (-_look_past(subject, group, y), -y, -_AWAY),
+        "front": (_look_past(group, subject, y), y, _AWAY),
         "left of": (x, 0.0, _ALONG_X),
         "right of": (-x, 0.0, -_ALONG_X),
         "towards": (x * math.cos(yaw), y * math.sin(yaw), _AWAY),
     }
     right, away, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, away), slide)
+
+
+_COVERED = 0.55
+"""Share of what stands behind that may be hidden where it stands right behind."""
+_TURN = 0.14
+"""How far the camera may stand aside, radians."""
+_DISTANCE = 2.6
+"""Of the camera, in half widths of all it shows."""
+
+
+def _look_past(rear: ObjectGroup, front: ObjectGroup, apart_m: float) -> float:
+    """Metres to the right at which what stands behind is seen past the edge of what is before it.
+
+    0 where enough of it is seen above and beside. Otherwise its middle is at the edge as the
+    camera sees it: further to the right the further it stands behind.
+    """
+    back, near = _half_at_rest(rear), _half_at_rest(front)
+    covered = min(1.0, near[0] / back[0]) * min(1.0, near[2] / back[2])
+    if covered <= _COVERED:
+        return 0.0
+    deep = apart_m + float(near[1])
+    edge = float(near[0])
+    aside = max(edge - float(back[0]), 0.0) / (_DISTANCE * float(near[0] + back[0]))
+    return edge + deep * (_TURN + aside)
+
+
+def _half_at_rest(group: ObjectGroup) -> Float64Array:
+    """[3] half extents of all copies where they stand, without their way, m."""
+    plan = replace(group.plan, motion=STANDING, path=None)
+    return half_extents_over_clip(group.models, group.offsets, plan)
+
+
+INVERSE = {"behind": "front", "front": "behind", "left of": "right of", "right of": "left of",
+           "beside": "beside"}  # fmt: skip
+"""Relation of a subject to its target → that of the target to the subject."""
 
 
 def _shift(place: Float64Array, x: float, y: float) -> Float64Array:

@@ -327,7 +327,7 @@ def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
         return Bounce((x, y, z + height), z, along_m_s=along, yaw=plan.yaw, restitution=0.82)
     if kind == "fall":
         height = 0.5 * GRAVITY_M_S2 * (0.45 * plan.duration_s) ** 2
-        height = min(max(height, 1.5 * model.height), max(3.0 * model.height, 1.4))
+        height = min(max(height, model.height), max(1.2 * model.height, 0.5))
         wait = 0.1 * plan.duration_s
         return Bounce(
             (x, y, z + height), z, yaw=plan.yaw, restitution=0.3, start_s=wait, pivot_m=pivot

@@ -95,7 +95,7 @@ NOUNS = placed("indoor", (
         box(PALE, (0.016, -0.02, 0.034), (0.008, 0.025, 0.012)),
         *(rod(toned(p, 2.0), (0.0, y, 0.03), (0.0, y + 0.006, 0.03), 0.0186)
             for y in (-0.10, -0.08, -0.06))],
-        ("torch light", "electric torch", "torchlight", "headlamp")),
+        ("torch light", "electric torch", "torchlight")),
     thing("desk lamp", ((0.50, 0.04, 0.03), BLACKISH, (0.05, 0.20, 0.45)), lambda p: [
         post(p, (0.0, 0.0, 0.012), (0.18, 0.18, 0.024)),
         *chain(SILVER, [(0.0, 0.0, 0.02), (0.0, -0.14, 0.22), (0.0, 0.02, 0.42)], 0.010),
@@ -104,7 +104,7 @@ NOUNS = placed("indoor", (
         ball(p, (0.0, -0.14, 0.22), (0.03, 0.03, 0.03))],
         ("table lamp", "reading lamp", "study lamp", "bedside lamp")),
     thing("lantern", (IRON.colour, (0.45, 0.04, 0.03)), _lantern,
-        ("oil lamp", "kerosene lamp", "storm lantern")),
+        ("oil lamp", "kerosene lamp")),
     thing("paper lantern", ((0.75, 0.06, 0.03),), lambda p: [
         ball(Material(p.colour, emission=0.8), (0.0, 0.0, 0.24), (0.34, 0.34, 0.30)),
         *(post(BRASS, (0.0, 0.0, z), (0.13, 0.13, 0.03)) for z in (0.09, 0.39)),
@@ -119,7 +119,7 @@ NOUNS = placed("indoor", (
     thing("neon tube", ((0.95, 0.10, 0.45), (0.10, 0.75, 0.85)), lambda p: [
         rod(Material(p.colour, emission=2.5), (0.0, -0.55, 0.06), (0.0, 0.55, 0.06), 0.02),
         *(box(PALE, (0.0, y, 0.04), (0.06, 0.06, 0.08)) for y in (0.57, -0.57))],
-        ("neon lamp", "fluorescent tube", "light tube", "neon sign")),
+        ("neon lamp", "fluorescent tube", "light tube")),
     thing("spotlight lamp", (BLACKISH,), lambda p: [
         *(rod(IRON, (0.0, 0.0, 0.55), (x, y, 0.0), 0.014) for x,
             y in ((0.3, 0.2), (0.3, -0.2), (-0.3, 0.0))),

@@ -96,7 +96,7 @@ NOUNS = placed("indoor", (
         box(toned(p, 0.7), (0.052, 0.0, 0.17), (0.015, 0.30, 0.09)),
         ball(BRASS, (0.062, 0.0, 0.135), (0.01, 0.03, 0.03)),
         *ring(toned(p, 0.6), (0.0, 0.0, 0.22), (0.09, 0.14), 0.009, span=(0.0, 180.0), pieces=9)],
-        ("purse", "bag", "shoulder bag", "tote bag")),
+        ("purse",)),
     thing("suitcase", ((0.05, 0.16, 0.40), (0.50, 0.05, 0.04), BLACKISH), lambda p: [
         box(p, (0.0, 0.0, 0.36), (0.24, 0.44, 0.62)),
         *(box(toned(p, 0.65), (0.0, y, 0.36), (0.25, 0.022, 0.60))
@@ -104,7 +104,7 @@ NOUNS = placed("indoor", (
         *(rod(SILVER, (-0.08, y, 0.66), (-0.08, y, 0.98), 0.010) for y in (0.09, -0.09)),
         bar(INK, (-0.11, 0.99), (0.11, 0.99), 0.03, 0.03, -0.08),
         *(disc(INK, (y, 0.03), 0.03, 0.03, x) for x in (0.08, -0.08) for y in (0.18, -0.18))],
-        ("luggage", "trolley case", "baggage", "travel bag")),
+        ("luggage", "trolley case")),
     thing("briefcase", (LEATHER.colour, BLACKISH), lambda p: [
         box(p, (0.0, 0.0, 0.16), (0.10, 0.44, 0.32)),
         box(toned(p, 0.5), (0.0, 0.0, 0.24), (0.104, 0.44, 0.01)),
@@ -117,7 +117,7 @@ NOUNS = placed("indoor", (
         disc(RED_PAINT, (0.0, 0.18), 0.07, 0.006, 0.07),
         *(part for x in (0.06, -0.06)
             for part in ring(toned(p, 0.6), (x, 0.0, 0.36), (0.06, 0.10), 0.005, span=(0.0, 180.0),
-                pieces=8))], ("paper bag", "carrier bag", "grocery bag")),
+                pieces=8))], ("carrier bag",)),
     thing("tie", _CLOTH, lambda p: lying([
         ball(p, (0.0, 0.0, 0.52), (0.022, 0.05, 0.045)),
         bar(p, (0.0, 0.09), (0.0, 0.51), 0.055, 0.008),
@@ -125,30 +125,29 @@ NOUNS = placed("indoor", (
         *(bar(PALE, (-0.034, z), (0.034, z + 0.05), 0.012, 0.011)
             for z in (0.10, 0.18, 0.26, 0.34)),
             *ring(p, (0.0, 0.0, 0.60), (0.075, 0.085), 0.013, pieces=10)]),
-        ("necktie", "bow tie", "windsor tie")),
+        ("necktie",)),
     thing("hat", (BLACKISH, (0.40, 0.26, 0.12), (0.45, 0.05, 0.04)), lambda p: [
         post(p, (0.0, 0.0, 0.008), (0.36, 0.32, 0.016)),
         *lathe(p, [(0.01, 0.105), (0.11, 0.09)], 3), ball(p, (0.0, 0.0, 0.11), (0.18, 0.18, 0.05)),
-        post(toned(p, 0.4), (0.0, 0.0, 0.03), (0.216, 0.216, 0.035))],
-        ("fedora", "top hat", "cowboy hat", "bowler hat", "sombrero", "straw hat")),
+        post(toned(p, 0.4), (0.0, 0.0, 0.03), (0.216, 0.216, 0.035))]),
     thing("cap", _BLUE_RED, lambda p: [
         post(p, (-0.02, 0.0, 0.02), (0.19, 0.17, 0.04)),
         *lathe(p, [(0.04, 0.09), (0.08, 0.075), (0.11, 0.03)], 6),
         ball(toned(p, 0.6), (0.0, 0.0, 0.112), (0.02, 0.02, 0.012)),
         post(toned(p, 0.8), (0.085, 0.0, 0.012), (0.19, 0.16, 0.012)),
         disc(PALE, (0.0, 0.045), 0.022, 0.03, 0.072)],
-        ("baseball cap", "beanie")),
+        ("baseball cap",)),
     thing("helmet", ((0.75, 0.45, 0.02), (0.50, 0.03, 0.02)), lambda p: [
         post(p, (0.0, 0.0, 0.02), (0.27, 0.23, 0.04)),
         *lathe(p, [(0.04, 0.125), (0.10, 0.11), (0.15, 0.07), (0.17, 0.02)], 9),
         post(toned(p, 0.7), (0.0, 0.0, 0.01), (0.32, 0.26, 0.014))],
-        ("hard hat", "safety helmet", "crash helmet", "bicycle helmet")),
+        ("safety helmet", "crash helmet", "bicycle helmet")),
     thing("shoe", ((0.45, 0.05, 0.04), (0.05, 0.14, 0.42), (0.06, 0.06, 0.065)),
         lambda p: moved([*_shoe(p, 0.07), *moved(_shoe(p, -0.07), shift(x=0.05))], turn_z(0.9)),
-          ("sneaker", "running shoe", "trainer", "pair of shoes", "a pair of shoes", "boot")),
-    thing("glove", (LEATHER.colour, (0.45, 0.05, 0.04), BLACKISH), _glove, ("mitten",)),
+          ("sneaker", "running shoe", "pair of shoes", "a pair of shoes")),
+    thing("glove", (LEATHER.colour, (0.45, 0.05, 0.04), BLACKISH), _glove),
     thing("shirt", _CLOTH, _shirt,
-        ("t-shirt", "jersey", "sweater", "pullover", "blouse", "sweatshirt")),
+        ("t-shirt",)),
     thing("sock", ((0.45, 0.05, 0.04), PALE.colour), lambda p: lying([
         bar(p, (0.0, 0.06), (0.0, 0.36), 0.10, 0.03),
         ball(p, (0.0, 0.0, 0.05), (0.032, 0.11, 0.10)),
@@ -163,15 +162,15 @@ NOUNS = placed("indoor", (
         rod(p, (0.0, -0.008, 0.03), (0.0, 0.008, 0.03), 0.002),
         *(part for y in (0.062, -0.062)
             for part in chain(p, [(0.0, y, 0.03), (-0.10, y, 0.03), (-0.135, y, 0.012)], 0.0022))],
-        ("sunglasses", "spectacles", "eyeglasses", "pair of glasses", "a pair of glasses"),
-        plurals=("glasses", "sunglasses")),
+        ("spectacles", "eyeglasses", "pair of glasses", "a pair of glasses"),
+        plurals=("glasses",)),
     thing("watch", (BLACKISH, LEATHER.colour), lambda p: lying([
         bar(p, (0.0, 0.0), (0.0, 0.22), 0.022, 0.004), disc(SILVER, (0.0, 0.11), 0.02, 0.010),
         disc(PALE, (0.0, 0.11), 0.017, 0.0115), bar(INK, (0.0, 0.11), (0.0, 0.122), 0.0022, 0.013),
         bar(INK, (0.0, 0.11), (0.008, 0.104), 0.0026, 0.013),
         box(SILVER, (0.0, 0.0, 0.004), (0.006, 0.026, 0.012)),
         disc(SILVER, (0.021, 0.11), 0.003, 0.005)]),
-        ("wristwatch", "wrist watch", "stopwatch", "digital watch")),
+        ("wristwatch", "wrist watch")),
     thing("ring", (BRASS.colour,), lambda p: [
         *ring(p, (0.0, 0.0, 0.011), (0.010, 0.010), 0.0015, pieces=16),
         ball(Material((0.6, 0.75, 0.85)), (0.0, 0.0, 0.0235), (0.006, 0.006, 0.005))],
@@ -226,7 +225,7 @@ NOUNS = placed("indoor", (
         lambda p: [rod(p, (-0.05, 0.0, 0.055), (0.05, 0.0, 0.055), 0.055),
             disc(Material((0.40, 0.26, 0.14)), (0.0, 0.055), 0.021, 0.102),
             bar(p, (0.053, 0.0), (0.053, 0.06), 0.004, 0.10)],
-            ("toilet roll", "toilet tissue", "kitchen roll", "paper towel")),
+            ("toilet roll", "toilet tissue")),
     thing("scissors", ((0.55, 0.04, 0.03), (0.75, 0.30, 0.02)), lambda p: lying([
         *(part for s in (1.0, -1.0)
             for part in ring(p, (0.002 * s, 0.032 * s, 0.035), (0.022, 0.032), 0.006, pieces=10)),
@@ -238,14 +237,14 @@ NOUNS = placed("indoor", (
             spike(SILVER, (0.0, 0.0, 0.014), (0.0, 0.0, -0.004), 0.0055),
             bar(SILVER, (0.005, 0.10), (0.005, 0.14), 0.004, 0.016),
             rod(SILVER, (0.0, 0.0, 0.14), (0.0, 0.0, 0.15), 0.004)]),
-            ("ballpoint", "ballpoint pen", "fountain pen", "marker")),
+            ("ballpoint", "ballpoint pen")),
     thing("pencil", (YELLOW_PAINT.colour,), lambda p: lying([
         rod(p, (0.0, 0.0, 0.02), (0.0, 0.0, 0.17), 0.0042),
         spike(Material(PALE_WOOD), (0.0, 0.0, 0.02), (0.0, 0.0, 0.0), 0.0042),
         spike(INK, (0.0, 0.0, 0.006), (0.0, 0.0, -0.001), 0.0016),
         rod(SILVER, (0.0, 0.0, 0.165), (0.0, 0.0, 0.178), 0.0045),
         rod(Material((0.70, 0.25, 0.28)), (0.0, 0.0, 0.178), (0.0, 0.0, 0.188), 0.0042)]),
-        ("crayon", "coloured pencil", "colored pencil")),
+        ("coloured pencil", "colored pencil")),
     thing("paintbrush", ((0.55, 0.20, 0.04),),
         lambda p: lying([limb(p, (0.0, 0.0, 0.0), (0.0, 0.0, 0.15), 0.008),
             bar(SILVER, (0.0, 0.155), (0.0, 0.19), 0.03, 0.012),
@@ -266,7 +265,7 @@ NOUNS = placed("indoor", (
         lambda p: [box(p, (0.0, 0.0, 0.022), (0.022, 0.05, 0.044)),
             *ring(SILVER, (0.0, 0.0, 0.044), (0.016, 0.032), 0.005, span=(0.0, 180.0), pieces=8),
             disc(INK, (0.0, 0.025), 0.005, 0.024),
-            bar(INK, (0.0, 0.012), (0.0, 0.024), 0.004, 0.024)], ("lock", "combination lock")),
+            bar(INK, (0.0, 0.012), (0.0, 0.024), 0.004, 0.024)], ("lock",)),
     thing("coin", (BRASS.colour, SILVERY),
         lambda p: [disc(p, (0.0, 0.012), 0.012, 0.002),
             disc(toned(p, 0.7), (0.0, 0.012), 0.0105, 0.0022),

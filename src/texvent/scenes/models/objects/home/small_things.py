@@ -87,7 +87,7 @@ _INDOOR = placed("indoor", (
         *(ball(p, (-0.085 * math.sin(a), 0.075 * math.cos(a), 0.008), (0.016, 0.016, 0.016))
             for a in (2 * math.pi * k / 26 for k in range(26))),
             ball(RED_PAINT, (0.10, 0.0, 0.01), (0.026, 0.022, 0.018))],
-            ("pearl necklace", "bracelet", "string of pearls")),
+            ("pearl necklace", "string of pearls")),
     thing("piggy bank", ((0.75, 0.32, 0.36),), lambda p: [
         ball(p, (0.0, 0.0, 0.085), (0.20, 0.13, 0.13)),
         rod(p, (0.085, 0.0, 0.085), (0.118, 0.0, 0.085), 0.026),

@@ -97,7 +97,7 @@ NOUNS = placed("indoor", (
         ball(LEAF, (0.0, 0.0, 0.078), (0.014, 0.014, 0.006)),
         blade(LEAF, (0.0, 0.0, 0.079), (0.0, 0.04, 0.088), chord=(0.02, 0.0, 0.0),
               thickness=(0.0, 0.0, 0.003)),
-    ], ("orange fruit", "tangerine", "clementine", "mandarin")),
+    ], ("orange fruit",)),
     thing("lemon", ((0.80, 0.62, 0.04),), lambda p: [
         ball(p, (0.0, 0.0, 0.03), (0.06, 0.08, 0.06)),
         ball(p, (0.0, 0.038, 0.03), (0.022, 0.026, 0.022)),
@@ -116,7 +116,7 @@ NOUNS = placed("indoor", (
     ]),
     thing("watermelon", ((0.05, 0.20, 0.04),), lambda p: [
         ball(striped(p.colour, (0.20, 0.42, 0.12), 5.0), (0.0, 0.0, 0.11), (0.22, 0.30, 0.22)),
-    ], ("melon",)),
+    ]),
     thing("strawberry", ((0.58, 0.03, 0.03),), lambda p: [
         ball(p, (0.0, 0.0, 0.025), (0.034, 0.034, 0.030)),
         spike(p, (0.0, 0.0, 0.024), (0.0, 0.0, 0.0), 0.0165),
@@ -165,7 +165,7 @@ NOUNS = placed("indoor", (
     thing("pumpkin", ((0.70, 0.20, 0.01),), lambda p: [
         *(ball(p, (x, y, z), (0.20, 0.20, 0.26)) for x, y, z in _around(8, 0.09, 0.13)),
         rod(Material((0.14, 0.20, 0.04)), (0.0, 0.0, 0.22), (0.02, 0.02, 0.31), 0.02),
-    ], ("halloween pumpkin",)),
+    ]),
     thing("egg", ((0.78, 0.66, 0.50),), lambda p: [
         ball(p, (0.0, 0.0, 0.022), (0.044, 0.044, 0.044)),
         limb(p, (0.0, 0.0, 0.022), (0.0, 0.0, 0.034), 0.021),
@@ -176,7 +176,7 @@ NOUNS = placed("indoor", (
             for y in (0.15, -0.15)),
         *(box(_CREAM, (0.0, y, 0.106), (0.05, 0.012, 0.012))
             for y in (-0.1, -0.05, 0.0, 0.05, 0.1)),
-    ], ("loaf", "loaf of bread", "baguette")),
+    ], ("loaf", "loaf of bread")),
     thing("sandwich", ((0.10, 0.34, 0.04),), lambda p: [
         *_slice(BREAD, 0.010), *_slice(Material((0.70, 0.52, 0.30)), 0.056),
         box(p, (0.0, 0.0, 0.022), (0.132, 0.134, 0.006)),
@@ -229,13 +229,13 @@ NOUNS = placed("indoor", (
             4),
         *lathe(p, [(0.04, 0.038), (0.055, 0.036), (0.075, 0.020), (0.085, 0.006)], 6),
         ball(RED_PAINT, (0.0, 0.0, 0.089), (0.016,) * 3),
-    ], ("muffin",)),
+    ]),
     thing("ice cream", ((0.75, 0.35, 0.40), (0.78, 0.70, 0.50)), lambda p: [
         spike(checked((0.58, 0.34, 0.12), (0.42, 0.22, 0.07), 4.0), (0.0, 0.0, 0.11),
             (0.0, 0.0, 0.0), 0.03),
         ball(p, (0.0, 0.0, 0.125), (0.066, 0.066, 0.06)),
         ball(_CHOCOLATE, (0.0, 0.0, 0.165), (0.054, 0.054, 0.05)),
-    ], ("ice cream cone", "ice-cream", "gelato")),
+    ], ("ice cream cone", "ice-cream")),
     thing("cheese", ((0.78, 0.50, 0.06),), lambda p: [
         box(p, (0.0, 0.0, 0.045), (0.09, 0.16, 0.09)),
         *(ball(toned(p, 0.55), (0.042, y, z), (0.012, r, r)) for y, z, r in
@@ -264,8 +264,7 @@ NOUNS = placed("indoor", (
     ], ("bell pepper",)),
     thing("cucumber", ((0.05, 0.18, 0.03),), lambda p: [
         limb(mottled(p.colour, contrast=0.3, scale=6.0), (0.0, -0.12, 0.022), (0.0, 0.12, 0.022),
-            0.022)],
-        ("zucchini", "courgette")),
+            0.022)]),
     thing("potato", ((0.42, 0.27, 0.12),), lambda p: [
         ball(mottled(p.colour, contrast=0.25), (0.0, 0.0, 0.032), (0.07, 0.10, 0.064)),
         ball(mottled(p.colour, contrast=0.25), (0.0, 0.02, 0.034), (0.064, 0.06, 0.066))],
@@ -273,8 +272,7 @@ NOUNS = placed("indoor", (
     thing("cookie", ((0.50, 0.29, 0.10),), lambda p: [
         post(mottled(p.colour, contrast=0.2), (0.0, 0.0, 0.006), (0.075, 0.075, 0.012)),
         *_sprinkled([*_around(5, 0.024, 0.013), (0.0, 0.0, 0.013)], (0.013, 0.011, 0.008),
-            _CHOCOLATE)],
-        ("biscuit",)),
+            _CHOCOLATE)]),
     thing("soup", ((0.60, 0.24, 0.04),), lambda p: [
         *lathe(_PLATE, [(0.0, 0.04), (0.015, 0.07), (0.06, 0.095)], 6),
         post(p, (0.0, 0.0, 0.0605), (0.175, 0.175, 0.003)),

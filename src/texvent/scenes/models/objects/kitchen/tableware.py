@@ -76,7 +76,7 @@ NOUNS = placed("indoor", (
         *(disc(SILVER, (0.0, z), 0.004, 0.016) for z in (0.03, 0.08)),
     ]), ("kitchen knife", "table knife", "butter knife", "bread knife")),
     thing("spoon", (SILVERY,), lambda p: _spoon(p, 0.18), ("teaspoon", "tablespoon", "soup spoon")),
-    thing("wooden spoon", (PALE_WOOD,), lambda p: _spoon(p, 0.32), ("ladle",)),
+    thing("wooden spoon", (PALE_WOOD,), lambda p: _spoon(p, 0.32)),
     thing("chopstick", (DARK_WOOD,), lambda p: lying([
         bar(p, (-0.01, 0.0), (-0.003, 0.23), 0.007, 0.007),
         bar(p, (0.02, 0.0), (0.004, 0.23), 0.007, 0.007)])),
@@ -91,14 +91,14 @@ NOUNS = placed("indoor", (
         post(Material((0.05, 0.16, 0.42)), (0.0, 0.0, 0.0150), (0.245, 0.245, 0.0105)),
         post(p, (0.0, 0.0, 0.0156), (0.232, 0.232, 0.0110)),
         post(toned(p, 0.75), (0.0, 0.0, 0.0160), (0.165, 0.165, 0.0115)),
-        post(p, (0.0, 0.0, 0.0164), (0.158, 0.158, 0.0120))], ("dish", "saucer", "dinner plate")),
+        post(p, (0.0, 0.0, 0.0164), (0.158, 0.158, 0.0120))], ("dish", "dinner plate")),
     thing("wine glass", (_GLASSY,), lambda p: [
         post(p, (0.0, 0.0, 0.003), (0.075, 0.075, 0.006)),
         post(p, (0.0, 0.0, 0.05), (0.009, 0.009, 0.10)),
         *lathe(Material((0.28, 0.01, 0.03)), [(0.09, 0.008), (0.105, 0.030), (0.13, 0.038)], 5),
         *lathe(p, [(0.13, 0.039), (0.16, 0.037), (0.19, 0.031)], 4),
         post(toned(p, 0.4), (0.0, 0.0, 0.19), (0.054, 0.054, 0.002))],
-        ("wineglass", "glass of wine", "goblet", "red wine"), plurals=("glasses of wine",)),
+        ("wineglass", "glass of wine"), plurals=("glasses of wine",)),
     thing("glass", (_GLASSY,), lambda p: [
         post(WATER, (0.0, 0.0, 0.05), (0.064, 0.064, 0.095)),
         post(p, (0.0, 0.0, 0.12), (0.068, 0.068, 0.05)),
@@ -112,7 +112,7 @@ NOUNS = placed("indoor", (
         post(PALE, (0.0, 0.0, 0.15), (0.09, 0.09, 0.03)),
         ball(PALE, (0.0, 0.0, 0.165), (0.088, 0.088, 0.03)),
         *_ear(toned(p, 1.3), 0.042, 0.03, 0.12, 0.008)],
-        ("beer", "glass of beer", "pint", "pint of beer")),
+        ("glass of beer", "pint", "pint of beer")),
     thing("mug", _GLAZES, lambda p: [
         *vessel(p, 0.042, 0.095, _TEA),
         post(toned(p, 1.4), (0.0, 0.0, 0.0945), (0.084, 0.084, 0.0015)),
@@ -142,12 +142,12 @@ NOUNS = placed("indoor", (
         ball(BLACK_PLASTIC, (0.0, 0.0, 0.195), (0.045, 0.045, 0.025)),
         *(limb(BLACK_PLASTIC, (0.0, y, 0.12), (0.0, 1.28 * y, 0.12), 0.014)
             for y in (0.122, -0.122))],
-        ("cooking pot", "saucepan", "crock pot", "dutch oven", "casserole")),
+        ("cooking pot", "saucepan")),
     thing("frying pan", ((0.03, 0.03, 0.033),), lambda p: [
         *lathe(p, [(0.0, 0.11), (0.045, 0.135)], 3),
         post(Material((0.12, 0.12, 0.13)), (0.0, 0.0, 0.0455), (0.25, 0.25, 0.002)),
         post(p, (0.0, 0.0, 0.046), (0.215, 0.215, 0.0025)), *_long_handle(p, 0.13, 0.19, 0.035)],
-        ("skillet", "wok", "cooking pan", "pan")),
+        ("skillet", "cooking pan", "pan")),
     thing("tray", (PALE_WOOD,), lambda p: [
         box(p, (0.0, 0.0, 0.008), (0.30, 0.44, 0.016)),
         *(box(toned(p, 0.7), (x, 0.0, 0.025), (0.014, 0.44, 0.05)) for x in (0.15, -0.15)),
@@ -167,7 +167,7 @@ NOUNS = placed("indoor", (
         post(SILVER, (0.0, 0.0, 0.004), (0.058, 0.058, 0.008)),
         box(PALE, (0.0, 0.0, 0.06), (0.0672, 0.02, 0.07)),
         post(_DARK_INSIDE, (0.012, 0.0, 0.1205), (0.02, 0.014, 0.002))],
-        ("tin can", "tin", "beer can", "drink can", "pop can", "coke can")),
+        ("tin can", "tin", "drink can", "pop can", "coke can")),
     thing("jug", (CHINA, (0.05, 0.20, 0.45)), lambda p: [
         post(p, (0.0, 0.0, 0.01), (0.10, 0.10, 0.02)),
         ball(p, (0.0, 0.0, 0.085), (0.16, 0.16, 0.16)),
@@ -175,7 +175,7 @@ NOUNS = placed("indoor", (
         ball(p, (0.0, 0.0, 0.20), (0.115, 0.115, 0.02)),
         post(_DARK_INSIDE, (0.0, 0.0, 0.209), (0.09, 0.09, 0.004)),
         limb(p, (0.0, -0.045, 0.19), (0.0, -0.07, 0.206), 0.016),
-        *_ear(p, 0.055, 0.06, 0.18, 0.009)], ("pitcher", "water jug", "ewer")),
+        *_ear(p, 0.055, 0.06, 0.18, 0.009)], ("water jug", "ewer")),
     thing("vase", ((0.05, 0.22, 0.45), (0.55, 0.16, 0.05), (0.70, 0.66, 0.58)), lambda p: [
         post(p, (0.0, 0.0, 0.01), (0.09, 0.09, 0.02)),
         ball(p, (0.0, 0.0, 0.12), (0.17, 0.17, 0.21)),
@@ -191,8 +191,7 @@ NOUNS = placed("indoor", (
         post(p, (0.0, 0.0, 0.47), (0.21, 0.21, 0.02)),
         post(_DARK_INSIDE, (0.0, 0.0, 0.4805), (0.15, 0.15, 0.003)),
         *(part for s in (1.0, -1.0) for part in chain(
-            p, [(0.0, 0.07 * s, 0.45), (0.0, 0.19 * s, 0.45), (0.0, 0.15 * s, 0.30)], 0.014))],
-        ("amphora",)),
+            p, [(0.0, 0.07 * s, 0.45), (0.0, 0.19 * s, 0.45), (0.0, 0.15 * s, 0.30)], 0.014))]),
     thing("bucket", ((0.05, 0.20, 0.50), (0.55, 0.04, 0.03), (0.36, 0.37, 0.39)), lambda p: [
         *lathe(p, [(0.0, 0.10), (0.27, 0.15)], 7),
         post(toned(p, 1.3), (0.0, 0.0, 0.262), (0.315, 0.315, 0.016)),
@@ -204,7 +203,7 @@ NOUNS = placed("indoor", (
         post(_DARK_INSIDE, (0.0, 0.0, 0.181), (0.34, 0.34, 0.003)),
         *ring(p, (0.0, 0.0, 0.18), (0.18, 0.20), 0.012, span=(0.0, 180.0), pieces=9),
         *ring(toned(p, 0.6), (0.0, 0.0, 0.18), (0.19, 0.19), 0.012, axis="z", pieces=12)],
-        ("hamper", "wicker basket")),
+        ("wicker basket",)),
     thing("chopping board", (PALE_WOOD,), lambda p: lying([
         box(mottled(p.colour, contrast=0.2), (0.0, 0.0, 0.15), (0.02, 0.24, 0.30)),
         box(mottled(p.colour, contrast=0.2), (0.0, 0.0, 0.34), (0.02, 0.06, 0.10)),
@@ -229,6 +228,6 @@ NOUNS = placed("indoor", (
         post(PALE, (0.0, 0.0, 0.30), (0.022, 0.022, 0.18)),
         ball(Material((1.0, 0.6, 0.15), emission=3.0), (0.0, 0.0, 0.41), (0.016, 0.016, 0.036)),
         post(BRASS, (0.0, 0.0, 0.214), (0.03, 0.03, 0.01))],
-        ("candle holder", "candelabra", "candelabrum")),
+        ("candle holder",)),
 ))  # fmt: skip
 """Nouns of what stands on a table."""

@@ -133,7 +133,7 @@ NOUNS = placed("city", (
             box(BLUE_PAINT, (0.45, 1.9, 2.35), (0.04, 0.5, 0.5)),
             rod(SILVER, (0.45, 1.9, 0.0), (0.45, 1.9, 2.6), 0.03),
             bar(PALE, (1.78, 2.35), (2.02, 2.35), 0.14, 0.01, 0.475)],
-            ("bus shelter", "bus station")),
+            ("bus shelter",)),
     thing("phone booth", (RED_PAINT.colour,),
         lambda p: [box(p, (0.0, 0.0, 2.25), (0.92, 0.92, 0.35)),
             box(p, (0.0, 0.0, 0.15), (0.92, 0.92, 0.30)),
@@ -170,7 +170,7 @@ NOUNS = placed("city", (
                     (0.03, 0.15, 0.45), (0.5, 0.03, 0.02)))),
                     box(INK, (0.38, 0.34, 1.25), (0.01, 0.14, 0.30)),
                     box(INK, (0.38, -0.12, 0.30), (0.01, 0.55, 0.20))],
-                    ("slot machine", "snack machine")),
+                    ("snack machine",)),
     thing("fountain", (STONE.colour,),
         lambda p: [*lathe(mottled(p.colour, contrast=0.2), [(0.0, 1.6), (0.45, 1.7)], 2),
             post(WATER, (0.0, 0.0, 0.452), (3.0, 3.0, 0.02)),
@@ -194,7 +194,7 @@ NOUNS = placed("city", (
                 limb(p, (0.0, 0.22, 2.22), (0.02, 0.48, 2.62), 0.065),
                 limb(p, (0.0, -0.22, 2.22), (0.05, -0.26, 1.78), 0.065),
                 rod(p, (0.02, 0.48, 2.55), (0.02, 0.50, 3.0), 0.02),
-                peak(p, (-0.04, 0.0, 1.65), (0.4, 0.52, 1.0))], ("monument", "sculpture", "bust")),
+                peak(p, (-0.04, 0.0, 1.65), (0.4, 0.52, 1.0))], ("sculpture",)),
     thing("chimney", (STEELY, (0.36, 0.10, 0.06)),
         lambda p: [*lathe(mottled(p.colour, contrast=0.2), [(0.0, 1.8), (30.0, 1.0)], 8),
             *(post(h, (0.0, 0.0, z), (w, w, 2.0)) for h, z,
@@ -212,8 +212,7 @@ NOUNS = placed("city", (
                     0.12, 0.12, 1.7 * (1 - z / 18.0)) for z in (0.5, 4.5, 8.5) for s in (1, -1)),
                     *(rod(Material((0.35, 0.15, 0.08)), (0.0, y, 16.9), (0.0, y, 15.8), 0.12)
                         for y in (4.3, -4.3))],
-                        ("electricity pylon", "transmission tower", "power line", "power lines",
-                            "utility pole", "telephone pole", "telegraph pole")),
+                        ("electricity pylon",)),
     thing("park lamp", (IRON.colour,),
         lambda p: [*lathe(p, [(0.0, 0.16), (0.4, 0.08)], 3),
             post(p, (0.0, 0.0, 1.4), (0.08, 0.08, 2.4)),
@@ -246,6 +245,6 @@ NOUNS = placed("city", (
                 *(rod(PALE, (1.1 * a, 0.0, 1.33), (1.9 * a, 0.0, 0.0), 0.012)
                     for a in (1.0, -1.0)),
                     rod(Material(WOOD_BROWN), (1.1, 0.0, 0.0), (1.1, 0.0, 1.4), 0.025)],
-                    ("camping tent", "mountain tent", "teepee", "tipi")),
+                    ("camping tent", "mountain tent")),
 ))  # fmt: skip
 """Nouns of street furniture."""

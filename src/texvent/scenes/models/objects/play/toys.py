@@ -141,7 +141,7 @@ def _seat(index: int) -> Affine:
 
 _INDOOR = placed("indoor", (
     thing("teddy bear", ((0.35, 0.17, 0.06), (0.50, 0.32, 0.16)), _bear,
-        ("teddy", "stuffed bear", "toy bear", "plush bear", "stuffed animal", "plush toy")),
+        ("teddy", "stuffed bear", "toy bear", "plush bear")),
     thing("toy robot", (STEELY, (0.45, 0.05, 0.04), (0.04, 0.20, 0.42)), _toy_robot,
         ("robot toy", "tin robot")),
     thing("doll", ((0.60, 0.10, 0.25), (0.05, 0.20, 0.45)), lambda p: [
@@ -160,7 +160,7 @@ _INDOOR = placed("indoor", (
             box(_HUES[2], (0.0, 0.04, 0.035), (0.07, 0.07, 0.07)),
             *moved([box(_HUES[1], (0.0, 0.0, 0.105), (0.07, 0.07, 0.07))], turn_z(0.4)),
         *(box(PALE, (0.0355, y, 0.035), (0.002, 0.035, 0.035)) for y in (-0.045, 0.04))],
-        ("building block", "lego brick", "wooden block", "toy brick")),
+        ("building block", "wooden block", "toy brick")),
     thing("dice", (PALE.colour, (0.55, 0.03, 0.02)), lambda p: [*_die(p, 0.016)],
         ("die", "game die"), plurals=("dice",)),
     thing("domino", (INK.colour,),
@@ -236,7 +236,7 @@ _INDOOR = placed("indoor", (
             *(ball(PALE, (0.052 * math.cos(a) * math.cos(b), 0.052 * math.sin(a) * math.cos(b),
                 0.08 + 0.052 * math.sin(b)), (0.008, 0.008, 0.008)) for a,
                 b in ((0, 0.2), (0.7, 0.6), (-0.6, 0.4), (0.3, 0.9), (-0.3, -0.2), (1.2, 0.1),
-                    (-1.2, 0.2), (0.9, -0.2)))], ("crystal ball",)),
+                    (-1.2, 0.2), (0.9, -0.2)))]),
     thing("globe", ((0.03, 0.16, 0.45),),
         lambda p: [post(Material(DARK_WOOD), (0.0, 0.0, 0.012), (0.18, 0.18, 0.024)),
             *ring(BRASS, (0.0, 0.0, 0.21), (0.165, 0.165), 0.006, span=(-110.0, 90.0), pieces=12),

@@ -124,8 +124,7 @@ NOUNS = placed("indoor", (
     _rolled("golf ball", (PALE.colour,), 0.0215, 3.0,
         lambda p: [_round(checked(p.colour, toned(p, 0.72).colour, 5.0), 0.0215)]),
     _rolled("baseball", (PALE.colour,), 0.037, 5.0,
-        lambda p: [_round(p, 0.037), *_hoops(RED_PAINT, 0.037, (0.021, -0.021), "y")],
-        ("softball",)),
+        lambda p: [_round(p, 0.037), *_hoops(RED_PAINT, 0.037, (0.021, -0.021), "y")]),
     _rolled("volleyball", (PALE.colour,), 0.105, 3.0, lambda p: [
         _round(p, 0.105), *_hoops(Material((0.05, 0.15, 0.45)), 0.105, (0.05, 0.0, -0.05), "y"),
         *_hoops(YELLOW_PAINT, 0.105, (0.025, -0.025), "z")]),
@@ -142,7 +141,7 @@ NOUNS = placed("indoor", (
             ball(YELLOW_PAINT, (0.003, -0.002, 0.0), (0.012, 0.004, 0.0159))], ("glass marble",)),
     _rolled("hamster ball", ((0.40, 0.60, 0.70),), 0.09, 0.6,
         lambda p: [_round(checked(p.colour, toned(p, 0.7).colour, 2.4), 0.09)]),
-    thing("american football", ((0.28, 0.10, 0.04),), _american, ("rugby ball",)),
+    thing("american football", ((0.28, 0.10, 0.04),), _american),
     thing("shuttlecock", (PALE.colour,), lambda p: [
         ball(PALE, (0.0, 0.0, 0.013), (0.026, 0.026, 0.026)),
         post(RED_PAINT, (0.0, 0.0, 0.02), (0.0265, 0.0265, 0.004)),
@@ -158,7 +157,7 @@ NOUNS = placed("indoor", (
         limb(p, (-0.06, 0.0, 0.0), (0.10, -0.16, 0.0), 0.024),
         box(YELLOW_PAINT, (-0.05, 0.0, 0.0), (0.02, 0.05, 0.05))], _tilted(2.0)),),
         goes=("air", "fly", 4.0)),
-    thing("spinning top", _BRIGHT, nothing, ("whipping top", "dreidel"),
+    thing("spinning top", _BRIGHT, nothing, ("whipping top",),
         moving=(Moving(_top_parts, spinning("z", 3.0)),)),
     thing("gyroscope", (BRASS.colour,),
         lambda p: [post(INK, (0.0, 0.0, 0.01), (0.07, 0.07, 0.02)),

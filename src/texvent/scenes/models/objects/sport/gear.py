@@ -80,7 +80,7 @@ def _board(skin: Material, long: float, wide: float, thick: float) -> list[Model
 
 _SPORT = placed("grass", (
     thing("tennis racket", _BRIGHT, lambda p: _racket(p, (0.13, 0.17), 0.69),
-        ("racket", "tennis racquet", "racquet", "squash racket")),
+        ("tennis racquet", "racquet")),
     thing("badminton racket", _BRIGHT, lambda p: _racket(p, (0.10, 0.13), 0.67),
         ("badminton racquet",)),
     thing("baseball bat", (PALE_WOOD,), lambda p: lying([
@@ -107,7 +107,7 @@ _SPORT = placed("grass", (
         lambda p: lying([rod(INK, (0.0, 0.0, 0.85), (0.0, 0.0, 1.10), 0.013),
             rod(p, (0.0, 0.0, 0.06), (0.0, 0.0, 0.85), 0.007),
             limb(p, (0.0, 0.0, 0.05), (0.0, 0.10, 0.0), 0.026),
-            ball(INK, (0.0, 0.07, 0.01), (0.06, 0.10, 0.06))]), ("golf driver", "putter")),
+            ball(INK, (0.0, 0.07, 0.01), (0.06, 0.10, 0.06))]), ("golf driver",)),
     thing("hockey stick", (PALE_WOOD,),
         lambda p: lying([rod(INK, (0.0, 0.0, 1.15), (0.0, 0.0, 1.40), 0.017),
             bar(p, (0.0, 0.05), (0.0, 1.15), 0.03, 0.02),
@@ -170,7 +170,7 @@ _SPORT = placed("grass", (
         rod(p, (0.0, -2.5, 2.2), (0.0, 2.5, 2.2), 0.06),
         *(rod(p, (0.0, 2.5 * s, 2.2), (-1.2, 2.5 * s, 0.0), 0.03) for s in (1.0, -1.0)),
         *_mesh(5.0, 2.1, 0.42, -0.5, 0.05)],
-        ("soccer goal", "football goal", "goalpost", "hockey goal")),
+        ("soccer goal", "football goal", "goalpost")),
     thing("net", (PALE.colour,), lambda p: [
         *(rod(INK, (0.0, 2.1 * s, 0.0), (0.0, 2.1 * s, 1.07), 0.04) for s in (1.0, -1.0)),
         box(p, (0.0, 0.0, 0.98), (0.03, 4.2, 0.07)), *_mesh(4.2, 0.85, 0.21, 0.0, 0.10)],
@@ -223,7 +223,7 @@ _SPORT = placed("grass", (
         lambda p: [rod(SILVER, (0.0, -0.9, 0.22), (0.0, 0.9, 0.22), 0.016),
             *(rod(p, (0.0, y, 0.22), (0.0, y + 0.05, 0.22), r) for y,
                 r in ((0.55, 0.22), (0.61, 0.17), (0.67, 0.12), (-0.60, 0.22), (-0.66, 0.17),
-                    (-0.72, 0.12)))], ("weight", "weights")),
+                    (-0.72, 0.12)))]),
     thing("boxing glove", _BRIGHT[:1],
         lambda p: [ball(p, (0.03, 0.0, 0.14), (0.18, 0.15, 0.16)),
             ball(p, (-0.02, 0.08, 0.13), (0.10, 0.07, 0.08)),
@@ -234,7 +234,7 @@ _SPORT = placed("grass", (
             for s in (1.0, -1.0)), rod(IRON, (0.0, -0.52, 2.4), (0.0, 0.52, 2.4), 0.03),
             rod(SILVER, (0.0, 0.0, 1.85), (0.0, 0.0, 2.4), 0.012),
             rod(p, (0.0, 0.0, 0.75), (0.0, 0.0, 1.85), 0.18),
-            post(INK, (0.0, 0.0, 1.3), (0.37, 0.37, 0.06))], ("punch bag", "sandbag")),
+            post(INK, (0.0, 0.0, 1.3), (0.37, 0.37, 0.06))], ("punch bag",)),
     thing("hula hoop", ((0.75, 0.10, 0.35), (0.05, 0.35, 0.50)),
         lambda p: ring(p, (0.0, 0.0, 0.015), (0.45, 0.45), 0.015, axis="z", pieces=20)),
     thing("whistle", (SILVERY, (0.50, 0.04, 0.03)),
@@ -289,7 +289,7 @@ _SNOW = placed("snow", (
             for part in chain(RED_PAINT,
                 [(-0.5, y, 0.02), (0.35, y, 0.02), (0.55, y, 0.14), (0.5, y, 0.26)], 0.016)),
         *(box(RED_PAINT, (x, y, 0.13), (0.03, 0.03, 0.22)) for x in (-0.3, 0.25)
-            for y in (0.2, -0.2))], ("sledge", "sleigh", "toboggan"),
+            for y in (0.2, -0.2))], ("sledge", "toboggan"),
             goes=("ground", "slide", 2.5)),
 ))  # fmt: skip
 
@@ -300,7 +300,7 @@ _SEA = placed("sea", (
             blade(RED_PAINT, (-0.98, 0.0, 0.107), (0.98, 0.0, 0.107), chord=(0.0, 0.10, 0.0),
                 thickness=(0.0, 0.0, 0.085)),
         spike(INK, (-0.80, 0.0, 0.08), (-0.90, 0.0, -0.06), 0.05)],
-        ("surf board", "paddleboard", "bodyboard"), goes=("water", "sail", 2.5)),
+        ("surf board",), goes=("water", "sail", 2.5)),
     thing("buoy", ((0.55, 0.03, 0.02), (0.75, 0.30, 0.02)), lambda p: [
         ball(p, (0.0, 0.0, 0.05), (0.9, 0.9, 0.6)), *lathe(p, [(0.2, 0.28), (1.1, 0.10)], 5),
         post(PALE, (0.0, 0.0, 0.65), (0.42, 0.42, 0.2)),
@@ -322,7 +322,7 @@ _SEA = placed("sea", (
             *(plank(p, (0.05 * s, 0.0, 0.0), (0.13 * s, 0.0, 0.07), chord=(0.02, 0.0, 0.0),
                 thickness=(0.0, 0.06, 0.0)) for s in (1.0, -1.0)),
                 peak(toned(p, 0.9), (0.0, 0.0, 0.07), (0.11, 0.05, 0.10))],
-                ("origami boat", "toy boat"), goes=("water", "sail", 0.3)),
+                ("origami boat",), goes=("water", "sail", 0.3)),
     thing("raft", (WOOD_BROWN,),
         lambda p: [*(rod(mottled(p.colour), (-1.2, 0.22 * i, 0.08), (1.2, 0.22 * i, 0.08), 0.11)
             for i in range(-4, 5)),
@@ -334,7 +334,7 @@ _SEA = placed("sea", (
             blade(toned(p, 0.35), (-1.8, 0.0, 0.345), (1.8, 0.0, 0.345), chord=(0.0, 0.60, 0.0),
                 thickness=(0.0, 0.0, 0.10)),
                 *(box(Material(PALE_WOOD), (x, 0.0, 0.39), (0.16, 0.55, 0.03))
-                    for x in (0.8, -0.8))], ("kayak", "rowing boat", "rowboat", "gondola"),
+                    for x in (0.8, -0.8))], (),
                     goes=("water", "sail", 1.5)),
 ))  # fmt: skip
 

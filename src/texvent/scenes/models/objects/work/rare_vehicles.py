@@ -41,7 +41,7 @@ _LAND = placed("dirt road", (
         *(rod(INK, (2.7 * t, 1.08 * s, 0.53), (2.7 * t, 1.62 * s, 0.53), 0.53)
             for s in (1.0, -1.0) for t in (1.0, -1.0)),
         *(box(p, (0.0, 1.35 * s, 1.12), (6.2, 0.6, 0.08)) for s in (1.0, -1.0))],
-        ("battle tank", "army tank", "panzer", "armored vehicle"),
+        ("battle tank", "army tank", "panzer"),
         wheels=tuple(Wheel((x, 1.35 * s, 0.42), 0.36, 0.58) for x in (-1.8, -0.6, 0.6, 1.8)
             for s in (1.0, -1.0)),
         goes=("ground", "drive", 5.0)),

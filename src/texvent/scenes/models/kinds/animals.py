@@ -34,55 +34,63 @@ ANIMAL_KINDS: dict[str, str] = {
         dog, great pyrenees, samoyed, pomeranian, chow, chow chow, keeshond, brabancon
         griffon, pembroke, corgi, welsh corgi, poodle, toy poodle, miniature poodle,
         standard poodle, mexican hairless, dachshund, shiba inu, akita, service dog, guide
-        dog, police dog, stray dog, sled dog, lapdog, dingo, dhole, african hunting dog""",
+        dog, police dog, stray dog, sled dog, lapdog, dingo, dhole, african hunting dog,
+        puppy""",
     "cat": """
         tabby, tabby cat, tiger cat, persian cat, siamese cat, siamese, egyptian cat,
         maine coon, british shorthair, ginger cat, house cat, tomcat, stray cat, calico
-        cat, sphynx, bengal cat, pussycat""",
+        cat, sphynx, bengal cat, pussycat, kitten""",
     "fox": "red fox, kit fox, arctic fox, grey fox, gray fox, fennec, vixen",
-    "wolf": "timber wolf, grey wolf, gray wolf, white wolf, red wolf, coyote, jackal, werewolf",
+    "wolf": """
+        timber wolf, grey wolf, gray wolf, white wolf, red wolf, coyote, jackal, werewolf,
+        husky, hyena""",
     "lion": "lioness, lion cub, african lion, cougar, puma, mountain lion",
     "tiger": "tigress, siberian tiger, bengal tiger, tiger cub",
-    "cheetah": "leopard, snow leopard, jaguar, panther, ocelot",
+    "cheetah": "leopard, snow leopard, jaguar, panther, ocelot, lynx, bobcat, serval",
     "bear": "black bear, american black bear, sloth bear, grizzly bear, bear cub, grizzly",
     "polar bear": "ice bear",
     "horse": """
         colt, pony, racehorse, mustang, sorrel, thoroughbred, arabian horse, draft horse,
-        workhorse, shetland pony, wild horse""",
+        workhorse, shetland pony, wild horse, foal""",
     "donkey": "mule, burro, ass",
-    "cow": "ox, heifer, steer, buffalo, water buffalo, bison, dairy cow, yak, holstein, longhorn",
-    "sheep": "ram, bighorn, mouflon, bighorn sheep",
+    "cow": """
+        ox, heifer, steer, buffalo, water buffalo, bison, dairy cow, yak, holstein,
+        longhorn, bull, calf""",
+    "sheep": "ram, bighorn, mouflon, bighorn sheep, lamb",
     "goat": "billy goat, kid goat, ibex, mountain goat, chamois, nanny goat",
-    "pig": "hog, boar, wild boar, warthog, sow, swine, hogget",
+    "pig": "hog, boar, wild boar, warthog, sow, swine, hogget, piglet, tapir",
     "deer": """
         doe, fawn, buck, elk, moose, reindeer, caribou, antelope, gazelle, impala,
         hartebeest, white tailed deer, roe deer, gnu, wildebeest""",
     "camel": "arabian camel, bactrian camel, dromedary, llama, alpaca",
     "elephant": "indian elephant, african elephant, tusker, elephant calf, mammoth",
     "rabbit": "hare, wood rabbit, angora, cottontail, jackrabbit",
-    "squirrel": "fox squirrel, chipmunk, marmot, prairie dog, ground squirrel, groundhog",
+    "squirrel": """
+        fox squirrel, chipmunk, marmot, prairie dog, ground squirrel, groundhog, ferret,
+        weasel, otter, sea otter, mink, mongoose, meerkat, stoat, beaver""",
     "mouse": "field mouse, rodent, vole, gerbil",
     "hamster": "guinea pig, cavy",
-    "hedgehog": "porcupine, echidna",
-    "raccoon": "red panda, lesser panda, badger, coati",
+    "hedgehog": "porcupine, echidna, armadillo, pangolin",
+    "raccoon": "red panda, lesser panda, badger, coati, skunk",
     "monkey": """
         macaque, baboon, langur, colobus, proboscis monkey, marmoset, capuchin, titi,
         howler monkey, spider monkey, squirrel monkey, guenon, patas, rhesus monkey,
-        vervet, tamarin, mandrill, gibbon, siamang""",
+        vervet, tamarin, mandrill, gibbon, siamang, lemur""",
     "gorilla": "ape, chimpanzee, chimp, orangutan, silverback, bonobo",
     "kangaroo": "wallaby, joey, wallaroo",
-    "crocodile": "african crocodile, american alligator, caiman, nile crocodile",
+    "crocodile": "african crocodile, american alligator, caiman, nile crocodile, alligator",
     "lizard": """
         gecko, banded gecko, iguana, common iguana, chameleon, african chameleon, american
         chameleon, whiptail, agama, alligator lizard, green lizard, gila monster, komodo
         dragon, salamander, european fire salamander, spotted salamander, newt, common
         newt, eft, skink, monitor lizard""",
-    "frog": "tailed frog, treefrog, tadpole frog",
+    "frog": "tailed frog, treefrog, tadpole frog, toad, tree frog, bullfrog",
     "snake": """
         cobra, indian cobra, python, rock python, boa, boa constrictor, viper, adder,
         horned viper, rattlesnake, diamondback, sidewinder, mamba, green mamba, garter
         snake, king snake, grass snake, thunder snake, ringneck snake, hognose snake,
-        green snake, water snake, vine snake, night snake, sea snake, anaconda, serpent""",
+        green snake, water snake, vine snake, night snake, sea snake, anaconda, serpent,
+        eel""",
     "turtle": """
         tortoise, loggerhead, leatherback, leatherback turtle, mud turtle, terrapin, box
         turtle, snapping turtle""",
@@ -99,49 +107,51 @@ ANIMAL_KINDS: dict[str, str] = {
     "eagle": """
         bald eagle, golden eagle, hawk, falcon, vulture, condor, buzzard, osprey, kestrel,
         bird of prey, peregrine falcon, harrier, sea eagle""",
-    "owl": "great grey owl, snowy owl, owlet",
+    "owl": "great grey owl, snowy owl, owlet, barn owl",
     "gull": "albatross, tern, petrel, sea bird, gannet",
     "duck": """
         mallard, drake, merganser, red breasted merganser, goose, teal, gosling, american
-        coot, coot, moorhen""",
-    "swan": "black swan, cygnet, mute swan",
+        coot, coot, moorhen, duckling, cormorant, loon""",
+    "swan": "black swan, cygnet, mute swan, pelican",
     "chicken": """
         chick, ptarmigan, black grouse, ruffed grouse, grouse, prairie chicken, fowl,
-        pheasant, poultry""",
+        pheasant, poultry, guinea fowl""",
     "rooster": "cock, cockerel",
     "flamingo": """
         heron, little blue heron, egret, american egret, stork, white stork, black stork,
         spoonbill, ibis, wading bird, crane bird, bittern""",
     "ostrich": "emu, rhea, cassowary",
-    "penguin": "king penguin, emperor penguin",
+    "penguin": "king penguin, emperor penguin, puffin",
     "fish": """
         goldfish, carp, koi, tench, salmon, coho, tuna, trout, cod, herring, sardine,
         bass, perch, clownfish, anemone fish, rock beauty, angelfish, barracouta,
         barracuda, sturgeon, mackerel, minnow, guppy, tropical fish, reef fish, piranha,
-        catfish, snapper, mullet, betta, siamese fighting fish, gar""",
+        catfish, snapper, mullet, betta, siamese fighting fish, gar, stingray, manta ray,
+        pufferfish, blowfish, swordfish""",
     "shark": """
         great white shark, white shark, tiger shark, hammerhead, hammerhead shark, reef
         shark, bull shark, whale shark, nurse shark, great white""",
     "dolphin": "porpoise, bottlenose dolphin",
     "whale": """
         grey whale, gray whale, humpback, blue whale, sperm whale, killer whale, orca,
-        beluga""",
-    "seal": "walrus, fur seal, elephant seal",
+        beluga, narwhal""",
+    "seal": "walrus, fur seal, elephant seal, sea lion, manatee, dugong",
     "octopus": "squid, cuttlefish, kraken",
     "jellyfish": "medusa, man of war",
     "crab": """
         dungeness crab, rock crab, fiddler crab, king crab, hermit crab, horseshoe crab,
-        spider crab""",
+        spider crab, lobster, crayfish, scorpion""",
     "spider": """
         black and gold garden spider, barn spider, garden spider, black widow, wolf
-        spider, harvestman, daddy longlegs, tick, mite, arachnid""",
+        spider, harvestman, daddy longlegs, tick, mite, arachnid, tarantula""",
     "ant": "fire ant, red ant, termite, worker ant",
     "beetle": """
         ground beetle, tiger beetle, long horned beetle, leaf beetle, dung beetle,
-        rhinoceros beetle, weevil, stag beetle, scarab, cockroach, bug, june bug""",
+        rhinoceros beetle, weevil, stag beetle, scarab, cockroach, bug, june bug,
+        grasshopper, locust""",
     "ladybug": "ladybird, lady beetle, ladybird beetle",
     "housefly": "fly, fruit fly, horsefly, bluebottle",
-    "bee": "wasp, hornet, honey bee, yellowjacket",
+    "bee": "wasp, hornet, honey bee, yellowjacket, bumblebee",
     "butterfly": """
         monarch, monarch butterfly, admiral, ringlet, cabbage butterfly, lycaenid, sulphur
         butterfly, swallowtail""",

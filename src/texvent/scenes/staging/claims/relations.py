@@ -3,24 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import RELATION_WORDS, SceneDescription
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.claims.contact import (
+    holds_for_all,
+    is_in,
+    is_on,
+    moves_parts,
+    strikes,
+    touches,
+)
 
-_INSTANTS = 25
-_PHRASES = {
-    "beside": "next to",
-    "front": "in front of",
-    "follow": "following",
-    "overtake": "overtaking",
-    "with": "with",
-}
+_INSTANTS = 13
+_FINER = 8
+_PHRASES = {**RELATION_WORDS, "beside": "next to"}
 """Relation → words for it, where they differ from its name."""
+_SMALL = 0.35
+"""Share of a low thing's size up to which what it is "with" stands on it or in it."""
+_LOW_M = 2.0
 
 
 class _Body(NamedTuple):
@@ -31,6 +39,8 @@ class _Body(NamedTuple):
     low: Float64Array
     """[n, 3] least corner of all, m."""
     high: Float64Array
+    copies: tuple[Actor, ...] = ()
+    duration_s: float = 1.0
 
 
 def list_not_shown(
@@ -61,7 +71,9 @@ def list_not_shown(
         targets = [bodies[index] for index in relation.targets]
         if not check(bodies[relation.subject], targets):
             names = " and ".join(_name(description, index) for index in relation.targets)
-            missing.append(f"{_PHRASES.get(relation.kind, relation.kind)} the {names}")
+            words = f"{_PHRASES.get(relation.kind, relation.kind)} the {names}"
+            is_named = relation.kind in _BY_CONTACT
+            missing.append(f"{_name(description, relation.subject)} {words}" if is_named else words)
     return missing
 
 
@@ -73,7 +85,8 @@ def _name(description: SceneDescription, index: int) -> str:
 def _measure(actors: Sequence[Actor], times: Float64Array) -> _Body:
     corners = np.array([[actor.corners(float(t)) for actor in actors] for t in times])
     middles = np.array([[actor.middle(float(t)) for actor in actors] for t in times])
-    return _Body(middles.mean(axis=1), corners.min(axis=(1, 2)), corners.max(axis=(1, 2)))
+    low, high = corners.min(axis=(1, 2)), corners.max(axis=(1, 2))
+    return _Body(middles.mean(axis=1), low, high, tuple(actors), float(times[-1]))
 
 
 def _gaps(subject: _Body, target: _Body) -> Float64Array:
@@ -114,11 +127,23 @@ def _is_under(subject: _Body, targets: list[_Body]) -> bool:
 
 def _is_between(subject: _Body, targets: list[_Body]) -> bool:
     if len(targets) < 2:
-        return True
+        return len(targets[0].copies) < 2 or _is_among_copies(subject, targets[0])
     first, second = _middle(targets[0])[:2], _middle(targets[1])[:2]
     way = second - first
     share = float((_middle(subject)[:2] - first) @ way) / max(float(way @ way), 1e-9)
     return 0.1 < share < 0.9
+
+
+def _is_among_copies(subject: _Body, target: _Body) -> bool:
+    """Whether copies of the target stand to both sides of it at some instant."""
+    half = len(subject.places) // 2
+    others = np.array([copy.middle(0.5 * target.duration_s) for copy in target.copies])[:, :2]
+    for place in subject.places[:: max(half // 6, 1), :2]:
+        ways = others - place
+        near = np.linalg.norm(ways, axis=1) < 2.0 * _size(target) + _size(subject)
+        if near.sum() > 1 and np.min(ways[near] @ ways[near].T) < 0.0:
+            return True
+    return False
 
 
 def _comes_nearer(subject: _Body, targets: list[_Body]) -> bool:
@@ -153,8 +178,16 @@ def _overtakes(subject: _Body, targets: list[_Body]) -> bool:
 
 def _goes_through(subject: _Body, targets: list[_Body]) -> bool:
     target = targets[0]
-    inside = np.all((subject.places > target.low) & (subject.places < target.high), axis=1)
+    places, low, high = (_finely(one) for one in (subject.places, target.low, target.high))
+    inside = np.all((places > low) & (places < high), axis=1)
     return bool(np.any(inside))
+
+
+def _finely(values: Float64Array) -> Float64Array:
+    """[n, 3] between the instants too."""
+    known = np.arange(len(values))
+    wanted = np.linspace(0.0, len(values) - 1.0, _FINER * (len(values) - 1) + 1)
+    return np.stack([np.interp(wanted, known, column) for column in values.T], axis=1)
 
 
 def _is_behind_in_line(subject: _Body, targets: list[_Body]) -> bool:
@@ -164,13 +197,59 @@ def _is_behind_in_line(subject: _Body, targets: list[_Body]) -> bool:
     return bool(np.all(_along(target, subject) > 0.0))
 
 
+def _is_on(subject: _Body, targets: list[_Body]) -> bool:
+    """On it; where the target's parts move and it stays in its place, it is carried along."""
+    target = targets[0]
+    if not holds_for_all(is_on, subject.copies, target.copies, subject.duration_s):
+        return False
+    if not target.copies[0].noun.is_working or subject.copies[0].is_mover:
+        return True
+    times = np.linspace(0.0, subject.duration_s, 5) * 0.93
+    return moves_parts(subject.copies[0], times) or not moves_parts(target.copies[0], times)
+
+
+def _is_in(subject: _Body, targets: list[_Body]) -> bool:
+    return holds_for_all(is_in, subject.copies, targets[0].copies, subject.duration_s)
+
+
+def _is_with(subject: _Body, targets: list[_Body]) -> bool:
+    """Near it; a small thing that does not move is on what is low and as still, or in it."""
+    if not _is_near(subject, targets):
+        return False
+    own, other = subject.copies[0], targets[0].copies[0]
+    is_still = own.noun.habitat == "fixed" and other.noun.habitat == "fixed"
+    is_load = other.size_m < _SMALL * own.size_m and own.model.height < _LOW_M
+    if not (is_still and is_load):
+        return True
+    return holds_for_all(touches, targets[0].copies, subject.copies, subject.duration_s)
+
+
+def _is_touching(subject: _Body, targets: list[_Body]) -> bool:
+    """Each target is at one of the subjects: "two people wearing three jackets"."""
+    return holds_for_all(
+        lambda target, own, t: touches(own, target, t),
+        targets[0].copies, subject.copies, subject.duration_s,
+    )  # fmt: skip
+
+
+def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
+    return strikes(subject.copies, targets[0].copies, subject.duration_s, moves=moves)
+
+
+_BY_CONTACT = frozenset({"on", "in", "with", *ACTS})
+"""Relations that the report names with their subject: "bottle on the conveyor belt"."""
 _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     "left of": lambda s, t: bool(_middle(s)[0] < _middle(t[0])[0]),
     "right of": lambda s, t: bool(_middle(s)[0] > _middle(t[0])[0]),
     "behind": lambda s, t: bool(np.any(s.places[:, 1] > t[0].places[:, 1])),
     "front": lambda s, t: bool(np.any(s.places[:, 1] < t[0].places[:, 1])),
     "beside": _is_near,
-    "with": _is_near,
+    "with": _is_with,
+    "on": _is_on,
+    "in": _is_in,
+    **dict.fromkeys(("hold", "carry", "wear", "ride", "push", "pull"), _is_touching),
+    **dict.fromkeys(("kick", "hit", "throw"), partial(_is_striking, moves=True)),
+    "catch": partial(_is_striking, moves=False),
     "around": _is_near,
     "above": _is_above,
     "under": _is_under,

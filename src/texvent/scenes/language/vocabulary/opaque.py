@@ -12,8 +12,8 @@ _TEXT = """
     stick insect, praying mantis, cray fish, lion fish, dog fish, catwalk, cat tail, cattail, fox
     glove, foxglove, pig tail, pigtail, pony tail, ponytail, horse tail, dove tail, swallow tail,
     goose bump, goose neck, chicken nugget, fried chicken, roast chicken, roast duck, chicken
-    wing, chicken leg, fish finger, fish stick, fried fish, fried egg, scrambled egg, egg plant,
-    eggplant, egg cup, egg shell, egg roll, spring roll, meat loaf, meat ball, rice ball, rice
+    wing, chicken leg, fish finger, fish stick, fried fish, fried egg, scrambled egg,
+    egg cup, egg shell, egg roll, spring roll, meat loaf, meat ball, rice ball, rice
     cake, crab cake, fish cake, pan cake, hot pot, potpie, ice lolly, hot plate, license plate,
     licence plate, number plate, home plate, face plate, name plate, petri dish, satellite dish,
     solar dish, dish rag, dish cloth, dishrag, dishcloth, gravy boat, banana split, adam apple,

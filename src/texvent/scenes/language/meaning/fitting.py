@@ -1,0 +1,109 @@
+"""Verbs of several senses: the one that fits who does it and where, or none."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.words.english import VerbForm
+from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.protocol import Noun
+
+_ON_GROUND = ("drive", "walk", "run", "jump")
+_STEPS = ("climb", "ascend", "descend")
+_HELD_ON_TO = frozenset({"ladder", "wall", "tree", "rope", "pole", "fence", "cliff", "mast"})
+"""What is climbed with hands and feet."""
+_DOLLS = frozenset({"toy robot", "doll", "teddy bear"})
+"""Figures without joints, which slide where they walk."""
+_BY_ITSELF = ("rise", "sink", "land")
+_OUT_OF = ("into", "in", "from", "off", "through", "under", "towards", "toward")
+
+
+def fit_verb(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
+    """The verb as this thing does it; None if what the verb means is not shown.
+
+    A climber of a ladder climbs and a toy robot that walks slides; a rover that climbs a slope
+    drives; a man who rises does not take off, a keeper who dives does not swim, a batter who swings
+    at a ball hangs on no rope, and a plane that taxis does not fly.
+    """
+    other = _choose_kind(verb, noun, clause)
+    if other is not None:
+        return other
+    prepositions = {phrase.preposition.text for phrase in clause.phrases}
+    is_on_ground = noun.motion in _ON_GROUND and noun.habitat == "ground"
+    if is_on_ground and verb.base in _BY_ITSELF:
+        return None
+    if is_on_ground and verb.base == "dive" and not prepositions & set(_OUT_OF):
+        return None
+    if is_living(noun) and verb.base == "swing" and "at" in prepositions:
+        return None
+    if is_person(noun) and verb.base == "slip":
+        return None
+    if noun.motion == "fly" and verb.base == "taxi":
+        return None
+    return verb
+
+
+def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
+    """The verb with the motion by which this thing does it; None if that is the usual one."""
+    objects = {group.head.lemma for group in clause.objects if group.head is not None}
+    is_on_ground = noun.motion in _ON_GROUND and noun.habitat == "ground"
+    if verb.base == "climb" and is_person(noun) and objects & _HELD_ON_TO:
+        return replace(verb, kind="climb", pace=1.0)
+    if noun.name in _DOLLS and verb.kind in ("walk", "run"):
+        return replace(verb, kind="slide", pace=0.5 * verb.pace)
+    if verb.base in _STEPS and (is_on_ground or noun.motion == "roll"):
+        return replace(verb, kind="move")
+    if verb.base in ("chase", "pursue") and not is_living(noun):
+        return replace(verb, kind="move")
+    if verb.base == "roll" and noun.motion in ("sail", "paddle"):
+        return replace(verb, kind="sway")
+    return None
+
+
+_OF_TENNIS = frozenset(
+    {"tennis racket", "tennis ball", "badminton racket", "shuttlecock", "ping-pong paddle", "net"}
+)
+_RACKET_SPORTS = frozenset({"tennis", "badminton", "squash"})
+
+
+def is_played(kind: str, clause: Clause, draft: Draft) -> bool:
+    """Whether a racket is near where one is swung: a waiter who serves has none."""
+    said = {part for group in clause.subjects for part in group.text.split()}
+    named = {item.noun for item in draft.objects}
+    return kind != "swing racket" or bool(said & _RACKET_SPORTS or named & _OF_TENNIS)
+
+
+_ACTED_BY_ANYTHING = frozenset({"push", "pull", "carry"})
+"""What a vehicle or a machine does to another object."""
+_ACTED_BY_LIVING = frozenset({"hold", "carry", "push", "pull", "kick", "hit", "throw", "catch"})
+_RIDEABLE = frozenset({"drive", "sail"})
+
+
+def choose_act(verb: Verb, doer: Noun, target: Noun) -> str | None:
+    """What the verb means if this thing does it to that one; None if it cannot."""
+    act = verb.act
+    if act is None:
+        return None
+    if act == "ride":
+        is_mount = target.motion in _RIDEABLE or is_living(target) or target.name in BOARDS
+        return "ride" if is_living(doer) and is_mount else None
+    if act == "wear":
+        return "wear" if is_living(doer) and target.name in WEARABLE else None
+    if is_living(doer) or is_hand(doer):
+        return act if act in _ACTED_BY_LIVING else None
+    if act == "hit":
+        return "collide"
+    return act if act in _ACTED_BY_ANYTHING else None
+
+
+def is_plain_past(word: Word) -> bool:
+    """Whether a past form stands for the present: "a man walked"; not for "a hoop held by"."""
+    verb = word.meaning.value
+    if word.meaning.form is not VerbForm.PAST or not isinstance(verb, Verb):
+        return False
+    return bool(verb.kind) and verb.act is None and verb.object_kind is None

@@ -1,0 +1,185 @@
+"""Which sense a noun has beside its neighbours: "fountains of lava" are no fountains."""
+
+from __future__ import annotations
+
+from texvent.scenes.language.grammar.syntax import NounGroup
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.word import Word, mark_used
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+_VESSELS = _words(
+    """bowl cup mug glass bottle jar jug vase pot pan bucket basket box crate chest barrel bag sack
+    handbag suitcase tray plate dish can tin carton urn kettle teapot aquarium cage tank pallet cart
+    wheelbarrow trolley shelf bookshelf table drawer truck wagon bouquet bunch necklace card map
+    salad soup sandwich cake bread pizza picture poster book newspaper page model"""
+)
+"""What holds the things that "of" names, or is made of them, and is itself there."""
+_WATERS = _words("sea ocean river stream lake pond pool canal creek waterfall")
+_SHAPES = _words(
+    """fountain sea ocean river stream wall tower mountain hill island forest jungle storm shower
+    column train curtain carpet blanket ring rain cloud jet bridge bed pyramid"""
+)
+_NATURAL = frozenset({"water", "sand", "snow", "ice", "dust", "grass"})
+_SUBSTANCES = _words(
+    "lava ash flame fire smoke steam light star spark ember dust mud blood foam magma"
+)
+"""What makes a shape before a noun of another kind: "a lava fountain", "an ash cloud"."""
+_PARTS_OF = {
+    "forest": _words("tree pine palm"), "jungle": _words("tree palm"),
+    "wall": _words("brick rock"), "tower": _words("brick rock"),
+}  # fmt: skip
+"""Shape → things of which it is really made."""
+_PARTS = frozenset({"trunk", "bow", "boot", "hood", "crown", "bark", "palm", "nail", "horn", "cap",
+                    "head", "hand", "spring", "key", "drum", "crane", "mouse", "bat"})  # fmt: skip
+"""What is a part of the thing that "of" names, and no thing by itself."""
+
+_KIN = frozenset({"mother", "father", "parent", "brother", "sister", "friend"})
+"""Whom an animal has too: "its mother" is no woman."""
+
+
+def is_figurative(group: NounGroup, preposition: str | None) -> bool:
+    """Whether the head of a noun group is not there itself.
+
+    "A stream of cars" is no stream, and "the trunk of a tree" no chest; a bowl of apples is a bowl.
+    """
+    head = group.head_word
+    name = _name(head)
+    if name in _SHAPES and any(
+        word.pos is Pos.NOUN and _name(word) in _SUBSTANCES for word in group.modifiers[-1:]
+    ):
+        return True
+    determiner = group.determiner.text if group.determiner is not None else ""
+    is_of_ship = name == "bow" and determiner == "the" and preposition is not None
+    if is_of_ship or (name in _KIN and determiner == "its"):
+        return True
+    for phrase in group.phrases:
+        if phrase.preposition.text == "of" and phrase.groups:
+            return _is_made_of(head, name, phrase.groups[0])
+    return False
+
+
+def _is_made_of(head: Word, name: str, content: NounGroup) -> bool:
+    """Whether "X of Y" names something that only has the shape of X."""
+    inner = content.head
+    if inner is None or inner.role in (Role.PICTURE, Role.FUNCTION):
+        return False
+    if content.determiner is not None or content.owner is not None:
+        return name in _PARTS
+    said, thing = _name(inner), inner.read_as(Role.NOUN)
+    is_really = thing is not None and thing.value in _PARTS_OF.get(name, ())
+    if is_really or inner.written[:1].isupper() or inner.read_as(Role.MATERIAL) is not None:
+        return False
+    if head.read_as(Role.PLACE) is not None or head.role is Role.WEATHER:
+        return name in _SHAPES | _WATERS and said not in _NATURAL
+    is_vessel = head.read_as(Role.NOUN) is None or name in _VESSELS
+    return not is_vessel and (name in _SHAPES | _PARTS or said in _SUBSTANCES)
+
+
+def _name(word: Word) -> str:
+    return word.lemma.split()[-1]
+
+
+_BESIDE: dict[str, tuple[tuple[frozenset[str], str], ...]] = {
+    "net": ((frozenset({"goal", "puck", "hockey stick", "football"}), "goal"),),
+    "calf": tuple(
+        (frozenset({one}), one) for one in ("elephant", "whale", "giraffe", "hippo", "rhino")
+    ),
+    "pup": ((frozenset({"seal"}), "seal"), (frozenset({"wolf"}), "wolf")),
+    "cub": tuple((frozenset({one}), one) for one in ("lion", "tiger", "polar bear", "wolf", "fox")),
+}
+"""Word → things beside which it is another thing: the calf of an elephant is no cow."""
+
+
+_DOERS: dict[str, tuple[frozenset[str], str]] = {
+    "pitcher": (_words("throw pitch toss hurl wind wind up fling release deliver catch"), "person"),
+    "batter": (_words("hit swing strike bunt run stand wait miss"), "person"),
+    "fan": (_words("wave cheer clap sing jump celebrate shout chant watch scream sit"), "person"),
+    "bowler": (_words("throw bowl run roll"), "person"),
+}
+"""Word → verbs whose subject is a person of that name."""
+_GLAZED = frozenset(
+    {"window", "car", "bus", "truck", "taxi", "van", "train", "tram", "building", "door", "house",
+     "aquarium", "shop window"}
+)  # fmt: skip
+
+
+def is_pane(group: NounGroup, draft: Draft) -> bool:
+    """As in "rain on the glass of a car window", "a bus with a crack in the glass": no vessel."""
+    head, determiner = group.head_word, group.determiner
+    if head.text != "glass" or determiner is None or determiner.text not in ("the", "its"):
+        return False
+    inner = [one.head.lemma for phrase in group.phrases for one in phrase.groups if one.head]
+    named = {item.noun for item in draft.objects}
+    return "glass" not in named and bool(_GLAZED & {*inner, *named})
+
+
+def is_of_drinks(group: NounGroup, preposition: str | None) -> bool:
+    """As in "a tray of glasses", "two glasses of wine": no spectacles."""
+    if group.head_word.text != "glasses":
+        return False
+    return preposition == "of" or any(one.preposition.text == "of" for one in group.phrases)
+
+
+def choose_sense(head: Word, noun: str, draft: Draft, verb: str = "") -> str:
+    """The noun that a word names among the things named before it, as the subject of a verb."""
+    verbs, person = _DOERS.get(head.lemma, (frozenset(), ""))
+    if verb in verbs and person in draft.nouns:
+        return person
+    named = {item.noun for item in draft.objects}
+    for others, sense in _BESIDE.get(head.lemma, ()):
+        if named & others and sense in draft.nouns:
+            return sense
+    return noun
+
+
+_HERDS = {"herd": 7, "flock": 9, "pack": 5, "caravan": 5, "swarm": 14, "school": 10, "shoal": 10,
+          "pair": 2, "team": 4, "convoy": 5, "fleet": 6, "trio": 3}  # fmt: skip
+"""Word for a group after the name of its members → how many they are."""
+_ANY = frozenset({"animal", "member", "creature", "individual"})
+
+
+_YOUNG = frozenset({"calf", "pup", "cub", "chick", "foal", "fawn", "kitten", "gosling", "duckling"})
+
+
+def read_young(group: NounGroup, draft: Draft) -> bool:
+    """As in "a seal pup", which is a seal; whether the group was one and is now its animal."""
+    inner = group.modifiers[-1] if group.modifiers else None
+    animal = inner.read_as(Role.NOUN) if inner is not None else None
+    if inner is None or animal is None or group.head_word.lemma not in _YOUNG:
+        return False
+    if draft.nouns[str(animal.value)].motion == "stand":
+        return False
+    group.head_word.shown_as = str(animal.value)
+    group.modifiers.pop()
+    group.head = inner
+    return True
+
+
+def read_herd(group: NounGroup, draft: Draft) -> int | None:
+    """As in "a camel caravan of five animals": five camels; None if it names no such group."""
+    head = group.head_word
+    inner = group.modifiers[-1] if group.modifiers else None
+    member = inner.read_as(Role.NOUN) if inner is not None else None
+    if inner is None or member is None or head.lemma not in _HERDS:
+        return None
+    if draft.nouns[str(member.value)].motion == "stand":
+        return None
+    count = _HERDS[head.lemma]
+    for phrase in list(group.phrases):
+        content = phrase.groups[0]
+        numbers = [word for word in content.modifiers if word.role is Role.COUNT]
+        is_any = content.head is not None and _name(content.head) in _ANY
+        if phrase.preposition.text == "of" and is_any and numbers:
+            count = int(numbers[-1].meaning.value)
+            mark_used([phrase.preposition, *content.words])
+            group.phrases.remove(phrase)
+    head.is_used = True
+    group.modifiers.pop()
+    group.head = inner
+    return count

@@ -1,0 +1,1 @@
+"""Frames of which only the tiles are drawn that differ from an earlier frame."""

@@ -1,0 +1,142 @@
+"""How large the subject is in the image, and how near the camera goes for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.framing import Framing
+
+LARGE = 0.3
+"""Geometric mean of the shares of the image's width and height that a subject should extend over:
+a person two thirds as high as the image, a car four tenths as wide. What is thin comes nearer."""
+LARGE_GROUP = 0.65
+"""Share of the image's width or height that a group should extend over together."""
+LARGE_COPY = 0.13
+"""The same as `LARGE` for each of a group."""
+GOALS = (1.0, 0.9)
+"""Prominence for which the rest leaves the image: first what stands about, then what else moves."""
+_HALVINGS = 6
+
+
+_LOOMING = 0.4
+"""Share of the image that a thing in front of the subject may cover."""
+_IN_FRONT = 0.6
+"""What comes nearer than this share of the subject's distance is in front of it, if it is higher
+than the subject's middle: a rug or a table hides nothing."""
+
+
+@dataclass(frozen=True)
+class Prominence:
+    """How large the copies of an object are in the image over a clip."""
+
+    times: Float64Array
+    """[t] s."""
+    boxes: Float64Array
+    """[t, copies, 8, 3] their corners, m."""
+    aspect: float
+    """Image height over width."""
+
+    @classmethod
+    def of(cls, copies: Sequence[Actor], times: Float64Array, aspect: float) -> Prominence:
+        """Of those actors at those instants."""
+        boxes = [[actor.corners(float(time)) for actor in copies] for time in times]
+        return cls(times, np.array(boxes), aspect)
+
+    def __call__(self, path: CameraPath) -> float:
+        """Mean over the clip; 1 = as large as a subject should be."""
+        return float(np.mean([self._at(path, number) for number in range(len(self.times))]))
+
+    def _at(self, path: CameraPath, number: int) -> float:
+        camera = path.at(float(self.times[number]))
+        seen = (self.boxes[number] - camera.position) @ camera.rotation.T
+        image = camera.focal * seen[..., :2] / np.maximum(seen[..., 2:], 1e-3)
+        image[..., 1] /= self.aspect
+        copy = float(np.sqrt(np.prod(np.ptp(image, axis=1), axis=1)).max())
+        if len(image) == 1:
+            return copy / LARGE
+        group = float(np.ptp(image, axis=(0, 1)).max())
+        return max(copy / LARGE, min(copy / LARGE_COPY, group / LARGE_GROUP))
+
+
+def has_clear_view(
+    path: CameraPath, main: Actor, others: Sequence[Actor], times: Float64Array, aspect: float
+) -> bool:
+    """Whether nothing else that the prompt names looms between the camera and the subject."""
+    for time in map(float, times):
+        camera = path.at(time)
+        middle = main.middle(time)
+        reach = float((middle - camera.position) @ camera.rotation[2])
+        for actor in others:
+            corners = actor.corners(time)
+            seen = (corners - camera.position) @ camera.rotation.T
+            is_in_front = np.max(seen[:, 2]) > 0.0 and np.min(seen[:, 2]) < _IN_FRONT * reach
+            if not is_in_front or np.max(corners[:, 2]) < middle[2]:
+                continue
+            image = camera.focal * seen[:, :2] / np.maximum(seen[:, 2:], 1e-3)
+            image = np.clip(image / [1.0, aspect], -0.5, 0.5)
+            if np.prod(np.ptp(image, axis=0)) > _LOOMING:
+                return False
+    return True
+
+
+def come_near(
+    framings: Sequence[Framing], path_of: Callable[[Framing], CameraPath],
+    prominence: Callable[[CameraPath], float], goals: Sequence[float],
+    is_clear: Callable[[CameraPath], bool] = lambda path: True,
+) -> CameraPath:  # fmt: skip
+    """The camera that shows as much as it can with a subject that is large enough.
+
+    All framings look the same way, so that whatever is in the image from two places is so from
+    every place on the line between them.
+
+    Args:
+        framings: from the one that shows all to the one that shows the subject alone.
+        path_of: the camera over the clip from a framing.
+        prominence: of the subject in it.
+        goals: how prominent it must be for the camera to go on to each framing after the first.
+        is_clear: whether nothing looms in front of the subject; the camera goes no nearer.
+    """
+    path = path_of(framings[0])
+    for framing, goal in zip(framings[1:], goals, strict=True):
+        if prominence(path) >= goal:
+            break
+        nearest = path_of(framing)
+        if prominence(nearest) <= prominence(path):
+            continue
+        path = _between(path, nearest, prominence, goal, is_clear)
+    return path
+
+
+def _between(
+    wide: CameraPath, near: CameraPath, prominence: Callable[[CameraPath], float], goal: float,
+    is_clear: Callable[[CameraPath], bool],
+) -> CameraPath:  # fmt: skip
+    """The widest between two cameras that reaches the goal, or the nearest with a clear view."""
+
+    def is_enough(path: CameraPath) -> bool:
+        return prominence(path) >= goal or not is_clear(path)
+
+    low, high = 0.0, 1.0
+    if not is_enough(near):
+        return near
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if is_enough(_mixed(wide, near, middle)) else (middle, high)
+    nearest = _mixed(wide, near, high)
+    return nearest if is_clear(nearest) else _mixed(wide, near, low)
+
+
+def _mixed(wide: CameraPath, near: CameraPath, share: float) -> CameraPath:
+    one, other = wide.framing, near.framing
+    framing = replace(
+        one,
+        target=one.target + share * (other.target - one.target),
+        distance_m=one.distance_m + share * (other.distance_m - one.distance_m),
+    )
+    return replace(wide, framing=framing)

@@ -1,0 +1,1 @@
+"""Whether the staged scene shows what the prompt says: relations, acts and moves of the camera."""

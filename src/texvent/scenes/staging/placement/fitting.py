@@ -1,0 +1,43 @@
+"""Sizes of what is in something: content and container are made to fit each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from texvent.scenes.description import SceneDescription, SceneObject
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.protocol import Model, Noun
+
+_ROOM = 0.8
+"""Share of a container's longer side that an animal in it may be long."""
+
+
+def fit_contents(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description with animals that fit into the containers that they are in.
+
+    Where an animal is too long, it becomes smaller and the container larger by the same factor.
+    Things stay as they are: a spoon stands out of its glass.
+    """
+    objects = list(description.objects)
+    for relation in description.relations:
+        if relation.kind != "in":
+            continue
+        inside, around = relation.subject, relation.targets[0]
+        is_animal = nouns[objects[inside].noun].habitat != "fixed"
+        is_container = nouns[objects[around].noun].habitat == "fixed"
+        if not (is_animal and is_container) or objects[inside].noun in PERSON_NOUNS:
+            continue
+        ratio = _ROOM * _side(objects[around], nouns) / _side(objects[inside], nouns)
+        if ratio < 1.0:
+            factor = math.sqrt(ratio)
+            objects[inside] = replace(objects[inside], scale=objects[inside].scale * factor)
+            objects[around] = replace(objects[around], scale=objects[around].scale / factor)
+    return replace(description, objects=tuple(objects))
+
+
+def _side(scene_object: SceneObject, nouns: Mapping[str, Noun]) -> float:
+    """Its longer side over the ground, m."""
+    model: Model = nouns[scene_object.noun].build(colour=None, scale=scene_object.scale, seed=0)
+    return max(model.length, model.width)
