@@ -5,10 +5,12 @@ TORCH_VENV := .venv-torch
 APP_VENV := .venv-app
 FORMATS_VENV := .venv-formats
 DATASET_VENV := .venv-dataset
+DOCS_VENV := .venv-docs
 GPL_VENV := .venv-gpl
 # Readers of event files under the GPL: never a dependency, run only by who asks for it.
 GPL_READERS := event_stream==1.6.3 evutils==0.3.18 faery==0.7.1 tonic==1.7.0
 PROMPT ?= a red car drives left past two trees at dusk
+DOCS_OUT ?= docs/_build
 DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
@@ -27,6 +29,8 @@ help:
 	@echo "make test-formats the tests of Parquet and blosc, in $(FORMATS_VENV)"
 	@echo "make test-dataset the tests of Ray and of data sets in other libraries, in $(DATASET_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
+	@echo "make docs         the documentation site, in $(DOCS_OUT)/html"
+	@echo "make linkcheck    links of the site to other hosts; needs the network"
 	@echo "make lint    ruff, mypy, import rules"
 	@echo "make format  let ruff rewrite the layout"
 	@echo "make clean   remove .venv, caches and demo output"
@@ -57,6 +61,13 @@ test-dataset: $(DATASET_VENV)/.dataset
 test-gpl: $(GPL_VENV)/.gpl
 	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io tests/dataset/loading
 
+docs: $(DOCS_VENV)/.docs
+	$(DOCS_VENV)/bin/python -m sphinx -b html -W --keep-going -j 2 -d $(DOCS_OUT)/doctrees docs $(DOCS_OUT)/html
+	@echo "Open $(DOCS_OUT)/html/index.html in a browser"
+
+linkcheck: $(DOCS_VENV)/.docs
+	$(DOCS_VENV)/bin/python -m sphinx -b linkcheck -d $(DOCS_OUT)/doctrees docs $(DOCS_OUT)/linkcheck
+
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
@@ -68,10 +79,10 @@ format: $(VENV)/.dev
 	$(VENV)/bin/ruff format .
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(DATASET_VENV) $(GPL_VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(DATASET_VENV)/bin/python $(GPL_VENV)/bin/python:
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -106,6 +117,11 @@ $(FORMATS_VENV)/.formats: $(FORMATS_VENV)/bin/python pyproject.toml constraints.
 $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent, Ray, pyarrow and loaders of data sets into $(DATASET_VENV) (once; 1.5 GB)"
 	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,dataset,ray,loaders]'
+	@touch $@
+
+$(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml constraints.txt
+	@echo "installing texvent and Sphinx into $(DOCS_VENV) (once; about 400 MB beyond texvent)"
+	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[docs]'
 	@touch $@
 
 $(GPL_VENV)/.gpl: $(GPL_VENV)/bin/python pyproject.toml constraints.txt Makefile
