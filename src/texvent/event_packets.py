@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -172,6 +172,15 @@ class EventPackets:
         from texvent.view.page.writer import show
 
         return show(self, path, overwrite=overwrite)
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """What a notebook shows: what is known without going through the packets."""
+        from texvent.view.notebook.bundle import mime_bundle
+        from texvent.view.notebook.events import packets_html
+
+        return mime_bundle(self, lambda: packets_html(self), include, exclude)
 
     def represent(
         self,

@@ -12,7 +12,7 @@ What always holds:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -297,6 +297,35 @@ class EventStream:
         from texvent.view.page.writer import show
 
         return show(self, path, overwrite=overwrite)
+
+    def plot(self, kind: str = "frame", *, ax: Any = None, **options: Any) -> Any:
+        """Draw the events by matplotlib and give the axes.
+
+        Args:
+            kind: "frame" (counted per pixel), "cloud" (x, y and time), "rate" (over time), "isi"
+                (times between events of a pixel) or "polarity" (ON and OFF).
+            ax: axes to draw into; default: those of a new figure. A cloud needs 3-D ones.
+            **options: of the kind, such as `palette="v2e"`; see `texvent.view.plots`.
+
+        Returns:
+            The axes (`matplotlib.axes.Axes`).
+
+        Raises:
+            ConfigError: unknown kind or option, or axes that do not fit it.
+            MissingDependencyError: matplotlib is not installed.
+        """
+        from texvent.view.plots.plot import plot
+
+        return plot(self, kind, ax=ax, **options)
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """What a notebook shows: the busiest moment, a cloud to turn, the event rate, facts."""
+        from texvent.view.notebook.bundle import mime_bundle
+        from texvent.view.notebook.events import stream_html
+
+        return mime_bundle(self, lambda: stream_html(self), include, exclude)
 
 
 def _checked_optional(name: str, values: NDArray[Any], count: int) -> NDArray[Any]:

@@ -14,11 +14,11 @@ What always holds:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Protocol, cast, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,6 +100,15 @@ class Frame:
         kind = "" if self.is_source else ", intermediate"
         return f"Frame({self.size} {_describe_pixels(self.pixels)}, t {self.t_us} µs{kind})"
 
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """What a notebook shows: the image and its time."""
+        from texvent.view.notebook.bundle import mime_bundle
+        from texvent.view.notebook.frames import frame_html
+
+        return mime_bundle(self, lambda: frame_html(self), include, exclude)
+
     @property
     def size(self) -> SensorSize:
         """Width and height, pixels."""
@@ -149,6 +158,20 @@ class FrameStream(Protocol):
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order."""
         ...
+
+
+class NotebookFrames:
+    """A stream of frames that shows itself in notebooks, and is not read up by that."""
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """What a notebook shows: some frames and facts."""
+        from texvent.view.notebook.bundle import mime_bundle
+        from texvent.view.notebook.frames import video_html
+
+        stream = cast(FrameStream, self)
+        return mime_bundle(self, lambda: video_html(stream), include, exclude)
 
 
 @runtime_checkable
@@ -208,7 +231,7 @@ def _describe_pixels(pixels: PixelArray) -> str:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Video:
+class Video(NotebookFrames):
     """Frames held in memory.
 
     Raises:

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from texvent.sensor import SensorSize
-from texvent.video import Frame, describe_stream
+from texvent.video import Frame, NotebookFrames, describe_stream
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class SourceFacts:
     """True if the frames can be read only once."""
 
 
-class FrameSource(ABC):
+class FrameSource(NotebookFrames, ABC):
     """A `FrameStream` that states `SourceFacts`; subclasses set them and iterate."""
 
     _facts: SourceFacts

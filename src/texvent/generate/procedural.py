@@ -25,7 +25,14 @@ from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.options.values import plain
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
-from texvent.video import MICROSECONDS, Frame, Motion, describe_stream, frame_time_us
+from texvent.video import (
+    MICROSECONDS,
+    Frame,
+    Motion,
+    NotebookFrames,
+    describe_stream,
+    frame_time_us,
+)
 
 if TYPE_CHECKING:
     from texvent.runtime.progress import Progress
@@ -80,7 +87,7 @@ class ProceduralConfig:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ProceduralVideo:
+class ProceduralVideo(NotebookFrames):
     """A rendered scene: a stream of frames that can also be rendered at any instant."""
 
     scene: Scene

@@ -15,7 +15,7 @@ from texvent.capture.camera_path.surfaces import Surfaces
 from texvent.capture.camera_path.view import View, fitted_view
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.sensor import SensorSize
-from texvent.video import Frame, Motion, describe_stream, frame_time_us
+from texvent.video import Frame, Motion, NotebookFrames, describe_stream, frame_time_us
 
 INSTANTS = 300
 """Instants of a path that are looked at to find the scale."""
@@ -29,7 +29,7 @@ NEAR_PERCENT, FAR_PERCENT = 1.0, 99.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PhotoFrames:
+class PhotoFrames(NotebookFrames):
     """A `RenderableStream` of an image under a camera path; its frames carry exact motion.
 
     Raises:

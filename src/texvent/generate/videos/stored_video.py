@@ -28,6 +28,7 @@ from texvent.video import (
     UINT16_PER_LEVEL,
     Frame,
     FrameStream,
+    NotebookFrames,
     PixelArray,
     describe_stream,
     frame_time_us,
@@ -40,7 +41,7 @@ _EIGHT_BITS = 8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StoredVideo:
+class StoredVideo(NotebookFrames):
     """A video file as a stream of frames at a stated rate; decoded anew at every iteration.
 
     The file's own times are not used: a generated video has a frame rate and nothing else.

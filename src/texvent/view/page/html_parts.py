@@ -76,7 +76,7 @@ def rate_figure(
         bin_us: width of a bin, µs.
         peak: events of one polarity per bin at full height; default: the most of these.
         marks: SVG drawn over the areas.
-        name: id of the SVG element.
+        name: id of the SVG element, if any.
     """
     per_second = MICROSECONDS / bin_us
     full = max(1, int(counts.max()) if peak is None else peak)
@@ -88,8 +88,9 @@ def rate_figure(
     )
     stop_us = start_us + bin_us * counts.shape[1]
     label = f"ON and OFF events per second over time; peak {count_text(most * per_second)}"
+    identity = f' id="{name}"' if name else ""
     return (
-        f'<figure class="panel rate"><svg id="{name}" '
+        f'<figure class="panel rate"><svg{identity} '
         f'viewBox="0 0 {CURVE_WIDTH} {CURVE_HEIGHT}" '
         f'preserveAspectRatio="none" role="img" aria-label="{label}">'
         f'<path class="on-area" d="{on_area}"/><path class="off-area" d="{off_area}"/>{marks}'
@@ -168,17 +169,7 @@ def viewer_json(
         seen: how many events the recording has.
         stop_us: time of the last event, µs.
     """
-    start_us = curve.start_us
-    span_us = max(1, stop_us - start_us)
-    share = ((sample.t - start_us) / span_us).astype("<f4")
-    pixels = np.stack([sample.x, sample.y], axis=1).astype("<u2")
-    data = {
-        "width": sample.size.width,
-        "height": sample.size.height,
-        "start_us": start_us,
-        "duration_us": span_us,
-        "count": len(sample),
-        "seen": seen,
+    data = cloud_data(sample, (curve.start_us, stop_us), palette=palette, seen=seen) | {
         "rate": {
             "bins": curve.counts.shape[1],
             "bin_us": curve.bin_us,
@@ -186,17 +177,46 @@ def viewer_json(
         },
         "frames": [
             {
-                "t": (t_us - start_us) / span_us,
+                "t": (t_us - curve.start_us) / max(1, stop_us - curve.start_us),
                 "src": "data:image/jpeg;base64," + base64.b64encode(jpeg).decode("ascii"),
             }
             for t_us, jpeg in strip.images
         ],
+    }
+    return script_json(data)
+
+
+def cloud_data(
+    sample: EventStream, extent: tuple[int, int], *, palette: Palette, seen: int
+) -> dict[str, Any]:
+    """What the cloud is drawn from: events, size, times and colours.
+
+    Args:
+        sample: the events of the cloud.
+        extent: times of the first and the last event of the recording, µs.
+        palette: the colours.
+        seen: how many events the recording has.
+    """
+    start_us, span_us = extent[0], max(1, extent[1] - extent[0])
+    share = ((sample.t - start_us) / span_us).astype("<f4")
+    pixels = np.stack([sample.x, sample.y], axis=1).astype("<u2")
+    return {
+        "width": sample.size.width,
+        "height": sample.size.height,
+        "start_us": start_us,
+        "duration_us": span_us,
+        "count": len(sample),
+        "seen": seen,
         **_colours(palette),
         "dark": _colours(palette.dark),
         "xy": _base64(pixels),
         "t": _base64(share),
         "p": _base64(sample.p),
     }
+
+
+def script_json(data: Mapping[str, Any]) -> str:
+    """JSON that is safe inside a script element."""
     # "</script>" inside JSON would end the element.
     return json.dumps(data).replace("<", "\\u003c")
 

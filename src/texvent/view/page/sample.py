@@ -60,6 +60,21 @@ class UniformSample:
         self._kept, self._priorities, self._kept_count = [events], [priorities], len(events)
 
 
+def spread_sample(events: EventStream, limit: int) -> EventStream:
+    """At most `limit` of the events in memory, the same ones at every call.
+
+    The stream is cut into `limit` runs of equal length, and one event is drawn of each: fast however
+    many there are, and as dense in time as the recording.
+    """
+    count = len(events)
+    if count <= limit:
+        return events
+    edges = np.arange(limit + 1) * count // limit
+    chosen = np.random.default_rng(0).integers(edges[:-1], edges[1:])
+    columns = (getattr(events, name)[chosen] for name in "xytp")
+    return EventStream.unchecked(*columns, size=events.size, label=None)
+
+
 class RateCurve:
     """ON and OFF events per time bin; bins double in width when the recording outgrows them."""
 

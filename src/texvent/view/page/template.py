@@ -21,25 +21,26 @@ def fill_template(name: str, parts: Mapping[str, str], *, palette: Palette) -> s
         parts: what to insert, as HTML.
         palette: the colours; in dark mode those of its dark twin.
     """
-    folder = resources.files("texvent.view.page").joinpath("viewer")
-
-    def read(name: str) -> str:
-        return folder.joinpath(name).read_text("utf-8")
-
     known = {
-        "style": f"{read('page.css')}\n{_palette_css(palette)}",
-        "script": "\n".join(map(read, SCRIPTS)),
+        "style": f"{viewer_file('page.css')}\n{_palette_css(palette)}",
+        "script": "\n".join(map(viewer_file, SCRIPTS)),
         **parts,
     }
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], read(name))
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], viewer_file(name))
+
+
+def viewer_file(name: str) -> str:
+    """The text of a file in viewer/."""
+    return resources.files("texvent.view.page").joinpath("viewer", name).read_text("utf-8")
 
 
 def _palette_css(palette: Palette) -> str:
-    light, dark = map(_properties, (palette, palette.dark))
+    light, dark = map(palette_properties, (palette, palette.dark))
     return f":root {{ {light} }}\n@media (prefers-color-scheme: dark) {{\n  :root {{ {dark} }}\n}}"
 
 
-def _properties(palette: Palette) -> str:
+def palette_properties(palette: Palette) -> str:
+    """The colours as CSS properties: `--on: rgb(0 0 255);` and its like."""
     colours = {name: getattr(palette, name) for name in PALETTE_PARTS}
     return " ".join(
         f"--{name}: rgb({red} {green} {blue});" for name, (red, green, blue) in colours.items()
