@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,9 +30,6 @@ def rate_counts(events: EventStream, extent: tuple[int, int], bins: int) -> NDAr
     edges = start_us + np.ceil(np.arange(bins + 1) * ((stop_us - start_us) / bins)).astype(np.int64)
     places = np.searchsorted(events.t, edges)
     is_on = events.p.view(np.bool_)
-    on = [
-        np.count_nonzero(is_on[first:last])
-        for first, last in zip(places[:-1], places[1:], strict=True)
-    ]
+    on = [np.count_nonzero(is_on[first:last]) for first, last in pairwise(places.tolist())]
     on_counts = np.array(on, dtype=np.int64)
     return np.stack([np.diff(places) - on_counts, on_counts])

@@ -36,16 +36,6 @@ def enlarge(image: Image, factor: int, *, how: Literal["smooth", "blocks"]) -> I
     )
 
 
-def shrink(image: Image, side: int) -> Image:
-    """The image with no side longer than `side` pixels; a smaller one stays as it is."""
-    share = side / max(image.shape[:2])
-    if share >= 1:
-        return image
-    height, width = (max(1, round(share * one)) for one in image.shape[:2])
-    small = cv2.resize(image, (width, height), interpolation=cv2.INTER_AREA)
-    return np.asarray(small, dtype=np.uint8)
-
-
 def tile(panels: Sequence[Image], columns: int, colour: Colour, *, gap: int = 0) -> Image:
     """Images of one size in reading order, `gap` pixels of `colour` between them."""
     height, width = panels[0].shape[:2]

@@ -88,16 +88,16 @@ def shrink_counts(counts: NDArray[np.int32], factor: int) -> NDArray[np.int32]:
 def frame_figure(frames: Sequence[Frame], caption: str) -> str:
     """Frames side by side."""
     images = [frame_image(frame) for frame in frames]
-    side = LONGEST_SIDE if len(images) == 1 else LONGEST_SIDE // 2
+    width = LONGEST_SIDE if len(images) == 1 else LONGEST_SIDE // 2
     while True:
-        sheet = tile([shrink(one, side) for one in images], len(images), (128, 128, 128), gap=2)
+        sheet = tile([shrink(one, width) for one in images], len(images), (128, 128, 128), gap=2)
         png = png_bytes(sheet)
-        if len(png) <= MAX_FRAME_BYTES or side < 32:
+        if len(png) <= MAX_FRAME_BYTES or width < 16:
             break
-        side = side * 3 // 4
-    small = max(images[0].shape[:2]) <= side
+        width = width * 3 // 4
+    is_whole = images[0].shape[1] <= width
     return (
-        f'<figure class="still{"" if small else " smooth"}"><img alt="{caption}" '
+        f'<figure class="still{"" if is_whole else " smooth"}"><img alt="{caption}" '
         f'src="{_source(png)}"><figcaption>{caption}</figcaption></figure>'
     )
 

@@ -63,8 +63,8 @@ class UniformSample:
 def spread_sample(events: EventStream, limit: int) -> EventStream:
     """At most `limit` of the events in memory, the same ones at every call.
 
-    The stream is cut into `limit` runs of equal length, and one event is drawn of each: fast however
-    many there are, and as dense in time as the recording.
+    The stream is cut into `limit` runs of equal length, and one event is drawn of each: fast
+    however many there are, and as dense in time as the recording.
     """
     count = len(events)
     if count <= limit:

@@ -1,0 +1,152 @@
+"""Plots of events, against values by hand."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, MissingDependencyError
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.view.plots.curves import pixel_intervals
+
+SIZE = SensorSize(4, 3)
+EVENTS = EventStream.from_columns(
+    [0, 0, 3, 0, 3], [0, 0, 2, 0, 2], [0, 10, 20, 110, 399], [1, 1, 0, 1, 0], size=SIZE
+)
+"""Pixel (0, 0): ON at 0, 10 and 110 µs; pixel (3, 2): OFF at 20 and 399 µs."""
+KINDS = ("frame", "cloud", "rate", "isi", "polarity")
+
+
+@pytest.fixture(autouse=True)
+def pyplot() -> Iterator[Any]:
+    """matplotlib without a window; every figure is closed."""
+    mpl.use("Agg")
+    from matplotlib import pyplot
+
+    yield pyplot
+    pyplot.close("all")
+
+
+def test_a_frame_shows_blue_where_on_and_red_where_off():
+    ax = EVENTS.plot()
+    (image,) = ax.images
+    pixels = image.get_array()
+    assert pixels.shape == (3, 4, 3)
+    assert pixels[0, 0].tolist() == [0, 0, 255]
+    assert pixels[1, 1].tolist() == [255, 255, 255]
+    # √(2 events / a ceiling of 8) = 0.5: half of the way from white to red.
+    faint = EVENTS.plot("frame", ceiling=8).images[0].get_array()
+    assert faint[2, 3].tolist() == [255, 128, 128]
+
+
+def test_a_frame_takes_a_palette():
+    image = EVENTS.plot("frame", palette="v2e").images[0].get_array()
+    assert image[0, 0].tolist() == [255, 255, 255]
+    assert image[1, 1].tolist() == [128, 128, 128]
+
+
+def test_rates_are_events_per_second_on_above_and_off_below():
+    ax = EVENTS.plot("rate", bin_us=100)
+    on, off = (stairs.get_data() for stairs in ax.patches)
+    assert on.values.tolist() == [20_000, 10_000, 0, 0]
+    assert off.values.tolist() == [-10_000, 0, 0, -10_000]
+    assert on.edges == pytest.approx([0, 1e-4, 2e-4, 3e-4, 4e-4])
+
+
+def test_the_default_rate_has_at_most_a_hundred_bins_with_every_event():
+    on, off = (stairs.get_data() for stairs in EVENTS.plot("rate").patches)
+    width_s = on.edges[1] - on.edges[0]
+    assert len(on.values) == 100
+    assert on.values.sum() * width_s == pytest.approx(3)
+    assert off.values.sum() * width_s == pytest.approx(-2)
+
+
+def test_intervals_are_between_events_of_one_pixel():
+    assert sorted(pixel_intervals(EVENTS).tolist()) == [10, 100, 379]
+    ax = EVENTS.plot("isi", bins=2)
+    data = ax.patches[0].get_data()
+    # Edges 10, √(10 · 379) = 61.6 and 379.
+    assert data.values.tolist() == [1, 2]
+    assert data.edges == pytest.approx([10, 3790**0.5, 379])
+    assert ax.get_xscale() == "log"
+
+
+def test_events_of_a_pixel_in_the_same_us_count_as_1_us_apart():
+    twice = EventStream.from_columns([1, 1], [1, 1], [7, 7], [1, 1], size=SIZE)
+    assert twice.plot("isi", bins=1).patches[0].get_data().values.tolist() == [1]
+
+
+def test_bars_of_polarity_are_as_high_as_the_counts():
+    ax = EVENTS.plot("polarity")
+    assert [bar.get_height() for bar in ax.patches] == [3, 2]
+    assert [text.get_text() for text in ax.texts] == ["3 (60.0%)", "2 (40.0%)"]
+
+
+def test_a_cloud_has_a_point_per_event_with_its_colour():
+    ax = EVENTS.plot("cloud")
+    (points,) = ax.collections
+    t, x, y = points._offsets3d
+    assert np.asarray(t).tolist() == pytest.approx([0, 1e-5, 2e-5, 11e-5, 39.9e-5])
+    assert np.asarray(x).tolist() == [0, 0, 3, 0, 3]
+    assert np.asarray(y).tolist() == [0, 0, 2, 0, 2]
+    on, off = [0, 0, 1], [1, 0, 0]
+    assert points._facecolors[:, :3].tolist() == [on, on, off, on, off]
+    assert ax.get_zlim() == (3, 0)  # row 0 is at the top
+
+
+def test_a_cloud_of_more_events_is_an_even_sample():
+    ax = EVENTS.plot("cloud", max_events=2)
+    t = np.asarray(ax.collections[0]._offsets3d[0]) * 1e6
+    assert len(t) == 2
+    assert t[0] < 15 < t[1]  # one of the first two events, one of the last three
+    assert ax.get_title() == "2 of 5 events"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_draws_into_axes_of_mine_and_gives_them_back(kind, pyplot):
+    options = {"projection": "3d"} if kind == "cloud" else {}
+    ax = pyplot.figure().add_subplot(**options)
+    assert EVENTS.plot(kind, ax=ax) is ax
+    ax.figure.canvas.draw()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_events_give_empty_axes(kind):
+    ax = EventStream.empty(SIZE).plot(kind)
+    ax.figure.canvas.draw()
+
+
+@pytest.mark.parametrize(
+    ("kind", "options", "says"),
+    [
+        ("frames", {}, "unknown kind of plot 'frames'.*frame"),
+        ("rate", {"bins": 3}, "plot rate has no option 'bins'.*bin_us"),
+        ("rate", {"bin_us": 0}, "bin_us"),
+        ("isi", {"bins": 0}, "bins"),
+        ("cloud", {"max_events": 0}, "max_events"),
+        ("frame", {"palette": "blue"}, "palette"),
+    ],
+    ids=["kind", "option", "bin_us", "bins", "max_events", "palette"],
+)
+def test_what_no_plot_has_is_named(kind, options, says):
+    with pytest.raises(ConfigError, match=says):
+        EVENTS.plot(kind, **options)
+
+
+def test_a_cloud_needs_3d_axes_and_only_a_cloud(pyplot):
+    with pytest.raises(ConfigError, match=r"plot cloud cannot be drawn.*projection"):
+        EVENTS.plot("cloud", ax=pyplot.figure().add_subplot())
+    with pytest.raises(ConfigError, match="plot rate cannot be drawn"):
+        EVENTS.plot("rate", ax=pyplot.figure().add_subplot(projection="3d"))
+
+
+def test_without_matplotlib_the_error_names_the_extra(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
+    with pytest.raises(MissingDependencyError, match=r"pip install 'texvent\[plot\]'"):
+        EVENTS.plot()
