@@ -46,6 +46,7 @@ EXTRAS = {
     "rife": ("torch", "RIFE interpolation"),
     "v2ce": ("torch", "the V2CE simulator"),
     "train": ("matplotlib", "texvent train"),
+    "plot": ("matplotlib", "events.plot()"),
     "gpu": ("triton", "texvent and esim on a GPU: --backend gpu"),
     "app": ("gradio", "the web page: texvent app"),
     "rerun": ("rerun", "rerun files (.rrd)"),

@@ -58,11 +58,11 @@ def stream_html(events: EventStream, more: Mapping[str, Any] | None = None) -> s
 def packets_html(packets: EventPackets) -> str:
     """What is known of packets without going through them; of a file that seeks, a glance."""
     span, still = None, ""
-    if isinstance(packets.packets, SeekablePackets):
-        try:
+    try:
+        if isinstance(packets.packets, SeekablePackets):  # this alone may read the file
             span, still = _glance(packets)
-        except (TexventError, OSError) as error:
-            still = note(f"The file could not be read: {error}")
+    except (TexventError, OSError) as error:
+        still = note(f"The file could not be read: {error}")
     summary = f"EventPackets · {size_text(packets.size)}"
     if span is not None:
         summary += f" · {(span[1] - span[0]) / MICROSECONDS:.3f} s"

@@ -55,7 +55,8 @@ def video_html(frames: FrameStream) -> str:
     else:
         strip, why = _first_frame(frames)
     times = ", ".join(f"{one.t_us / MICROSECONDS:.3f}" for one in strip)
-    figure = frame_figure(strip, f"Frame at {times} s") if strip else ""
+    caption = f"{'Frames' if len(strip) > 1 else 'Frame'} at {times} s"
+    figure = frame_figure(strip, caption) if strip else ""
     return framed(
         heading(title_text(frames.metadata), describe_stream(frames)),
         f'<div class="views">{figure}</div>' if figure else "",

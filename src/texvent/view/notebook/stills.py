@@ -95,9 +95,13 @@ def frame_figure(frames: Sequence[Frame], caption: str) -> str:
         if len(png) <= MAX_FRAME_BYTES or width < 16:
             break
         width = width * 3 // 4
-    is_whole = images[0].shape[1] <= width
+    classes = ["still"]
+    if images[0].shape[1] > width:
+        classes.append("smooth")
+    if len(images) > 1:
+        classes.append("strip")
     return (
-        f'<figure class="still{"" if is_whole else " smooth"}"><img alt="{caption}" '
+        f'<figure class="{" ".join(classes)}"><img alt="{caption}" '
         f'src="{_source(png)}"><figcaption>{caption}</figcaption></figure>'
     )
 
