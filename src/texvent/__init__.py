@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from texvent.run.truth import TruthFolder
     from texvent.sensor import SENSORS, Sensor, SensorSize
     from texvent.simulate.check_simulator import check_simulator
+    from texvent.transform.augmentation.augment import Augment
     from texvent.truth.loading import load_truth
     from texvent.truth.saving import save_truth
     from texvent.video import Frame, FrameStream, Video
@@ -72,6 +73,7 @@ _HOMES = {
     ),
     "run.truth": ("TruthFolder",),
     "simulate.check_simulator": ("check_simulator",),
+    "transform.augmentation.augment": ("Augment",),
     "truth.loading": ("load_truth",),
     "truth.saving": ("save_truth",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
@@ -81,6 +83,7 @@ _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 __all__ = [
     "SENSORS",
+    "Augment",
     "ConfigError",
     "EventPackets",
     "EventStream",

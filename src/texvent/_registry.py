@@ -227,6 +227,35 @@ REPRESENTATIONS = Registry(
         "dist": "texvent.represent.dist:dist",
     },
 )
+FILTERS = Registry(
+    "event filter",
+    {
+        "background-activity": (
+            "texvent.transform.filters.background_activity:BackgroundActivityFilter"
+        ),
+        "refractory": "texvent.transform.filters.refractory:RefractoryFilter",
+        "hot-pixels": "texvent.transform.filters.hot_pixels:HotPixelFilter",
+        "mask": "texvent.transform.filters.pixel_mask:MaskFilter",
+        "rate-limit": "texvent.transform.filters.rate_limit:RateLimitFilter",
+    },
+)
+AUGMENTATIONS = Registry(
+    "augmentation",
+    {
+        "flip-x": "texvent.transform.augmentation.space:FlipX",
+        "flip-y": "texvent.transform.augmentation.space:FlipY",
+        "rotate": "texvent.transform.augmentation.space:Rotate",
+        "shift": "texvent.transform.augmentation.space:Shift",
+        "crop": "texvent.transform.augmentation.space:Crop",
+        "jitter-space": "texvent.transform.augmentation.space:JitterSpace",
+        "jitter-time": "texvent.transform.augmentation.time:JitterTime",
+        "flip-polarity": "texvent.transform.augmentation.time:FlipPolarity",
+        "reverse-time": "texvent.transform.augmentation.time:ReverseTime",
+        "drop-events": "texvent.transform.augmentation.dropping:DropEvents",
+        "drop-time": "texvent.transform.augmentation.dropping:DropTime",
+        "drop-area": "texvent.transform.augmentation.dropping:DropArea",
+    },
+)
 RECONSTRUCTORS = Registry(
     "reconstructor",
     {
@@ -256,6 +285,8 @@ REGISTRIES = {
         CODECS,
         METRICS,
         REPRESENTATIONS,
+        FILTERS,
+        AUGMENTATIONS,
         RECONSTRUCTORS,
         TASKS,
     )

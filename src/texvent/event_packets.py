@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
+from texvent.event_edits import EventEdits
 from texvent.events import EventStream
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.runtime.read_once import ReadOnce
@@ -53,7 +54,7 @@ def _ignore(times: SeenTimes) -> None:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class EventPackets:
+class EventPackets(EventEdits):
     """Events packet by packet, for recordings that need not fit in memory.
 
     Every pass reads or simulates them anew; of a generator or a camera there is one pass.

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.errors import InputError
+from texvent.event_edits import EventEdits
 from texvent.sensor import MAX_SIDE, SensorSize, SizeLike, as_size
 from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
@@ -43,7 +44,7 @@ OPTIONAL_COLUMNS = ("label", *ID_COLUMNS)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class EventStream:
+class EventStream(EventEdits):
     """Events in time order: a whole recording, or one packet of it.
 
     Raises:

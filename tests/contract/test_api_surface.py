@@ -7,6 +7,7 @@ import texvent
 
 PUBLIC = {
     "SENSORS",
+    "Augment",
     "ConfigError",
     "EventPackets",
     "EventStream",

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
-from texvent.metrics.soundness import Soundness, SoundnessCheck, find_hot_pixels
+from texvent.metrics.soundness import Soundness, SoundnessCheck, list_hot_pixels
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(40, 30)
@@ -69,9 +69,9 @@ def test_a_hot_pixel_is_found_and_an_edge_is_not() -> None:
     counts = np.ones((30, 40), dtype=np.int64)
     counts[10, 20] = 500
     counts[:, 5] = 500
-    assert find_hot_pixels(counts) == ((20, 10, 500),)
+    assert list_hot_pixels(counts) == ((20, 10, 500),)
     counts[0, 0] = 700
-    assert find_hot_pixels(counts)[0] == (0, 0, 700)
+    assert list_hot_pixels(counts)[0] == (0, 0, 700)
 
 
 def test_times_of_frames_are_clumped() -> None:

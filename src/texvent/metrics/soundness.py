@@ -7,21 +7,16 @@ refused while it is read.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
+from texvent.transform.filters.hot_pixels import mask_hot_pixels
 
 MAX_DUPLICATES = 1e-3
 """Share of events that repeat another one exactly, above which a recording is suspicious."""
-HOT_EVENTS = 100
-"""Pixels with fewer events are never hot."""
-HOT_FACTOR = 20.0
-"""Hot pixels fire this many times as often as the second busiest of their eight neighbours: where
-an edge passes, two neighbours at least are as busy."""
 CLUMP_EVENTS = 10
 """Events of one µs, beyond one per 1000 pixels, above which they are clumped."""
 MAX_CLUMPED = 0.5
@@ -120,7 +115,7 @@ class SoundnessCheck:
             self._events,
             self._duplicates,
             self._contradictions,
-            find_hot_pixels(self._counts),
+            list_hot_pixels(self._counts),
             self._clumped * share,
             self._on * share,
         )
@@ -143,22 +138,14 @@ class SoundnessCheck:
         self._contradictions += int((is_same_pixel & ~is_same).sum())
 
 
-def find_hot_pixels(counts: NDArray[np.int64]) -> tuple[tuple[int, int, int], ...]:
+def list_hot_pixels(counts: NDArray[np.int64]) -> tuple[tuple[int, int, int], ...]:
     """Pixels that fire far more than their neighbours, as (x, y, events), the busiest first.
 
     Args:
         counts: events per pixel, [height, width].
     """
-    y, x = np.nonzero(counts >= HOT_EVENTS)
-    if len(y) == 0:
-        return ()
-    # Mirrored, so that a line which ends at the sensor's edge has two busy neighbours there too.
-    padded = np.pad(counts, 1, mode="reflect")
-    around = [(dy, dx) for dy in (0, 1, 2) for dx in (0, 1, 2) if (dy, dx) != (1, 1)]
-    neighbours: NDArray[Any] = np.stack([padded[y + dy, x + dx] for dy, dx in around])
+    y, x = np.nonzero(mask_hot_pixels(counts))
     own = counts[y, x]
-    second_busiest = np.sort(neighbours, axis=0)[-2]
-    is_hot = own > HOT_FACTOR * np.maximum(second_busiest, 1)
-    order = np.argsort(-own[is_hot], kind="stable")
-    found = zip(x[is_hot][order], y[is_hot][order], own[is_hot][order], strict=True)
+    order = np.argsort(-own, kind="stable")
+    found = zip(x[order], y[order], own[order], strict=True)
     return tuple((int(column), int(row), int(count)) for column, row, count in found)

@@ -1,5 +1,5 @@
-"""Event recordings changed as they stream by: cut in space and time, resized, merged, undistorted.
+"""Event recordings changed: parts, other sizes, turned, filtered, merged, undistorted, augmented.
 
-Each function takes and returns `EventPackets`, reads nothing until the result is iterated, and
-keeps memory flat.
+Functions take an `EventStream` or `EventPackets` and return the same kind. Packets stream by:
+nothing is read until the result is iterated, and memory stays flat.
 """

@@ -1,9 +1,9 @@
-"""Recordings made of other recordings, packet by packet."""
+"""Recordings made of other recordings: a whole stream at once, or packet by packet."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,22 +12,49 @@ from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
+Recording = TypeVar("Recording", EventStream, EventPackets)
+"""Events in memory, or packet by packet."""
+
+
+def packets_of(events: EventStream | EventPackets) -> Iterable[EventStream]:
+    """The packets of a recording; a stream is one."""
+    return (events,) if isinstance(events, EventStream) else events
+
 
 def map_packets(
-    events: EventPackets,
+    events: Recording,
     change: Callable[[EventStream], EventStream],
     *,
     size: SensorSize | None = None,
-) -> EventPackets:
-    """Every packet changed by a function.
+) -> Recording:
+    """Every packet changed by a function; a stream is one packet.
 
     Args:
         events: the recording.
         change: gives the new packet.
         size: sensor size of the new packets; None: as before.
     """
+    if isinstance(events, EventStream):
+        return change(events)
     lazy = LazyPackets(lambda: (change(packet) for packet in events))
     return EventPackets(lazy, size or events.size, events.metadata)
+
+
+def map_in_order(
+    events: Recording,
+    start: Callable[[], Callable[[EventStream], EventStream]],
+    *,
+    size: SensorSize | None = None,
+) -> Recording:
+    """As `map_packets`, by functions that remember earlier packets: `start` makes one per pass."""
+    if isinstance(events, EventStream):
+        return start()(events)
+
+    def changed() -> Iterator[EventStream]:
+        change = start()
+        return (change(packet) for packet in events)
+
+    return EventPackets(LazyPackets(changed), size or events.size, events.metadata)
 
 
 def move_events(
@@ -44,6 +71,9 @@ def move_events(
     return EventStream(**columns, size=size, metadata=packet.metadata)
 
 
-def add_metadata(events: EventPackets, facts: Mapping[str, Any]) -> EventPackets:
+def add_metadata(events: Recording, facts: Mapping[str, Any]) -> Recording:
     """The same recording with more metadata."""
-    return EventPackets(events.packets, events.size, {**events.metadata, **facts})
+    metadata = {**events.metadata, **facts}
+    if isinstance(events, EventStream):
+        return events.with_metadata(metadata)
+    return EventPackets(events.packets, events.size, metadata)

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.errors import InputError
-from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize, SizeLike, as_size
-from texvent.transform.packets import map_packets, move_events
+from texvent.transform.packets import Recording, map_packets, move_events
 
 
 @dataclass(frozen=True)
@@ -25,7 +24,7 @@ class Region:
     height: int
 
 
-def crop(events: EventPackets, region: Region) -> EventPackets:
+def crop(events: Recording, region: Region) -> Recording:
     """The events in a region, whose top left pixel becomes (0, 0).
 
     Raises:
@@ -50,7 +49,7 @@ def crop(events: EventPackets, region: Region) -> EventPackets:
     return map_packets(events, cut, size=smaller)
 
 
-def resize(events: EventPackets, size: SizeLike) -> EventPackets:
+def resize(events: Recording, size: SizeLike) -> Recording:
     """The events on a sensor of another size, each in the pixel that covers its old one.
 
     No event is added or taken away: a smaller sensor has pixels with the events of several, a

@@ -8,7 +8,7 @@ from texvent.errors import InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.time_range import SeenTimes, describe_outside
-from texvent.transform.packets import map_packets
+from texvent.transform.packets import Recording, map_packets, packets_of
 from texvent.video import MICROSECONDS
 
 
@@ -33,9 +33,9 @@ def _refuse_outside(start_us: int, stop_us: int, seen: SeenTimes) -> None:
         raise InputError(problem)
 
 
-def start_at_zero(events: EventPackets) -> EventPackets:
+def start_at_zero(events: Recording) -> Recording:
     """The same events with times counted from the first one; it is looked up at once."""
-    first_us = next((int(packet.t[0]) for packet in events if len(packet)), 0)
+    first_us = next((int(packet.t[0]) for packet in packets_of(events) if len(packet)), 0)
 
     def shift(packet: EventStream) -> EventStream:
         columns = {**packet.columns(), "t": packet.t - first_us}

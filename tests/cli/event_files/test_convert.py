@@ -163,3 +163,47 @@ def test_validate_says_whether_the_format_notices_damage(
     run("validate", name)
     said = capsys.readouterr().out
     assert ("the format cannot notice" in said) is not has_checksums
+
+
+def test_filters_run_in_order_and_are_noted(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    texts = ("refractory:period_us=500", "background-activity:window_us=400000,radius=3")
+    assert run("convert", "in.h5", "clean.h5", "--filter", *texts) == 0
+    expected = recording.filter(texts[0]).filter(texts[1])
+    assert 0 < len(expected) < len(recording)
+    assert load("clean.h5").equals(expected)
+    assert load("clean.h5").metadata["edits"] == [{"filter": list(texts)}]
+    assert "unknown event filter 'ba'" in refused(
+        capsys, "convert", "in.h5", "no.h5", "--filter", "ba"
+    )
+    assert not Path("no.h5").exists()
+
+
+def test_hot_pixels_are_written_as_a_mask_that_other_runs_take(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    count = 300
+    times = np.linspace(int(recording.t[0]), int(recording.t[-1]), count).astype(np.int64)
+    hot = EventStream([20] * count, [10] * count, times, [1] * count, SIZE)
+    save("hot.h5", hot)
+    assert run("convert", "in.h5", "both.h5", "--merge", "hot.h5", "--save-mask", "hot.png") == 0
+    assert run("convert", "both.h5", "masked.h5", "--mask", "hot.png") == 0
+    assert run("convert", "both.h5", "filtered.h5", "--filter", "hot-pixels") == 0
+    masked = load("masked.h5")
+    assert len(load("both.h5")) - len(masked) >= count
+    assert not ((masked.x == 20) & (masked.y == 10)).any()
+    assert load("filtered.h5").equals(masked)
+    said = refused(capsys, "convert", "in.h5", "x.h5", "--save-mask", "hot.bmp")
+    assert "masks end in .npy, .png or .txt" in said
+    assert run("convert", "in.h5", "x.h5", "--save-mask", "hot.png") == 3
+    assert not Path("x.h5").exists()
+
+
+def test_events_are_turned_mirrored_and_put_on_larger_pixels(recording: EventStream) -> None:
+    words = ("--downsample", "2", "--rotate", "90", "--flip", "x")
+    assert run("convert", "in.h5", "turned.h5", *words, "-q") == 0
+    found = load("turned.h5")
+    assert found.size == SensorSize(130, 173)
+    assert found.equals(recording.downsample(2).rotate(90).flip("x"))
+    assert found.metadata["edits"] == [{"downsample": 2, "rotate": 90, "flip": "x"}]

@@ -24,6 +24,7 @@ from tests.dataset.loading.written_set import (
 )
 
 import texvent.dataset
+from texvent import Augment
 from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.generation.engines.protocol import in_this_process
 from texvent.dataset.generation.make import find_work, make_shards
@@ -344,3 +345,20 @@ def test_opening_and_reading_loads_no_heavy_package(folder, written):
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
     assert done.stderr == ""  # also where files are open at the end of the process
+
+
+def test_samples_are_augmented_by_their_number_and_epoch_before_they_are_sliced(samples):
+    augment = Augment(["flip-x", "shift:pixels=3", "reverse-time"], seed=5)
+    changed = samples.augmented(augment)
+    for number, epoch in ((0, 0), (3, 0), (3, 1)):
+        expected = augment(samples.events(number), number, epoch=epoch)
+        assert changed.make(number, epoch=epoch)["events"].equals(expected)
+        frames = changed.represented("event-frame", slice_us=5000)
+        assert frames.make(number, epoch=epoch)["representation"].sum() == sum(
+            2 * expected.p.astype(int) - 1
+        )
+    assert changed[3].events.equals(samples[3].events)
+    assert changed.augmented(None).make(3)["events"].equals(samples.make(3)["events"])
+    none_left = samples.represented(slice_events=30).augmented(Augment(["crop:width=1,height=1"]))
+    with pytest.raises(InputError, match=r"augment leaves .* fewer than a slice of 30"):
+        none_left.make(0)

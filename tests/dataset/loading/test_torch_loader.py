@@ -7,6 +7,7 @@ import pytest
 from tests.dataset.loading.written_set import random_events, write_set, write_shard
 
 import texvent.dataset
+from texvent import Augment
 from texvent.errors import ConfigError
 
 # Python 3.12 and newer warn of forks beside threads.
@@ -233,3 +234,28 @@ def test_the_iterable_dataset_gives_tensors_that_collate_takes(samples):
 def test_wrong_options_are_refused(samples, options, message):
     with pytest.raises(ConfigError, match=message):
         samples.loader(**options)
+
+
+@pytest.mark.parametrize("workers", [0, 2])
+def test_augmentations_depend_on_epoch_and_number_and_not_on_workers(samples, workers):
+    changed = samples.augmented(Augment(["flip-x", "shift:pixels=3", "drop-events"], seed=2))
+    loader = changed.loader(batch_size=4, workers=workers, shuffle=True, start_method="fork")
+    seen = []
+    for epoch in range(2):
+        for batch in loader:
+            for number, array in zip(
+                batch["number"].tolist(), batch["representation"], strict=True
+            ):
+                expected = changed.make(number, epoch=epoch)["representation"]
+                np.testing.assert_array_equal(array.numpy(), expected)
+                seen.append((epoch, number))
+    assert len(set(seen)) == 2 * len(samples)
+    from texvent.dataset.loading.torch_loader import StoredDataset, StoredStream
+
+    stream = StoredStream(changed)
+    stream.set_epoch(1)
+    for sample in stream:
+        expected = changed.make(sample["number"], epoch=1)["representation"]
+        np.testing.assert_array_equal(sample["representation"].numpy(), expected)
+    alone = StoredDataset(changed)[3, 1]["representation"]
+    np.testing.assert_array_equal(alone, changed.make(3, epoch=1)["representation"])

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.train.classification.augmentation import augment, scale_events, take_run
+from texvent.train.classification.augmentation import augment, take_run
 from texvent.train.classification.config import Augmentation
+from texvent.transform.region import resize
 
 from ...represent.definitions import rows, streams
 
@@ -76,7 +77,7 @@ def test_no_event_is_made_up(stream: EventStream, shift: int, seed: int) -> None
 
 def test_coordinates_are_scaled_and_rounded_down() -> None:
     large = EventStream([0, 20, 639], [0, 479, 240], [1, 2, 3], [1, 0, 1], SensorSize(640, 480))
-    found = scale_events(large, SensorSize(224, 224))
+    found = resize(large, SensorSize(224, 224))
     assert rows(found) == [(0, 0, 1, 1), (7, 223, 2, 0), (223, 112, 3, 1)]
     assert found.size == (224, 224)
 

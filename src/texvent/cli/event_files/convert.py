@@ -1,4 +1,4 @@
-"""`texvent convert IN OUT`: another format, a part of it, several in one."""
+"""`texvent convert IN OUT`: another format, a part of it, several in one, filtered."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
+from texvent._registry import FILTERS
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -15,10 +16,18 @@ from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io.atomic import check_outputs
 from texvent.io.files import open_events, open_writer
+from texvent.io.pixel_mask import check_mask_name, read_pixel_mask, write_pixel_mask
+from texvent.options.parts import make_part
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
+from texvent.transform.downsample import downsample
+from texvent.transform.filters.apply import filter_events
+from texvent.transform.filters.hot_pixels import find_hot_pixels
+from texvent.transform.filters.pixel_mask import MaskFilter
 from texvent.transform.merge import merge
+from texvent.transform.orientation import Axes, flip, rotate
 from texvent.transform.packets import add_metadata, map_packets
 from texvent.transform.region import Region, crop, resize
 from texvent.transform.undistort import read_calibration, undistort
@@ -29,8 +38,10 @@ DESCRIPTION = """Convert an event file, or a part of it, to another format. Memo
   texvent convert davis.aedat4 davis.h5
   texvent convert davis.h5 part.raw --time 0.5,2 --crop 100,50,128,128
   texvent convert left.h5 both.h5 --merge right.h5
+  texvent convert davis.h5 clean.h5 --filter hot-pixels background-activity:window_us=5000
 
-Edits happen in this order: merge, undistort, crop, resize, from-zero, time."""
+Edits happen in this order: merge, mask, save-mask, filter, undistort, crop, resize, downsample,
+rotate, flip, from-zero, time."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +50,7 @@ class ConvertOptions:
 
     positional: ClassVar[tuple[str, ...]] = ("path", "to")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "crop": "--roi", "quiet": "-q"}
-    outputs: ClassVar[tuple[str, ...]] = ("to", "out")
+    outputs: ClassVar[tuple[str, ...]] = ("to", "out", "save_mask")
 
     path: Path = REQUIRED
     """Event file, or folder of one format, to read."""
@@ -55,12 +66,25 @@ class ConvertOptions:
     """Sensor size of the input, for formats that do not store it: WIDTHxHEIGHT or a name."""
     merge: tuple[Path, ...] = ()
     """More files of the same sensor, whose events are added in time order."""
+    mask: Path | None = None
+    """Leave out the pixels of a mask: .npy, .png (white is left out) or .txt (x y per line)."""
+    save_mask: Path | None = None
+    """Write the hot pixels of the input as a mask, for --mask; reads the input once more."""
+    filter: tuple[str, ...] = ()
+    """Filters, in order: background-activity, refractory, hot-pixels or rate-limit, each with
+    options as in background-activity:window_us=5000,support=2 (`docs/toolbox.md` lists them)."""
     undistort: Path | None = None
     """Calibration, a text of nine numbers fx fy cx cy k1 k2 p1 p2 k3: take out the lens."""
     crop: str | None = None
     """Keep a region of the sensor: X,Y,WIDTH,HEIGHT in pixels."""
     resize: str | None = None
     """Put the events on a sensor of WIDTHxHEIGHT; none is added or lost."""
+    downsample: int | None = None
+    """Put the events on blocks of so many pixels along each axis; none is added or lost."""
+    rotate: int | None = None
+    """Turn clockwise by 90, 180 or 270 degrees."""
+    flip: str | None = None
+    """Mirror: x exchanges left and right, y top and bottom, xy both."""
     from_zero: bool = False
     """Count time from the first event: for clock times, which many formats cannot hold."""
     time: str | None = None
@@ -114,12 +138,19 @@ def run(arguments: Sequence[str]) -> int:
 
 def edit(events: EventPackets, options: ConvertOptions) -> EventPackets:
     """The recording after all edits that were asked for; they are noted in its metadata."""
+    events = _filtered(events, options)
     if options.undistort is not None:
         events = undistort(events, read_calibration(options.undistort))
     if options.crop is not None:
         events = crop(events, parse_region(options.crop))
     if options.resize is not None:
         events = resize(events, parse_sensor(options.resize))
+    if options.downsample is not None:
+        events = downsample(events, options.downsample)
+    if options.rotate is not None:
+        events = rotate(events, options.rotate)
+    if options.flip is not None:
+        events = flip(events, cast(Axes, options.flip))
     if options.from_zero:
         events = start_at_zero(events)
     events = keep_time_range(events, options.time)
@@ -129,6 +160,23 @@ def edit(events: EventPackets, options: ConvertOptions) -> EventPackets:
     if not edits:
         return events
     return add_metadata(events, {"edits": [*events.metadata.get("edits", []), edits]})
+
+
+def _filtered(events: EventPackets, options: ConvertOptions) -> EventPackets:
+    """The recording without the pixels of a mask, filtered; hot pixels are written where asked."""
+    if options.mask is not None:
+        events = filter_events(events, MaskFilter(read_pixel_mask(options.mask, events.size)))
+    if options.save_mask is not None:
+        check_mask_name(options.save_mask)
+        check_outputs([options.target, options.save_mask], overwrite=options.overwrite)
+    for text in options.filter:
+        make_part(FILTERS, text)  # refused before the input is read
+    if options.save_mask is not None:
+        hot = find_hot_pixels(events)
+        write_pixel_mask(options.save_mask, hot, overwrite=options.overwrite)
+    for text in options.filter:
+        events = filter_events(events, text)
+    return events
 
 
 def parse_region(text: str) -> Region:
@@ -179,9 +227,14 @@ def _edits(options: ConvertOptions) -> dict[str, Any]:
     """The edits that were asked for, as they are noted in the file."""
     asked: dict[str, Any] = {
         "merge": [path.name for path in options.merge],
+        "mask": options.mask.name if options.mask else None,
+        "filter": list(options.filter),
         "undistort": options.undistort.name if options.undistort else None,
         "crop": options.crop,
         "resize": options.resize,
+        "downsample": options.downsample,
+        "rotate": options.rotate,
+        "flip": options.flip,
         "from_zero": options.from_zero,
         "time": options.time,
     }

@@ -21,6 +21,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.named import represent_window
 from texvent.sensor import SensorSize
+from texvent.transform.augmentation.augment import Augment
 
 if TYPE_CHECKING:
     from texvent.dataset.loading.torch_loader import Loader
@@ -79,6 +80,9 @@ class StoredSamples:
     """As `SimulatedSamples.slice_us`."""
     slice_events: int | None = None
     """Events per slice, instead of `slice_us`; a sample gives as many whole slices as it has."""
+    augment: Augment | None = None
+    """Changes the events of `make`, before they are sliced, by its seed, the epoch and the sample's
+    number."""
 
     def __post_init__(self) -> None:
         check_range("slice_us", self.slice_us, 1)
@@ -170,8 +174,12 @@ class StoredSamples:
             if begin >= 0 and name in only
         }
 
-    def make(self, number: int) -> dict[str, Any]:
+    def make(self, number: int, *, epoch: int = 0) -> dict[str, Any]:
         """What a network is trained with, by name, as `SimulatedSamples.make`.
+
+        Args:
+            number: of the sample.
+            epoch: which draws of `augment`; a loader gives its own.
 
         Returns:
             With slices, the first two have a first axis for them.
@@ -185,11 +193,12 @@ class StoredSamples:
 
         Raises:
             IndexError, FileFormatError: as for `[number]`.
+            InputError: `augment` does not fit the sensor, or leaves too few events for a slice.
         """
         number = self._checked(number)
         index = self.index
         return {
-            **self._arrays(number),
+            **self._arrays(number, epoch),
             "class_number": self.class_number(number),
             "caption": index.captions[index.caption[number]] or "",
             "key": str(index.key[number]),
@@ -233,6 +242,13 @@ class StoredSamples:
             slice_events=slice_events,
         )
 
+    def augmented(self, augment: Augment | None) -> StoredSamples:
+        """The same samples, whose events `make` and loaders change; None: unchanged.
+
+        Example: `samples.augmented(Augment(["flip-x", "shift:pixels=5"], seed=1))`.
+        """
+        return replace(self, augment=augment)
+
     def loader(self, **options: Any) -> Loader:
         """Batches of tensors, made by worker processes; see `torch_loader.Loader`.
 
@@ -255,8 +271,8 @@ class StoredSamples:
             raise IndexError(f"sample {number} does not exist; there are {len(self)}")
         return int(number) % len(self)
 
-    def _arrays(self, number: int) -> dict[str, Any]:
-        parts = [self._part(events, window) for events, window in self._slices(number)]
+    def _arrays(self, number: int, epoch: int) -> dict[str, Any]:
+        parts = [self._part(events, window) for events, window in self._slices(number, epoch)]
         if self.slice_us is None and self.slice_events is None:
             return parts[0]
         if self.representation is not None:
@@ -271,9 +287,16 @@ class StoredSamples:
         name, options = self.representation, self.representation_options
         return {"representation": represent_window(name, events, window, **options), **stop}
 
-    def _slices(self, number: int) -> Iterator[tuple[EventStream, Window]]:
+    def _slices(self, number: int, epoch: int) -> Iterator[tuple[EventStream, Window]]:
         events = self.events(number)
+        if self.augment is not None:
+            events = self.augment(events, number, epoch=epoch)
         if self.slice_events is not None:
+            if len(events) < self.slice_events:
+                raise InputError(
+                    f"augment leaves {len(events):,} events of sample {number}, fewer than a slice "
+                    f"of {self.slice_events:,}; drop fewer, give shorter slices, or slice_us"
+                )
             for begin in range(0, len(events) - self.slice_events + 1, self.slice_events):
                 part = events[begin : begin + self.slice_events]
                 yield part, (int(part.t[0]), int(part.t[-1]) + 1)

@@ -102,7 +102,8 @@ class Sharing:
 class StoredDataset(_Dataset):
     """Stored samples as a map-style dataset, for samplers and loaders of your own.
 
-    `[i]` gives what `StoredSamples.make` gives; `collate` puts such samples together.
+    `[i]` gives what `StoredSamples.make` gives; `collate` puts such samples together. `[i, epoch]`
+    draws the augmentation of that epoch.
     """
 
     def __init__(self, samples: StoredSamples) -> None:
@@ -114,9 +115,10 @@ class StoredDataset(_Dataset):
         """Number of samples."""
         return len(self.samples)
 
-    def __getitem__(self, number: int) -> dict[str, Any]:
+    def __getitem__(self, number: int | tuple[int, int]) -> dict[str, Any]:
         """The arrays of a sample."""
-        return self.samples.make(int(number))
+        number, epoch = number if isinstance(number, tuple) else (number, 0)
+        return self.samples.make(int(number), epoch=epoch)
 
 
 class StoredStream(_IterableDataset):
@@ -171,7 +173,7 @@ class StoredStream(_IterableDataset):
         numbers, size = self._numbers(), self.sharing.batch_size
         for begin in range(worker * size, len(numbers), workers * size):
             for number in numbers[begin : begin + size].tolist():
-                yield as_tensors(self.samples.make(number))
+                yield as_tensors(self.samples.make(number, epoch=int(self._epoch[0])))
 
     def _numbers(self) -> NDArray[np.int64]:
         return self.sharing.numbers(self.samples, int(self._epoch[0]))
@@ -293,7 +295,7 @@ class Loader:
 
 @dataclass
 class _Batches:
-    """Numbers of the samples of each batch of an epoch, for the DataLoader."""
+    """Number and epoch of the samples of each batch of an epoch, for the DataLoader."""
 
     samples: StoredSamples
     sharing: Sharing
@@ -301,10 +303,11 @@ class _Batches:
     begin: int = 0
     """Samples that were given out before."""
 
-    def __iter__(self) -> Iterator[list[int]]:
-        numbers, size = self.sharing.numbers(self.samples, self.epoch), self.sharing.batch_size
+    def __iter__(self) -> Iterator[list[tuple[int, int]]]:
+        epoch, size = self.epoch, self.sharing.batch_size
+        numbers = self.sharing.numbers(self.samples, epoch)
         for begin in range(self.begin, len(numbers), size):
-            yield numbers[begin : begin + size].tolist()
+            yield [(number, epoch) for number in numbers[begin : begin + size].tolist()]
 
     def __len__(self) -> int:
         count = len(self.sharing.numbers(self.samples, self.epoch)) - self.begin

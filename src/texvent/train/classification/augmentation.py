@@ -1,12 +1,18 @@
-"""Changed copies of recordings: scaled, cut, reversed, mirrored and shifted."""
+"""Changed copies of recordings for N-ImageNet's recipe: cut, reversed, mirrored and shifted.
+
+`texvent.Augment` is for recipes of one's own. This one draws as N-ImageNet's program does, from one
+generator per sample; the edits themselves are those of `texvent.transform`.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.sensor import SensorSize
 from texvent.train.classification.config import Augmentation
+from texvent.transform.orientation import flip, shift
+from texvent.transform.reversal import reverse_time
+from texvent.transform.window import start_at_zero
 
 
 def augment(
@@ -18,22 +24,11 @@ def augment(
     """
     flips_time, flips_x = chance.random(2) < 0.5
     dx, dy = chance.integers(-augmentation.shift, augmentation.shift + 1, 2)
-    x, y, t, p, size = events.x, events.y, events.t, events.p, events.size
-    if augmentation.flip_time and flips_time and len(t):
-        x, y, t, p = x[::-1], y[::-1], t[-1] - t[::-1], 1 - p[::-1]
-    x, y = x.astype(np.int32), y.astype(np.int32)
+    if augmentation.flip_time and flips_time:
+        events = start_at_zero(reverse_time(events))
     if augmentation.flip_x and flips_x:
-        x = size.width - 1 - x
-    x, y = x + dx, y + dy
-    inside = (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height)
-    return EventStream(x[inside], y[inside], t[inside], p[inside], size)
-
-
-def scale_events(events: EventStream, size: SensorSize) -> EventStream:
-    """A copy with coordinates scaled to another size and rounded down, as N-ImageNet's program."""
-    x = events.x.astype(np.int64) * size.width // events.size.width
-    y = events.y.astype(np.int64) * size.height // events.size.height
-    return EventStream.from_columns(x, y, events.t, events.p, size=size)
+        events = flip(events, "x")
+    return shift(events, int(dx), int(dy))
 
 
 def take_run(events: EventStream, count: int | None, chance: np.random.Generator) -> EventStream:

@@ -15,15 +15,15 @@ from texvent.errors import FileFormatError, InputError, shown
 from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
 from texvent.options.values import plain
 from texvent.represent.named import represent_window
-from texvent.sensor import as_size
 from texvent.train.batches import Batches
-from texvent.train.classification.augmentation import augment, scale_events, take_run
+from texvent.train.classification.augmentation import augment, take_run
 from texvent.train.classification.config import Augmentation, ClassificationConfig
 from texvent.train.classification.networks import LAST_LAYERS, NETWORKS
 from texvent.train.classification.samples import ChosenSamples, open_training, open_validation
 from texvent.train.history import STANDARD_ERROR
 from texvent.train.schedule import EXTRA
 from texvent.train.task import Score
+from texvent.transform.region import resize
 
 IMAGE, CLASS, CLASSES = "image", "class_number", "classes"
 NO_AUGMENTATION = Augmentation(shift=0)
@@ -170,7 +170,7 @@ class ClassExamples:
         network, data = self.config.network, self.config.data
         events = take_run(self.samples.events(number), data.slice_events, chance)
         if data.image_size is not None:
-            events = scale_events(events, as_size(data.image_size))
+            events = resize(events, data.image_size)
         events = augment(events, self.augmentation, chance)
         window = (int(events.t[0]), int(events.t[-1]) + 1) if len(events) else (0, 1)
         image = represent_window(

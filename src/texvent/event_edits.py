@@ -1,0 +1,102 @@
+"""Edits that a stream and packets have as methods: parts, other sizes, turned, filtered.
+
+Each is one function of `texvent.transform`, for both kinds of recordings; a stream gives a stream,
+packets give packets that are made as they are read.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal, Self
+
+if TYPE_CHECKING:
+    from texvent.sensor import SizeLike
+    from texvent.transform.filters.protocol import EventFilter
+    from texvent.transform.orientation import Axes
+
+
+class EventEdits:
+    """Base of `EventStream` and `EventPackets`.
+
+    What the methods call lies above and is imported when it is called: a convenience for users.
+    """
+
+    def crop(self, x: int, y: int, width: int, height: int) -> Self:
+        """The events of a region, whose top left pixel (x, y) becomes (0, 0).
+
+        Raises:
+            InputError: the region is empty or reaches over the sensor's edge.
+        """
+        from texvent.transform.region import Region, crop
+
+        whole: Any = self
+        part: Self = crop(whole, Region(x, y, width, height))
+        return part
+
+    def resize(self, size: SizeLike) -> Self:
+        """All events on a sensor of another size; see `transform.region.resize`.
+
+        Raises:
+            ConfigError: the size is impossible.
+        """
+        from texvent.transform.region import resize
+
+        whole: Any = self
+        resized: Self = resize(whole, size)
+        return resized
+
+    def downsample(self, factor: int, *, how: Literal["all", "mean"] = "all") -> Self:
+        """The events on blocks of factor × factor pixels; see `transform.downsample`.
+
+        Args:
+            factor: pixels of a block along each axis.
+            how: "all" keeps every event; "mean" gives those of pixels that see the mean of a block.
+
+        Raises:
+            ConfigError: factor is below 1, or another `how`.
+        """
+        from texvent.transform.downsample import downsample
+
+        whole: Any = self
+        smaller: Self = downsample(whole, factor, how=how)
+        return smaller
+
+    def flip(self, axes: Axes) -> Self:
+        """Mirrored: "x" exchanges left and right, "y" top and bottom, "xy" both.
+
+        Raises:
+            ConfigError: other axes.
+        """
+        from texvent.transform.orientation import flip
+
+        whole: Any = self
+        mirrored: Self = flip(whole, axes)
+        return mirrored
+
+    def rotate(self, degrees: int) -> Self:
+        """Turned clockwise by 0, 90, 180 or 270 degrees; quarter turns exchange width and height.
+
+        Raises:
+            ConfigError: another angle.
+        """
+        from texvent.transform.orientation import rotate
+
+        whole: Any = self
+        turned: Self = rotate(whole, degrees)
+        return turned
+
+    def filter(self, which: str | EventFilter, **options: Any) -> Self:
+        """The events that a filter keeps.
+
+        Args:
+            which: its name, such as "background-activity", "refractory", "hot-pixels" or "mask".
+            **options: of that filter, such as `window_us=5000`.
+
+        Raises:
+            ConfigError: unknown name or option, or a value out of range.
+            InputError: the filter does not fit the sensor.
+        """
+        from texvent.transform.filters.apply import filter_events
+
+        whole: Any = self
+        kept: Self = filter_events(whole, which, **options)
+        return kept

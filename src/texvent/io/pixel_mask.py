@@ -1,0 +1,114 @@
+"""Masks of pixels in files: .npy (bool), .png (white where events are left out), .txt (`x y`)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
+from texvent.io.arrays.npy_file import StoredArray
+from texvent.io.atomic import atomic_file
+from texvent.io.input_checks import existing_file
+from texvent.sensor import SensorSize
+
+EXTENSIONS = (".npy", ".png", ".txt")
+MAX_TEXT_BYTES = 1 << 26
+
+
+def read_pixel_mask(path: Path, size: SensorSize) -> NDArray[np.bool_]:
+    """The mask of a file, true where events are left out, [H, W].
+
+    In an image, pixels that are not black; in an array, values that are not 0; in a text, one pixel
+    `x y` per line, after `#` a comment.
+
+    Raises:
+        InputError: no such file, or it is for another sensor.
+        ConfigError: another extension.
+        FileFormatError: it holds something else.
+    """
+    check_mask_name(path)
+    path = existing_file(path)
+    if path.suffix.lower() == ".txt":
+        return _read_text(path, size)
+    array: Any = _read_image(path) if path.suffix.lower() == ".png" else _read_array(path)
+    if array.shape != size.shape:
+        raise InputError(
+            f"{path} is a mask of shape {array.shape}; for a sensor of {size} it must be "
+            f"{size.shape}: rows, columns"
+        )
+    return np.asarray(array != 0)
+
+
+def write_pixel_mask(path: Path, mask: NDArray[np.bool_], *, overwrite: bool) -> None:
+    """A mask as a file that `read_pixel_mask` reads.
+
+    Raises:
+        OutputError: it exists already, or its folder cannot be written.
+        ConfigError: another extension.
+    """
+    check_mask_name(path)
+    with atomic_file(path, overwrite=overwrite) as part:
+        if path.suffix.lower() == ".txt":
+            y, x = np.nonzero(mask)
+            lines = [f"{column} {row}\n" for column, row in zip(x, y, strict=True)]
+            part.write_text("# x y of pixels whose events are left out\n" + "".join(lines))
+        elif path.suffix.lower() == ".png":
+            import cv2  # only images need it
+
+            part.write_bytes(cv2.imencode(".png", mask.astype(np.uint8) * 255)[1].tobytes())
+        else:
+            np.save(part, mask)
+
+
+def check_mask_name(path: Path) -> None:
+    """Refuse a name that says no format.
+
+    Raises:
+        ConfigError: another extension.
+    """
+    if path.suffix.lower() not in EXTENSIONS:
+        raise ConfigError(
+            f"{path} is no name of a mask; masks end in .npy, .png or .txt, which says the format"
+        )
+
+
+def _read_array(path: Path) -> NDArray[Any]:
+    stored = StoredArray(path)
+    if stored.ndim != 2 or stored.dtype.kind not in "biu":
+        raise FileFormatError(
+            f"{path} holds {stored.dtype} of shape {shown(stored.shape)}; a mask is [rows, columns]"
+        )
+    return stored.rows(0, len(stored))
+
+
+def _read_image(path: Path) -> NDArray[Any]:
+    import cv2  # only images need it
+
+    data = np.fromfile(path, dtype=np.uint8)
+    try:
+        image = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE) if data.size else None
+    except cv2.error as error:
+        raise FileFormatError(f"{path} is damaged: {one_line(error)}") from error
+    if image is None:
+        raise FileFormatError(f"{path} cannot be decoded as an image; it may be cut off or damaged")
+    return np.asarray(image)
+
+
+def _read_text(path: Path, size: SensorSize) -> NDArray[np.bool_]:
+    if path.stat().st_size > MAX_TEXT_BYTES:
+        raise FileFormatError(f"{path} is too long for a mask; it has one `x y` per line")
+    mask = np.zeros(size.shape, np.bool_)
+    for number, line in enumerate(path.read_bytes().splitlines(), start=1):
+        words = line.partition(b"#")[0].split()
+        if not words:
+            continue
+        if len(words) != 2 or not all(word.isdigit() and len(word) < 9 for word in words):
+            raise FileFormatError(f"{path}, line {number}: {shown(line)} is not a pixel `x y`")
+        x, y = (int(word) for word in words)
+        if x >= size.width or y >= size.height:
+            raise InputError(f"{path}, line {number}: ({x}, {y}) lies outside a sensor of {size}")
+        mask[y, x] = True
+    return mask

@@ -1,0 +1,1 @@
+"""Augmentations: changed copies of a sample, drawn by a seed."""

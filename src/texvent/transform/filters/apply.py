@@ -1,0 +1,47 @@
+"""Filters by name, and what they leave of a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from texvent._registry import FILTERS
+from texvent.errors import ConfigError
+from texvent.events import EventStream
+from texvent.options.parts import make_part
+from texvent.transform.filters.protocol import EventFilter
+from texvent.transform.packets import Recording, map_in_order
+
+
+def filter_events(events: Recording, which: str | EventFilter, **options: Any) -> Recording:
+    """The events that a filter keeps.
+
+    Args:
+        events: the recording.
+        which: a name such as "background-activity", one with options as in
+            "background-activity:window_us=5000", or a filter.
+        **options: of the filter called by name.
+
+    Raises:
+        ConfigError: unknown name or option, or a value out of range.
+        InputError: the filter does not fit the recording.
+
+    Example:
+        >>> events = EventStream.from_columns([3, 4, 9], [1, 1, 5], [0, 20, 30], [1, 1, 1],
+        ...                                   size=(16, 8))
+        >>> filter_events(events, "background-activity", window_us=100).x.tolist()
+        [4]
+    """
+    if isinstance(which, str):
+        chosen: EventFilter = make_part(FILTERS, which, options)
+    elif options:
+        raise ConfigError("options belong to a filter called by its name; give them to the filter")
+    else:
+        chosen = which
+    chosen_from = events
+
+    def start() -> Callable[[EventStream], EventStream]:
+        keep = chosen.start(chosen_from)
+        return lambda packet: packet[keep(packet)]
+
+    return map_in_order(events, start)

@@ -1,0 +1,59 @@
+"""Masks of pixels: written, read, and refused where they are something else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
+from texvent.io.pixel_mask import read_pixel_mask, write_pixel_mask
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(5, 3)
+MASK = np.zeros((3, 5), bool)
+MASK[1, 4] = MASK[2, 0] = True
+
+
+@pytest.mark.parametrize("name", ["hot.npy", "hot.png", "hot.txt", "hot.PNG"])
+def test_a_mask_comes_back(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    write_pixel_mask(path, MASK, overwrite=False)
+    found = read_pixel_mask(path, SIZE)
+    assert found.dtype == np.bool_
+    np.testing.assert_array_equal(found, MASK)
+    with pytest.raises(OutputError):
+        write_pixel_mask(path, MASK, overwrite=False)
+
+
+def test_a_mask_written_by_hand(tmp_path: Path) -> None:
+    path = tmp_path / "hot.txt"
+    path.write_text("# of my camera\n4 1\n\n0 2  # the corner\n")
+    np.testing.assert_array_equal(read_pixel_mask(path, SIZE), MASK)
+    path.write_text("5 1\n")
+    with pytest.raises(InputError, match=r"line 1: \(5, 1\) lies outside a sensor of 5x3"):
+        read_pixel_mask(path, SIZE)
+    for text in ("1\n", "1 2 3\n", "a b\n", "-1 2\n", "1.5 2\n"):
+        path.write_text(f"0 0\n{text}")
+        with pytest.raises(FileFormatError, match="line 2"):
+            read_pixel_mask(path, SIZE)
+
+
+def test_what_is_no_mask_is_refused(tmp_path: Path) -> None:
+    np.save(tmp_path / "other.npy", MASK.T)
+    with pytest.raises(InputError, match=r"mask of shape \(5, 3\); for a sensor of 5x3"):
+        read_pixel_mask(tmp_path / "other.npy", SIZE)
+    np.save(tmp_path / "float.npy", np.zeros((3, 5)))
+    with pytest.raises(FileFormatError, match="holds float64"):
+        read_pixel_mask(tmp_path / "float.npy", SIZE)
+    (tmp_path / "cut.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    with pytest.raises(FileFormatError, match="cannot be decoded"):
+        read_pixel_mask(tmp_path / "cut.png", SIZE)
+    (tmp_path / "cut.npy").write_bytes(b"\x93NUMPY")
+    with pytest.raises(FileFormatError):
+        read_pixel_mask(tmp_path / "cut.npy", SIZE)
+    with pytest.raises(ConfigError, match=r"masks end in \.npy, \.png or \.txt"):
+        read_pixel_mask(tmp_path / "hot.bmp", SIZE)
+    with pytest.raises(InputError, match="no such file"):
+        read_pixel_mask(tmp_path / "none.npy", SIZE)

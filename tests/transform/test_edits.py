@@ -1,0 +1,146 @@
+"""Mirroring, turning, cropping, coarser pixels: by hand, and as properties of any recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.represent.event_frame import count_events
+from texvent.sensor import SensorSize
+from texvent.transform.downsample import block_pixels, fire_blocks_reference
+from texvent.transform.downsample_cpu import fire_blocks
+from texvent.transform.orientation import shift
+from texvent.transform.reversal import flip_polarity, reverse_time
+
+from .recordings import CUTS, SIZE, packets, rows_of, stream, streams
+
+EDITS: dict[str, Callable[[EventStream], EventStream]] = {
+    "crop": lambda events: events.crop(2, 1, 4, 3),
+    "resize": lambda events: events.resize((5, 7)),
+    "downsample": lambda events: events.downsample(3),
+    "downsample-mean": lambda events: events.downsample(2, how="mean"),
+    "flip-x": lambda events: events.flip("x"),
+    "flip-xy": lambda events: events.flip("xy"),
+    "rotate-90": lambda events: events.rotate(90),
+    "rotate-270": lambda events: events.rotate(270),
+}
+
+
+def test_edits_by_hand() -> None:
+    events = stream([(0, 0, 1, 1), (7, 5, 2, 0), (2, 1, 2, 1)])
+    assert rows_of(events.flip("x")) == [(7, 0, 1, 1), (0, 5, 2, 0), (5, 1, 2, 1)]
+    assert rows_of(events.flip("y")) == [(0, 5, 1, 1), (7, 0, 2, 0), (2, 4, 2, 1)]
+    assert rows_of(events.flip("xy")) == rows_of(events.rotate(180))
+    # The top left pixel comes to the top right.
+    turned = events.rotate(90)
+    assert turned.size == SensorSize(6, 8)
+    assert rows_of(turned) == [(5, 0, 1, 1), (0, 7, 2, 0), (4, 2, 2, 1)]
+    assert rows_of(events.crop(1, 1, 3, 2)) == [(1, 0, 2, 1)]
+    assert rows_of(events.downsample(4)) == [(0, 0, 1, 1), (1, 1, 2, 0), (0, 0, 2, 1)]
+    assert rows_of(shift(events, 1, -1)) == [(3, 0, 2, 1)]
+    assert events.rotate(90).metadata == {"seed": 1}
+
+
+@given(streams())
+def test_the_array_of_an_event_frame_turns_and_mirrors_with_its_events(events: EventStream) -> None:
+    frame = count_events(events)
+    for quarters in range(4):
+        turned = count_events(events.rotate(90 * quarters))
+        np.testing.assert_array_equal(turned, np.rot90(frame, -quarters, axes=(1, 2)))
+    np.testing.assert_array_equal(count_events(events.flip("x")), frame[:, :, ::-1])
+    np.testing.assert_array_equal(count_events(events.flip("y")), frame[:, ::-1])
+
+
+@given(streams())
+def test_done_twice_or_four_times_nothing_is_changed(events: EventStream) -> None:
+    for axes in ("x", "y", "xy"):
+        assert events.flip(axes).flip(axes).equals(events)
+    assert events.rotate(90).rotate(90).rotate(90).rotate(90).equals(events)
+    assert events.rotate(90).rotate(270).equals(events)
+    assert flip_polarity(flip_polarity(events)).equals(events)
+    assert reverse_time(reverse_time(events)).equals(events)
+
+
+@given(streams(), st.integers(0, 4), st.integers(0, 3), st.integers(0, 1), st.integers(0, 1))
+def test_a_crop_of_a_crop_is_one_crop(
+    events: EventStream, x: int, y: int, dx: int, dy: int
+) -> None:
+    twice = events.crop(x, y, 4, 3).crop(dx, dy, 3, 2)
+    assert twice.equals(events.crop(x + dx, y + dy, 3, 2))
+
+
+@pytest.mark.parametrize("name", EDITS)
+@given(events=streams(), cuts=CUTS)
+def test_packets_give_what_the_whole_gives(name: str, events: EventStream, cuts: list[int]) -> None:
+    change = EDITS[name]
+    edited = change(packets(events, cuts))
+    assert edited.collect().equals(change(events))
+    assert edited.collect().equals(change(events))  # each pass begins anew
+    assert edited.size == change(events).size
+
+
+def test_reversed_by_hand() -> None:
+    events = stream([(1, 1, 10, 1), (2, 2, 12, 0), (3, 3, 12, 1), (4, 4, 20, 0)])
+    assert rows_of(reverse_time(events)) == [
+        (4, 4, 10, 1), (3, 3, 18, 0), (2, 2, 18, 1), (1, 1, 20, 0),
+    ]  # fmt: skip
+    assert len(reverse_time(EventStream.empty(SIZE))) == 0
+
+
+def test_a_block_fires_when_the_mean_of_its_pixels_has_changed_by_a_threshold() -> None:
+    # A block of four pixels: three ON and one OFF leave it at 2 of 4.
+    ups = [(0, 0, 1, 1), (1, 0, 2, 1), (0, 1, 3, 1), (1, 1, 4, 0)]
+    events = stream([*ups, (1, 1, 5, 1), (1, 1, 6, 1), (1, 1, 7, 0)])
+    assert rows_of(events.downsample(2, how="mean")) == [(0, 0, 6, 1)]
+    # Blocks at the edge have fewer pixels: of 8x6 by 5, the last is of 3x1.
+    assert block_pixels(SIZE, 5).tolist() == [[25, 15], [5, 3]]
+    edge = stream([(5, 5, 1, 0), (6, 5, 2, 0), (7, 5, 3, 0)])
+    assert rows_of(edge.downsample(5, how="mean")) == [(1, 1, 3, 0)]
+
+
+def test_a_brightness_step_of_the_whole_block_fires_once_per_threshold() -> None:
+    """Every pixel sees the same three steps up: so does their mean."""
+    rows = [(x, y, 10 * step, 1) for step in range(3) for y in range(6) for x in range(8)]
+    found = stream(rows).downsample(2, how="mean")
+    assert count_events(found)[1].tolist() == [[3] * 4] * 3
+    assert sorted(set(found.t.tolist())) == [0, 10, 20]
+
+
+@given(streams(), st.integers(1, 9))
+def test_the_compiled_blocks_equal_the_reference(events: EventStream, factor: int) -> None:
+    pixels = block_pixels(SIZE, factor).reshape(-1)
+    placed = events.downsample(factor)
+    block = placed.y.astype(np.int64) * placed.size.width + placed.x
+    sums = np.zeros_like(pixels), np.zeros_like(pixels)
+    expected = fire_blocks_reference(block, events.p, pixels, sums[0])
+    np.testing.assert_array_equal(fire_blocks(block, events.p, pixels, sums[1]), expected)
+    np.testing.assert_array_equal(*sums)
+
+
+def test_labels_go_with_their_events() -> None:
+    events = EventStream([0, 1], [0, 0], [1, 2], [1, 0], SIZE, label=np.array([0, 1], np.uint8))
+    assert events.crop(1, 0, 2, 2).label.tolist() == [1]
+    assert reverse_time(events).label.tolist() == [1, 0]
+    assert events.rotate(90).label.tolist() == [0, 1]
+
+
+def test_what_cannot_be_done_is_refused() -> None:
+    events = stream([(0, 0, 1, 1)])
+    with pytest.raises(ConfigError, match="degrees is 45; it must be 0, 90, 180 or 270"):
+        events.rotate(45)
+    with pytest.raises(ConfigError, match="axes is 'z'; give 'x'"):
+        events.flip("z")
+    with pytest.raises(ConfigError, match="factor is 0; it must be"):
+        events.downsample(0)
+    with pytest.raises(ConfigError, match=r"factor is 1\.5; it must be a whole number"):
+        events.downsample(1.5)
+    with pytest.raises(ConfigError, match="how is 'sum'; it must be 'all' or 'mean'"):
+        events.downsample(2, how="sum")
+    with pytest.raises(InputError, match="does not lie inside the sensor of 8x6"):
+        events.crop(6, 0, 3, 3)
