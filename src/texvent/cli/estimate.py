@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import itertools
 import os
-import resource
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -16,6 +14,7 @@ from typing import Any
 
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
+from texvent.runtime.memory import peak_bytes
 from texvent.sensor import SensorSize
 from texvent.video import Frame, FrameStream, MovingStream, RenderableStream
 from texvent.view.page.sample import SAMPLE_EVENTS
@@ -57,7 +56,8 @@ class Estimate:
     sizes_fixed: Mapping[str, float]
     """Extension → bytes that a file has in any case."""
     sizes_per_pair: Mapping[str, float]
-    peak_bytes: int
+    peak_bytes: int | None
+    """None where the system does not tell it."""
     """Highest resident memory; it does not grow with the clip."""
 
     def events(self, pairs: int) -> float:
@@ -111,8 +111,7 @@ def estimate_run(simulation: Simulation, files: RunFiles) -> Estimate:
         kind: max(sum(one.sizes[kind] - size for one in rest), 0) / max(pairs, 1)
         for kind, size in short.sizes.items()
     }
-    # Linux reports ru_maxrss in KiB, macOS in bytes.
-    unit = 1 if sys.platform == "darwin" else 1024
+    peak = peak_bytes()
     return Estimate(
         pairs_tried=sum(one.pairs for one in trials),
         pairs_total=total,
@@ -121,7 +120,7 @@ def estimate_run(simulation: Simulation, files: RunFiles) -> Estimate:
         seconds_per_pair=per_pair,
         sizes_fixed={kind: size - growth[kind] for kind, size in short.sizes.items()},
         sizes_per_pair=growth,
-        peak_bytes=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit + BLOCKS_BYTES,
+        peak_bytes=None if peak is None else peak + BLOCKS_BYTES,
     )
 
 
@@ -292,7 +291,9 @@ def describe_estimate(estimate: Estimate) -> str:
         f"{estimate.events_per_pair:,.0f} events and {estimate.seconds_per_pair:.3f} s per pair "
         f"of frames ({estimate.pairs_tried} tried)"
     )
-    memory = f"memory {estimate.peak_bytes / 2**20:,.0f} MB, however long the clip is"
+    peak = estimate.peak_bytes
+    size = "not told by this system" if peak is None else f"{peak / 2**20:,.0f} MB"
+    memory = f"memory {size}, however long the clip is"
     if estimate.pairs_total is None:
         return f"about {per_pair}; length unknown\n{memory}"
     pairs = estimate.pairs_total

@@ -240,6 +240,11 @@ def _refusals(path: str | Path, target: Path) -> Iterator[None]:
                 f"cannot write {path}: it grew over the largest file allowed here (ulimit -f); "
                 "raise the limit or write less"
             ) from error
+        if isinstance(error, PermissionError) and error.filename2 == str(target):
+            raise OutputError(
+                f"cannot write {path}: {error.strerror}; end what has the old one open, or "
+                "choose another name"
+            ) from error
         if _is_part(error.filename, target.parent):
             raise OutputError(
                 f"cannot write {path}: {error.strerror} ({error.filename}); choose another folder "
@@ -256,8 +261,14 @@ def _is_part(name: Any, folder: Path) -> bool:
 
 
 def _flush_to_disk(path: Path) -> None:
-    """Make a file durable, or the names in a folder."""
-    descriptor = os.open(path, os.O_RDONLY)
+    """Make a file durable, or the names in a folder; Windows keeps those itself."""
+    if hasattr(os, "O_DIRECTORY"):
+        mode = os.O_RDONLY
+    elif path.is_dir():
+        return
+    else:
+        mode = os.O_RDWR  # what Windows asks for
+    descriptor = os.open(path, mode)
     try:
         os.fsync(descriptor)
     finally:

@@ -2,20 +2,22 @@
 
 A process holds a lock on each of its parts for as long as it lives, however it ends. A part
 without a lock belongs to a process that was killed: the next run in that folder removes it.
+Windows renames no file that is open, so parts have no locks there, and none is swept.
 """
 
 from __future__ import annotations
 
 import contextlib
-import fcntl
+import importlib.util
 import os
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 PREFIX = ".texvent-"
+HAS_LOCKS = importlib.util.find_spec("fcntl") is not None
 _swept: set[str] = set()
 """Folders that this process has swept."""
 _own: set[Path] = set()
@@ -34,19 +36,14 @@ def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
         OSError: the folder refuses it.
     """
     sweep(folder)
-    while True:
-        part = folder / f"{PREFIX}{secrets.token_hex(6)}.part{suffix}"
-        _own.add(part)  # before it exists: a signal may come at any moment
-        descriptor = os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666)
-        if _claim(descriptor, part):
-            break
-        os.close(descriptor)
+    part, lock = _make_locked(folder, f".part{suffix}", _make_file)
     try:
         yield part
     finally:
-        part.unlink(missing_ok=True)
+        with contextlib.suppress(PermissionError):  # still open, on Windows
+            part.unlink(missing_ok=True)
         _own.discard(part)
-        os.close(descriptor)
+        _release(lock)
 
 
 @contextmanager
@@ -57,20 +54,13 @@ def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
         OSError: the folder refuses it.
     """
     sweep(folder)
-    while True:
-        part = folder / f"{PREFIX}{secrets.token_hex(6)}{suffix}"
-        _own.add(part)
-        part.mkdir()
-        descriptor = os.open(part, os.O_RDONLY | os.O_DIRECTORY)
-        if _claim(descriptor, part):
-            break
-        os.close(descriptor)
+    part, lock = _make_locked(folder, suffix, Path.mkdir)
     try:
         yield part
     finally:
         shutil.rmtree(part, ignore_errors=True)
         _own.discard(part)
-        os.close(descriptor)
+        _release(lock)
 
 
 def remove_own_parts() -> None:
@@ -89,7 +79,7 @@ def sweep(folder: Path) -> None:
 
     An output folder that was being replaced when its process died gets its name back.
     """
-    if str(folder) in _swept:
+    if not HAS_LOCKS or str(folder) in _swept:
         return
     _swept.add(str(folder))
     with contextlib.suppress(OSError), os.scandir(folder) as entries:
@@ -108,7 +98,7 @@ def _remove_if_dead(part: Path) -> None:
     """Remove a part whose lock can be had; OSError if it cannot, or if there are no locks here."""
     descriptor = os.open(part, os.O_RDONLY | os.O_NOFOLLOW)
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        _lock(descriptor)
         _remove(part)
     finally:
         os.close(descriptor)
@@ -130,10 +120,44 @@ def _put_back(old: Path) -> None:
             replaced.rename(old.parent / replaced.name)
 
 
+def _make_locked(
+    folder: Path, suffix: str, make: Callable[[Path], None]
+) -> tuple[Path, int | None]:
+    """Make a part, and the descriptor that holds its lock; None where there are no locks."""
+    while True:
+        part = folder / f"{PREFIX}{secrets.token_hex(6)}{suffix}"
+        _own.add(part)  # before it exists: a signal may come at any moment
+        make(part)
+        if not HAS_LOCKS:
+            return part, None
+        with contextlib.suppress(FileNotFoundError):  # swept before it was locked
+            descriptor = os.open(part, os.O_RDONLY)
+            if _claim(descriptor, part):
+                return part, descriptor
+            os.close(descriptor)
+        _own.discard(part)
+
+
+def _make_file(part: Path) -> None:
+    os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666))
+
+
+def _release(lock: int | None) -> None:
+    if lock is not None:
+        os.close(lock)
+
+
+def _lock(descriptor: int) -> None:
+    """Take the lock; BlockingIOError if another process has it."""
+    import fcntl  # Windows has no such module
+
+    fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
 def _claim(descriptor: int, part: Path) -> bool:
     """Lock a new part; False if another process swept it in between."""
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        _lock(descriptor)
     except BlockingIOError:
         return False
     except OSError:

@@ -1,4 +1,7 @@
-"""Signals that end a process: Ctrl-C, SIGTERM and SIGHUP clean up alike, or stop a run early."""
+"""Signals that end a process clean up alike, or stop a run early.
+
+They are Ctrl-C, SIGTERM and SIGHUP; on Windows Ctrl-C, SIGTERM and Ctrl-Break.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+ENDING: tuple[signal.Signals, ...] = tuple(
+    getattr(signal, name)
+    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+    if hasattr(signal, name)
+)
 REPEAT_S = 2.0
 """Further signals within this time are ignored: they belong to the first, which is cleaning up."""
 

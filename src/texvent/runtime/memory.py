@@ -6,7 +6,7 @@ import contextlib
 import functools
 import os
 import re
-import resource
+import sys
 from pathlib import Path
 
 from texvent.errors import ConfigError, shown
@@ -15,6 +15,8 @@ SHARE = 0.8
 """Of the machine's memory, or of its control group's, that a run uses at most by default."""
 UNITS = {"": 1, "k": 10**3, "m": 10**6, "g": 10**9, "t": 10**12}
 BINARY_UNITS = {"ki": 2**10, "mi": 2**20, "gi": 2**30, "ti": 2**40}
+UNKNOWN_BYTES = 8 * 2**30
+"""Taken for the machine's memory where the system does not tell it, as on Windows."""
 _CONTROL_GROUPS = (
     Path("/sys/fs/cgroup/memory.max"),
     Path("/sys/fs/cgroup/memory/memory.limit_in_bytes"),
@@ -52,13 +54,37 @@ def allowed_bytes() -> int:
 @functools.cache
 def _available() -> int:
     """The least of what the machine has, its control group allows, and the process may map."""
-    sizes = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
-    sizes.extend(
-        limit
-        for kind in (resource.RLIMIT_AS, resource.RLIMIT_DATA)
-        if (limit := resource.getrlimit(kind)[0]) != resource.RLIM_INFINITY
-    )
+    sizes = [machine_bytes() or UNKNOWN_BYTES, *_process_limits()]
     for path in _CONTROL_GROUPS:
         with contextlib.suppress(OSError, ValueError):  # not there, or "max"
             sizes.append(int(path.read_text(encoding="ascii")))
     return min(sizes)
+
+
+def machine_bytes() -> int | None:
+    """How much memory the machine has, bytes; None where the system does not tell it."""
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError):  # Windows has no sysconf
+        return None
+
+
+def peak_bytes() -> int | None:
+    """The most memory that this process has had at once, bytes; None where it is not known."""
+    try:
+        import resource
+    except ImportError:  # Windows has no such module
+        return None
+    # Linux reports ru_maxrss in KiB, macOS in bytes.
+    unit = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+
+
+def _process_limits() -> list[int]:
+    """What the process may map, bytes, where that is limited."""
+    try:
+        import resource
+    except ImportError:
+        return []
+    limits = (resource.getrlimit(kind)[0] for kind in (resource.RLIMIT_AS, resource.RLIMIT_DATA))
+    return [limit for limit in limits if limit != resource.RLIM_INFINITY]

@@ -19,6 +19,7 @@ from rich.markup import escape
 from texvent._registry import REGISTRIES
 from texvent._version import full_version
 from texvent.cli.options import refuse_arguments
+from texvent.runtime.memory import machine_bytes
 
 DESCRIPTION = """Say what is installed, what is missing, and how to get it. Exit code 1 if something
 needed is missing."""
@@ -144,8 +145,9 @@ def _encoder() -> Finding:
 
 
 def _processors() -> Finding:
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    return Finding("processors", True, f"{os.cpu_count()} cores, {memory:.0f} GB memory")
+    size = machine_bytes()
+    memory = "memory unknown" if size is None else f"{size / 2**30:.0f} GB memory"
+    return Finding("processors", True, f"{os.cpu_count()} cores, {memory}")
 
 
 def _folder(name: str, path: Path) -> Finding:

@@ -25,6 +25,7 @@ them in any format. It needs the extra "app": pip install 'texvent[app]'
 Only this machine can reach the page. --host 0.0.0.0 opens it to the network: then anybody there
 can make this machine work; put it behind a server that asks for a password."""
 LOOPBACK = "127.0.0.1"
+WAIT_S = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +82,9 @@ def run(arguments: Sequence[str]) -> int:
             if options.browser:
                 webbrowser.open(address)
             try:
-                stop.wait()
+                # In turns: on Windows Ctrl-C does not end a wait.
+                while not stop.wait(WAIT_S):
+                    pass
             except KeyboardInterrupt:
                 stop.set()
             page.close()

@@ -9,6 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from texvent.errors import FileFormatError, one_line
+from texvent.io.positioned import FLAGS, read_at
 
 MAX_OPEN = 64
 """Shards kept open per process; the one unused for longest is closed."""
@@ -46,9 +47,9 @@ class ShardFiles:
         """
         try:
             file = self._file(shard)
-            content = os.pread(file.descriptor, size, begin)
+            content = read_at(file.descriptor, size, begin)
             while 0 < len(content) < size:  # a read is at most 2 GiB, or interrupted
-                more = os.pread(file.descriptor, size - len(content), begin + len(content))
+                more = read_at(file.descriptor, size - len(content), begin + len(content))
                 if not more:
                     break
                 content += more
@@ -78,7 +79,7 @@ class _OpenFile:
     """A descriptor that is closed when nothing reads it any more."""
 
     def __init__(self, path: Path) -> None:
-        self.descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+        self.descriptor = os.open(path, os.O_RDONLY | FLAGS)
 
     # A default value: at the end of the process, modules go before objects do.
     def __del__(self, close: Callable[[int], None] = os.close) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -53,7 +54,10 @@ def run_program(command: Sequence[str], *, cwd: Path | None, log: Path) -> None:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """End the whole process group: SIGTERM, then SIGKILL."""
+    """End the whole process group: SIGTERM, then SIGKILL; on Windows the tree of processes."""
+    if not hasattr(os, "killpg"):
+        _end_tree(process)
+        return
     for request in (signal.SIGTERM, signal.SIGKILL):
         try:
             os.killpg(process.pid, request)
@@ -63,6 +67,15 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         except subprocess.TimeoutExpired:
             continue
         return
+
+
+def _end_tree(process: subprocess.Popen[bytes]) -> None:
+    command = ["taskkill", "/F", "/T", "/PID", str(process.pid)]
+    with contextlib.suppress(OSError):
+        subprocess.run(command, capture_output=True, check=False)
+    process.kill()  # does nothing if it has ended
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(GRACE_S)
 
 
 def _last_output(log: Path) -> str:

@@ -12,6 +12,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from texvent.io.positioned import FLAGS, read_at, write_at
+
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer, WriteableBuffer
 
@@ -24,7 +26,7 @@ class DeferredErrorFile(io.RawIOBase):
 
     def __init__(self, path: Path) -> None:
         super().__init__()
-        self._descriptor = os.open(path, os.O_RDWR)
+        self._descriptor = os.open(path, os.O_RDWR | FLAGS)
         self._position = 0
         self._size = os.fstat(self._descriptor).st_size
         self.failure: OSError | None = None
@@ -65,7 +67,7 @@ class DeferredErrorFile(io.RawIOBase):
         """Fill the buffer from the current position."""
         view = memoryview(buffer).cast("B")
         wanted = max(0, min(len(view), self._size - self._position))
-        content = os.pread(self._descriptor, wanted, self._position)
+        content = read_at(self._descriptor, wanted, self._position)
         view[:wanted] = content.ljust(wanted, b"\0")
         self._position += wanted
         return wanted
@@ -76,7 +78,7 @@ class DeferredErrorFile(io.RawIOBase):
         written = 0
         try:
             while self.failure is None and written < len(view):
-                written += os.pwrite(self._descriptor, view[written:], self._position + written)
+                written += write_at(self._descriptor, view[written:], self._position + written)
         except OSError as error:
             self.failure = error
         self._position += len(view)
