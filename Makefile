@@ -7,8 +7,15 @@ FORMATS_VENV := .venv-formats
 DATASET_VENV := .venv-dataset
 DOCS_VENV := .venv-docs
 GPL_VENV := .venv-gpl
+AUDIT_VENV := .venv-audit
+SBOM_VENV := .venv-sbom
 # Readers of event files under the GPL: never a dependency, run only by who asks for it.
 GPL_READERS := event_stream==1.6.3 evutils==0.3.18 faery==0.7.1 tonic==1.7.0
+# Programs that maintainers run on the repository; none is imported, reuse is under the GPL.
+AUDIT_TOOLS := cyclonedx-bom reuse uv
+# What builds texvent: pyproject.toml's build-system, and what hatchling needs for pip install -e.
+BUILD_TOOLS = $(PYTHON) -c "import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'], 'editables', sep='\n')"
+SBOM_OUT ?= dist/texvent.cdx.json
 PROMPT ?= a red car drives left past two trees at dusk
 DOCS_OUT ?= docs/_build
 DEMO_OUT ?= demo-output/demo.h5
@@ -17,8 +24,16 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 	if $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then echo $$p; break; fi; done)
 PIP_OPTIONS := --quiet --disable-pip-version-check -c constraints.txt
 PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
+# The base and test environments take only files whose SHA-256 is in requirements/. HASHES=0 takes any
+# build of the versions in constraints.txt, for machines whose index serves wheels of its own.
+HASHES ?= 1
+HASHED := -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements/build.txt
+PLAIN := -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation
+NO_HASH = echo "error: pip could not install the files that requirements/ lists (see above). If your index serves builds of its own, run: make HASHES=0 $(MAKECMDGOALS)"; exit 2
+NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
+COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
 
-.PHONY: help demo test fuzz test-torch test-app test-formats test-dataset test-gpl lint format clean
+.PHONY: help demo test fuzz test-torch test-app test-formats test-dataset test-gpl docs linkcheck lint licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -32,6 +47,9 @@ help:
 	@echo "make docs         the documentation site, in $(DOCS_OUT)/html"
 	@echo "make linkcheck    links of the site to other hosts; needs the network"
 	@echo "make lint    ruff, mypy, import rules"
+	@echo "make licences     licences of every file (REUSE) and of every installed package, in $(AUDIT_VENV)"
+	@echo "make sbom         what an installation without extras consists of, as CycloneDX, in $(SBOM_OUT)"
+	@echo "make requirements the hashed requirements anew from pyproject.toml and constraints.txt"
 	@echo "make format  let ruff rewrite the layout"
 	@echo "make clean   remove .venv, caches and demo output"
 
@@ -78,14 +96,48 @@ format: $(VENV)/.dev
 	$(VENV)/bin/ruff check --fix .
 	$(VENV)/bin/ruff format .
 
+licences: $(AUDIT_VENV)/.audit $(VENV)/.dev
+	$(AUDIT_VENV)/bin/reuse lint --quiet || { $(AUDIT_VENV)/bin/reuse lint; exit 1; }
+	$(AUDIT_VENV)/bin/python -m tools.licences check $(sort $(VENV) $(filter-out $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV),$(wildcard .venv*)))
+
+sbom: $(AUDIT_VENV)/.audit
+	rm -rf $(SBOM_VENV)
+	@mkdir -p $(dir $(SBOM_OUT))
+	$(AUDIT_VENV)/bin/python -m venv --without-pip $(SBOM_VENV)
+	$(AUDIT_VENV)/bin/python -m pip --python $(SBOM_VENV)/bin/python install --quiet --disable-pip-version-check --require-hashes -r requirements/base.txt
+	$(AUDIT_VENV)/bin/python -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation -w $(SBOM_VENV) .
+	$(AUDIT_VENV)/bin/python -m pip --python $(SBOM_VENV)/bin/python install --quiet --disable-pip-version-check --no-deps $(SBOM_VENV)/texvent-*.whl
+	$(AUDIT_VENV)/bin/cyclonedx-py environment --pyproject pyproject.toml --mc-type library --output-reproducible -o $(SBOM_OUT) $(SBOM_VENV)/bin/python
+
+requirements: $(AUDIT_VENV)/.audit
+	$(COMPILE) -o requirements/base.txt pyproject.toml
+	$(COMPILE) -o requirements/test.txt --extra dev pyproject.toml
+	$(COMPILE) -o requirements/readers.txt --extra readers pyproject.toml
+	$(BUILD_TOOLS) | $(COMPILE) -o requirements/build.txt -
+	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
+
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python:
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(AUDIT_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
+ifeq ($(HASHES),1)
+$(VENV)/.base: $(VENV)/bin/python pyproject.toml requirements/base.txt requirements/build.txt
+	@echo "installing texvent into $(VENV) (about a minute, once)"
+	@$(VENV)/bin/python $(HASHED) -r requirements/base.txt || { $(NO_HASH); }
+	$(VENV)/bin/python $(PLAIN) -e .
+	@touch $@
+
+$(VENV)/.dev: $(VENV)/bin/python pyproject.toml requirements/test.txt requirements/build.txt
+	@echo "installing texvent and its test tools into $(VENV) (about a minute, once)"
+	@$(VENV)/bin/python $(HASHED) -r requirements/test.txt || { $(NO_HASH); }
+	@$(VENV)/bin/python $(HASHED) -r requirements/readers.txt || $(NO_READERS)
+	$(VENV)/bin/python $(PLAIN) -e .
+	@touch $@ $(VENV)/.base
+else
 $(VENV)/.base: $(VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent into $(VENV) (about a minute, once)"
 	$(PIP) -e .
@@ -94,8 +146,14 @@ $(VENV)/.base: $(VENV)/bin/python pyproject.toml constraints.txt
 $(VENV)/.dev: $(VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent and its test tools into $(VENV) (about a minute, once)"
 	$(PIP) -e '.[dev]'
-	@$(PIP) -e '.[readers]' || echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
+	@$(PIP) -e '.[readers]' || $(NO_READERS)
 	@touch $@ $(VENV)/.base
+endif
+
+$(AUDIT_VENV)/.audit: $(AUDIT_VENV)/bin/python requirements/audit.txt requirements/build.txt
+	@echo "installing reuse, cyclonedx-bom and uv into $(AUDIT_VENV) (once; about 150 MB)"
+	$(AUDIT_VENV)/bin/python $(HASHED) -r requirements/audit.txt
+	@touch $@
 
 $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent and torch into $(TORCH_VENV) (once; see CONTRIBUTING.md for its size)"

@@ -1,0 +1,113 @@
+"""Licences of packages: read from metadata, allowed or refused, listed on their page."""
+
+import re
+from pathlib import Path
+
+import pytest
+from packaging.markers import Marker
+from tools.licences import Package, faults, is_allowed, licence_of, needed_by
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "MIT",
+        "MIT OR GPL-3.0-only",
+        "Apache-2.0 WITH LLVM-exception",
+        "MPL-2.0 AND (GPL-2.0-only OR MIT)",
+        "(MIT)",
+    ],
+)
+def test_an_expression_is_allowed_if_one_choice_is(expression):
+    assert is_allowed(expression)
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "GPL-3.0-or-later",
+        "AGPL-3.0-only",
+        "CC-BY-NC-4.0",
+        "MIT AND GPL-2.0-only",
+        "(MIT OR ISC) AND LGPL-3.0-only",
+        "GPL-2.0-only WITH Classpath-exception-2.0",
+        "MIT AND (",
+        "MIT ISC",
+        "LicenseRef-Proprietary",
+        "",
+    ],
+)
+def test_an_expression_with_a_part_that_is_not_is_refused(expression):
+    assert not is_allowed(expression)
+
+
+@pytest.mark.parametrize(
+    ("expression", "field", "classifiers", "licence"),
+    [
+        ("MIT", "something else", [], "MIT"),
+        (None, "BSD-3-Clause", [], "BSD-3-Clause"),
+        (None, "MPL-2.0 AND MIT", [], "MPL-2.0 AND MIT"),
+        (None, "Apache 2.0", [], "Apache-2.0"),
+        (None, None, ["License :: OSI Approved :: MIT License"], "MIT"),
+        (
+            None,
+            "Dual",
+            [
+                "License :: OSI Approved :: MIT License",
+                "License :: OSI Approved :: Apache Software License",
+            ],
+            "MIT OR Apache-2.0",
+        ),
+        # Two or three clauses? The licence file must be read.
+        (None, "BSD", ["License :: OSI Approved :: BSD License"], None),
+        (None, "GPL", ["License :: OSI Approved :: GNU General Public License (GPL)"], None),
+        (
+            None,
+            "",
+            [
+                "License :: OSI Approved :: MIT License",
+                "License :: OSI Approved :: GNU General Public License (GPL)",
+            ],
+            None,
+        ),
+        (None, None, [], None),
+    ],
+)
+def test_the_licence_is_what_the_metadata_tell(expression, field, classifiers, licence):
+    assert licence_of("some-package", expression, field, classifiers) == licence
+
+
+def test_unknown_and_forbidden_licences_are_faults():
+    packages = {
+        "good": Package("good", "1", "MIT", ()),
+        "viral": Package("viral", "2", "GPL-3.0-only", ()),
+        "silent": Package("silent", "3", None, ()),
+    }
+    lines = faults(packages)
+    assert [line.partition(":")[0] for line in lines] == ["viral 2", "silent 3"]
+
+
+def test_parts_are_followed_through_extras_and_markers():
+    packages = {
+        "a": Package("a", "1", "MIT", ("b[fast]>=1", "w; sys_platform == 'win32'")),
+        "b": Package("b", "1", "MIT", ("c; extra == 'fast'", "d; extra == 'slow'")),
+        "c": Package("c", "1", "MIT", ("a",)),
+    }
+    users = needed_by(packages, {"base": ["a"], "more": ["texvent[other]", "C"]})
+    assert users == {"a": {"base", "more"}, "b": {"base", "more"}, "c": {"base", "more"}}
+
+
+def test_the_page_lists_what_the_default_environment_installs():
+    text = (ROOT / "docs" / "licences.md").read_text(encoding="utf-8")
+    listed = dict(re.findall(r"^\| ([\w.-]+) \| (\S+) \|", text, re.MULTILINE))
+    for name in ("test", "readers"):
+        pinned = (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8")
+        for package, version, marker in re.findall(
+            r"^([\w.-]+)==(\S+)(?: ; ([^\\\n]+))? \\$", pinned, re.MULTILINE
+        ):
+            linux = {"sys_platform": "linux", "platform_system": "Linux", "os_name": "posix"}
+            newest = {"python_full_version": "3.11.9", "python_version": "3.11"}
+            if not marker or Marker(marker).evaluate({**linux, **newest}):
+                assert listed.get(package) == version, "run python -m tools.licences write"
