@@ -37,6 +37,8 @@ from texvent.io.ros.messages import (
     EVENT_PACKET,
     EVENT_PACKET_TEXT,
     EVENT_TEXT,
+    FRAME,
+    EventPacket,
     RawMessage,
     open_event_array,
     open_event_packet,
@@ -154,7 +156,8 @@ class McapCodec(BagCodec):
         def pack(columns: Columns, number: int) -> bytes:
             words = bytes(encoder.encode(columns))
             words = encoder.start() + words if number == 0 else words
-            return pack_event_packet(words, target.size, number, int(columns["t"][0]))
+            stamp_ns = int(columns["t"][0]) * NS
+            return pack_event_packet(EventPacket(stamp_ns, FRAME, target.size, number, 0, words))
 
         mcap = rosbag2.StoragePlugin.MCAP
         with hidden_folder(part.parent) as folder:

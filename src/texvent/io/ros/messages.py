@@ -44,11 +44,30 @@ string encoding
 bool is_bigendian
 uint8[] events
 """
-FRAME = b"dvs"
+FRAME = "dvs"
 """Coordinate frame in the messages' headers."""
+EVT3 = "evt3"
+"""Name of the encoding of events in an EventPacket."""
 MICROSECONDS = 1_000_000
 NS = 1000
+NS_PER_S = 1_000_000_000
 _RECORD = np.dtype([("x", "<u2"), ("y", "<u2"), ("s", "<u4"), ("ns", "<u4"), ("p", "u1")])
+
+
+@dataclass(frozen=True)
+class EventPacket:
+    """The fields of an event_camera_msgs/EventPacket of EVT3 words."""
+
+    stamp_ns: int
+    """ROS time of the first event, ns."""
+    frame: str
+    """Coordinate frame."""
+    size: SensorSize
+    sequence: int
+    time_base_ns: int
+    """ROS time at which the clock of the words is 0, ns, modulo 2^64."""
+    payload: bytes
+    """EVT3 words."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +93,7 @@ def pack_event_array(columns: Columns, size: SensorSize, sequence: int) -> bytes
         int(records["s"][0]),
         int(records["ns"][0]),
         len(FRAME),
-        FRAME,
+        FRAME.encode(),
         size.height,
         size.width,
         len(records),
@@ -107,15 +126,16 @@ def unpack_event_array(message: RawMessage) -> dict[str, NDArray[Any]]:
     return {"x": records["x"], "y": records["y"], "t": t, "p": records["p"]}
 
 
-def pack_event_packet(payload: bytes, size: SensorSize, sequence: int, first_us: int) -> bytes:
-    """A serialised event_camera_msgs/EventPacket of EVT3 words."""
-    head = struct.pack("<iI", first_us // MICROSECONDS, first_us % MICROSECONDS * NS)
-    head += _text(FRAME)
+def pack_event_packet(packet: EventPacket) -> bytes:
+    """A serialised event_camera_msgs/EventPacket."""
+    size = packet.size
+    head = struct.pack("<iI", *divmod(packet.stamp_ns, NS_PER_S))
+    head += _text(packet.frame.encode("utf-8"))
     head += bytes(-len(head) % 4) + struct.pack("<2I", size.height, size.width)
-    head += bytes(-len(head) % 8) + struct.pack("<2Q", sequence, first_us * NS)
-    head += _text(b"evt3") + b"\0"
-    head += bytes(-len(head) % 4) + struct.pack("<I", len(payload))
-    return b"\0\1\0\0" + head + payload
+    head += bytes(-len(head) % 8) + struct.pack("<2Q", packet.sequence, packet.time_base_ns)
+    head += _text(EVT3.encode()) + b"\0"
+    head += bytes(-len(head) % 4) + struct.pack("<I", len(packet.payload))
+    return b"\0\1\0\0" + head + packet.payload
 
 
 def open_event_packet(data: bytes) -> RawMessage:
@@ -141,7 +161,7 @@ def open_event_packet(data: bytes) -> RawMessage:
         count = struct.unpack_from("<I", body, place)[0]
     except struct.error as error:
         raise FileFormatError("a message of events is cut off") from error
-    if encoding != b"evt3":
+    if encoding != EVT3.encode():
         raise FileFormatError(f"a message is encoded as {shown(encoding)}; texvent reads evt3")
     payload = body[place + 4 : place + 4 + count]
     if len(payload) != count or count % 2:

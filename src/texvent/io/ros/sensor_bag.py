@@ -41,6 +41,8 @@ from texvent.io.ros.bags import (
 from texvent.io.ros.messages import (
     EVENT_ARRAY,
     EVENT_PACKET,
+    FRAME,
+    EventPacket,
     pack_event_array,
     pack_event_packet,
 )
@@ -92,7 +94,8 @@ class SensorBag:
                 else:
                     words = bytes(encoder.encode(part))
                     words = encoder.start() + words if number == 0 else words
-                    data = pack_event_packet(words, size, number, first_us)
+                    packet_message = EventPacket(first_us * NS, FRAME, size, number, 0, words)
+                    data = pack_event_packet(packet_message)
                 self._bag.write(connection, first_us * NS, data)
                 number += 1
         return count

@@ -1,0 +1,1 @@
+"""ROS 2: images of a topic become packets of events on another one."""

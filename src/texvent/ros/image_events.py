@@ -1,0 +1,130 @@
+"""The node's logic, without ROS: images in, packets of events out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from texvent.errors import shown
+from texvent.events import EventStream
+from texvent.io.ros.messages import NS, NS_PER_S, EventPacket
+from texvent.ros.config import RosConfig
+from texvent.ros.image_message import read_image, stamp_ns
+from texvent.ros.packet_messages import PacketMaker, check_side
+from texvent.run.pushed import PushedSimulation, check_pushable
+from texvent.run.settings import Settings
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+
+Notify = Callable[[str], None]
+
+
+class Answer(NamedTuple):
+    """What an image gives."""
+
+    packets: list[EventPacket]
+    """Messages with the events since the image before."""
+    events: EventStream | None
+    """The same events; times count from the first image. None where a recording begins, or the
+    image is dropped."""
+    stamp_ns: int
+    """Time of the image, ns."""
+    frame_id: str
+
+
+@dataclass
+class _Recording:
+    """Images that follow each other."""
+
+    simulation: PushedSimulation
+    size: SensorSize
+    """Of the images."""
+    first_ns: int
+    last_ns: int
+
+
+class ImageEvents:
+    """Turns sensor_msgs/Image messages into event_camera_msgs/EventPacket.
+
+    Times come from the headers. An image whose time does not increase is dropped. A step beyond
+    `max_gap`, forwards or backwards (a bag that starts again), or another size begins a new
+    recording: its first image gives no event.
+
+    Args:
+        settings: options of the simulation, as `resolve("simulate", ...)` gives them.
+        config: options of the messages.
+        warn: given a line about dropped images and new recordings.
+
+    Raises:
+        ConfigError: an option needs more than the images so far.
+        InputError: weights are missing.
+    """
+
+    def __init__(self, settings: Settings, config: RosConfig, warn: Notify) -> None:
+        check_pushable(settings)
+        self._settings, self._config, self._warn = settings, config, warn
+        self._recording: _Recording | None = None
+        self._maker = PacketMaker(config.packet_us)
+        self.dropped = 0
+        """Images whose time did not increase."""
+        self.recordings = 0
+        """Recordings begun."""
+
+    def take(self, message: Any, now_ns: int) -> Answer:
+        """The events since the image before.
+
+        Args:
+            message: a sensor_msgs/Image.
+            now_ns: the node's clock, ns; used with `stamps="arrival"`.
+
+        Raises:
+            InputError: an image of an unknown encoding or with too few bytes.
+            ConfigError: the sensor is too large for EVT3.
+        """
+        time_ns = stamp_ns(message) if self._config.stamps == "header" else now_ns
+        frame_id = str(message.header.frame_id) or self._config.frame_id
+        pixels = read_image(message)
+        size = SensorSize(pixels.shape[1], pixels.shape[0])
+        recording, reason = self._recording, self._restart_reason(time_ns, size)
+        if recording is None or reason is not None:
+            recording = self._begin(time_ns, size, reason)
+            recording.simulation.push(Frame(pixels, 0))
+            return Answer([], None, time_ns, frame_id)
+        if time_ns - recording.last_ns < NS:
+            self._drop(time_ns, recording)
+            return Answer([], None, time_ns, frame_id)
+        recording.last_ns = time_ns
+        t_us = (time_ns - recording.first_ns) // NS
+        events = recording.simulation.push(Frame(pixels, t_us))
+        return Answer(self._maker.messages(events, t_us, frame_id), events, time_ns, frame_id)
+
+    def _restart_reason(self, time_ns: int, size: SensorSize) -> str | None:
+        recording = self._recording
+        if recording is None:
+            return None
+        if size != recording.size:
+            return f"images are {size} now, they were {recording.size}"
+        step_ns = time_ns - recording.last_ns
+        if abs(step_ns) > self._config.max_gap_ns:
+            return f"time steps by {step_ns / NS_PER_S:+.3f} s, beyond max_gap"
+        return None
+
+    def _begin(self, time_ns: int, size: SensorSize, reason: str | None) -> _Recording:
+        if reason is not None:
+            self._warn(f"{reason}: a new recording begins")
+        simulation = PushedSimulation(self._settings, size)
+        check_side(simulation.size)
+        self._recording = _Recording(simulation, size, time_ns, time_ns)
+        self._maker.start(time_ns)
+        self.recordings += 1
+        return self._recording
+
+    def _drop(self, time_ns: int, recording: _Recording) -> None:
+        self.dropped += 1
+        if self.dropped & (self.dropped - 1) == 0:  # 1, 2, 4, 8, ...
+            hint = "; images without times need --stamps arrival" if time_ns == 0 else ""
+            self._warn(
+                f"dropped {self.dropped} image(s): the time {shown(time_ns)} ns does not come "
+                f"after {recording.last_ns} ns{hint}"
+            )

@@ -1,0 +1,209 @@
+"""The node's logic: messages in, messages out, held against rosbags' definitions."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.ros.rclpy_interface import TYPES, EventPacket, image
+
+import texvent
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.ros.messages import open_event_packet, pack_event_packet
+from texvent.ros.config import RosConfig
+from texvent.ros.image_events import ImageEvents
+from texvent.ros.node import fill_packet
+from texvent.ros.packet_messages import PacketMaker
+from texvent.run.settings import resolve
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(16, 12)
+FRAMES = np.random.default_rng(3).integers(0, 256, (4, 12, 16), dtype=np.uint8)
+START_NS = 1_790_000_000_123_456_789
+STEP_NS = 33_000_000
+TIMES = [round(i * STEP_NS / 1000) for i in range(4)]
+KIND = "event_camera_msgs/msg/EventPacket"
+
+
+def make(**options) -> tuple[ImageEvents, list[str]]:
+    warned: list[str] = []
+    settings = resolve("simulate", {"seed": 2, "simulator": "esim"})
+    return ImageEvents(settings, RosConfig(**options), warned.append), warned
+
+
+def decode(packets) -> dict:
+    """The events of messages, each with the ROS time that its time base gives it, ns."""
+    decoder = Evt3Codec().make_decoder()
+    found = {name: [] for name in ("x", "y", "p", "ns")}
+    for packet in packets:
+        columns = decoder.decode(packet.payload)
+        for name in "xyp":
+            found[name] += columns[name].tolist()
+        found["ns"] += [(packet.time_base_ns + 1000 * int(t)) % 2**64 for t in columns["t"]]
+    return found
+
+
+def expected(first_ns: int, times=TIMES, frames=FRAMES) -> dict:
+    events = texvent.simulate(frames, t_us=times, seed=2, simulator="esim", progress=False)
+    columns = {name: getattr(events, name).tolist() for name in "xyp"}
+    return {**columns, "ns": [first_ns + 1000 * t for t in events.t.tolist()]}
+
+
+def test_images_give_the_events_of_the_video_in_ros_time():
+    logic, warned = make()
+    packets = []
+    for i, pixels in enumerate(FRAMES):
+        packets += logic.take(image(pixels, START_NS + i * STEP_NS), 0).packets
+    assert decode(packets) == expected(START_NS)
+    assert [packet.sequence for packet in packets] == list(range(len(packets)))
+    assert {packet.frame for packet in packets} == {"cam"}
+    assert not warned
+
+
+def test_messages_span_no_more_than_the_packet_length_and_are_stamped_with_their_first_event():
+    logic, _ = make(packet_ms=5.0)
+    packets = [
+        packet
+        for i, pixels in enumerate(FRAMES)
+        for packet in logic.take(image(pixels, i * STEP_NS), 0).packets
+    ]
+    assert len(packets) > 15
+    for packet in packets:
+        times = Evt3Codec().make_decoder().decode(packet.payload)["t"]
+        assert times[0] // 5000 == times[-1] // 5000
+        assert packet.stamp_ns == packet.time_base_ns + 1000 * int(times[0])
+
+
+def test_a_message_can_be_decoded_without_those_before_it():
+    logic, _ = make()
+    logic.take(image(FRAMES[0], 0), 0)
+    packets = logic.take(image(FRAMES[1], STEP_NS), 0).packets
+    alone = [decode([packet]) for packet in packets]
+    assert len(alone) > 1
+    assert [ns for one in alone for ns in one["ns"]] == decode(packets)["ns"]
+
+
+@pytest.mark.parametrize("step_ns", [5_000_000_000, -2_000_000_000, 90_000_000_000])
+def test_a_step_of_time_begins_a_new_recording_and_the_clock_of_the_words_goes_on(step_ns):
+    logic, warned = make()
+    packets = []
+    for first_ns in (START_NS, START_NS + 3 * STEP_NS + step_ns):
+        for i, pixels in enumerate(FRAMES):
+            packets += logic.take(image(pixels, first_ns + i * STEP_NS), 0).packets
+    second_ns = START_NS + 3 * STEP_NS + step_ns
+    once, again = expected(START_NS), expected(second_ns)
+    assert decode(packets) == {name: once[name] + again[name] for name in once}
+    assert warned == [
+        f"time steps by {step_ns / 1e9:+.3f} s, beyond max_gap: a new recording begins"
+    ]
+    assert logic.recordings == 2
+    words = Evt3Codec().make_decoder()
+    times = np.concatenate([words.decode(packet.payload)["t"] for packet in packets])
+    assert (np.diff(times) >= 0).all()
+
+
+def test_time_that_starts_again_at_zero_has_a_time_base_modulo_2_to_the_64():
+    logic, _ = make()
+    packets = []
+    for first_ns in (50_000_000_000, 0):
+        for i, pixels in enumerate(FRAMES):
+            packets += logic.take(image(pixels, first_ns + i * STEP_NS), 0).packets
+    assert packets[-1].time_base_ns == 2**64 - 3 * STEP_NS
+    assert decode(packets)["ns"] == expected(50_000_000_000)["ns"] + expected(0)["ns"]
+
+
+def test_images_whose_time_does_not_increase_are_dropped_and_said():
+    logic, warned = make()
+    logic.take(image(FRAMES[0], 1000), 0)
+    assert logic.take(image(FRAMES[1], 1000), 0).packets == []
+    assert logic.take(image(FRAMES[1], 1999), 0).packets == []  # the same µs
+    assert logic.take(image(FRAMES[1], 900), 0).events is None
+    assert logic.dropped == 3
+    assert warned[0] == "dropped 1 image(s): the time 1000 ns does not come after 1000 ns"
+    assert len(warned) == 2  # the first and the second
+    assert logic.take(image(FRAMES[1], 5_000_000), 0).packets
+
+
+def test_images_without_times_take_the_clock_of_the_node():
+    logic, warned = make()
+    logic.take(image(FRAMES[0], 0), 0)
+    logic.take(image(FRAMES[1], 0), 0)
+    assert warned == [
+        "dropped 1 image(s): the time 0 ns does not come after 0 ns; images without times need "
+        "--stamps arrival"
+    ]
+    logic, warned = make(stamps="arrival")
+    packets = []
+    for i, pixels in enumerate(FRAMES):
+        packets += logic.take(image(pixels, 0, frame_id=""), START_NS + i * STEP_NS).packets
+    assert decode(packets) == expected(START_NS)
+    assert not warned
+    assert packets[0].frame == "event_camera"
+
+
+def test_another_size_begins_a_new_recording():
+    logic, warned = make()
+    logic.take(image(FRAMES[0], 0), 0)
+    answer = logic.take(image(FRAMES[1][:6], STEP_NS), 0)
+    assert answer.packets == []
+    assert answer.events is None
+    assert warned == ["images are 16x6 now, they were 16x12: a new recording begins"]
+    packets = logic.take(image(FRAMES[2][:6], 2 * STEP_NS), 0).packets
+    assert {packet.size for packet in packets} == {SensorSize(16, 6)}
+
+
+def test_a_sensor_that_evt3_cannot_hold_is_refused():
+    logic, _ = make()
+    with pytest.raises(ConfigError, match=r"the images are 2049x1; EVT3.* ends at 2048 pixels"):
+        logic.take(image(np.zeros((1, 2049), np.uint8), 0), 0)
+
+
+def test_a_bad_image_leaves_the_recording_as_it_was():
+    logic, _ = make()
+    logic.take(image(FRAMES[0], START_NS), 0)
+    with pytest.raises(InputError, match="bayer_rggb8"):
+        logic.take(image(FRAMES[1], START_NS + 1000, encoding="bayer_rggb8"), 0)
+    packets = []
+    for i in (1, 2, 3):
+        packets += logic.take(image(FRAMES[i], START_NS + i * STEP_NS), 0).packets
+    assert decode(packets) == expected(START_NS)
+
+
+@pytest.mark.parametrize("frame", ["", "dvs", "event_camera", "kamera_ä"])
+def test_packed_bytes_are_those_of_rosbags(frame):
+    maker = PacketMaker(10_000)
+    maker.start(START_NS)
+    events = EventStream.from_columns([3, 15], [11, 0], [7, 20_000], [1, 0], size=SIZE)
+    for packet in maker.messages(events, 30_000, frame):
+        message = fill_packet(EventPacket(), packet)
+        assert message.cdr() == pack_event_packet(packet)
+        read = TYPES.deserialize_cdr(pack_event_packet(packet), KIND)
+        assert (read.width, read.height, read.encoding) == (16, 12, "evt3")
+        assert read.header.frame_id == frame
+        assert read.header.stamp.sec * 10**9 + read.header.stamp.nanosec == packet.stamp_ns
+        assert bytes(open_event_packet(pack_event_packet(packet)).payload) == packet.payload
+
+
+@given(
+    recordings=st.lists(
+        st.tuples(
+            st.integers(0, 2**61),
+            st.lists(st.integers(0, 60_000_000), min_size=1, max_size=6).map(sorted),
+        ),
+        min_size=1,
+        max_size=4,
+    ),
+    packet_us=st.integers(1, 1_000_000),
+)
+def test_time_base_and_words_give_ros_time_whatever_the_recordings(recordings, packet_us):
+    maker = PacketMaker(packet_us)
+    packets, ns = [], []
+    for first_ns, times in recordings:
+        maker.start(first_ns)
+        events = EventStream.from_columns(
+            [0] * len(times), [0] * len(times), times, [1] * len(times), size=SIZE
+        )
+        packets += maker.messages(events, times[-1] + 1, "f")
+        ns += [first_ns + 1000 * t for t in times]
+    assert decode(packets)["ns"] == ns

@@ -1,0 +1,142 @@
+"""The node, driven by rclpy's published interface (rclpy_interface.py), not by ROS itself."""
+
+import re
+import sys
+
+import numpy as np
+import pytest
+from tests.ros.rclpy_interface import ExternalShutdownException, Policy, World, image
+
+import texvent
+from texvent.cli.app import main
+from texvent.io.prophesee.evt3 import Evt3Codec
+
+FRAMES = np.random.default_rng(3).integers(0, 256, (4, 12, 16), dtype=np.uint8)
+STEP_NS = 20_000_000
+
+
+@pytest.fixture
+def world(monkeypatch):
+    world = World()
+    for name, module in world.modules().items():
+        monkeypatch.setitem(sys.modules, name, module)
+    return world
+
+
+def events_of(messages) -> np.ndarray:
+    """x, y, t, p of the published messages; t in µs of ROS time."""
+    decoder, parts = Evt3Codec().make_decoder(), []
+    for message in messages:
+        message.cdr()  # rosbags checks every field
+        columns = decoder.decode(bytes(message.events))
+        time = (message.time_base + columns["t"].astype(object) * 1000) // 1000
+        parts.append(np.stack([columns["x"], columns["y"], time, columns["p"]]))
+    return np.concatenate(parts, axis=1).astype(np.int64)
+
+
+def as_rows(events, shift_us: int = 0) -> np.ndarray:
+    return np.stack([events.x, events.y, events.t + shift_us, events.p]).astype(np.int64)
+
+
+def test_images_of_a_topic_become_packets_on_another(world, capsys):
+    for i, pixels in enumerate(FRAMES):
+        world.send("camera/image_raw", image(pixels, 10**9 + i * STEP_NS))
+    words = "--image-topic camera/image_raw --events-topic ev --view-topic view --queue 7"
+    options = "--seed 2 --simulator esim --ros-args -r __ns:=/left"
+    code = main(["ros", *words.split(), *options.split()])
+    assert code == 0
+    truth = texvent.simulate(
+        FRAMES, t_us=[0, 20_000, 40_000, 60_000], seed=2, simulator="esim", progress=False
+    )
+    assert (events_of(world.published["ev"]) == as_rows(truth, 10**6)).all()
+    views = world.published["view"]
+    assert [(view.width, view.height, view.encoding) for view in views] == [(16, 12, "rgb8")] * 3
+    assert views[-1].header.stamp.nanosec == 3 * STEP_NS
+    assert len(views[0].cdr()) > 16 * 12 * 3
+    assert world.init_arguments == ["--ros-args", "-r", "__ns:=/left"]
+    assert world.profiles["camera/image_raw"].reliability == Policy.BEST_EFFORT
+    assert world.profiles["ev"].reliability == Policy.RELIABLE
+    assert world.profiles["ev"].depth == 7
+    assert world.log == [
+        (
+            "info",
+            "camera/image_raw (sensor_msgs/Image) to ev (event_camera_msgs/EventPacket, evt3), "
+            "simulator esim",
+        )
+    ]
+    assert world.nodes[0].is_destroyed
+    assert not world.is_up
+
+
+def test_a_bad_image_ends_the_node_with_one_line(world, capsys):
+    world.send("image_raw", image(FRAMES[0], 10**9, encoding="bayer_rggb8"))
+    assert main(["ros", "--quiet"]) == 2
+    assert capsys.readouterr().err == (
+        "error: an image is encoded as 'bayer_rggb8'; publish a demosaiced image, such as that of "
+        "image_proc\n"
+    )
+    assert world.nodes[0].is_destroyed
+    assert not world.is_up
+
+
+@pytest.mark.parametrize("end", [KeyboardInterrupt(), ExternalShutdownException()])
+def test_ctrl_c_and_a_shutdown_of_ros_end_the_node_quietly(world, capsys, end):
+    world.ends_by = end
+    assert main(["ros", "--quiet"]) == 0
+    assert capsys.readouterr().err == ""
+    assert world.nodes[0].is_destroyed
+
+
+def test_a_prompt_is_published_on_the_clock_of_ros(world):
+    arguments = ["--duration", "0.1", "--sensor", "32x24", "--seed", "4", "--fps", "20"]
+    code = main(["ros", "--prompt", "a red ball bounces", "--rate", "0", "--quiet", *arguments])
+    assert code == 0
+    truth = texvent.generate(
+        "a red ball bounces", duration=0.1, sensor="32x24", seed=4, fps=20, progress=False
+    )
+    assert len(truth)
+    assert (events_of(world.published["events"]) == as_rows(truth, world.now_ns // 1000)).all()
+
+
+def test_a_folder_of_images_is_published(world, tmp_path):
+    cv2 = pytest.importorskip("cv2")
+    for i, pixels in enumerate(FRAMES):
+        cv2.imwrite(str(tmp_path / f"{i}.png"), pixels)
+    words = f"ros {tmp_path} --fps 50 --rate 0 --seed 2 --simulator esim --quiet"
+    assert main(words.split()) == 0
+    truth = texvent.simulate(
+        FRAMES, t_us=[0, 20_000, 40_000, 60_000], seed=2, simulator="esim", progress=False
+    )
+    found = events_of(world.published["events"])
+    assert (found == as_rows(truth, world.now_ns // 1000)).all()
+
+
+@pytest.mark.parametrize("missing", ["rclpy", "event_camera_msgs.msg"])
+def test_without_ros_one_line_says_what_to_do(world, monkeypatch, capsys, missing):
+    monkeypatch.setitem(sys.modules, missing, None)
+    assert main(["ros"]) == 4
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert re.match(
+        rf"error: {missing} is needed here and could not be imported .*comes with ROS 2, not with "
+        r"pip: source /opt/ros/DISTRO/setup.bash, and install ros-DISTRO-",
+        error,
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("clip.mp4 --prompt x", "a video and --prompt are both given"),
+        ("--events-topic 1st", "events_topic is '1st'; a topic has letters"),
+        ("--node a/b", "node is 'a/b'"),
+        ("--packet-ms 0", "packet_ms is 0; it must be 0.001..1000"),
+        ("--stamps never", "stamps"),
+        ("--start 2", "start is for videos and files"),
+    ],
+)
+def test_bad_options_are_one_line(world, capsys, words, message):
+    assert main(["ros", *words.split()]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
