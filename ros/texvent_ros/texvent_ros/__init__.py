@@ -1,0 +1,1 @@
+"""texvent as a package of ROS 2."""

@@ -1,0 +1,88 @@
+"""The package template: what colcon, ros2 launch and ros2 run will look for is there."""
+
+import importlib.util
+import sys
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from xml.etree import ElementTree
+
+import pytest
+
+ROOT = Path(__file__).parents[2] / "ros" / "texvent_ros"
+
+
+def load(path: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(path.name.split(".")[0], path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def setup_arguments(monkeypatch) -> dict:
+    """What setup.py gives to setuptools."""
+    given = {}
+    setuptools = ModuleType("setuptools")
+    setuptools.setup = lambda **arguments: given.update(arguments)
+    monkeypatch.setitem(sys.modules, "setuptools", setuptools)
+    monkeypatch.chdir(ROOT)
+    load(ROOT / "setup.py")
+    return given
+
+
+def test_package_xml_and_setup_py_agree(setup_arguments):
+    package = ElementTree.parse(ROOT / "package.xml").getroot()
+    assert package.get("format") == "3"
+    assert package.findtext("name") == setup_arguments["name"] == ROOT.name
+    assert package.findtext("version") == setup_arguments["version"]
+    assert package.findtext("license") == setup_arguments["license"]
+    assert package.findtext("export/build_type") == "ament_python"
+    wanted = {one.text for one in package.findall("exec_depend")}
+    assert wanted >= {"rclpy", "sensor_msgs", "event_camera_msgs"}
+
+
+def test_the_index_of_ament_finds_the_package(setup_arguments):
+    files = dict(setup_arguments["data_files"])
+    assert files["share/ament_index/resource_index/packages"] == ["resource/texvent_ros"]
+    assert files["share/texvent_ros"] == ["package.xml"]
+    assert files["share/texvent_ros/launch"] == ["launch/event_camera.launch.py"]
+    assert all((ROOT / name).is_file() for names in files.values() for name in names)
+    assert "$base/lib/texvent_ros" in (ROOT / "setup.cfg").read_text()
+
+
+def test_the_entry_point_is_the_command(setup_arguments, monkeypatch, capsys):
+    (script,) = setup_arguments["entry_points"]["console_scripts"]
+    assert script == "event_camera = texvent_ros.node:main"
+    node = load(ROOT / "texvent_ros" / "node.py")
+    monkeypatch.setattr(sys, "argv", ["event_camera", "--help"])
+    assert node.main() == 0
+    assert "--image-topic" in capsys.readouterr().out
+
+
+def test_the_launch_file_starts_the_node_with_its_arguments(monkeypatch):
+    values = {"options": "--seed 3 --sensor 64x48", "image": "/cam"}
+
+    def configuration(name):
+        return SimpleNamespace(perform=lambda context: values.get(name, context[name]))
+
+    contents = {
+        "launch": {"LaunchDescription": list},
+        "launch.actions": {
+            "DeclareLaunchArgument": lambda name, **more: (name, more["default_value"]),
+            "OpaqueFunction": lambda *, function: function,
+        },
+        "launch.substitutions": {"LaunchConfiguration": configuration},
+        "launch_ros": {},
+        "launch_ros.actions": {"Node": lambda **options: options},
+    }
+    for name, members in contents.items():
+        module = ModuleType(name)
+        vars(module).update(members)
+        monkeypatch.setitem(sys.modules, name, module)
+    launch = load(ROOT / "launch" / "event_camera.launch.py")
+    *declared, make_nodes = launch.generate_launch_description()
+    (node,) = make_nodes(dict(declared))
+    assert (node["package"], node["executable"]) == ("texvent_ros", "event_camera")
+    assert node["arguments"] == (
+        ["--image-topic", "/cam", "--frame-id", "event_camera", "--seed", "3", "--sensor", "64x48"]
+    )
