@@ -143,7 +143,9 @@ def test_a_page_holds_the_frames_of_the_video(tmp_path: Path) -> None:
 
 
 def test_other_extensions_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match=r"must end in \.mp4, \.gif, \.png, \.html, \.rrd"):
+    with pytest.raises(
+        ConfigError, match=r"must end in \.mp4, \.gif, \.png, \.html, \.rrd, \.mcap"
+    ):
         render_events(moving_dot(), tmp_path / "out.webm")
 
 

@@ -1,4 +1,4 @@
-"""An event file → video, image, page or rerun recording, with or without its video."""
+"""An event file → video, image, page, rerun or MCAP recording, with or without its video."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.video import MICROSECONDS, FrameStream
 from texvent.view.drawing.canvas import png_bytes
 from texvent.view.drawing.caption import title_of
+from texvent.view.drawing.palettes import get_palette
+from texvent.view.foxglove_export import write_foxglove
 from texvent.view.page.writer import PageWriter
 from texvent.view.render_config import RenderConfig
 from texvent.view.rerun_export import write_rrd
@@ -34,7 +36,7 @@ from texvent.view.windows.source_overlay import SourceOverlay
 
 __all__ = ["RENDER_EXTENSIONS", "RenderConfig", "render_events"]
 
-RENDER_EXTENSIONS = (*VIDEO_EXTENSIONS, ".png", ".html", ".rrd")
+RENDER_EXTENSIONS = (*VIDEO_EXTENSIONS, ".png", ".html", ".rrd", ".mcap")
 
 
 def render_events(
@@ -46,11 +48,11 @@ def render_events(
     overwrite: bool = False,
     progress: Progress = NO_PROGRESS,
 ) -> Path:
-    """Show events as a video (.mp4, .gif), an image (.png), a page (.html) or for rerun (.rrd).
+    """Show events as a video, an image, a page, or a recording for rerun or Foxglove.
 
     Args:
         events: a recording, whole or packet by packet; images read packets twice.
-        path: what to write; the extension decides.
+        path: what to write; the extension decides: .mp4, .gif, .png, .html, .rrd or .mcap.
         config: how to show them.
         frames: the source video, of the same size and clock.
         overwrite: whether an existing file may be replaced.
@@ -63,7 +65,7 @@ def render_events(
         ConfigError: unknown extension, or an overlay without ground truth.
         InputError: there is no event to show, or the video has another size.
         OutputError: the file exists already or cannot be written.
-        MissingDependencyError: .rrd without the extra "rerun".
+        MissingDependencyError: .rrd without the extra "rerun", .mcap without "bags".
     """
     path, config = Path(path), config or RenderConfig()
     kind = path.suffix.lower()
@@ -84,6 +86,8 @@ def render_events(
         _page(packets, path, config, source, overwrite=overwrite)
     elif kind == ".rrd":
         write_rrd(packets, path, config, frames=frames, overwrite=overwrite)
+    elif kind == ".mcap":
+        _mcap(packets, path, config, source, overwrite=overwrite)
     else:
         _video(packets, path, config, source, overwrite=overwrite)
     return path
@@ -136,6 +140,28 @@ def _video(
             shown += 1
         if shown == 0:
             raise _no_events()
+
+
+def _mcap(
+    packets: EventPackets,
+    path: Path,
+    config: RenderConfig,
+    source: SourceOverlay,
+    *,
+    overwrite: bool,
+) -> None:
+    """Events, images of them and the video on the recording's own clock."""
+    if config.overlay != "none":
+        raise ConfigError("overlay is not drawn in .mcap files; leave it out, or render a video")
+    if config.speed != 1:
+        raise ConfigError(f"speed is {config.speed:g}; .mcap files keep the recording's time")
+    step_us = config.step_us
+    windows = _cut(packets, config, step_us, config.window_us or max(1, round(step_us)))
+    extent = time_range(packets) if source.frames is not None else None
+    frames = None if source.frames is None else source.frames_during(extent)
+    write_foxglove(
+        packets, path, windows, get_palette(config.palette), frames=frames, overwrite=overwrite
+    )
 
 
 def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:

@@ -14,9 +14,10 @@ Needs rosbags: the extra `bags`.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -49,6 +50,7 @@ from texvent.io.ros.messages import (
 from texvent.sensor import SensorSize
 
 IMAGE, CAMERA_INFO = "sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo"
+COMPRESSED = "sensor_msgs/msg/CompressedImage"
 IMU, POSE = "sensor_msgs/msg/Imu", "geometry_msgs/msg/PoseStamped"
 BagKind = Literal["rosbag1", "mcap"]
 EXTENSIONS: dict[BagKind, str] = {"rosbag1": ".bag", "mcap": ".mcap"}
@@ -81,12 +83,29 @@ class SensorBag:
 
     def add_events(self, topic: str, packets: Iterable[EventStream], size: SensorSize) -> int:
         """All events of a camera, from packets in time order; returns how many there were."""
+        messages_of, count = self.events_topic(topic, size), 0
+        for packet in packets:
+            count += len(packet)
+            for _, write in messages_of(packet):
+                write()
+        return count
+
+    def events_topic(
+        self, topic: str, size: SensorSize
+    ) -> Callable[[EventStream], Iterator[tuple[int, Callable[[], None]]]]:
+        """A topic of events.
+
+        Returns:
+            Takes packets in time order; gives the time of each of their messages, µs, and what
+            writes it.
+        """
         is_ros1 = self._kind == "rosbag1"
         kind = EVENT_ARRAY if is_ros1 else EVENT_PACKET
         connection = self._bag.add_connection(topic, kind, typestore=self._types)
-        encoder, number, count = Evt3Codec().make_encoder(), 0, 0
-        for packet in packets:
-            count += len(packet)
+        encoder, number = Evt3Codec().make_encoder(), 0
+
+        def messages(packet: EventStream) -> Iterator[tuple[int, Callable[[], None]]]:
+            nonlocal number
             for part in split_by_time(packet.columns(), PACKET_US) if len(packet) else ():
                 first_us = int(part["t"][0])
                 if is_ros1:
@@ -94,11 +113,30 @@ class SensorBag:
                 else:
                     words = bytes(encoder.encode(part))
                     words = encoder.start() + words if number == 0 else words
-                    packet_message = EventPacket(first_us * NS, FRAME, size, number, 0, words)
-                    data = pack_event_packet(packet_message)
-                self._bag.write(connection, first_us * NS, data)
+                    stamp_ns = first_us * NS
+                    data = pack_event_packet(EventPacket(stamp_ns, FRAME, size, number, 0, words))
+                yield first_us, partial(self._bag.write, connection, first_us * NS, data)
                 number += 1
-        return count
+
+        return messages
+
+    def compressed_topic(self, topic: str, frame: str, format: str) -> Callable[[int, bytes], None]:
+        """A topic of sensor_msgs/CompressedImage, of files in a format such as "png".
+
+        Returns:
+            Writes an image: its time, µs, and the bytes of its file.
+        """
+        connection = self._bag.add_connection(topic, COMPRESSED, typestore=self._types)
+        message, number = self._types.types[COMPRESSED], 0
+
+        def write(t_us: int, data: bytes) -> None:
+            nonlocal number
+            header = self._header(t_us * NS, frame, number)
+            image = message(header, format, np.frombuffer(data, dtype=np.uint8))
+            self._bag.write(connection, t_us * NS, self._pack(image, COMPRESSED))
+            number += 1
+
+        return write
 
     def add_images(
         self, topic: str, frame: str, images: Iterable[tuple[int, NDArray[np.uint8]]]
@@ -212,9 +250,12 @@ class SensorBag:
 
     def _write(self, topic: str, kind: str, messages: Iterable[tuple[int, Any]]) -> None:
         connection = self._bag.add_connection(topic, kind, typestore=self._types)
-        pack = self._types.serialize_ros1 if self._kind == "rosbag1" else self._types.serialize_cdr
         for time_ns, message in messages:
-            self._bag.write(connection, time_ns, bytes(pack(message, kind)))
+            self._bag.write(connection, time_ns, self._pack(message, kind))
+
+    def _pack(self, message: Any, kind: str) -> bytes:
+        pack = self._types.serialize_ros1 if self._kind == "rosbag1" else self._types.serialize_cdr
+        return bytes(pack(message, kind))
 
     def _header(self, time_ns: int, frame: str, sequence: int) -> Any:
         types = self._types.types
