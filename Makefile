@@ -33,7 +33,7 @@ NO_HASH = echo "error: pip could not install the files that requirements/ lists 
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
 
-.PHONY: help demo test fuzz test-torch test-app test-formats test-dataset test-gpl docs linkcheck lint licences sbom requirements format clean
+.PHONY: help demo test fuzz test-torch test-app test-formats test-dataset test-notebooks test-gpl docs linkcheck lint licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -43,6 +43,7 @@ help:
 	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
 	@echo "make test-formats the tests of Parquet and blosc, in $(FORMATS_VENV)"
 	@echo "make test-dataset the tests of Ray and of data sets in other libraries, in $(DATASET_VENV)"
+	@echo "make test-notebooks the tutorials and displays in a kernel, in $(DOCS_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
 	@echo "make docs         the documentation site, in $(DOCS_OUT)/html"
 	@echo "make linkcheck    links of the site to other hosts; needs the network"
@@ -75,6 +76,9 @@ test-formats: $(FORMATS_VENV)/.formats
 
 test-dataset: $(DATASET_VENV)/.dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -m dataset tests/dataset
+
+test-notebooks: $(DOCS_VENV)/.docs-test
+	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks
 
 test-gpl: $(GPL_VENV)/.gpl
 	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io tests/dataset/loading
@@ -180,6 +184,10 @@ $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.
 $(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent and Sphinx into $(DOCS_VENV) (once; about 400 MB beyond texvent)"
 	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[docs]'
+	@touch $@
+
+$(DOCS_VENV)/.docs-test: $(DOCS_VENV)/.docs
+	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,docs]'
 	@touch $@
 
 $(GPL_VENV)/.gpl: $(GPL_VENV)/bin/python pyproject.toml constraints.txt Makefile

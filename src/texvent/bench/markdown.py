@@ -3,7 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Iterable, Sequence
+
+
+class MarkdownReport(ABC):
+    """A report that notebooks show as its tables."""
+
+    @abstractmethod
+    def markdown(self) -> str:
+        """All tables."""
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """What a notebook shows: the tables."""
+        return {"text/plain": repr(self), "text/markdown": self.markdown()}
 
 
 def markdown_table(titles: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

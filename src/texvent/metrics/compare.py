@@ -8,6 +8,7 @@ from texvent._registry import METRICS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.protocol import Metric, check_pair, find_missing
+from texvent.metrics.scores import Scores
 from texvent.runtime.progress import NO_PROGRESS, Progress
 
 
@@ -18,7 +19,7 @@ def compare(
     *,
     span_us: tuple[int, int] | None = None,
     progress: Progress = NO_PROGRESS,
-) -> dict[str, float]:
+) -> Scores:
     """Scores of `predicted` against `reference`.
 
     Args:
@@ -30,7 +31,8 @@ def compare(
         progress: told of each metric.
 
     Returns:
-        Name → value, NaN where a metric is undefined for these streams.
+        Name → value, NaN where a metric is undefined for these streams: a dict that notebooks
+        show as a table.
 
     Raises:
         InputError: the sensors differ in size, or a metric's weights are not here.
@@ -57,7 +59,7 @@ def compare(
     for done, metric in enumerate(built):
         progress.advance("metrics", done, len(built))
         scores[metric.name] = metric(predicted, reference)
-    return scores
+    return Scores(scores, built)
 
 
 def load_metric(name: str) -> Metric:

@@ -1,8 +1,7 @@
-"""Progress in a terminal or a notebook."""
+"""Progress in a terminal."""
 
 from __future__ import annotations
 
-import importlib.util
 import time
 from types import TracebackType
 from typing import Self
@@ -27,7 +26,7 @@ PATIENCE_SECONDS = 0.5
 class ConsoleProgress:
     """Lines, and one bar per stage of longer work, on stderr.
 
-    The bar shows where stderr is a terminal or a notebook.
+    The bar shows where stderr is a terminal.
 
     Args:
         is_quiet: show nothing.
@@ -38,7 +37,7 @@ class ConsoleProgress:
         self._console = Console(
             stderr=True, quiet=is_quiet, highlight=False, force_terminal=is_forced or None
         )
-        self._has_bar = not is_quiet and (is_forced or _can_show_bar(self._console))
+        self._has_bar = not is_quiet and (is_forced or self._console.is_terminal)
         self._patience = 0.0 if is_forced else PATIENCE_SECONDS
         self._bar = Progress(
             TextColumn("{task.description}"),
@@ -80,9 +79,3 @@ class ConsoleProgress:
         if stage not in self._tasks:
             self._tasks[stage] = self._bar.add_task(stage, total=total)
         self._bar.update(self._tasks[stage], completed=done, total=total)
-
-
-def _can_show_bar(console: Console) -> bool:
-    if console.is_jupyter:  # rich draws bars there by ipywidgets
-        return importlib.util.find_spec("ipywidgets") is not None
-    return console.is_terminal

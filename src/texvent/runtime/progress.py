@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import Protocol, TypeAlias
+
+from texvent.runtime.notebook_progress import NotebookProgress, is_notebook
 
 ProgressCallback: TypeAlias = Callable[[int, int | None, str], object]
 """Called with steps done, steps in all (None where that is unknown) and what is being done."""
 ProgressOption: TypeAlias = bool | ProgressCallback | None
-"""True: a bar on stderr. False: nothing. None: a bar where stderr is a terminal or a notebook. A
-function is called at every step; an exception that it raises stops the work."""
+"""True: a bar, in a notebook's output or on stderr. False: nothing. None: a bar in a notebook or a
+terminal. A function is called at every step; an exception that it raises stops the work."""
 
 
 class Progress(Protocol):
@@ -62,14 +64,21 @@ def open_progress(option: ProgressOption) -> Iterator[Progress]:
     if callable(option):
         yield CallbackProgress(option)
     elif option or (option is None and _is_interactive()):
-        from texvent.runtime.console_progress import ConsoleProgress  # rich takes 50 ms to import
-
-        with ConsoleProgress(is_forced=option is True) as progress:
+        with _open_bar(is_forced=option is True) as progress:
             yield progress
     else:
         yield NoProgress()
 
 
+def _open_bar(*, is_forced: bool) -> AbstractContextManager[Progress]:
+    """The bar of a notebook, or else of a terminal."""
+    if is_notebook():
+        return NotebookProgress(is_forced=is_forced)
+    from texvent.runtime.console_progress import ConsoleProgress  # rich takes 50 ms to import
+
+    return ConsoleProgress(is_forced=is_forced)
+
+
 def _is_interactive() -> bool:
-    """Whether stderr is a terminal, or this process is the kernel of a notebook."""
-    return "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())
+    """Whether this process is the kernel of a notebook, or stderr is a terminal."""
+    return is_notebook() or (sys.stderr is not None and sys.stderr.isatty())

@@ -10,6 +10,7 @@ from typing import Any
 from texvent.bench.document import plain_values, restore_nan
 from texvent.bench.document_types import check_record
 from texvent.bench.fidelity.details import Details
+from texvent.bench.markdown import MarkdownReport
 from texvent.bench.oracle.pixel import TARGETS
 from texvent.errors import FileFormatError, shown
 from texvent.metrics.compare import load_metric
@@ -80,7 +81,7 @@ class Score:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FidelityReport:
+class FidelityReport(MarkdownReport):
     """Everything a run found."""
 
     environment: Mapping[str, Any]
@@ -97,6 +98,12 @@ class FidelityReport:
     """What the floor compares with the truth."""
     protocol: Mapping[str, Any] = field(default_factory=dict)
     """Recording → what was used of it, for real ones."""
+
+    def markdown(self) -> str:
+        """All tables of the run."""
+        from texvent.bench.fidelity.table import fidelity_tables  # which reads reports
+
+        return fidelity_tables(self)
 
     def reference(self, scene: str, target: str) -> Reference:
         """Floor and null of a scene."""

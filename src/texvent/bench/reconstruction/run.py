@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 from texvent.bench.fidelity.entries import Entry
+from texvent.bench.markdown import MarkdownReport
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.real.frame_recording import FrameRecording
 from texvent.bench.reconstruction.image_scores import ImageScores, ScoreCollector, score_images
@@ -108,7 +109,7 @@ class ReconstructionRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReconstructionReport:
+class ReconstructionReport(MarkdownReport):
     """Everything a run found."""
 
     network: str
@@ -122,6 +123,12 @@ class ReconstructionReport:
     """Measure → why it is left out."""
     skipped: dict[str, str] = field(default_factory=dict)
     """Entry → why it did not run."""
+
+    def markdown(self) -> str:
+        """All tables of the run."""
+        from texvent.bench.reconstruction.table import reconstruction_tables  # reads reports
+
+        return reconstruction_tables(self)
 
     def sources(self) -> list[str]:
         """Sources of events, the recorded ones first."""

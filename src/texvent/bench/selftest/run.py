@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from texvent.bench.markdown import MarkdownReport
 from texvent.bench.oracle.pixel import NOISY
 from texvent.bench.oracle.recording import oracle_scene, record
 from texvent.bench.progress import Progress, no_progress
@@ -56,9 +57,19 @@ class SelftestRow:
         return tuple(name for name in self.z if name not in self.found)
 
 
+class SelftestRows(list[SelftestRow], MarkdownReport):
+    """A row for each metric; a list in every other way."""
+
+    def markdown(self) -> str:
+        """The rows as a table, best metrics first."""
+        from texvent.bench.selftest.table import selftest_table  # which reads rows
+
+        return selftest_table(self)
+
+
 def run_selftest(
     metrics: Iterable[str] | None = None, *, progress: Progress = no_progress
-) -> list[SelftestRow]:
+) -> SelftestRows:
     """Run the self-test on the oracle's `mixed` scene with noisy pixels.
 
     Args:
@@ -80,7 +91,7 @@ def run_selftest(
     for metric in chosen:
         progress(metric.name)
         rows.append(evaluate_metric(metric, recordings, perturbed))
-    return rows
+    return SelftestRows(rows)
 
 
 def record_scene() -> list[EventStream]:

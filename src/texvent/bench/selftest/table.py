@@ -16,6 +16,7 @@ from texvent.bench.selftest.run import (
     SCENE,
     TEXTURE_SEED,
     SelftestRow,
+    SelftestRows,
     ranked_rows,
 )
 from texvent.errors import FileFormatError, shown
@@ -56,7 +57,7 @@ def selftest_document(rows: Sequence[SelftestRow]) -> dict[str, Any]:
     }
 
 
-def read_selftest(path: Path) -> list[SelftestRow]:
+def read_selftest(path: Path) -> SelftestRows:
     """The rows of a document that `texvent bench selftest --out` wrote.
 
     Raises:
@@ -75,4 +76,4 @@ def read_selftest(path: Path) -> list[SelftestRow]:
         raise FileFormatError(f"{path} has no list of rows")
     for number, row in enumerate(rows):
         check_record(SelftestRow, row, f"{path}: row {number}")
-    return [SelftestRow(**{name: row[name] for name in names}) for row in rows]
+    return SelftestRows(SelftestRow(**{name: row[name] for name in names}) for row in rows)

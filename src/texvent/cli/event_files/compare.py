@@ -23,6 +23,7 @@ from texvent.io.files import load
 from texvent.metrics.compare import compare, describe_metrics, load_metric
 from texvent.metrics.protocol import Metric
 from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
+from texvent.metrics.scores import GOOD, score_text
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
 from texvent.runtime.console_progress import ConsoleProgress
 from texvent.sensor import SensorSize, parse_sensor
@@ -198,13 +199,12 @@ def _span(options: CompareOptions) -> tuple[int, int] | None:
 
 
 def _rows(metrics: Sequence[Metric], findings: Findings) -> list[MetricRow]:
-    good = {"lower": "low", "higher": "high", "one": "near 1"}
     return [
         MetricRow(
             name=metric.name,
-            value=_number(findings.scores[metric.name]),
+            value=score_text(findings.scores[metric.name]),
             unit=metric.unit,
-            good=good[metric.better],
+            good=GOOD[metric.better],
             blind_to=metric.blind_to,
         )
         for metric in metrics
@@ -221,7 +221,7 @@ def _show(metrics: Sequence[Metric], findings: Findings) -> None:
         console.print()
         controls = _table(("of the reference", "value"), title=f"{name}, controls")
         for control, value in values.items():
-            controls.add_row(control, _number(value))
+            controls.add_row(control, score_text(value))
         console.print(controls)
     if findings.levels is not None:
         console.print()
@@ -240,10 +240,6 @@ def _table(titles: Sequence[str], *, title: str | None = None) -> Table:
     for one in titles:
         table.add_column(one, justify="right" if one == "value" or one.isdigit() else "left")
     return table
-
-
-def _number(value: float) -> str:
-    return "undefined" if math.isnan(value) else f"{value:.4f}"
 
 
 def _plain(value: float) -> float | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -49,6 +49,22 @@ class StoredSample:
     split: str
     facts: Mapping[str, Any]
     """How it was made: prompt, settings, seed, versions."""
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """What a notebook shows: the events, with class and place in the data set."""
+        from texvent.view.notebook.bundle import mime_bundle
+        from texvent.view.notebook.events import stream_html
+
+        facts = {
+            "Class": self.label,
+            "Caption": self.caption,
+            "Sample": self.key,
+            "Split": self.split,
+            "Variant": self.variant,
+        }
+        return mime_bundle(self, lambda: stream_html(self.events, facts), include, exclude)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

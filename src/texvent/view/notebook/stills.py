@@ -32,7 +32,7 @@ def busiest_still(events: EventStream) -> str:
     window = events.cut(start_us, stop_us)
     caption = (
         f"{len(window):,} events of {start_us / MICROSECONDS:.3f} to "
-        f"{stop_us / MICROSECONDS:.3f} s, the busiest {(stop_us - start_us) / 1000:g} ms"
+        f"{stop_us / MICROSECONDS:.3f} s, the busiest {(stop_us - start_us) / 1000:.3g} ms"
     )
     return _event_figure(count_events(window), caption)
 

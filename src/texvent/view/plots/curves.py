@@ -48,7 +48,8 @@ def draw_rate(
     ax.axhline(0, color="0.5", linewidth=0.8)
     ax.set(xlabel="time, s", ylabel="events per second", title=f"bins of {width_us / 1000:g} ms")
     ax.yaxis.set_major_formatter(lambda value, _: f"{abs(value):,.0f}")
-    ax.legend()
+    ax.margins(y=0.2)
+    ax.legend(loc="upper right", ncols=2)
 
 
 def draw_intervals(events: EventStream, ax: Any, *, bins: int = INTERVAL_BINS) -> None:

@@ -47,7 +47,7 @@ def page_files(report: DigitsReport, result: str, *, has_charts: bool = True) ->
         "## Accuracy on recordings",
         "Mean ± standard error over networks of different seeds. "
         + binomial_text(report, int(report.protocol["recordings"])),
-        *_accuracy_sections(report),
+        *accuracy_sections(report),
         "## Thresholds and counts",
         count_table(report),
         *_few_shot_sections(report, f"{name}{FEW_SHOT}" if has_charts else None),
@@ -74,7 +74,8 @@ def _chart_files(report: DigitsReport, name: str) -> dict[str, bytes]:
     return charts
 
 
-def _accuracy_sections(report: DigitsReport) -> list[str]:
+def accuracy_sections(report: DigitsReport) -> list[str]:
+    """A heading and a table for each representation."""
     return [
         part
         for kind in report.ceiling

@@ -23,6 +23,7 @@ from texvent.bench.digits.plan import (
 from texvent.bench.digits.report.statistics import compare_classifiers, vote
 from texvent.bench.document_types import check_record
 from texvent.bench.machine import describe_environment
+from texvent.bench.markdown import MarkdownReport
 from texvent.errors import FileFormatError
 
 SCHEMA = "texvent-digits-1"
@@ -79,7 +80,7 @@ class ShotScore:
 
 
 @dataclass(frozen=True)
-class DigitsReport:
+class DigitsReport(MarkdownReport):
     """All results."""
 
     environment: Mapping[str, Any]
@@ -97,6 +98,12 @@ class DigitsReport:
     few_shot_tested: int
     """Recordings that the few-shot networks are tested on."""
     seconds: float
+
+    def markdown(self) -> str:
+        """Accuracy of every arm, and the counts of events."""
+        from texvent.bench.digits.report.page import accuracy_sections  # which reads reports
+
+        return "\n\n".join(accuracy_sections(self))
 
     def document(self) -> dict[str, Any]:
         """The values, ready for JSON."""

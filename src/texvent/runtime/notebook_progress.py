@@ -1,0 +1,93 @@
+"""Progress in the kernel of a notebook, by nothing but IPython's display."""
+
+from __future__ import annotations
+
+import html
+import importlib
+import sys
+import time
+from types import TracebackType
+from typing import Any, Self
+
+from texvent.errors import visible
+
+PATIENCE_SECONDS = 0.5
+"""Work that ends sooner shows no bar."""
+REFRESH_SECONDS = 0.1
+
+
+def is_notebook() -> bool:
+    """Whether this process is the kernel of a notebook."""
+    ipython = sys.modules.get("IPython")
+    shell = None if ipython is None else ipython.get_ipython()
+    return getattr(shell, "kernel", None) is not None
+
+
+class NotebookProgress:
+    """Lines, and one bar for longer work, which disappears at its end.
+
+    Args:
+        is_forced: show the bar at once.
+    """
+
+    def __init__(self, *, is_forced: bool = False) -> None:
+        self._patience = 0.0 if is_forced else PATIENCE_SECONDS
+        self._handle: Any = None
+        self._begun = self._stage_begun = time.monotonic()
+        self._shown = -REFRESH_SECONDS
+        self._stage = ""
+
+    def __enter__(self) -> Self:
+        self._begun = self._stage_begun = time.monotonic()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._handle is not None:
+            self._handle.update({"text/plain": "", "text/html": ""}, raw=True)
+
+    def announce(self, line: str) -> None:
+        """Show a line."""
+        _display({"text/plain": visible(line)}, raw=True)
+
+    def advance(self, stage: str, done: int, total: int | None) -> None:
+        """Move the bar, at most ten times per second."""
+        now = time.monotonic()
+        if stage != self._stage:
+            self._stage, self._stage_begun = stage, now
+        elif now - self._shown < REFRESH_SECONDS and done != total:
+            return
+        if now - self._begun < self._patience:
+            return
+        self._shown = now
+        bundle = _bar(stage, done, total, now - self._stage_begun)
+        if self._handle is None:
+            self._handle = _display(bundle, raw=True, display_id=True)
+        else:
+            self._handle.update(bundle, raw=True)
+
+
+def _display(bundle: dict[str, str], **options: Any) -> Any:
+    return importlib.import_module("IPython.display").display(bundle, **options)
+
+
+def _bar(stage: str, done: int, total: int | None, seconds: float) -> dict[str, str]:
+    """A stage's steps and times, as text and with a bar."""
+    steps = f"{done:,}" if total is None else f"{done:,}/{total:,}"
+    clock = f"{seconds:.0f} s"
+    if total and 0 < done < total:
+        clock += f", {seconds * (total - done) / done:.0f} s left"
+    share = f'value="{done}" max="{total}"' if total else ""
+    name = html.escape(visible(stage))
+    return {
+        "text/plain": f"{visible(stage)}  {steps}  {clock}",
+        "text/html": (
+            '<div style="display:flex; flex-wrap:wrap; align-items:center; gap:8px">'
+            f'<span>{name}</span><progress {share} style="flex:0 1 300px"></progress>'
+            f"<span>{steps}</span><span>{clock}</span></div>"
+        ),
+    }

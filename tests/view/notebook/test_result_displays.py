@@ -1,0 +1,79 @@
+"""Results of compare and of the benchmarks, and samples of data sets, in a notebook."""
+
+from __future__ import annotations
+
+import json
+import math
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.bench.document import read_document
+from texvent.bench.fidelity.results import read_report
+from texvent.bench.selftest.table import read_selftest
+from texvent.dataset.loading.stored_samples import StoredSample
+from texvent.events import EventStream
+from texvent.metrics.compare import load_metric
+from texvent.metrics.scores import Scores
+from texvent.sensor import SensorSize
+
+RESULTS = Path(__file__).parents[3] / "docs/results"
+EVENTS = EventStream([1, 2], [0, 0], [100, 900], [1, 0], SensorSize(4, 3))
+
+
+def test_scores_are_a_dict_and_a_table():
+    scores = texvent.compare(EVENTS, EVENTS, ["stpp", "nearest", "count_ratio"])
+    assert scores == {"stpp": 1.0, "nearest": 0.0, "count_ratio": 1.0}
+    assert json.loads(json.dumps(scores)) == scores
+    again = pickle.loads(pickle.dumps(scores))
+    bundle = scores._repr_mimebundle_()
+    assert again == scores
+    assert again._repr_mimebundle_() == bundle
+    assert bundle["text/plain"] == "{'stpp': 1.0, 'nearest': 0.0, 'count_ratio': 1.0}"
+    table = bundle["text/html"]
+    assert table.count("<tr>") == 4
+    assert ">1.0000<" in table
+    assert ">near 1<" in table
+    assert f">{load_metric('nearest').unit}<" in table
+
+
+def test_an_undefined_score_says_so_and_names_are_escaped():
+    table = Scores({"<b>": math.nan}, [])._repr_mimebundle_()["text/html"]
+    assert "undefined" in table
+    assert "&lt;b&gt;" in table
+
+
+@pytest.mark.parametrize(
+    ("report", "has"),
+    [
+        (lambda: read_report(read_document(RESULTS / "fidelity.json.gz")), "| entry |"),
+        (lambda: read_selftest(RESULTS / "selftest.json"), "| metric |"),
+    ],
+    ids=["fidelity", "selftest"],
+)
+def test_results_of_benchmarks_show_their_tables(report, has):
+    bundle = report()._repr_mimebundle_()
+    assert has in bundle["text/markdown"]
+    assert "<script" not in bundle["text/markdown"]
+
+
+def test_a_sample_shows_its_events_and_class():
+    sample = StoredSample(
+        key="s-000001",
+        events=EVENTS.with_metadata({"prompt": "a <b> car"}),
+        caption="a <b> car",
+        label="car",
+        class_number=0,
+        variant="default",
+        split="train",
+        facts={},
+    )
+    page = sample._repr_mimebundle_()["text/html"]
+    assert "<b> car" not in page
+    assert page.count("a &lt;b&gt; car") == 2
+    for fact in ("s-000001", "train", "2 events"):
+        assert fact in page
+    assert np.array_equal(sample.events.t, [100, 900])
