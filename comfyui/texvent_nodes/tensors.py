@@ -1,0 +1,50 @@
+"""ComfyUI's IMAGE, a torch tensor [B, H, W, C] of 0..1, to and from NumPy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import InputError
+
+WHITE = 255.0
+
+
+def frames_of(images: Any) -> NDArray[np.float32]:
+    """Frames on texvent's 0..255 scale.
+
+    Args:
+        images: IMAGE: anything that NumPy reads as [B, H, W, C], or a tensor of any device.
+
+    Returns:
+        [B, H, W] or [B, H, W, 3] float32, alpha left out.
+
+    Raises:
+        InputError: another shape, fewer than two images, or values that are not finite.
+    """
+    if hasattr(images, "detach"):
+        images = images.detach().cpu().float()
+    pixels = np.asarray(images, dtype=np.float32)
+    if pixels.ndim != 4 or pixels.shape[3] not in (1, 3, 4):
+        raise InputError(
+            f"images have shape {list(pixels.shape)}; an IMAGE is [B, H, W, C] with 1, 3 or 4 "
+            "channels"
+        )
+    if len(pixels) < 2:
+        raise InputError(
+            f"there is {len(pixels)} image; events are changes, so connect a batch of at least "
+            "two, such as the frames of a video"
+        )
+    if not np.isfinite(pixels).all():
+        raise InputError("images hold NaN or infinite values; check the node that makes them")
+    pixels = np.clip(pixels, 0.0, 1.0) * np.float32(WHITE)
+    return pixels[..., 0] if pixels.shape[3] == 1 else pixels[..., :3]
+
+
+def images_of(pixels: NDArray[np.uint8]) -> Any:
+    """IMAGE of RGB pixels [B, H, W, 3], uint8."""
+    import torch  # ComfyUI brings it
+
+    return torch.from_numpy(pixels.astype(np.float32) / np.float32(WHITE))

@@ -1,0 +1,300 @@
+"""The nodes, loaded, checked and run by ComfyUI's published interface (comfy_interface.py)."""
+
+import dataclasses
+import re
+import sys
+import tomllib
+from fractions import Fraction
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from tests.comfyui import comfy_interface as comfy
+
+import texvent
+from texvent._registry import CODECS, SIMULATORS
+from texvent.errors import InputError, TexventError
+
+CLASSES, TITLES = comfy.load()
+IMAGES = np.random.default_rng(2).random((4, 12, 16, 3), dtype=np.float32)
+
+
+class Images:
+    """A node that gives the images, as Load Image does."""
+
+    RETURN_TYPES = ("IMAGE",)
+    FUNCTION = "give"
+    value = IMAGES
+
+    @classmethod
+    def INPUT_TYPES(cls):
+        return {"required": {}}
+
+    def give(self):
+        return (self.value,)
+
+
+class Video(Images):
+    """A node that gives a video at 30000/1001 frames per second, as Load Video does."""
+
+    RETURN_TYPES = ("VIDEO",)
+    value = SimpleNamespace(
+        get_components=lambda: SimpleNamespace(images=IMAGES, frame_rate=Fraction(30000, 1001))
+    )
+
+
+ALL = {**CLASSES, "Images": Images, "Video": Video}
+
+
+@pytest.fixture
+def output(tmp_path, monkeypatch):
+    folder = tmp_path / "output"
+    folder.mkdir()
+    monkeypatch.setitem(sys.modules, "folder_paths", comfy.folder_paths(folder))
+    return folder
+
+
+def test_every_node_follows_the_interface():
+    assert TITLES.keys() == CLASSES.keys()
+    assert len(set(TITLES.values())) == len(TITLES) == 5 + len(SIMULATORS.builtin)
+    for name, cls in CLASSES.items():
+        assert re.fullmatch(r"Texvent\w+", name)
+        assert cls.CATEGORY.startswith("texvent")
+        assert callable(getattr(cls, cls.FUNCTION))
+        assert all(isinstance(kind, str) for kind in cls.RETURN_TYPES)
+        assert len(cls.RETURN_NAMES) == len(cls.RETURN_TYPES)
+        for key, info in cls.INPUT_TYPES()["required"].items():
+            assert isinstance(info, tuple), key
+            if info[0] in ("INT", "FLOAT"):
+                assert info[1]["min"] <= info[1]["default"] <= info[1]["max"], (name, key)
+            if isinstance(info[0], list):
+                assert info[1]["default"] in info[0], (name, key)
+
+
+@pytest.mark.parametrize("simulator", SIMULATORS.builtin)
+def test_options_of_a_pixel_model_are_those_of_its_dataclass(simulator):
+    cls = CLASSES[f"TexventModel{simulator.capitalize()}"]
+    presets = SIMULATORS.load(simulator).presets
+    config = next(iter(presets.values()))
+    inputs = cls.INPUT_TYPES()["required"]
+    assert list(inputs) == ["preset", *(field.name for field in dataclasses.fields(config))]
+    assert inputs["preset"][0] == list(presets)
+    assert all(info[1]["tooltip"] for info in inputs.values())
+    graph = {"model": comfy.defaults(cls)}
+    assert comfy.check(graph, ALL) == []
+    (options,) = comfy.run(graph, ALL)["model"]["result"]
+    assert options == {"simulator": simulator, "preset": next(iter(presets))}
+
+
+@pytest.mark.parametrize(
+    ("simulator", "name", "low", "high"),
+    [
+        ("texvent", "contrast_threshold", 1e-4, 10.0),
+        ("texvent", "noise_rate_hz", 0.0, 1e4),
+        ("texvent", "cache_reset_pairs", 0, 2**53 - 1),  # needs another cache first
+        ("v2e", "linear_below", 2.0, 255.0),
+        ("v2e", "refractory_period_us", 0, 10**9),
+        ("voltmeter", "k4", -0.01, 0.01),
+        ("esim", "log_eps", 1e-9, 1.0),
+    ],
+)
+def test_ranges_are_those_that_the_dataclass_accepts(simulator, name, low, high):
+    facts = CLASSES[f"TexventModel{simulator.capitalize()}"].INPUT_TYPES()["required"][name][1]
+    assert (facts["min"], facts["max"]) == (low, high)
+
+
+def test_images_become_the_events_of_texvent(output):
+    graph = {
+        "images": {"class_type": "Images", "inputs": {}},
+        "model": comfy.defaults(CLASSES["TexventModelEsim"], contrast_threshold_on=0.3),
+        "events": comfy.defaults(
+            CLASSES["TexventImagesToEvents"], images=["images", 0], model=["model", 0], seed=4,
+            fps=50.0, interpolate="blend",
+        ),
+        "save": comfy.defaults(
+            CLASSES["TexventSaveEvents"], events=["events", 0], filename_prefix="a/b", format="npz"
+        ),
+    }  # fmt: skip
+    assert comfy.check(graph, ALL) == []
+    done = comfy.run(graph, ALL)
+    truth = texvent.simulate(
+        IMAGES * np.float32(255), fps=50, interpolate="blend", simulator="esim", seed=4,
+        contrast_threshold_on=0.3, progress=False,
+    )  # fmt: skip
+    assert len(truth)
+    assert done["events"]["result"][0].equals(truth)
+    (path,) = done["save"]["result"]
+    assert path == str(output / "a" / "b_00001_.npz")
+    assert texvent.load(path).equals(truth)
+    assert done["save"]["ui"] == {"text": [f"b_00001_.npz: {len(truth):,} events, 16x12"]}
+    assert comfy.run(graph, ALL)["save"]["result"] == (str(output / "a" / "b_00002_.npz"),)
+
+
+def test_a_video_keeps_its_frame_rate_and_alpha_is_left_out():
+    graph = {
+        "video": {"class_type": "Video", "inputs": {}},
+        "events": comfy.defaults(CLASSES["TexventVideoToEvents"], video=["video", 0]),
+    }
+    assert comfy.check(graph, ALL) == []
+    events = comfy.run(graph, ALL)["events"]["result"][0]
+    truth = texvent.simulate(IMAGES * np.float32(255), fps="30000/1001", progress=False)
+    assert events.equals(truth)
+    with_alpha = np.concatenate([IMAGES, np.ones((4, 12, 16, 1), np.float32)], axis=3)
+    tensors = comfy.part("tensors")
+    assert (tensors.frames_of(with_alpha) == tensors.frames_of(IMAGES)).all()
+    assert tensors.frames_of(IMAGES[..., :1]).shape == (4, 12, 16)
+
+
+def test_a_prompt_gives_events_and_a_report():
+    cls = CLASSES["TexventPromptToEvents"]
+    graph = {
+        "events": comfy.defaults(
+            cls, prompt="a red ball bounces", duration=0.1, fps=20.0, sensor="32x24", seed=1
+        )
+    }
+    assert comfy.check(graph, ALL) == []
+    events, report = comfy.run(graph, ALL)["events"]["result"]
+    truth = texvent.generate(
+        "a red ball bounces", duration=0.1, fps=20, sensor="32x24", seed=1, progress=False
+    )
+    assert events.equals(truth)
+    assert "ball" in report
+
+
+def test_every_format_can_be_chosen_and_a_folder_is_written(output):
+    cls = CLASSES["TexventSaveEvents"]
+    assert cls.INPUT_TYPES()["required"]["format"][0] == list(CODECS.builtin)
+    events = texvent.simulate(IMAGES * np.float32(255), fps=50, progress=False)
+    (path,) = cls().save(events, "folder", "esim")["result"]
+    assert texvent.load(path, format="esim", size=(16, 12)).size == (16, 12)
+
+
+@pytest.mark.parametrize(
+    "prefix", ["../x", "a/../../x", "/etc/x", "", ".", "..", "a\\..\\..\\x", "link/x"]
+)
+def test_names_stay_inside_the_output_folder(output, tmp_path, prefix):
+    (tmp_path / "outside").mkdir()
+    (output / "link").symlink_to(tmp_path / "outside")
+    events = texvent.simulate(IMAGES * np.float32(255), fps=50, progress=False)
+    with pytest.raises(TexventError, match="no name inside the output folder"):
+        CLASSES["TexventSaveEvents"]().save(events, prefix, "hdf5")
+    assert list((tmp_path / "outside").iterdir()) == []
+    assert [one.name for one in output.iterdir()] == ["link"]
+
+
+@pytest.mark.parametrize(
+    ("node", "inputs", "words"),
+    [
+        ("TexventImagesToEvents", {"fps": 0.0}, "n.fps: 0.0 is below 0.001"),
+        ("TexventImagesToEvents", {"sensor": "davis999"}, "n: unknown sensor 'davis999'"),
+        ("TexventImagesToEvents", {"interpolate": "exact"}, "'exact' is not in the list"),
+        ("TexventModelV2e", {"linear_below": 1.0}, "n: linear_below is 1; it must be 2..255"),
+        ("TexventModelV2e", {"preset": "x"}, "n: preset is 'x'"),
+        ("TexventModelTexvent", {"noise": "pink"}, "n: pixel model texvent: noise is 'pink'"),
+        ("TexventModelPhysical", {"sensor_seed": "many"}, "sensor_seed is 'many'; it must be a"),
+        ("TexventSaveEvents", {"format": "avi"}, "'avi' is not in the list"),
+        ("TexventPreviewEvents", {"events": ["images", 0]}, "got IMAGE, expected TEXVENT_EVENTS"),
+    ],
+)
+def test_bad_inputs_are_refused_before_anything_runs(node, inputs, words):
+    links = {"TexventImagesToEvents": {"images": ["images", 0]}}
+    if node in ("TexventSaveEvents", "TexventPreviewEvents"):
+        links[node] = {"events": ["events", 0]}
+    graph = {
+        "images": {"class_type": "Images", "inputs": {}},
+        "events": comfy.defaults(CLASSES["TexventImagesToEvents"], images=["images", 0]),
+        "n": comfy.defaults(CLASSES[node], **{**links.get(node, {}), **inputs}),
+    }
+    (error,) = comfy.check(graph, ALL)
+    assert words in error
+
+
+@pytest.mark.parametrize(
+    ("images", "words"),
+    [
+        (IMAGES[:1], "there is 1 image; events are changes"),
+        (IMAGES[0], "shape [12, 16, 3]; an IMAGE is [B, H, W, C]"),
+        (IMAGES[..., :2], "shape [4, 12, 16, 2]"),
+        (np.full((2, 2, 2, 3), np.nan, np.float32), "NaN or infinite"),
+    ],
+)
+def test_images_that_are_none_give_one_message(images, words):
+    with pytest.raises(InputError, match=re.escape(words)):
+        CLASSES["TexventImagesToEvents"]().simulate(images, 24.0)
+
+
+def test_other_things_than_videos_and_events_are_refused():
+    with pytest.raises(InputError, match="the video is a str; connect that of Load Video"):
+        CLASSES["TexventVideoToEvents"]().simulate("clip.mp4")
+    with pytest.raises(InputError, match="the events are a NoneType; connect a node of texvent"):
+        CLASSES["TexventSaveEvents"]().save(None, "a", "hdf5")
+
+
+def test_dark_images_are_not_taken_for_the_wrong_scale():
+    events = CLASSES["TexventImagesToEvents"]().simulate(IMAGES / 300, 24.0)[0]
+    assert events.size == (16, 12)
+
+
+def test_images_of_events_have_the_colours_of_the_palette():
+    draw = comfy.part("output_nodes").event_images
+    events = texvent.EventStream.from_columns(
+        [0, 1, 2], [0, 0, 1], [0, 1000, 25_000], [1, 0, 1], size=(3, 2)
+    )
+    images = draw(events, fps=50.0, window_ms=0.0, palette="paper", max_images=9)
+    assert images.shape == (2, 2, 3, 3)
+    assert images[0, 0].tolist() == [[0, 0, 255], [255, 0, 0], [255, 255, 255]]
+    assert images[1, 1, 2].tolist() == [0, 0, 255]
+    assert len(draw(events, fps=50.0, window_ms=0.0, palette="v2e", max_images=1)) == 1
+    empty = texvent.EventStream.empty((3, 2))
+    assert (draw(empty, fps=50.0, window_ms=1.0, palette="paper", max_images=9) == 255).all()
+
+
+def test_progress_reaches_comfyui_and_its_cancel_button_stops_a_run(monkeypatch):
+    class Cancelled(Exception):  # noqa: N818
+        pass
+
+    steps, limit = [], 2
+
+    def throw():
+        if len(steps) >= limit:
+            raise Cancelled
+
+    def bar(total):
+        return SimpleNamespace(update_absolute=lambda done, total: steps.append((done, total)))
+
+    monkeypatch.setitem(sys.modules, "comfy", SimpleNamespace())
+    monkeypatch.setitem(sys.modules, "comfy.utils", SimpleNamespace(ProgressBar=bar))
+    monkeypatch.setitem(
+        sys.modules,
+        "comfy.model_management",
+        SimpleNamespace(throw_exception_if_processing_interrupted=throw),
+    )
+    with pytest.raises(Cancelled):
+        CLASSES["TexventImagesToEvents"]().simulate(IMAGES, 24.0)
+    assert len(steps) == 2
+    assert {total for _, total in steps} == {4}
+
+
+@pytest.mark.torch
+def test_tensors_go_in_and_come_out():
+    torch = pytest.importorskip("torch")
+    images = torch.from_numpy(IMAGES).half()
+    events = CLASSES["TexventImagesToEvents"]().simulate(images, 24.0)[0]
+    assert len(events)
+    preview = CLASSES["TexventPreviewEvents"]
+    graph = comfy.defaults(preview)["inputs"]
+    (drawn,) = preview().draw(events, **graph)
+    assert drawn.dtype == torch.float32
+    assert drawn.shape[1:] == (12, 16, 3)
+    assert 0.0 <= float(drawn.min()) <= float(drawn.max()) == 1.0
+
+
+def test_the_folder_describes_itself_to_the_registry():
+    facts = tomllib.loads((comfy.FOLDER / "pyproject.toml").read_text(encoding="utf-8"))
+    name, version = facts["project"]["name"], facts["project"]["version"]
+    assert re.fullmatch(r"[a-z][a-z0-9-]{0,99}", name)
+    assert re.fullmatch(r"\d+\.\d+\.\d+", version)
+    assert facts["tool"]["comfy"].keys() >= {"PublisherId", "DisplayName", "Icon"}
+    assert facts["project"]["urls"]["Repository"]
+    assert facts["project"]["dependencies"] == ["texvent"]
+    assert (comfy.FOLDER / "requirements.txt").read_text().split() == ["texvent"]
