@@ -58,7 +58,7 @@ def framed(*parts: str) -> str:
 
 def heading(title: str, summary: str) -> str:
     """A title and a line below it, both escaped."""
-    bold = f"<b>{html.escape(title)}</b>" if title else ""
+    bold = f"<b>{html.escape(title)}</b><br>" if title else ""
     return f'<p class="head">{bold}{html.escape(summary)}</p>'
 
 

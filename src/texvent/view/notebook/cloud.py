@@ -29,7 +29,11 @@ def cloud_frame(events: EventStream) -> str:
         f"{viewer_file('frame.css')}:root {{ {palette_properties(palette)} }}\n"
         f":root.dark {{ {palette_properties(palette.dark)} }}"
     )
+    note = "Drag to turn; after a click, the wheel zooms."
+    if len(sample) < len(events):
+        note += f" {len(sample):,} of {len(events):,} events, evenly drawn."
     parts = {
+        "note": note,
         "style": style,
         "data": script_json(data),
         "script": "\n".join(map(viewer_file, SCRIPTS)),

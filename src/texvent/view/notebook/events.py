@@ -11,7 +11,7 @@ from texvent.event_packets import EventPackets, SeekablePackets
 from texvent.events import EventStream
 from texvent.video import MICROSECONDS
 from texvent.view.notebook.bundle import facts_grid, framed, heading, note
-from texvent.view.notebook.cloud import CLOUD_EVENTS, cloud_frame
+from texvent.view.notebook.cloud import cloud_frame
 from texvent.view.notebook.facts import event_facts, made_by, size_text, title_text
 from texvent.view.notebook.stills import busiest_still, window_still
 from texvent.view.page.html_parts import rate_figure
@@ -37,9 +37,6 @@ def stream_html(events: EventStream, more: Mapping[str, Any] | None = None) -> s
         f"EventStream · {len(events):,} events · {size_text(events.size)} · "
         f"{(stop_us - start_us) / MICROSECONDS:.3f} s"
     )
-    cloud_text = "The cloud is turned by dragging; after a click, the wheel zooms."
-    if len(events) > CLOUD_EVENTS:
-        cloud_text += f" It holds {CLOUD_EVENTS:,} of {len(events):,} events, evenly drawn."
     bins = min(RATE_BINS, stop_us - start_us)
     curve = rate_figure(
         rate_counts(events, (start_us, stop_us), bins),
@@ -49,7 +46,6 @@ def stream_html(events: EventStream, more: Mapping[str, Any] | None = None) -> s
     return framed(
         heading(title, summary),
         f'<div class="views">{busiest_still(events)}{cloud_frame(events)}</div>',
-        note(cloud_text),
         curve,
         facts_grid({**(more or {}), **event_facts(events), **made_by(events.metadata)}),
     )

@@ -95,9 +95,9 @@ def rate_figure(
         f'preserveAspectRatio="none" role="img" aria-label="{label}">'
         f'<path class="on-area" d="{on_area}"/><path class="off-area" d="{off_area}"/>{marks}'
         f'<path class="zero" d="M0 {middle:g}H{CURVE_WIDTH}"/></svg>'
-        f'<div class="scale"><span>{start_us / MICROSECONDS:.3f} s</span>'
+        f'<div class="scale"><span>{start_us / MICROSECONDS:.3f} s</span> '
         f"<span>ON above, OFF below the line · peak {count_text(most * per_second)} events/s · "
-        f"bins of {bin_us / 1000:.3g} ms</span>"
+        f"bins of {bin_us / 1000:.3g} ms</span> "
         f"<span>{stop_us / MICROSECONDS:.3f} s</span></div></figure>"
     )
 
