@@ -98,6 +98,11 @@ def generate(
     Raises:
         InputError: the prompt is empty, or the embedded generator understands nothing in it.
         ConfigError: an unknown option, or a value out of range.
+
+    Example:
+        >>> events = generate("a red ball bounces", sensor="48x36", duration=0.2, seed=3)
+        >>> events.size, len(events) > 100
+        (SensorSize(width=48, height=36), True)
     """
     settings, upsample = _generation(options, config)
     output = _truth_output(truth_folder, as_packets=as_packets)
@@ -187,6 +192,14 @@ def simulate(
         InputError: the source cannot be read, or holds NaN, negative or infinite intensities; or
             the motion vectors do not fit it.
         ConfigError: an unknown option, or a value out of range.
+
+    Example:
+        >>> import numpy as np
+        >>> frames = np.zeros((3, 4, 4), np.uint8)
+        >>> frames[1:, 2, 2] = 200  # one pixel becomes bright
+        >>> events = simulate(frames, fps=100, interpolate="none", noise="none")
+        >>> events.x.tolist(), events.y.tolist(), events.p.tolist()
+        ([2], [2], [1])
     """
     settings, arrays = _simulation(source, options, config)
     output = _truth_output(truth_folder, as_packets=as_packets)

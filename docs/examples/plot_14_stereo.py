@@ -1,0 +1,28 @@
+"""
+A stereo rig
+============
+
+Two cameras on one body, 12 cm apart: near things shift more.
+"""
+
+from pathlib import Path
+from tempfile import mkdtemp
+
+import matplotlib.pyplot as plt
+
+from texvent import rig
+
+folder = Path(mkdtemp()) / "ball"
+rig.record(
+    "a red ball rolls left past a tree",
+    folder,
+    stereo=0.12,
+    sensor="96x72",
+    duration=0.4,
+)
+figure, axes = plt.subplots(1, 2, figsize=(7, 2.9))
+for panel, camera, title in zip(axes, rig.load(folder).cameras, ("left", "right"), strict=True):
+    events = camera.events.collect()
+    panel.imshow(events.between(200_000, 260_000).represent("event-frame"), "RdBu", vmin=-2, vmax=2)
+    panel.set_title(f"{title}: {len(events):,} events")
+    panel.axis("off")

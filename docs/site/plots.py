@@ -1,0 +1,208 @@
+"""Plots of docs/results for the page site/figures.md: each once for light pages, once for dark."""
+
+import gzip
+import json
+from collections.abc import Callable
+from pathlib import Path
+from statistics import mean
+from typing import Any
+
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+RESULTS = Path(__file__).parents[1] / "results"
+SIMULATORS = ("physical", "texvent accurate", "esim", "voltmeter", "v2e", "texvent", "senpi")
+# Ink, faint ink, and colours that colour-blind readers can tell apart, for light and dark pages.
+LOOKS = {
+    "light": ("#1f2328", "#c8ccd0", ("#0b62a4", "#c2410c", "#3f7d20", "#6b7280", "#7c3aed")),
+    "dark": ("#e6e8ea", "#464b52", ("#6cb2f0", "#fb9a5b", "#93cf6f", "#a3a9b3", "#c4a5ff")),
+}
+Draw = Callable[[tuple[str, ...]], Figure]
+
+
+def make_plots(folder: Path) -> None:
+    """Write NAME-light.svg and NAME-dark.svg of every plot."""
+    for name, draw in PLOTS.items():
+        for look, (ink, faint, colours) in LOOKS.items():
+            style: dict[str, Any] = {
+                "text.color": ink,
+                "axes.labelcolor": ink,
+                "axes.edgecolor": faint,
+                "xtick.color": ink,
+                "ytick.color": ink,
+                "grid.color": faint,
+                "legend.frameon": False,
+                "font.size": 11,
+                "axes.grid": True,
+                "axes.grid.axis": "x",
+                "axes.axisbelow": True,
+                "axes.spines.top": False,
+                "axes.spines.right": False,
+                "axes.spines.left": False,
+                "ytick.major.size": 0,
+                "axes.titlesize": "medium",
+                "axes.titlelocation": "left",
+                "figure.constrained_layout.use": True,
+                "svg.hashsalt": name,
+            }
+            with plt.rc_context(style):
+                figure = draw(colours)
+                figure.savefig(
+                    folder / f"{name}-{look}.svg", transparent=True, metadata={"Date": None}
+                )
+                plt.close(figure)
+
+
+def read(name: str) -> dict[str, Any]:
+    """Results by file name, compressed or not."""
+    data = (RESULTS / name).read_bytes()
+    result: dict[str, Any] = json.loads(gzip.decompress(data) if name.endswith(".gz") else data)
+    return result
+
+
+def dots(axes: Axes, rows: list[str], series: dict[str, list[float | None]], colours: Any) -> None:
+    """One row per name, one mark per series; the first row at the top."""
+    marks = ("o", "s", "D", "^", "v")
+    for number, (label, values) in enumerate(series.items()):
+        axes.scatter(
+            [float("nan") if value is None else value for value in values],
+            range(len(rows)),
+            s=52,
+            marker=marks[number],
+            color=colours[number],
+            label=label,
+            clip_on=False,
+            zorder=3,
+        )
+    axes.set_yticks(range(len(rows)), rows)
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+
+
+def legend(figure: Figure, axes: Axes, columns: int) -> None:
+    """Below the plots, so that it hides nothing."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=columns)
+
+
+def fidelity(colours: tuple[str, ...]) -> Figure:
+    """Mean S* over scenes, by simulator and what fills the time between frames."""
+    found: dict[tuple[str, str], list[float]] = {}
+    for score in read("fidelity.json.gz")["scores"]:
+        simulator, _, between = score["entry"].rpartition(", ")
+        value = score["normalised"]["stpp"]
+        if value is not None:
+            found.setdefault((simulator, between), []).append(value)
+    names = {"exact": "true frames", "flow": "motion", "blend": "blending", "none": "nothing"}
+    series = {
+        label: [mean(found[simulator, between]) for simulator in SIMULATORS]
+        for between, label in names.items()
+    }
+    figure, axes = plt.subplots(figsize=(7, 4.2))
+    dots(axes, list(SIMULATORS), series, colours)
+    axes.set_xlim(-0.02, 1)
+    axes.set_xlabel("mean S*: 0 = times shuffled, 1 = a second recording")
+    legend(figure, axes, 4)
+    return figure
+
+
+def real(colours: tuple[str, ...]) -> Figure:
+    """STPP against two recordings, with and without motion between frames."""
+    figure, both = plt.subplots(1, 2, figsize=(7, 3.6), sharey=True, sharex=True)
+    names = ("physical", "texvent accurate", "texvent", "esim")
+    for axes, recording in zip(both, ("slider_depth", "davis346"), strict=True):
+        scores = {
+            score["entry"]: mean(score["values"]["stpp"])
+            for score in read(f"real-{recording}.json.gz")["scores"]
+        }
+        series: dict[str, list[float | None]] = {
+            "motion estimated": [scores.get(f"{name}, flow") for name in names],
+            "nothing between": [scores.get(f"{name}, none") for name in names],
+        }
+        dots(axes, list(names), series, (colours[0], colours[3]))
+        half = scores["half of the recording"]
+        axes.axvline(half, color=colours[2], linestyle="--", label="half of the recording")
+        axes.set_title(recording)
+        axes.set_xlabel("STPP")
+    both[0].set_xlim(0.2, 0.9)
+    legend(figure, both[0], 3)
+    return figure
+
+
+def digits(colours: tuple[str, ...]) -> Figure:
+    """Accuracy on real recordings of networks that were trained on simulated ones."""
+    result = read("digits.json.gz")
+    names = (*SIMULATORS, "v2e noisy")
+    figure, axes = plt.subplots(figsize=(7, 4.2))
+    series: dict[str, list[float | None]] = {}
+    for way, label in (("exact", "exact motion"), ("flow", "motion estimated")):
+        found = {
+            score["arm"]: 100 * mean(score["accuracy"])
+            for score in result["scores"]
+            if (score["way"], score["choice"], score["representation"])
+            == (way, "matched", "histogram")
+        }
+        series[label] = [found.get(name) for name in names]
+    dots(axes, list(names), series, colours)
+    axes.set_xlim(70, 100)
+    axes.set_xlabel("recordings read correctly, %")
+    legend(figure, axes, 3)
+    return figure
+
+
+def speed(colours: tuple[str, ...]) -> Figure:
+    """Time of the cores per pair of frames, beside other programs."""
+    peers = [row for row in read("speed.json")["peers"] if "with flow" not in row["ours"]["name"]]
+    rows = [
+        f"{row['clip']}\n{row['size']}, {row['ours']['name'].removeprefix('texvent, ')}"
+        for row in peers
+    ]
+    series: dict[str, list[float | None]] = {
+        "texvent": [row["ours"]["ms_per_pair"]["median"] for row in peers]
+    }
+    for number, name in enumerate(("eventcv", "evlib")):
+        series[name] = [row["peers"][number]["ms_per_pair"]["median"] for row in peers]
+    figure, axes = plt.subplots(figsize=(7, 3.6))
+    dots(axes, rows, series, colours)
+    axes.set_xscale("log")
+    axes.set_xlim(0.1, 30)
+    axes.set_xticks([0.1, 0.3, 1, 3, 10, 30], ["0.1", "0.3", "1", "3", "10", "30"])
+    axes.set_xlabel("ms per pair of frames, one core; less is better")
+    legend(figure, axes, 3)
+    return figure
+
+
+def codecs(colours: tuple[str, ...]) -> Figure:
+    """Millions of events per second read and written, for formats that two programs share."""
+    rates: dict[tuple[str, str], dict[str, float]] = {}
+    for row in read("codecs.json")["rows"]:
+        for way in ("read", "write"):
+            if row.get(way):
+                found = rates.setdefault((row["format"], way), {})
+                found[row["program"]] = row[way]["median"]
+    programs = sorted({name for found in rates.values() for name in found})
+    programs.sort(key=lambda name: name != "texvent")
+    figure, both = plt.subplots(1, 2, figsize=(7, 4.4), sharex=True, sharey=True)
+    formats = [
+        name for name in dict.fromkeys(name for name, _ in rates) if len(rates[name, "read"]) > 1
+    ]
+    for axes, way in zip(both, ("read", "write"), strict=True):
+        series = {
+            program: [rates.get((name, way), {}).get(program) for name in formats]
+            for program in programs
+        }
+        dots(axes, formats, series, colours)
+        axes.set_title(way)
+        axes.set_xscale("log")
+        axes.set_xlabel("million events per second")
+    legend(figure, both[0], 5)
+    return figure
+
+
+PLOTS: dict[str, Draw] = {
+    "fidelity": fidelity,
+    "real": real,
+    "digits": digits,
+    "speed": speed,
+    "codecs": codecs,
+}
