@@ -171,6 +171,18 @@ def one_signature_each() -> None:
         analyzer.overloads.clear()
 
 
+def short_types(*event: Any) -> tuple[str | None, str | None]:
+    """Write `ndarray[uint16]` for the long names of array types, `...` for default factories."""
+    array = r"~?(?:numpy\.)?ndarray\[~?tuple\[~?(?:typing\.)?Any, \.\.\.\], ~?(?:numpy\.)?dtype\["
+    arguments, result = (
+        text and re.sub(array + r"~?(?:numpy\.|typing\.)?(\w+)\]\]", r"ndarray[\1]", text)
+        for text in event[-2:]
+    )
+    if arguments:
+        arguments = arguments.replace("<factory>", "...")
+    return arguments, result
+
+
 class AttributeDocstrings:
     """Docstrings of attributes as they are: napoleon takes what precedes a colon for a type."""
 
@@ -193,6 +205,7 @@ def setup(app: Sphinx) -> None:
     making.make_all(MADE)
     one_signature_each()
     app.connect("source-read", adapt_page)
+    app.connect("autodoc-process-signature", short_types)
     attributes = AttributeDocstrings()
     app.connect("autodoc-process-docstring", attributes.keep, priority=1)
     app.connect("autodoc-process-docstring", attributes.restore, priority=900)

@@ -98,7 +98,7 @@ def fidelity(colours: tuple[str, ...]) -> Figure:
         label: [mean(found[simulator, between]) for simulator in SIMULATORS]
         for between, label in names.items()
     }
-    figure, axes = plt.subplots(figsize=(7, 4.2))
+    figure, axes = plt.subplots(figsize=(5.8, 4.2))
     dots(axes, list(SIMULATORS), series, colours)
     axes.set_xlim(-0.02, 1)
     axes.set_xlabel("mean S*: 0 = times shuffled, 1 = a second recording")
@@ -108,7 +108,7 @@ def fidelity(colours: tuple[str, ...]) -> Figure:
 
 def real(colours: tuple[str, ...]) -> Figure:
     """STPP against two recordings, with and without motion between frames."""
-    figure, both = plt.subplots(1, 2, figsize=(7, 3.6), sharey=True, sharex=True)
+    figure, both = plt.subplots(1, 2, figsize=(5.8, 3.6), sharey=True, sharex=True)
     names = ("physical", "texvent accurate", "texvent", "esim")
     for axes, recording in zip(both, ("slider_depth", "davis346"), strict=True):
         scores = {
@@ -133,7 +133,7 @@ def digits(colours: tuple[str, ...]) -> Figure:
     """Accuracy on real recordings of networks that were trained on simulated ones."""
     result = read("digits.json.gz")
     names = (*SIMULATORS, "v2e noisy")
-    figure, axes = plt.subplots(figsize=(7, 4.2))
+    figure, axes = plt.subplots(figsize=(5.8, 4.2))
     series: dict[str, list[float | None]] = {}
     for way, label in (("exact", "exact motion"), ("flow", "motion estimated")):
         found = {
@@ -162,12 +162,12 @@ def speed(colours: tuple[str, ...]) -> Figure:
     }
     for number, name in enumerate(("eventcv", "evlib")):
         series[name] = [row["peers"][number]["ms_per_pair"]["median"] for row in peers]
-    figure, axes = plt.subplots(figsize=(7, 3.6))
+    figure, axes = plt.subplots(figsize=(5.8, 3.6))
     dots(axes, rows, series, colours)
     axes.set_xscale("log")
     axes.set_xlim(0.1, 30)
     axes.set_xticks([0.1, 0.3, 1, 3, 10, 30], ["0.1", "0.3", "1", "3", "10", "30"])
-    axes.set_xlabel("ms per pair of frames, one core; less is better")
+    axes.set_xlabel("ms per pair of frames, one core")
     legend(figure, axes, 3)
     return figure
 
@@ -182,7 +182,7 @@ def codecs(colours: tuple[str, ...]) -> Figure:
                 found[row["program"]] = row[way]["median"]
     programs = sorted({name for found in rates.values() for name in found})
     programs.sort(key=lambda name: name != "texvent")
-    figure, both = plt.subplots(1, 2, figsize=(7, 4.4), sharex=True, sharey=True)
+    figure, both = plt.subplots(1, 2, figsize=(5.8, 4.4), sharex=True, sharey=True)
     formats = [
         name for name in dict.fromkeys(name for name, _ in rates) if len(rates[name, "read"]) > 1
     ]
@@ -194,7 +194,7 @@ def codecs(colours: tuple[str, ...]) -> Figure:
         dots(axes, formats, series, colours)
         axes.set_title(way)
         axes.set_xscale("log")
-        axes.set_xlabel("million events per second")
+        axes.set_xlabel("million events / s")
     legend(figure, both[0], 5)
     return figure
 
