@@ -46,6 +46,35 @@ OPTIONS = (
 )
 
 
+FIRST = (
+    # The pixel models and optical flow.
+    ("tests/contract/test_golden.py::test_golden_events_are_those_of_the_release[frames=",),
+    # The ray caster, and what follows motion.
+    (
+        "tests/scenes/raycast/",
+        "tests/interpolate/motion/",
+        "tests/contract/test_golden.py::test_golden_events_are_those_of_the_release[prompt=",
+    ),
+)
+"""What each of two workers runs first: between them these compile most kernels."""
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Let two workers of pytest-xdist begin with kernels that the other one does not need yet.
+
+    In a fresh checkout every kernel is compiled once, and later read from disk by both. In the
+    order of folders both workers would compile the same ones at the same time.
+    """
+    if not hasattr(config, "workerinput"):
+        return
+    groups = [[item for item in items if item.nodeid.startswith(first)] for first in FIRST]
+    chosen = {item.nodeid for group in groups for item in group}
+    rest = [item for item in items if item.nodeid not in chosen]
+    # pytest-xdist gives each worker one half of the list, and lets it work from its beginning.
+    split = max(0, len(items) // 2 - len(groups[0]))
+    items[:] = groups[0] + rest[:split] + groups[1] + rest[split:]
+
+
 @pytest.fixture(scope="session")
 def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     """Chromium without a window, started once."""

@@ -53,8 +53,8 @@ def test_a_beam_has_a_soft_edge_and_nothing_outside():
 
 
 def unit_hit(kind: int, start: Float64Array, way: Float64Array) -> bool:
-    """Whether a segment in unit-shape coordinates is in the shape anywhere: by 20,000 points."""
-    t = np.linspace(0.0, 1.0, 20_001)[:, None]
+    """Whether a segment in unit-shape coordinates is in the shape anywhere: by 5,000 points."""
+    t = np.linspace(0.0, 1.0, 5_001)[:, None]
     x, y, z = (start + t * way).T
     inside = {
         Shape.ELLIPSOID: x * x + y * y + z * z < 1.0,
@@ -83,20 +83,30 @@ def test_shadows_are_those_of_all_shapes_tested_one_by_one():
     scene = scene_of(dark(*lamps), *shapes)
     world = world_at(scene, 0.0, SMALL)
     assert world.instant["shadow_lamps"][0] == 3
-    primitives = scene.primitives(0.0)
+    kinds, inverses = scene.primitives(0.0).shape, world.shapes["inverse"]
+    # A lamp inside a shape is that shape's own: it casts no shadow of it.
+    outside = [
+        [
+            not unit_hit(kind, inverse[:, :3] @ lamp[0, :3] + inverse[:, 3], np.zeros(3))
+            for kind, inverse in zip(kinds, inverses, strict=True)
+        ]
+        for lamp in lamps
+    ]
     wrong = blocked = 0
     for _ in range(150):
         point = np.append(rng.uniform(-5.0, 5.0, 2), 0.0)
         lifted = np.append(point[:2], 2e-3)
         seen, _ = lamps_reach(world, tuple(point), (0.0, 0.0, 1.0), 0b111)
         for number, lamp in enumerate(lamps):
-            expected = True
-            for kind, inverse in zip(primitives.shape, world.shapes["inverse"], strict=True):
-                start = inverse[:, :3] @ lifted + inverse[:, 3]
-                way = inverse[:, :3] @ (lamp[0, :3] - lifted)
-                holds = unit_hit(kind, inverse[:, :3] @ lamp[0, :3] + inverse[:, 3], np.zeros(3))
-                if not holds and unit_hit(kind, start, way):
-                    expected = False
+            expected = not any(
+                unit_hit(
+                    kind,
+                    inverse[:, :3] @ lifted + inverse[:, 3],
+                    inverse[:, :3] @ (lamp[0, :3] - lifted),
+                )
+                for kind, inverse, counts in zip(kinds, inverses, outside[number], strict=True)
+                if counts
+            )
             blocked += not expected
             wrong += expected != bool(seen >> number & 1)
     assert blocked > 100

@@ -56,7 +56,7 @@ def esim_of_every_pixel(frames, config, seed) -> list[tuple[int, int, int]]:
     return sorted(events)
 
 
-@settings(max_examples=80)
+@settings(max_examples=50)
 @given(
     DTYPES,
     st.integers(0, 2**32),
