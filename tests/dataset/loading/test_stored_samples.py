@@ -74,6 +74,14 @@ def test_every_sample_comes_back_with_all_that_is_known(samples, written):
     assert samples[-1].key == list(written)[-1]
 
 
+def test_a_notebook_shows_counts_of_the_set(samples, written):
+    page = samples._repr_mimebundle_()["text/html"]
+    assert "StoredSamples · 24 samples" in page
+    for counts in ("bus 16, car 8", "test 12, train 12", "esim 12, paper 12"):
+        assert f"</span>{counts}<" in page
+    assert f"</span>{sum(map(len, written.values())):,}<" in page
+
+
 def test_a_number_that_does_not_exist_is_an_index_error(samples):
     for number in (24, -25):
         with pytest.raises(IndexError, match=f"sample {number} does not exist; there are 24"):

@@ -54,17 +54,10 @@ class StoredSample:
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
         """What a notebook shows: the events, with class and place in the data set."""
+        from texvent.dataset.loading.notebook_table import sample_html
         from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.events import stream_html
 
-        facts = {
-            "Class": self.label,
-            "Caption": self.caption,
-            "Sample": self.key,
-            "Split": self.split,
-            "Variant": self.variant,
-        }
-        return mime_bundle(self, lambda: stream_html(self.events, facts), include, exclude)
+        return mime_bundle(self, lambda: sample_html(self), include, exclude)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -113,6 +106,15 @@ class StoredSamples:
         elif self.representation_options:
             raise ConfigError("representation_options belong to a representation; name it")
         self._refuse_short()
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """What a notebook shows: counts of classes, splits and events."""
+        from texvent.dataset.loading.notebook_table import samples_html
+        from texvent.view.notebook.bundle import mime_bundle
+
+        return mime_bundle(self, lambda: samples_html(self), include, exclude)
 
     def __len__(self) -> int:
         """Number of samples."""
