@@ -48,7 +48,7 @@ myst_heading_anchors = 4  # the anchors that forges make of headings
 nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
-nb_execution_timeout = 120
+nb_execution_timeout = 600  # the first cell may compile kernels
 nb_merge_streams = True
 nb_ipywidgets_js = {}  # nothing from other hosts
 # Names in `code` are not links, so it does not matter that some occur twice.

@@ -10,7 +10,7 @@ from texvent.metrics.protocol import Metric
 
 GOOD = {"lower": "low", "higher": "high", "one": "near 1"}
 """`Metric.better` in words."""
-TITLES = ("metric", "value", "unit", "good", "does not see")
+TITLES = ("metric", "value", "good", "does not see")
 
 
 class Scores(dict[str, float]):
@@ -33,22 +33,25 @@ class Scores(dict[str, float]):
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
         """What a notebook shows: a table with units and what is good."""
-        head = "".join(f'<th style="text-align:left">{title}</th>' for title in TITLES)
         known = {metric.name: metric for metric in self._metrics}
-        rows = [_row(name, value, known.get(name)) for name, value in self.items()]
-        table = f"<thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody>"
-        return {"text/plain": repr(self), "text/html": f"<table>{table}</table>"}
+        rows = [_cells(name, value, known.get(name)) for name, value in self.items()]
+        head = f"<thead>{_row('th', TITLES)}</thead>"
+        body = "".join(_row("td", row) for row in rows)
+        table = f'<table style="font-size:13px">{head}<tbody>{body}</tbody></table>'
+        return {"text/plain": repr(self), "text/html": table}
 
 
-def _row(name: str, value: float, metric: Metric | None) -> str:
-    cells = [name, score_text(value)]
-    if metric is not None:
-        cells += [metric.unit, GOOD[metric.better], metric.blind_to]
-    aligned = (
-        f'<td style="text-align:{"right" if place == 1 else "left"}">{html.escape(cell)}</td>'
-        for place, cell in enumerate(cells)
-    )
-    return f"<tr>{''.join(aligned)}</tr>"
+def _cells(name: str, value: float, metric: Metric | None) -> tuple[str, str, str, str]:
+    if metric is None:
+        return name, score_text(value), "", ""
+    measured = f"{score_text(value)} {metric.unit}".strip()
+    return name, measured, GOOD[metric.better], metric.blind_to
+
+
+def _row(tag: str, cells: Sequence[str]) -> str:
+    style = "text-align:left; vertical-align:top; padding:2px 8px 2px 0"
+    row = "".join(f'<{tag} style="{style}">{html.escape(cell)}</{tag}>' for cell in cells)
+    return f"<tr>{row}</tr>"
 
 
 def score_text(value: float) -> str:

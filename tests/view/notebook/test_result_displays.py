@@ -37,7 +37,7 @@ def test_scores_are_a_dict_and_a_table():
     assert table.count("<tr>") == 4
     assert ">1.0000<" in table
     assert ">near 1<" in table
-    assert f">{load_metric('nearest').unit}<" in table
+    assert f">0.0000 {load_metric('nearest').unit}<" in table
 
 
 def test_an_undefined_score_says_so_and_names_are_escaped():
