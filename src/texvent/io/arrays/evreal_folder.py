@@ -30,6 +30,7 @@ from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
+from texvent.io.timed_rows import TimedRows, read_rows, seek_rows
 
 TIMES, PLACES, POLARITIES = "events_ts.npy", "events_xy.npy", "events_p.npy"
 FACTS = "metadata.json"
@@ -53,7 +54,8 @@ class EvrealFolderCodec(FolderCodec):
         """Size and metadata lie in metadata.json."""
         _open_arrays(path)
         size, metadata = _read_facts(path)
-        return FileContents(size, metadata, partial(_read_blocks, path))
+        rows = partial(_open_rows, path)
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(rows))
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
@@ -122,20 +124,28 @@ def _open_arrays(path: Path) -> tuple[StoredArray, StoredArray, StoredArray]:
     return times, places, polarities
 
 
-def _read_blocks(path: Path) -> Iterator[Columns]:
+@contextmanager
+def _open_rows(path: Path) -> Iterator[TimedRows]:
     times, places, polarities = _open_arrays(path)
-    for start in range(0, len(times), PACKET_EVENTS):
-        part = start, start + PACKET_EVENTS
-        seconds = np.asarray(times.rows(*part).reshape(-1), dtype=np.float64)
+
+    def microseconds(start: int, stop: int) -> NDArray[np.int64]:
+        seconds = np.asarray(times.rows(start, stop).reshape(-1), dtype=np.float64)
         if not (np.abs(seconds) < STOP_US / MICROSECONDS).all():
             raise FileFormatError(f"{path / TIMES} holds times that are not seconds")
-        xy = _whole(places.rows(*part), path / PLACES)
-        yield {
+        return np.rint(seconds * MICROSECONDS).astype(np.int64)
+
+    def read(start: int, stop: int) -> Columns:
+        xy = _whole(places.rows(start, stop), path / PLACES)
+        return {
             "x": xy[:, 0],
             "y": xy[:, 1],
-            "t": np.rint(seconds * MICROSECONDS).astype(np.int64),
-            "p": _whole(polarities.rows(*part).reshape(-1), path / POLARITIES),
+            "t": microseconds(start, stop),
+            "p": _whole(polarities.rows(start, stop).reshape(-1), path / POLARITIES),
         }
+
+    yield TimedRows(
+        len(times), lambda index: int(microseconds(index, index + 1)[0]), read, PACKET_EVENTS
+    )
 
 
 def _whole(values: NDArray[Any], path: Path) -> NDArray[np.int64]:

@@ -20,8 +20,8 @@ not fit otherwise.
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
-from texvent.io.block_codec import FileContents, TimeSeek
+from texvent.io.block_codec import FileContents
 from texvent.io.block_writer import FileTarget
 from texvent.io.hdf5.chunks import append_chunks
 from texvent.io.hdf5.damage import check_claims, check_filters, open_hdf5
@@ -42,6 +42,7 @@ from texvent.io.input_checks import TIMESTAMP_SCALE_MS, check_time_unit, optiona
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
+from texvent.io.timed_rows import TimedRows, read_rows, seek_rows
 
 """Milliseconds per unit of events/t: µs."""
 CHUNK_EVENTS = 65_536
@@ -151,41 +152,26 @@ class Hdf5Codec(Hdf5BlockCodec):
         with open_hdf5(path) as file:
             _checked_columns(file, path)
             size, metadata = stored_size(file), read_metadata(file, path) or {}
-        seek = TimeSeek(partial(_time_range, path), partial(_read_blocks, path))
-        return FileContents(size, metadata, partial(_read_blocks, path), seek)
+        rows = partial(_open_rows, path)
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(rows))
 
 
-def _read_blocks(
-    path: Path, start_us: int | None = None, stop_us: int | None = None
-) -> Iterator[Columns]:
-    """Columns of the events with `start_us <= t < stop_us`, or of all."""
+@contextmanager
+def _open_rows(path: Path) -> Iterator[TimedRows]:
+    """Not by ms_to_idx: files of others lack it or have it in other units."""
     with open_hdf5(path) as file:
         columns = _checked_columns(file, path)
         offset_us = _time_offset(file, path)
         times = columns["t"]
-        first = 0 if start_us is None else _find(times, start_us - offset_us, 0)
-        end = len(times) if stop_us is None else _find(times, stop_us - offset_us, first)
-        for start in range(first, end, PACKET_EVENTS):
-            where = slice(start, min(start + PACKET_EVENTS, end))
-            block = {name: column[where] for name, column in columns.items()}
-            yield {**block, "t": block["t"].astype(np.int64) + offset_us}
 
+        def read(start: int, stop: int) -> Columns:
+            block = {name: column[start:stop] for name, column in columns.items()}
+            return {**block, "t": block["t"].astype(np.int64) + offset_us}
 
-def _find(times: Any, t_us: int, first: int) -> int:
-    """Index of the first event from `first` on that is not before a time; the rest is not read.
+        def time_of(index: int) -> int:
+            return int(times[index]) + offset_us
 
-    Not by ms_to_idx: files of others lack it or have it in other units.
-    """
-    return bisect_left(range(len(times)), t_us, lo=first, key=lambda index: int(times[index]))
-
-
-def _time_range(path: Path) -> tuple[int, int] | None:
-    with open_hdf5(path) as file:
-        times = _checked_columns(file, path)["t"]
-        offset_us = _time_offset(file, path)
-        if not len(times):
-            return None
-        return int(times[0]) + offset_us, int(times[-1]) + offset_us + 1
+        yield TimedRows(len(times), time_of, read, PACKET_EVENTS)
 
 
 def _checked_columns(file: Any, path: Path) -> dict[str, Any]:

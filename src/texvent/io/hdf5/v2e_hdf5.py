@@ -12,6 +12,7 @@ Source: Hu, Liu and Delbruck, v2e: From Video Frames to Realistic DVS Events, 20
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -27,6 +28,7 @@ from texvent.io.hdf5.native import read_metadata, stored_size, write_metadata
 from texvent.io.hdf5.writer import Hdf5BlockCodec, Hdf5Sink
 from texvent.io.limits import FormatLimits
 from texvent.io.protocol import Columns
+from texvent.io.timed_rows import TimedRows, read_rows, seek_rows
 
 CHUNK_EVENTS = 65_536
 PACKET_EVENTS = 8 * CHUNK_EVENTS
@@ -78,7 +80,8 @@ class V2eHdf5Codec(Hdf5BlockCodec):
         with open_hdf5(path) as file:
             _checked_events(file, path)
             size, metadata = stored_size(file), read_metadata(file, path) or {}
-        return FileContents(size, metadata, partial(_read_blocks, path))
+        rows = partial(_open_rows, path)
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(rows))
 
 
 def _checked_events(file: Any, path: Path) -> Any:
@@ -95,9 +98,13 @@ def _checked_events(file: Any, path: Path) -> Any:
     return events
 
 
-def _read_blocks(path: Path) -> Iterator[Columns]:
+@contextmanager
+def _open_rows(path: Path) -> Iterator[TimedRows]:
     with open_hdf5(path) as file:
         events = _checked_events(file, path)
-        for start in range(0, events.shape[0], PACKET_EVENTS):
-            rows = events[start : start + PACKET_EVENTS].astype(np.int64)
-            yield {name: rows[:, index] for index, name in enumerate(ORDER)}
+
+        def read(start: int, stop: int) -> Columns:
+            rows = events[start:stop].astype(np.int64)
+            return {name: rows[:, index] for index, name in enumerate(ORDER)}
+
+        yield TimedRows(events.shape[0], lambda index: int(events[index, 0]), read, PACKET_EVENTS)

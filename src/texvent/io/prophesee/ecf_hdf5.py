@@ -23,6 +23,7 @@ Source: Prophesee, "HDF5 Event Files", and OpenEB.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -41,6 +42,7 @@ from texvent.io.prophesee import ecf_chunks
 from texvent.io.prophesee.ecf_dataset import ECF_FILTER, check_storage, read_columns, whole_chunks
 from texvent.io.prophesee.ecf_index import ENTRY, TimeIndex
 from texvent.io.protocol import Columns
+from texvent.io.timed_rows import TimedRows, read_rows, seek_rows
 
 CHUNK_EVENTS = 16_384
 PACKET_CHUNKS = 16
@@ -141,16 +143,27 @@ class EcfHdf5Codec(Hdf5BlockCodec):
         with open_hdf5(path) as file:
             _checked_events(file, path)
             size, metadata = _stored_size(file), _read_metadata(file, path)
-        return FileContents(size, metadata, partial(_read_blocks, path))
+        rows = partial(_open_rows, path)
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(rows))
 
 
-def _read_blocks(path: Path) -> Iterator[Columns]:
+@contextmanager
+def _open_rows(path: Path) -> Iterator[TimedRows]:
+    """Not by CD/indexes: its times are relative, and files of others lack it."""
     with open_hdf5(path) as file:
         events = _checked_events(file, path)
-        count = events.shape[0]
-        step = whole_chunks(events, PACKET_CHUNKS * CHUNK_EVENTS)
-        for start in range(0, count, step):
-            yield read_columns(events, start, min(start + step, count))
+        count, unit = events.shape[0], whole_chunks(events, 1)
+
+        def read(start: int, stop: int) -> Columns:
+            return read_columns(events, start, stop)
+
+        def time_of(index: int) -> int:
+            first = index // unit * unit
+            return int(read(first, index + 1)["t"][-1])
+
+        yield TimedRows(
+            count, time_of, read, whole_chunks(events, PACKET_CHUNKS * CHUNK_EVENTS), unit
+        )
 
 
 def _checked_events(file: Any, path: Path) -> Any:

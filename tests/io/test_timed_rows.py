@@ -1,0 +1,113 @@
+"""Formats that find a time: any part is that of the whole, and what lies outside is not read."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.event_packets import SeekablePackets
+from texvent.events import EventStream
+from texvent.io.files import open_events
+from texvent.io.timed_rows import TimedRows
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(64, 48)
+FORMATS = {"hdf5": "a.h5", "dsec": "b.h5", "v2e": "c.h5", "prophesee-hdf5": "d.hdf5", "evreal": "e"}
+COUNT = 60_000
+
+
+def recording(count: int) -> EventStream:
+    """Events of which many share a µs, with a pause."""
+    rng = np.random.default_rng(0)
+    t = np.cumsum(rng.integers(0, 3, count)) + 5000
+    t[count // 2 :] += 1_000_000
+    x, y, p = (rng.integers(0, end, count) for end in (*SIZE, 2))
+    return EventStream(x, y, t, p, SIZE)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("timed")
+    for name, path in FORMATS.items():
+        recording(COUNT).save(folder / path, format=name)
+    return folder
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@given(data=st.data())
+def test_any_part_of_a_file_is_that_of_the_recording(
+    folder: Path, name: str, data: st.DataObject
+) -> None:
+    whole, opened = recording(COUNT), open_events(folder / FORMATS[name], format=name)
+    assert isinstance(opened.packets, SeekablePackets)
+    assert opened.time_range == whole.time_range
+    around = st.one_of(
+        st.integers(4990, 5200),
+        st.sampled_from(whole.t[::997].tolist()),
+        st.integers(0, int(whole.t[-1]) + 20),
+    )
+    start, stop = sorted((data.draw(around), data.draw(around)))
+    assert opened.cut(start, stop).collect().equals(whole.cut(start, stop))
+
+
+@pytest.mark.parametrize("unit", [1, 7, 64])
+def test_bisection_reads_few_events(unit: int) -> None:
+    times = np.sort(np.random.default_rng(1).integers(0, 5000, 1000))
+    asked: list[int] = []
+
+    def time_of(index: int) -> int:
+        asked.append(index)
+        return int(times[index])
+
+    rows = TimedRows(1000, time_of, lambda start, stop: {}, 64, unit)
+    for t_us in (0, 1, 2500, 4999, 9999):
+        asked.clear()
+        assert rows.find(t_us) == np.searchsorted(times[::unit], t_us)
+        assert len(asked) <= 11
+        assert all(index % unit == 0 for index in asked)
+
+
+PEAK = """
+import resource, sys
+import texvent
+from texvent.io.files import open_events
+
+def peak():
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+def read():
+    for line in open("/proc/self/io"):
+        if line.startswith("rchar"):
+            return int(line.split()[1])
+
+path, name, start, stop = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
+open_events(path, format=name).cut(0, 1).collect()  # imports, compiled kernels
+before, memory = read(), peak()
+part = open_events(path, format=name).between(start, stop).collect()
+print(len(part), read() - before, peak() - memory)
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/io").exists(), reason="bytes read are counted by Linux")
+@pytest.mark.parametrize("name", ["hdf5", "evreal"])
+def test_a_short_part_of_a_long_file_is_all_that_is_read(tmp_path: Path, name: str) -> None:
+    whole = recording(2_000_000)
+    path = tmp_path / FORMATS[name]
+    whole.save(path, format=name)
+    files = path.rglob("*") if path.is_dir() else [path]
+    stored = sum(file.stat().st_size for file in files)
+    start = int(whole.t[1_900_000])
+    words = [path, name, start, start + 1000]
+    done = subprocess.run(
+        [sys.executable, "-c", PEAK, *map(str, words)], capture_output=True, text=True, check=True
+    )
+    events, read, memory_kb = map(int, done.stdout.split())
+    assert events == len(whole.cut(start, start + 1000)) > 500
+    assert read < stored / 5
+    assert memory_kb * 1024 < 13 * len(whole) / 2
