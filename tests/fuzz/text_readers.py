@@ -8,9 +8,11 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import tomli_w
 import yaml
 
+from texvent._registry import FILTERS
 from texvent.batch.list_files import read_list
 from texvent.batch.manifest import OPTIONS_FILE, SAMPLES_FILE, Manifest
 from texvent.capture.frame_times import read_timestamps
@@ -19,6 +21,8 @@ from texvent.cli.event_files.time_option import parse_time_range
 from texvent.config import CaptureConfig
 from texvent.errors import TexventError
 from texvent.io.files import load
+from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
+from texvent.options.parts import make_part
 from texvent.run.settings import resolve
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.compose import compose_scene
@@ -46,7 +50,9 @@ DONE = {
     "events": 12,
     "files": {"one.h5": [120, "00ff"]},
 }
+MASK_SIZE = SensorSize(12, 9)
 TEXTS: dict[str, tuple[str, Any]] = {
+    "filter": ("background-activity:window_us=5000,support=2", partial(make_part, FILTERS)),
     "time": ("0.5,2", parse_time_range),
     "sensor": ("240x180", parse_sensor),
     "path": ("folder/name.h5", lambda text: _open_each(text)),
@@ -84,6 +90,10 @@ def text_readers() -> list[Reader]:
             "calibration",
             partial(_make_text, "calib.txt", "199.1 198.8 132.2 110.7 -0.37 0.15 0.0 0.0 0.0\n"),
             lambda path: repr(read_calibration(path)),
+        ),
+        *(
+            Reader(f"pixel mask {ending}", partial(_make_mask, ending), _read_mask)
+            for ending in EXTENSIONS
         ),
         *(
             Reader(f"option {name}", partial(_make_text, "option.txt", text), partial(_read, parse))
@@ -170,3 +180,14 @@ def _read_manifest(path: Path) -> str:
 def _check_line(message: str) -> None:
     if "\n" in message or len(message) >= 300:
         raise AssertionError(f"{len(message)} characters: {message[:60]!r}")
+
+
+def _make_mask(ending: str, folder: Path) -> Path:
+    path = folder / f"mask{ending}"
+    mask = np.random.default_rng(0).random(MASK_SIZE.shape) < 0.2
+    write_pixel_mask(path, mask, overwrite=False)
+    return path
+
+
+def _read_mask(path: Path) -> str:
+    return repr(read_pixel_mask(path, MASK_SIZE).tolist())

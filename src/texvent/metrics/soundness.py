@@ -17,6 +17,9 @@ from texvent.transform.filters.hot_pixels import mask_hot_pixels
 
 MAX_DUPLICATES = 1e-3
 """Share of events that repeat another one exactly, above which a recording is suspicious."""
+HOT_EVENTS, HOT_FACTOR = 100, 20.0
+"""As `hot_pixels.LEAST_EVENTS` and `FACTOR`, four times as strict: what is said here casts doubt on
+a recording, while the filter `hot-pixels` only loses a pixel."""
 CLUMP_EVENTS = 10
 """Events of one µs, beyond one per 1000 pixels, above which they are clumped."""
 MAX_CLUMPED = 0.5
@@ -144,7 +147,7 @@ def list_hot_pixels(counts: NDArray[np.int64]) -> tuple[tuple[int, int, int], ..
     Args:
         counts: events per pixel, [height, width].
     """
-    y, x = np.nonzero(mask_hot_pixels(counts))
+    y, x = np.nonzero(mask_hot_pixels(counts, factor=HOT_FACTOR, least_events=HOT_EVENTS))
     own = counts[y, x]
     order = np.argsort(-own, kind="stable")
     found = zip(x[order], y[order], own[order], strict=True)

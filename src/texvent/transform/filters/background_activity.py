@@ -52,7 +52,7 @@ class BackgroundActivityFilter:
         from texvent.transform.filters.kernels_cpu import find_supported  # brings Numba
 
         height, width = events.size.shape
-        last_us = np.full((2, height, width), NEVER, np.int64)
+        last_us = np.full((1 + self.polarity, height, width), NEVER, np.int64)
 
         def keep(packet: EventStream) -> NDArray[np.bool_]:
             plane = packet.p if self.polarity else np.zeros(len(packet), np.uint8)

@@ -13,9 +13,9 @@ from texvent.events import EventStream
 from texvent.transform.filters.protocol import Keep
 from texvent.transform.packets import packets_of
 
-HOT_EVENTS = 100
+LEAST_EVENTS = 40
 """Pixels with fewer events are never hot."""
-HOT_FACTOR = 20.0
+FACTOR = 5.0
 """Hot pixels fire this many times as often as the second busiest of their eight neighbours: where
 an edge passes, two neighbours at least are as busy."""
 AROUND = tuple((dy, dx) for dy in (0, 1, 2) for dx in (0, 1, 2) if (dy, dx) != (1, 1))
@@ -29,9 +29,9 @@ class HotPixelFilter:
         ConfigError: a value out of range.
     """
 
-    factor: float = HOT_FACTOR
+    factor: float = FACTOR
     """A hot pixel fires so many times as often as the second busiest of its eight neighbours."""
-    least_events: int = HOT_EVENTS
+    least_events: int = LEAST_EVENTS
     """Pixels with fewer events are never hot."""
 
     def __post_init__(self) -> None:
@@ -47,8 +47,8 @@ class HotPixelFilter:
 def find_hot_pixels(
     events: EventStream | EventPackets,
     *,
-    factor: float = HOT_FACTOR,
-    least_events: int = HOT_EVENTS,
+    factor: float = FACTOR,
+    least_events: int = LEAST_EVENTS,
 ) -> NDArray[np.bool_]:
     """Which pixels of a recording are hot, [H, W] bool; packets are read once, with flat memory."""
     counts = np.zeros(events.size.width * events.size.height, np.int64)
@@ -61,7 +61,7 @@ def find_hot_pixels(
 
 
 def mask_hot_pixels(
-    counts: NDArray[np.int64], *, factor: float = HOT_FACTOR, least_events: int = HOT_EVENTS
+    counts: NDArray[np.int64], *, factor: float = FACTOR, least_events: int = LEAST_EVENTS
 ) -> NDArray[np.bool_]:
     """Which pixels are hot, [H, W] bool.
 
@@ -70,8 +70,8 @@ def mask_hot_pixels(
 
     Args:
         counts: events per pixel, [H, W].
-        factor: see `HOT_FACTOR`.
-        least_events: see `HOT_EVENTS`.
+        factor: see `FACTOR`.
+        least_events: see `LEAST_EVENTS`.
     """
     hot = np.zeros(counts.shape, np.bool_)
     y, x = np.nonzero(counts >= least_events)

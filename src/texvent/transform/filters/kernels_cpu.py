@@ -25,13 +25,13 @@ def find_supported(
     _, height, width = last_us.shape
     for event in range(len(t)):
         column, row, seen = int(x[event]), int(y[event]), last_us[plane[event]]
+        # NEVER is earlier than any time.
+        earliest = t[event] - window_us
         found = 0
         for other in range(max(row - radius, 0), min(row + radius + 1, height)):
             for beside in range(max(column - radius, 0), min(column + radius + 1, width)):
-                before = seen[other, beside]
-                is_other = other != row or beside != column
-                if is_other and before != NEVER and t[event] - before <= window_us:
-                    found += 1
+                found += seen[other, beside] >= earliest
+        found -= seen[row, column] >= earliest
         supported[event] = found >= support
         seen[row, column] = t[event]
     return supported

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 NEVER = -(2**62)
-"""Stands for the time of a pixel that has not fired, µs."""
+"""Stands for the time of a pixel that has not fired, µs; no event is that early."""
 
 UInt16Array = NDArray[np.uint16]
 Int64Array = NDArray[np.int64]
