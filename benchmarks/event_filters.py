@@ -1,6 +1,6 @@
 """How well background activity filters tell noise from signal, and how fast they are.
 
-    python -m benchmarks.event_filters [--hot | --speed]
+    python -m benchmarks.event_filters [--hot | --speed | --figure FILE.png]
 
 Events come from the embedded generator and carry labels. A filter is judged by the share of the
 signal and of the noise that it keeps, over windows from 0.2 ms to 1 s: AUC is the area under that
@@ -12,19 +12,24 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 import texvent
+from benchmarks.representations import CAPTION, GAP, TEXT, WHITE, paint
 from texvent._require import require
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
+from texvent.represent.named import represent
 from texvent.sensor import SensorSize
 from texvent.transform.filters import kernels_cpu, reference
 from texvent.transform.filters.hot_pixels import find_hot_pixels
 from texvent.transform.merge import merge
+from texvent.view.drawing.canvas import Image, blank, draw_text, png_bytes
+from texvent.view.drawing.palettes import get_palette
 
 SCENES = {
     "car": "a red car drives left past two trees, the camera follows it",
@@ -69,7 +74,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Judge and time event filters.")
     parser.add_argument("--speed", action="store_true", help="time them instead")
     parser.add_argument("--hot", action="store_true", help="judge hot pixels instead")
+    parser.add_argument("--figure", type=Path, help="draw a filter's work instead")
     arguments = parser.parse_args()
+    if arguments.figure:
+        arguments.figure.write_bytes(png_bytes(draw_figure()))
+        return
     if arguments.hot:
         print_hot_pixels()
         return
@@ -143,6 +152,22 @@ def print_hot_pixels() -> None:
             right = int(np.isin(found, places).sum())
             cells.append(f"{right} % and {len(found) - right} others")
         print(f"| {rate_hz} Hz |", " | ".join(cells), "|")
+
+
+def draw_figure() -> Image:
+    """30 ms of a scene: all events, those that a filter keeps, and those that are signal."""
+    events = labelled("ball", 5.0)
+    kept = events.filter("background-activity", window_us=20_000, support=2, polarity=True)
+    signal = events[labels_of(events) == SIGNAL]
+    captions = {"all events, noise of 5 Hz": events, "filtered": kept, "signal alone": signal}
+    tiles = []
+    for caption, one in captions.items():
+        frame = represent("event-frame", one.cut(500_000, 530_000)).astype(np.float64)
+        tile = blank(one.size.width + GAP, one.size.height + CAPTION, WHITE)
+        draw_text(tile, caption, 2, CAPTION - 8, height=TEXT, colour=get_palette("paper").ink)
+        tile[CAPTION:, : one.size.width] = paint(np.clip(frame, -1, 1))
+        tiles.append(tile)
+    return np.hstack(tiles)
 
 
 def print_speed() -> None:
