@@ -24,12 +24,16 @@ def cube(count: int = 20_000) -> EventStream:
     )
 
 
-def open_notebook(browser: Any, folder: Path, theme: str, *, script: bool = True) -> None:
+def open_notebook(
+    browser: Any, folder: Path, theme: str, *, script: bool = True, policy: str = "img-src data:"
+) -> None:
     """A page as notebooks are, with two displays in it."""
     output = cube()._repr_mimebundle_()["text/html"]
     page = folder / "notebook.html"
     page.write_text(
-        f"<!doctype html><meta charset=utf-8><body {theme}><p id=other>{'text ' * 9}</p>"
+        "<!doctype html><meta charset=utf-8>"
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">'
+        f"<body {theme}><p id=other>{'text ' * 9}</p>"
         f"{output}{output}</body>",
         encoding="utf-8",
     )
@@ -129,6 +133,13 @@ def test_it_asks_nothing_of_the_network_and_no_script_fails(browser, tmp_path, r
     open_notebook(browser, tmp_path, LIGHT)
     assert all(url.startswith(("file:", "about:")) for url in requests_made())
     assert not [row for row in browser.get_log("browser") if row["level"] == "SEVERE"]
+
+
+def test_it_works_where_a_policy_allows_no_frame_of_another_address(browser, tmp_path):
+    allowed = "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
+    policy = f"default-src 'none'; frame-src 'none'; {allowed}"
+    open_notebook(browser, tmp_path, LIGHT, policy=policy)
+    assert min(colours(canvas(browser))) > 1000
 
 
 def test_without_scripts_the_still_stays(browser, tmp_path):
