@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from texvent._registry import SIMULATORS, suggest
-from texvent.errors import ConfigError, TexventError, shown
+from texvent.errors import ConfigError, shown
 
 from .widgets import widgets, with_values
 
@@ -14,7 +14,12 @@ MODEL = "TEXVENT_MODEL"
 
 
 class PixelModelNode:
-    """Base of the nodes: gives the name of a model, its preset and its options."""
+    """Base of the nodes: gives the name of a model, its preset and its options.
+
+    There is no `VALIDATE_INPUTS`: ComfyUI checks types and ranges of single inputs, and would
+    repeat the message of one that sees all of them for every input. What is left is refused when
+    the node runs, which is before the simulation.
+    """
 
     CATEGORY = f"{CATEGORY}/pixel models"
     RETURN_TYPES = (MODEL,)
@@ -34,16 +39,6 @@ class PixelModelNode:
         text = "Options that stay as they are shown at first take their values from the preset."
         preset = (list(presets), {"default": next(iter(presets)), "tooltip": text})
         return {"required": {"preset": preset, **widgets(next(iter(presets.values())))}}
-
-    @classmethod
-    def VALIDATE_INPUTS(cls, **values: Any) -> bool | str:  # noqa: N802
-        """True, or what is wrong; linked inputs are None here."""
-        values = {name: value for name, value in values.items() if value is not None}
-        try:
-            cls.options(**values)
-        except TexventError as error:
-            return str(error)
-        return True
 
     def choose(self, **values: Any) -> tuple[dict[str, Any]]:
         """The options for `texvent.simulate`."""

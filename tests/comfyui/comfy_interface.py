@@ -58,23 +58,19 @@ def check(graph: dict, classes: dict) -> list[str]:
         cls, given = classes[node["class_type"]], dict(node["inputs"])
         inputs = cls.INPUT_TYPES()
         known = {**inputs["required"], **inputs.get("optional", {})}
-        custom = inspect.getfullargspec(cls.VALIDATE_INPUTS) if _validates(cls) else None
+        custom = inspect.getfullargspec(cls.VALIDATE_INPUTS).args[1:] if _validates(cls) else []
         for key, info in known.items():
             if key not in given:
                 if key in inputs["required"]:
                     errors.append(f"{name}.{key}: required input is missing")
                 continue
-            skips = custom is not None and (custom.varkw is not None or key in custom.args)
-            error = _check_value(graph, classes, given, key, info, skips)
+            error = _check_value(graph, classes, given, key, info, key in custom)
             if error is not None:
                 errors.append(f"{name}.{key}: {error}")
-        if custom is not None:
-            values = {key: None if _is_link(one) else one for key, one in given.items()}
-            if custom.varkw is None:
-                values = {key: one for key, one in values.items() if key in custom.args}
-            answer = cls.VALIDATE_INPUTS(**values)
-            if answer is not True:
-                errors.append(f"{name}: {answer}")
+        # Of the custom check, every input that it names is given, and gets its message.
+        values = {key: given[key] for key in custom if key in given}
+        answer = cls.VALIDATE_INPUTS(**values) if custom else True
+        errors += [f"{name}.{key}: {answer}" for key in values if answer is not True]
     return errors
 
 

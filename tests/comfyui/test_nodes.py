@@ -13,7 +13,7 @@ from tests.comfyui import comfy_interface as comfy
 
 import texvent
 from texvent._registry import CODECS, SIMULATORS
-from texvent.errors import InputError, TexventError
+from texvent.errors import ConfigError, InputError, TexventError
 
 CLASSES, TITLES = comfy.load()
 IMAGES = np.random.default_rng(2).random((4, 12, 16, 3), dtype=np.float32)
@@ -186,12 +186,11 @@ def test_names_stay_inside_the_output_folder(output, tmp_path, prefix):
     ("node", "inputs", "words"),
     [
         ("TexventImagesToEvents", {"fps": 0.0}, "n.fps: 0.0 is below 0.001"),
-        ("TexventImagesToEvents", {"sensor": "davis999"}, "n: unknown sensor 'davis999'"),
+        ("TexventImagesToEvents", {"sensor": "davis999"}, "n.sensor: unknown sensor 'davis999'"),
         ("TexventImagesToEvents", {"interpolate": "exact"}, "'exact' is not in the list"),
-        ("TexventModelV2e", {"linear_below": 1.0}, "n: linear_below is 1; it must be 2..255"),
-        ("TexventModelV2e", {"preset": "x"}, "n: preset is 'x'"),
-        ("TexventModelTexvent", {"noise": "pink"}, "n: pixel model texvent: noise is 'pink'"),
-        ("TexventModelPhysical", {"sensor_seed": "many"}, "sensor_seed is 'many'; it must be a"),
+        ("TexventModelV2e", {"linear_below": 1.0}, "n.linear_below: 1.0 is below 2.0"),
+        ("TexventModelV2e", {"preset": "x"}, "n.preset: 'x' is not in the list"),
+        ("TexventModelTexvent", {"noise": "pink"}, "n.noise: 'pink' is not in the list"),
         ("TexventSaveEvents", {"format": "avi"}, "'avi' is not in the list"),
         ("TexventPreviewEvents", {"events": ["images", 0]}, "got IMAGE, expected TEXVENT_EVENTS"),
     ],
@@ -207,6 +206,28 @@ def test_bad_inputs_are_refused_before_anything_runs(node, inputs, words):
     }
     (error,) = comfy.check(graph, ALL)
     assert words in error
+
+
+@pytest.mark.parametrize(
+    ("simulator", "inputs", "words"),
+    [
+        ("Physical", {"sensor_seed": "many"}, "sensor_seed is 'many'; it must be a number"),
+        ("Texvent", {"cache_reset_pairs": 3}, "cache_reset_pairs"),  # of another cache
+        ("V2e", {"preset": "x"}, "preset is 'x'"),
+    ],
+)
+def test_options_that_do_not_fit_together_stop_the_model_s_own_node(simulator, inputs, words):
+    cls = CLASSES[f"TexventModel{simulator}"]
+    graph = {"n": comfy.defaults(cls, **inputs)}
+    with pytest.raises(ConfigError, match=words):
+        comfy.run(graph, ALL)
+
+
+def test_an_option_that_was_changed_overrides_the_preset():
+    cls = CLASSES["TexventModelV2e"]
+    graph = {"n": comfy.defaults(cls, preset="noisy", cutoff_hz=60.0, leak_rate_hz=0.01)}
+    (options,) = comfy.run(graph, ALL)["n"]["result"]
+    assert options == {"simulator": "v2e", "preset": "noisy", "cutoff_hz": 60.0}
 
 
 @pytest.mark.parametrize(
