@@ -200,7 +200,7 @@ $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.
 	@touch $@
 
 $(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml constraints.txt
-	@echo "installing texvent and Sphinx into $(DOCS_VENV) (once; about 400 MB beyond texvent)"
+	@echo "installing texvent and Sphinx into $(DOCS_VENV) (once; 900 MB)"
 	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[docs]'
 	@touch $@
 

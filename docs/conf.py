@@ -56,6 +56,7 @@ suppress_warnings = ["config.cache", "ref.python"]
 
 # API
 autodoc_typehints = "signature"
+autodoc_type_aliases = {"ArrayLike": "ArrayLike"}
 autodoc_member_order = "bysource"
 maximum_signature_line_length = 80
 napoleon_google_docstring = True

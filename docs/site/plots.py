@@ -125,7 +125,7 @@ def real(colours: tuple[str, ...]) -> Figure:
         axes.set_title(recording)
         axes.set_xlabel("STPP")
     both[0].set_xlim(0.2, 0.9)
-    legend(figure, both[0], 3)
+    legend(figure, both[0], 2)
     return figure
 
 
@@ -195,7 +195,7 @@ def codecs(colours: tuple[str, ...]) -> Figure:
         axes.set_title(way)
         axes.set_xscale("log")
         axes.set_xlabel("million events / s")
-    legend(figure, both[0], 5)
+    legend(figure, both[0], 3)
     return figure
 
 
