@@ -27,8 +27,6 @@ from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
 
 STANDARD_INPUT = "-"
-CAMERAS = "/dev/video"
-"""How Linux names cameras."""
 ARRIVAL = "arrival"
 TIMEOUT_S = 15.0
 """How long a silent network stream is waited for."""
@@ -155,15 +153,10 @@ def interrupts_noted() -> Iterator[threading.Event]:
 
 
 def _open_live(address: str, name: str) -> InputContainer:
-    if address.startswith(CAMERAS) and sys.platform != "linux":
-        raise InputError(
-            f"{name} is a camera's name on Linux; on this system let ffmpeg read the camera: "
-            f"ffmpeg -f {_camera_format()} -f mjpeg - | texvent simulate - -o events.h5"
-        )
     try:
         if address == STANDARD_INPUT:
             return av.open(sys.stdin.buffer, mode="r", options=OPTIONS)
-        if address.startswith(CAMERAS):
+        if address.startswith("/dev/video"):
             return av.open(address, mode="r", format="v4l2", options=OPTIONS)
         timeout = TIMEOUT_S if "://" in address else None
         return av.open(address, mode="r", timeout=timeout, options=OPTIONS)
@@ -173,11 +166,6 @@ def _open_live(address: str, name: str) -> InputContainer:
             f"{name} cannot be opened as live video ({reason}); check that it exists, is not in "
             "use, and sends a format that libav knows"
         ) from error
-
-
-def _camera_format() -> str:
-    """What ffmpeg is told for the first camera of this system."""
-    return "dshow -i video=NAME" if sys.platform == "win32" else "avfoundation -i 0"
 
 
 def _clock_name(container: InputContainer, first: VideoFrame, times: FrameTimes | None) -> str:

@@ -139,9 +139,7 @@ def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None)
 def _is_live(address: str, path: Path) -> bool:
     if address == "-" or (re.match(r"[a-z][a-z0-9+.-]*://", address) and "file://" not in address):
         return True
-    if not path.exists():
-        return address.startswith("/dev/video")  # a camera that is not there, and its own error
-    mode = path.stat().st_mode
+    mode = path.stat().st_mode if path.exists() else 0
     return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from pathlib import Path
 
 from texvent.errors import InputError
@@ -41,7 +42,13 @@ def refuse_missing(path: Path, what: str = "file") -> None:
     """
     if path.exists():
         return
-    if re.fullmatch(r"/dev/video\d+", str(path)):
+    if re.fullmatch(r"/dev/video\d+", path.as_posix()):
+        if sys.platform != "linux":
+            camera = "dshow -i video=NAME" if sys.platform == "win32" else "avfoundation -i 0"
+            raise InputError(
+                f"{path} is a camera's name on Linux; on this system let ffmpeg read the camera: "
+                f"ffmpeg -f {camera} -f mjpeg - | texvent simulate - -o events.h5"
+            )
         cameras = sorted(map(str, Path("/dev").glob("video*")))
         there = f"there is {', '.join(cameras[:8])}" if cameras else "there is none on this machine"
         raise InputError(f"no such camera: {path}; {there}")
