@@ -38,8 +38,9 @@ Packages that texvent and its extras install, with the licences that they state,
 * A wheel may hold libraries of others under licences that its metadata do not tell. The table says
   what we know of them. PyAV's wheels hold x264 and x265, under the GPL, and texvent writes .mp4
   files by x264. Who passes on PyAV's wheel passes them on too; texvent's wheel holds neither.
-* Readers of event files under the GPL are installed by `make test-gpl` alone, and the tool `reuse`
-  by `make licences`. texvent imports neither.
+* Readers of event files under the GPL are installed by `make test-gpl` alone. Programs that
+  maintainers run, such as `reuse` and `hadolint`, may be under the GPL too; they have environments
+  of their own (`make licences`, `make lint-workflows`). texvent imports none of these.
 
 """
 
