@@ -38,7 +38,7 @@ def made_again(name: str, capsys: pytest.CaptureFixture[str], *words: object) ->
         ("--simulator", "v2e", "--seed", "5"),
         ("--simulator", "esim", "--interpolate", "flow"),
         ("--simulator", "physical", "--randomize", "v2v", "--seed", "9"),
-        ("--target-rate", "20000", "--label-noise"),
+        ("--target-rate", "20000", "--label-noise", "--interpolate", "blend"),
     ],
     ids=lambda options: options[1],
 )
