@@ -118,8 +118,9 @@ class Relation:
     """"beside", "behind", "front", "on", "in", "above", "under", "between", "left of",
     "right of", "past", "overtake", "through" (a tunnel, a gate), "around", "surround", "among",
     "towards", "away from", "from" (with "towards": from one to the other), "follow" or "with"; or
-    an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull", "kick",
-    "hit", "throw", "catch" or "collide" (the subject itself is its target if its copies do)."""
+    an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull",
+    "work on" (hands at it), "kick", "hit", "throw", "catch" or "collide" (the subject itself is its
+    target if its copies do)."""
     subject: int
     """Index into `SceneDescription.objects`."""
     targets: tuple[int, ...]
@@ -314,6 +315,7 @@ RELATION_WORDS = {
     "wear": "wearing",
     "ride": "riding",
     "push": "pushing",
+    "work on": "working on",
     "pull": "pulling",
     "kick": "kicking",
     "hit": "hitting",

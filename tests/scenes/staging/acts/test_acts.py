@@ -300,7 +300,7 @@ def test_who_plays_with_a_ball_that_the_prompt_names_kicks_it() -> None:
 def test_acts_with_one_contact() -> None:
     single = {name for name, each in ACTS.items() if each.is_single}
     assert single == {"kick", "hit", "throw", "catch", "collide"}
-    assert {"hold", "carry", "wear", "ride", "push", "pull"} == set(ACTS) - single
+    assert {"hold", "carry", "wear", "ride", "push", "pull", "work on"} == set(ACTS) - single
 
 
 @pytest.mark.parametrize(

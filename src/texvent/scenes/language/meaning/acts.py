@@ -20,6 +20,7 @@ from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.people.activities import WORKING
 
 STAND = ObjectMotion("stand")
 _SINGLE = frozenset({"kick", "hit", "throw", "catch"})
@@ -109,7 +110,8 @@ class ActReader:
                 word.shown_as = kinds[0]
                 moved.append(index)
         if moved and targets:
-            self._draft.relate("beside", moved, targets)
+            kind = "work on" if word.shown_as in WORKING else "beside"
+            self._draft.relate(kind, moved, targets)
             if word.shown_as == "climb":
                 word.shown_as = "climb beside it"
         word.is_used = bool(moved)
@@ -168,6 +170,9 @@ class ActReader:
             word.is_used = True
         for index in hands or people:
             self._add_motion(index, ObjectMotion(name), clause)
+        if name in WORKING and not is_exact:
+            targets = [index for one in objects if one.is_things for index in one.things]
+            self._draft.relate("work on", people, targets[:1])
         return hands or people
 
     def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:

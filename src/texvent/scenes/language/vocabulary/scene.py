@@ -291,6 +291,7 @@ PARTS_SHOWN: dict[str, tuple[str, ...]] = {
     "person": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
     "man": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
     "woman": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
+    "girl": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
     "child": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
     "tree": ("trunk", "branch", "branches", "leaves"),
     "house": ("door", "window", "windows", "roof", "wall", "walls"),

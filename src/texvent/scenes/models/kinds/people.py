@@ -33,9 +33,9 @@ PEOPLE_KINDS: dict[str, str] = {
     "man": """
         king, prince, grandpa, young man, old man, santa claus, dude, bloke, businessman""",
     "child": """
-        toddler, baby, infant, teenager, teen, schoolboy, schoolgirl, pupil, son, daughter,
-        brother, sister, little boy, little girl, young boy, young girl, twin, newborn,
-        youngster, youth""",
+        toddler, baby, infant, teenager, teen, schoolboy, pupil, son, brother, little boy,
+        young boy, twin, newborn, youngster, youth""",
+    "girl": "schoolgirl, daughter, sister, little girl, young girl, teenage girl",
     "worker": """
         lineman, road worker, roofer, bricklayer, ground crew member, warehouse worker,
         factory worker, labourer, laborer""",

@@ -206,6 +206,8 @@ DVS_GESTURES: Mapping[str, str] = MappingProxyType(
 )
 """Class of DVS-Gesture (Amir et al., CVPR 2017) → activity."""
 
+WORKING = frozenset({"wash", "paint", "hammer", "saw", "chop"})
+"""What hands do to a thing that they reach."""
 SEATS = frozenset({"chair", "armchair", "office chair", "rocking chair", "sofa", "bench", "stool",
                    "bed", "swing", "seesaw", "wheelchair", "throne"})  # fmt: skip
 """Nouns on which a person sits, unless the prompt says otherwise."""
@@ -218,7 +220,7 @@ DONE_SEATED = frozenset(
 SEATED = "sit and "
 """Begins the name of what is done sitting, as "sit and read"."""
 
-PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "runner", "worker"})
+PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "girl", "runner", "worker"})
 """Nouns whose models take every posture of `ACTIVITIES`."""
 HAND_NOUNS = frozenset({"hand"})
 """Nouns whose models take every posture of `HAND_GESTURES`."""

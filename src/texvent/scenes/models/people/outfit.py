@@ -52,6 +52,7 @@ class Outfit:
 ADULT = PersonKind()
 WOMAN = PersonKind(height=0.95, dress="skirt", long_hair=True)
 CHILD = PersonKind(height=0.66, head=1.3, dress="shorts")
+GIRL = PersonKind(height=0.66, head=1.3, dress="skirt", long_hair=True)
 RUNNER = PersonKind(dress="shorts", runs=True)
 WORKER = PersonKind(hat="helmet", shirts=(ORANGE,))
 

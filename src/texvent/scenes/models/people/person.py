@@ -18,6 +18,7 @@ from texvent.scenes.models.people.gestures import GESTURES, Movement
 from texvent.scenes.models.people.outfit import (
     ADULT,
     CHILD,
+    GIRL,
     RUNNER,
     WOMAN,
     WORKER,
@@ -190,8 +191,9 @@ NOUNS = (
     Noun("woman", partial(build_person, WOMAN), "ground", 1.3, "walk", ("lady",)),
     Noun(
         "child", partial(build_person, CHILD), "ground", 1.1, "walk",
-        ("kid", "boy", "girl"), ("children",),
+        ("kid", "boy"), ("children",),
     ),
+    Noun("girl", partial(build_person, GIRL), "ground", 1.1, "walk"),
     Noun(
         "runner", partial(build_person, RUNNER), "ground", 3.5, "run",
         ("jogger", "sprinter", "marathon runner"),

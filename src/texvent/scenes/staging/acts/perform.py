@@ -28,6 +28,7 @@ from texvent.scenes.staging.acts.holding import (
     size_of,
 )
 from texvent.scenes.staging.acts.riding import MOUNTS, mount
+from texvent.scenes.staging.acts.working import work_at
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _ORDER = (
@@ -39,6 +40,7 @@ _ORDER = (
     "catch",
     "hit",
     "collide",
+    "work on",
     "hold",
     "carry",
     "wear",
@@ -71,8 +73,10 @@ def settle_motions(
                 way = motion.direction if motion is not None else None
                 objects[subject] = replace(objects[subject], motion=ObjectMotion("walk", way))
             objects[target] = _still(objects[target])
-        elif relation.kind == "collide":
-            objects[subject], objects[target] = _still(objects[subject]), _still(objects[target])
+        elif relation.kind in ("work on", "collide"):
+            works = relation.kind == "work on"
+            objects[subject] = objects[subject] if works else _still(objects[subject])
+            objects[target] = _still(objects[target])
         elif ACTS[relation.kind].is_single:
             way = _choose_way(objects[subject], objects[target], seed, subject)
             objects[subject] = replace(
@@ -285,6 +289,9 @@ def _bind(cast: _Cast, kind: str, who: tuple[int, int, int | None], duration_s: 
         style = MOUNTS[target.noun.name].style if target.noun.name in MOUNTS else ""
         is_own = style == "built-in" and is_person(subject)
         cast.put(subject_at, None if is_own else mount(subject, target))
+        return
+    if kind == "work on":
+        cast.put(subject_at, work_at(subject, target))
         return
     if kind in ("push", "pull"):
         subject, target = _move_along(kind, subject, target)

@@ -232,10 +232,21 @@ def _is_touching(subject: _Body, targets: list[_Body]) -> bool:
     )  # fmt: skip
 
 
+def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
+    """The worker touches it, with hands that come down to its top."""
+    worker, top = subject.copies[0], float(targets[0].high[0, 2])
+    times = np.linspace(0.0, subject.duration_s, _HAND_SAMPLES)
+    lowest = min(worker.anchor("right hand", float(t))[2, 3] for t in times)
+    return bool(lowest < top + _TOOL_M) and _is_touching(subject, targets)
+
+
 def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
     return strikes(subject.copies, targets[0].copies, subject.duration_s, moves=moves)
 
 
+_HAND_SAMPLES = 13
+_TOOL_M = 0.25
+"""How far a tool in the hand reaches below it."""
 _BY_CONTACT = frozenset({"on", "in", "with", *ACTS})
 """Relations that the report names with their subject: "bottle on the conveyor belt"."""
 _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
@@ -248,6 +259,7 @@ _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     "on": _is_on,
     "in": _is_in,
     **dict.fromkeys(("hold", "carry", "wear", "ride", "push", "pull"), _is_touching),
+    "work on": _is_worked_on,
     **dict.fromkeys(("kick", "hit", "throw"), partial(_is_striking, moves=True)),
     "catch": partial(_is_striking, moves=False),
     "around": _is_near,

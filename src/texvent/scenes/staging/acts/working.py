@@ -1,0 +1,76 @@
+"""Who works on something: hands at it, as in "washes a car" or "paints a fence"."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from texvent.scenes.models.people.activities import WORKING
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.holding import is_person
+from texvent.scenes.staging.claims.bodies import gap, part_boxes
+from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
+
+_NARROW_M = 0.7
+"""Half of the width in the picture up to which one works at a thing's side, seen in profile."""
+_TURN = 0.5
+"""Turn of who works before a wide thing, so that hands are seen beside the back, rad."""
+_OVERLAP_M = 0.12
+"""How far the hands reach into the thing at their farthest."""
+_SAMPLES = 9
+_CYCLE_S = 1.2
+"""Time in which working hands reach every place."""
+
+
+def work_at(subject: Actor, target: Actor) -> Actor:
+    """The worker, before the thing or at its side, within the reach of its hands.
+
+    Args:
+        subject: a person who stays and works; others are left where they are.
+        target: a thing that stays.
+    """
+    path = subject.trajectory
+    is_able = is_person(subject) and isinstance(path, Stationary) and path.activity in WORKING
+    if not is_able or target.is_mover:
+        return subject
+    state, model = target.trajectory.at(0.0), target.model
+    cos, sin = abs(math.cos(state.yaw)), abs(math.sin(state.yaw))
+    across = 0.5 * (cos * model.length + sin * model.width)
+    deep = 0.5 * (sin * model.length + cos * model.width)
+    if across <= _NARROW_M:
+        yaw = 0.0 if path.home[0] <= state.position[0] else math.pi
+        home = ahead(state.position, yaw, -across - _reach(subject), path.home[2])
+    else:
+        apart = deep + _reach(subject) * math.cos(_TURN)
+        home = ahead(state.position, 0.5 * math.pi, -apart, path.home[2])
+        yaw = 0.5 * math.pi - _TURN
+    return _step_up(replace(subject, trajectory=replace(path, home=home, yaw=yaw)), target)
+
+
+def _step_up(subject: Actor, target: Actor) -> Actor:
+    """Nearer by the gap that is left: what stands at an angle is thinner than its box."""
+    times = np.linspace(0.0, _CYCLE_S, _SAMPLES)
+    path = subject.trajectory
+    if not isinstance(path, Stationary):
+        return subject
+    left = min(gap(part_boxes(subject, float(t)), part_boxes(target, float(t))) for t in times)
+    goal = target.trajectory.at(0.0).position
+    yaw = math.atan2(goal[1] - path.home[1], goal[0] - path.home[0])
+    home = ahead(path.home, yaw, left, path.home[2])
+    return replace(subject, trajectory=replace(path, home=home))
+
+
+def _reach(subject: Actor) -> float:
+    """How far ahead of its middle its hands come while it works, m."""
+    state = subject.trajectory.at(0.0)
+    forward = np.array([math.cos(state.yaw), math.sin(state.yaw), 0.0])
+    hands = np.array(
+        [
+            subject.anchor(name, float(time_s))[:, 3] - state.position
+            for name in ("left hand", "right hand")
+            for time_s in np.linspace(0.0, _CYCLE_S, _SAMPLES)
+        ]
+    )
+    return max(float((hands @ forward).max()) - _OVERLAP_M, 0.0)

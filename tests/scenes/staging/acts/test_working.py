@@ -1,0 +1,61 @@
+"""Who works on a thing stands at it, with hands that reach it; what is too low is reported."""
+
+import math
+
+import numpy as np
+import pytest
+
+from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
+from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.staging.acts.working import work_at
+from texvent.scenes.staging.claims.contact import touches
+from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.sensor import SensorSize
+
+
+def stage(activity: str, target: str, motion: str = "stand") -> ComposedScene:
+    description = SceneDescription(
+        "hand-built",
+        (
+            SceneObject("woman", motion=ObjectMotion(activity)),
+            SceneObject(target, motion=ObjectMotion(motion)),
+        ),
+        (Relation("work on", 0, (1,)),),
+    )
+    return compose_scene(description, seed=0, size=SensorSize(96, 72), duration_s=2.0)
+
+
+@pytest.mark.parametrize(
+    ("activity", "target"),
+    [("wash", "horse"), ("wash", "car"), ("paint", "fence"), ("saw", "table"), ("wash", "desk")],
+)
+def test_a_worker_faces_the_thing_and_its_hands_reach_it(activity, target):
+    scene = stage(activity, target)
+    worker, thing = scene.actors
+    state = worker.trajectory.at(0.0)
+    towards = np.array(thing.trajectory.at(0.0).position) - state.position
+    heading = np.array([math.cos(state.yaw), math.sin(state.yaw)])
+    assert heading @ towards[:2] > 0.8 * np.linalg.norm(towards[:2])
+    assert any(touches(worker, thing, float(t)) for t in np.linspace(0.0, 1.0, 9))
+    assert scene.not_shown == ()
+
+
+def test_hands_that_stay_above_a_low_thing_are_reported():
+    assert stage("wash", "rabbit").not_shown == ("woman working on the rabbit",)
+
+
+def test_who_does_something_else_stays():
+    worker, thing = stage("wave", "horse").actors
+    assert work_at(worker, thing) is worker
+
+
+@pytest.mark.parametrize(
+    "prompt", ["a woman washes a horse", "a woman brushes a horse", "a man paints a fence"]
+)
+def test_what_is_worked_on_is_read(prompt):
+    relations = parse_prompt(prompt).relations
+    assert [(one.kind, one.subject, one.targets) for one in relations] == [("work on", 0, (1,))]
+
+
+def test_an_activity_that_names_its_object_works_on_nothing():
+    assert parse_prompt("a man plays the piano").relations == ()
