@@ -32,8 +32,9 @@ def work_at(subject: Actor, target: Actor) -> Actor:
         target: a thing that stays.
     """
     path = subject.trajectory
-    is_able = is_person(subject) and isinstance(path, Stationary) and path.activity in WORKING
-    if not is_able or target.is_mover:
+    if not isinstance(path, Stationary) or path.activity not in WORKING:
+        return subject
+    if target.is_mover or not is_person(subject):
         return subject
     state, model = target.trajectory.at(0.0), target.model
     cos, sin = abs(math.cos(state.yaw)), abs(math.sin(state.yaw))
@@ -46,15 +47,13 @@ def work_at(subject: Actor, target: Actor) -> Actor:
         apart = deep + _reach(subject) * math.cos(_TURN)
         home = ahead(state.position, 0.5 * math.pi, -apart, path.home[2])
         yaw = 0.5 * math.pi - _TURN
-    return _step_up(replace(subject, trajectory=replace(path, home=home, yaw=yaw)), target)
+    return _step_up(subject, replace(path, home=home, yaw=yaw), target)
 
 
-def _step_up(subject: Actor, target: Actor) -> Actor:
+def _step_up(subject: Actor, path: Stationary, target: Actor) -> Actor:
     """Nearer by the gap that is left: what stands at an angle is thinner than its box."""
     times = np.linspace(0.0, _CYCLE_S, _SAMPLES)
-    path = subject.trajectory
-    if not isinstance(path, Stationary):
-        return subject
+    subject = replace(subject, trajectory=path)
     left = min(gap(part_boxes(subject, float(t)), part_boxes(target, float(t))) for t in times)
     goal = target.trajectory.at(0.0).position
     yaw = math.atan2(goal[1] - path.home[1], goal[0] - path.home[0])
