@@ -38,10 +38,10 @@ DESCRIPTION = """Convert an event file, or a part of it, to another format. Memo
   texvent convert davis.aedat4 davis.h5
   texvent convert davis.h5 part.raw --time 0.5,2 --crop 100,50,128,128
   texvent convert left.h5 both.h5 --merge right.h5
-  texvent convert davis.h5 clean.h5 --filter hot-pixels background-activity:window_us=5000
+  texvent convert davis.h5 clean.h5 --filter hot-pixels background-activity
 
-Edits happen in this order: merge, mask, save-mask, filter, undistort, crop, resize, downsample,
-rotate, flip, from-zero, time."""
+Edits happen in this order: merge, mask, save-mask, filter, undistort, crop,
+resize, downsample, rotate, flip, from-zero, time."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +51,10 @@ class ConvertOptions:
     positional: ClassVar[tuple[str, ...]] = ("path", "to")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "crop": "--roi", "quiet": "-q"}
     outputs: ClassVar[tuple[str, ...]] = ("to", "out", "save_mask")
+    main_options: ClassVar[tuple[str, ...]] = (
+        *("format", "sensor", "merge", "mask", "filter", "crop", "resize", "from_zero", "time"),
+        "overwrite",
+    )
 
     path: Path = REQUIRED
     """Event file, or folder of one format, to read."""
@@ -71,8 +75,8 @@ class ConvertOptions:
     save_mask: Path | None = None
     """Write the hot pixels of the input as a mask, for --mask; reads the input once more."""
     filter: tuple[str, ...] = ()
-    """Filters, in order: background-activity, refractory, hot-pixels or rate-limit, each with
-    options as in background-activity:window_us=5000,support=2 (`docs/toolbox.md` lists them)."""
+    """Filters, in order: background-activity, refractory, hot-pixels, rate-limit; options follow a
+    colon, as in refractory:period_us=500 (docs/toolbox.md)."""
     undistort: Path | None = None
     """Calibration, a text of nine numbers fx fy cx cy k1 k2 p1 p2 k3: take out the lens."""
     crop: str | None = None
