@@ -19,8 +19,7 @@ from texvent.runtime.console_progress import ConsoleProgress
 DESCRIPTION = """A ROS 2 node: sensor_msgs/Image in, event_camera_msgs/EventPacket (evt3) out.
 
   texvent ros --image-topic camera/image_raw --contrast-threshold 0.2
-  texvent ros clip.mp4 --loop
-  texvent ros --prompt "a red car drives left" --ros-args -r events:=/event_camera/events
+  texvent ros --prompt "a dog runs" --ros-args -r events:=/dvs/events
 
 Words after --ros-args go to ROS. rclpy comes with ROS 2: source its setup.bash first."""
 ROS_ARGS = "--ros-args"
@@ -33,9 +32,8 @@ class RosOptions(RosConfig):
     input_texts: ClassVar[tuple[str, ...]] = ("source",)
     positional: ClassVar[tuple[str, ...]] = ("source",)
     main_options: ClassVar[tuple[str, ...]] = (
-        "prompt", "image_topic", "events_topic", "view_topic", "frame_id", "packet_ms", "stamps",
-        "max_gap", "rate", "loop", "sensor", "simulator", "preset", "contrast_threshold", "noise",
-        "interpolate", "seed", "config",
+        "prompt", "image_topic", "events_topic", "view_topic", "stamps", "rate", "loop", "sensor",
+        "simulator", "contrast_threshold", "noise", "interpolate", "seed", "config",
     )  # fmt: skip
 
     source: str | None = None
