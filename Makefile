@@ -3,7 +3,6 @@
 VENV := .venv
 TORCH_VENV := .venv-torch
 APP_VENV := .venv-app
-FORMATS_VENV := .venv-formats
 DATASET_VENV := .venv-dataset
 DOCS_VENV := .venv-docs
 GPL_VENV := .venv-gpl
@@ -37,7 +36,7 @@ NO_HASH = echo "error: pip could not install the files that requirements/ lists 
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
 
-.PHONY: help demo test fuzz test-torch test-app test-formats test-dataset test-notebooks test-gpl docs linkcheck dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test fuzz test-torch test-app test-dataset test-notebooks test-gpl docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -45,9 +44,8 @@ help:
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
-	@echo "make test-formats the tests of Parquet and blosc, in $(FORMATS_VENV)"
-	@echo "make test-dataset the tests of Ray and of data sets in other libraries, in $(DATASET_VENV)"
-	@echo "make test-notebooks the tutorials and displays in a kernel, in $(DOCS_VENV)"
+	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
+	@echo "make test-notebooks the displays and progress bars in a kernel, in $(DOCS_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
 	@echo "make docs         the documentation site, in $(DOCS_OUT)/html"
 	@echo "make linkcheck    links of the site to other hosts; needs the network"
@@ -77,11 +75,9 @@ test-torch: $(TORCH_VENV)/.torch
 test-app: $(APP_VENV)/.app
 	$(APP_VENV)/bin/python -m pytest -q -m app tests/view tests/web tests/cli
 
-test-formats: $(FORMATS_VENV)/.formats
-	$(FORMATS_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io
-
 test-dataset: $(DATASET_VENV)/.dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -m dataset tests/dataset
+	$(DATASET_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io
 
 test-notebooks: $(DOCS_VENV)/.docs-test
 	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks
@@ -139,10 +135,10 @@ requirements: $(AUDIT_VENV)/.audit
 	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -189,14 +185,9 @@ $(APP_VENV)/.app: $(APP_VENV)/bin/python pyproject.toml constraints.txt
 	$(APP_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,app,rerun]'
 	@touch $@
 
-$(FORMATS_VENV)/.formats: $(FORMATS_VENV)/bin/python pyproject.toml constraints.txt
-	@echo "installing texvent, pyarrow and hdf5plugin into $(FORMATS_VENV) (once; these two take 360 MB)"
-	$(FORMATS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,parquet,blosc]'
-	@touch $@
-
 $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent, Ray, pyarrow and loaders of data sets into $(DATASET_VENV) (once; 1.5 GB)"
-	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,dataset,ray,loaders]'
+	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,dataset,ray,loaders,parquet,blosc]'
 	@touch $@
 
 $(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml constraints.txt

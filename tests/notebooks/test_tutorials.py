@@ -1,9 +1,8 @@
-"""Every notebook of docs/notebooks runs in a kernel, from its first cell to its last."""
+"""What notebooks of docs/notebooks hold; `make docs` runs them, and refuses errors and warnings."""
 
 from __future__ import annotations
 
 import json
-import os
 import re
 from pathlib import Path
 
@@ -11,35 +10,10 @@ import pytest
 
 FOLDER = Path(__file__).parents[2] / "docs/notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
-MAX_OUTPUT = 3_000_000
-"""Characters of all outputs of a notebook, so that it can be kept with them."""
 
 
 def cells_of(path: Path) -> list[dict]:
     return json.loads(path.read_text(encoding="utf-8"))["cells"]
-
-
-@pytest.mark.docs
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_tutorial_runs(path, tmp_path):
-    import nbformat
-    from nbclient import NotebookClient
-
-    notebook = nbformat.read(path, as_version=4)
-    nbformat.validate(notebook)
-    environment = {name: value for name, value in os.environ.items() if "PYTEST" not in name}
-    where = {"metadata": {"path": str(tmp_path)}}
-    NotebookClient(notebook, timeout=900, resources=where).execute(env=environment)
-    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
-    shown = {name for output in outputs for name in output.get("data", {})}
-    assert {"text/html", "image/png"} <= shown
-    warnings = [
-        output.text
-        for output in outputs
-        if output.get("name") == "stderr" and "Warn" in output.text
-    ]
-    assert not warnings
-    assert len(json.dumps(outputs)) < MAX_OUTPUT
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
