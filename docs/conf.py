@@ -132,7 +132,7 @@ CHILDREN = {
         "training-depth-flow",
         "training-results",
     ],
-    "notebooks": ["notebooks/your-video", "notebooks/train-a-network"]  # the first is a tutorial,
+    "notebooks": ["notebooks/your-video", "notebooks/train-a-network"],
     "site/architecture": [
         f"design/{name}"
         for name in ("interpolation", "simulators", "speed", "libraries", "fuzzing")
