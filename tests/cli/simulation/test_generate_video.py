@@ -125,6 +125,8 @@ def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, ca
     assert "121 x 1280x704, 24 fps" in row
     assert "74 / 24.4 " in row
     assert "NVIDIA Open Model License" in row
+    assert "ends if its guardrail is bypassed" in row
+    assert "  cosmos3-nano: github.com/NVIDIA/cosmos: README.md, LICENSE" in shown.splitlines()
     assert shown.splitlines()[1].startswith("procedural")
     assert "pip install 'texvent[generate]'" in shown
 
@@ -136,8 +138,31 @@ def test_a_narrow_terminal_hides_nothing_of_the_list(folder, capsys, monkeypatch
     starts = {line.split(" ")[0] for line in shown.splitlines()}
     assert {"procedural", "opensora", *MODELS} <= starts
     assert "\N{HORIZONTAL ELLIPSIS}" not in shown
-    words = {word for model in MODELS.values() for word in model.licence.split()}
+    words = {word for model in MODELS.values() for word in model.licence_and_terms.split()}
     assert words <= set(shown.split())
+
+
+def test_the_list_marks_low_frame_rates_in_a_hundred_columns(folder, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    assert run("generators") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 100
+    rows = {line.split()[0]: line for line in lines if line.strip()}
+    assert "16 fps low" in rows["wan-1.3b"]
+    assert "24 fps " in rows["wan2.2-5b"]
+    low = {name for name in MODELS if " fps low" in rows[name]}
+    assert low == {name for name, model in MODELS.items() if model.fps < 24}
+
+
+def test_the_list_as_json_has_every_row_with_its_licence_and_source(folder, capsys):
+    assert run("generators", "--json") == 0
+    rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)}
+    assert list(rows) == ["procedural", "opensora", *MODELS]
+    row = rows["hunyuan1.5"]
+    assert row["licence"] == "Tencent Hunyuan Community License"
+    assert "not in the EU" in row["licence_terms"]
+    assert row["licence_source"] == "github.com/Tencent-Hunyuan/HunyuanVideo-1.5: LICENSE"
+    assert (row["fps"], row["is_low_fps"], rows["latte"]["is_low_fps"]) == (24, False, True)
 
 
 def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):
@@ -151,7 +176,7 @@ def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):
     assert next(line for line in rows if line.startswith("wan-1.3b")).split()[1] == "damaged"
 
 
-def test_the_list_of_generators_has_help_and_no_arguments(capsys):
+def test_the_list_of_generators_has_help_and_refuses_names(capsys):
     assert run("generators", "--help") == 0
     assert "--generator ./my-model" in capsys.readouterr().out
     assert run("generators", "wan") == 2

@@ -306,7 +306,8 @@ def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(caps
     with pytest.raises(TexventError, match=r"model_index.json and .*put them into") as caught:
         generator.generate(PROMPT, progress=watcher)
     assert "--generator ./FOLDER" in str(caught.value)
-    assert "licence: Apache-2.0 (from general knowledge" in watcher.lines[0]
+    read = "licence: Apache-2.0 (read in github.com/Wan-Video/Wan2.1: README.md;"
+    assert read in watcher.lines[0]
     with pytest.raises(TexventError):
         build("hub:org/name").generate(PROMPT, progress=watcher)
     assert watcher.lines[1].endswith("licence: not known to texvent; read the model's page")

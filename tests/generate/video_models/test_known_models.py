@@ -10,6 +10,7 @@ from texvent.cli.app import main
 from texvent.errors import ConfigError
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models import lookup
+from texvent.generate.video_models.download import describe_terms
 from texvent.generate.video_models.known_models import MODELS
 from texvent.options.fields import option_help, option_names
 from texvent.run.settings import default_settings, resolve
@@ -27,6 +28,31 @@ def test_every_row_says_where_what_how_fast_and_under_which_licence():
         assert model.frames >= 16
         assert model.width % 8 == 0
         assert model.height % 8 == 0
+
+
+def test_licences_say_where_they_were_read_or_that_they_were_not():
+    unread = {name for name, model in MODELS.items() if not model.licence_source}
+    assert unread == {"motif-2b"}
+    assert "not known" in MODELS["motif-2b"].licence
+    for model in MODELS.values():
+        assert "general knowledge" not in describe_terms(model)
+        assert model.licence_source in describe_terms(model)
+        assert model.licence_terms in describe_terms(model)
+
+
+def test_the_guardrail_clause_is_that_of_cosmos_1_and_2_5_alone():
+    ending = {name for name, model in MODELS.items() if "guardrail" in model.licence_and_terms}
+    assert ending == {"cosmos-7b", "cosmos2.5-2b"}
+    assert MODELS["cosmos3-nano"].licence_and_terms == "OpenMDW-1.1"
+
+
+def test_the_page_of_generators_names_the_licence_of_every_row():
+    page = (Path(__file__).parents[3] / "docs" / "generators.md").read_text(encoding="utf-8")
+    table = page.partition("### Licences")[2].partition("### Cosmos")[0]
+    for name, model in MODELS.items():
+        line = next(line for line in table.splitlines() if f"`{name}`" in line)
+        words = model.licence.partition(" from ")[0].partition(" (")[0]
+        assert (words if model.licence_source else "not read") in line
 
 
 def test_the_papers_default_is_the_first_row():

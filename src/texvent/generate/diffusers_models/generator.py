@@ -108,7 +108,7 @@ class DiffusersGenerator:
         amounts = ", ".join(f"{value} {name}" for name, value in wishes.items() if value)
         return (
             f"the video is not made yet: {self.model.name} would make it"
-            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence}"
+            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}"
         )
 
     @property

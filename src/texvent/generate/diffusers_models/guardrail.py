@@ -1,9 +1,10 @@
 """NVIDIA's Cosmos guardrail: always on, and an error in it counts as a refusal.
 
-The Cosmos models are licensed under the condition that their guardrail stays on, so there is no
-option to leave it out, and none to replace it. The `cosmos-guardrail` package treats an error in
-its text model as "safe"; here every error that it logs stops the run before a frame is made. Its
-face pixelation changes frames, and so events; it hands frames on with 8 bits.
+The licence of Cosmos 1 and 2.5 ends when their guardrail is bypassed; that of Cosmos 3,
+OpenMDW-1.1, has no such clause. texvent has no option to leave the guardrail out or to replace it,
+for any of them. The `cosmos-guardrail` package treats an error in its text model as "safe"; here
+every error that it logs stops the run before a frame is made. Its face pixelation changes frames,
+and so events; it hands frames on with 8 bits.
 """
 
 from __future__ import annotations

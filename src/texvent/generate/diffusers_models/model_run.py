@@ -130,7 +130,7 @@ class ModelRun:
             "pipeline": self._class_name,
             "dtype": self._placement.dtype,
             "quantize": self._placement.quantize,
-            "licence": self._model.licence,
+            "licence": self._model.licence_and_terms,
             **{name: metadata.version(name) for name in PACKAGES},
         }
         if self.has_guardrail:

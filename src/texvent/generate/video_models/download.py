@@ -83,9 +83,11 @@ def _find_cached(repo: str, revision: str | None, check: Callable[[Path], None])
 
 def describe_terms(model: VideoModel) -> str:
     """Licence and origin, for the user to read before the download."""
-    is_guessed = model.licence != VideoModel.licence and not model.is_licence_verified
-    doubt = " (from general knowledge: check the model's page)" if is_guessed else ""
-    return f"fetching {model.source} from the model hub; licence: {model.licence}{doubt}"
+    is_known = model.licence != VideoModel.licence
+    read = f"read in {model.licence_source}" if model.licence_source else "not read by texvent"
+    origin = f" ({read}; check the model's page)" if is_known else ""
+    terms = f"licence: {model.licence_and_terms}{origin}"
+    return f"fetching {model.source} from the model hub; {terms}"
 
 
 def _download(model: VideoModel) -> Path:
