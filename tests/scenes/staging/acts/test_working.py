@@ -13,16 +13,14 @@ from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 
 
-def stage(activity: str, target: str, motion: str = "stand") -> ComposedScene:
-    description = SceneDescription(
-        "hand-built",
-        (
-            SceneObject("woman", motion=ObjectMotion(activity)),
-            SceneObject(target, motion=ObjectMotion(motion)),
-        ),
-        (Relation("work on", 0, (1,)),),
-    )
+def compose(description: SceneDescription) -> ComposedScene:
     return compose_scene(description, seed=0, size=SensorSize(96, 72), duration_s=2.0)
+
+
+def stage(activity: str, target: str) -> ComposedScene:
+    worker = SceneObject("woman", motion=ObjectMotion(activity))
+    relation = Relation("work on", 0, (1,))
+    return compose(SceneDescription("hand-built", (worker, SceneObject(target)), (relation,)))
 
 
 @pytest.mark.parametrize(
@@ -59,3 +57,21 @@ def test_what_is_worked_on_is_read(prompt):
 
 def test_an_activity_that_names_its_object_works_on_nothing():
     assert parse_prompt("a man plays the piano").relations == ()
+
+
+@pytest.mark.parametrize(
+    "prompt", ["two men wash a car", "a man and a woman wash a car", "two women wash a table"]
+)
+def test_workers_share_the_room_along_a_thing(prompt):
+    scene = compose(parse_prompt(prompt))
+    *workers, thing = scene.actors
+    places = [np.array(one.trajectory.at(0.0).position) for one in workers]
+    assert np.linalg.norm(places[0] - places[1]) > 0.4
+    for worker in workers:
+        assert any(touches(worker, thing, float(t)) for t in np.linspace(0.0, 1.0, 9))
+    assert scene.not_shown == ()
+
+
+def test_a_crew_that_finds_no_room_is_reported():
+    scene = compose(parse_prompt("nine men paint a door"))
+    assert "men working on the door" in scene.not_shown

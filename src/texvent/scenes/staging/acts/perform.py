@@ -197,6 +197,9 @@ def perform_acts(
     cast = _Cast(actors)
     relations = [r for r in description.relations if r.kind in ACTS and r.targets]
     for kind in _ORDER:
+        if kind == "work on":
+            _put_to_work(cast, relations)
+            continue
         for relation in relations:
             if relation.kind == kind:
                 _perform(cast, relation, duration_s)
@@ -260,6 +263,20 @@ class _Cast:
         return [replace(actor, instance=number) for number, actor in enumerate(left, start=1)]
 
 
+def _put_to_work(cast: _Cast, relations: list[Relation]) -> None:
+    """All who work on one thing share the room along it."""
+    crews: dict[int, list[int]] = {}
+    for relation in relations:
+        targets = cast.copies(relation.targets[0])
+        if relation.kind == "work on" and targets:
+            for turn, subject in enumerate(cast.copies(relation.subject)):
+                crews.setdefault(targets[turn % len(targets)], []).append(subject)
+    for target, crew in crews.items():
+        for place, subject in enumerate(crew):
+            worker = work_at(cast.get(subject), cast.get(target), place, len(crew))
+            cast.put(subject, worker)
+
+
 def _perform(cast: _Cast, relation: Relation, duration_s: float) -> None:
     subjects = cast.copies(relation.subject)
     targets = cast.copies(relation.targets[0])
@@ -289,9 +306,6 @@ def _bind(cast: _Cast, kind: str, who: tuple[int, int, int | None], duration_s: 
         style = MOUNTS[target.noun.name].style if target.noun.name in MOUNTS else ""
         is_own = style == "built-in" and is_person(subject)
         cast.put(subject_at, None if is_own else mount(subject, target))
-        return
-    if kind == "work on":
-        cast.put(subject_at, work_at(subject, target))
         return
     if kind in ("push", "pull"):
         subject, target = _move_along(kind, subject, target)

@@ -233,11 +233,14 @@ def _is_touching(subject: _Body, targets: list[_Body]) -> bool:
 
 
 def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
-    """The worker touches it, with hands that come down to its top."""
-    worker, top = subject.copies[0], float(targets[0].high[0, 2])
-    times = np.linspace(0.0, subject.duration_s, _HAND_SAMPLES)
-    lowest = min(worker.anchor("right hand", float(t))[2, 3] for t in times)
-    return bool(lowest < top + _TOOL_M) and _is_touching(subject, targets)
+    """Every worker touches it, with hands that come down to its top."""
+    top = float(targets[0].high[0, 2])
+    times = [float(t) for t in np.linspace(0.0, subject.duration_s, _HAND_SAMPLES)]
+    return all(
+        min(worker.anchor("right hand", t)[2, 3] for t in times) < top + _TOOL_M
+        and any(touches(worker, thing, t) for t in times for thing in targets[0].copies)
+        for worker in subject.copies
+    )
 
 
 def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
