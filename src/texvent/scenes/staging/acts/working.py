@@ -17,7 +17,7 @@ _NARROW_M = 0.7
 """Half of the width in the picture up to which one works at a thing's side, seen in profile."""
 _TURN = 0.5
 """Turn of who works before a wide thing, so that hands are seen beside the back, rad."""
-_ROOM = 0.45
+_ROOM = 0.6
 """Share of its height that a worker takes along a wide thing."""
 _MOST_STEP_M = 0.8
 """Beyond the end of a thing, a longer step would not lead to it."""
