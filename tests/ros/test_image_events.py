@@ -103,6 +103,26 @@ def test_a_step_of_time_begins_a_new_recording_and_the_clock_of_the_words_goes_o
     assert (np.diff(times) >= 0).all()
 
 
+def test_events_that_a_simulator_holds_back_come_before_a_restart_and_at_the_end(held_back):
+    settings = resolve("simulate", {"seed": 2, "simulator": held_back})
+    logic = ImageEvents(settings, RosConfig(), lambda _: None)
+    assert logic.finish() is None
+    second_ns, packets = START_NS + 60_000_000_000, []
+    for first_ns in (START_NS, second_ns):
+        for i, pixels in enumerate(FRAMES):
+            answer = logic.take(image(pixels, first_ns + i * STEP_NS), 0)
+            packets += answer.packets
+            if answer.packets:
+                assert (first_ns, i) == (second_ns, 0)
+                assert answer.stamp_ns == START_NS + 3 * STEP_NS
+                assert len(answer.events)
+    packets += logic.finish().packets
+    assert logic.finish() is None
+    once, again = expected(START_NS), expected(second_ns)
+    assert decode(packets) == {name: once[name] + again[name] for name in once}
+    assert [packet.sequence for packet in packets] == list(range(len(packets)))
+
+
 def test_time_that_starts_again_at_zero_has_a_time_base_modulo_2_to_the_64():
     logic, _ = make()
     packets = []

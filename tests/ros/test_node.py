@@ -79,6 +79,20 @@ def test_a_bad_image_ends_the_node_with_one_line(world, capsys):
     assert not world.is_up
 
 
+@pytest.mark.parametrize(("end", "is_given"), [(KeyboardInterrupt, True), (None, False)])
+def test_ctrl_c_publishes_what_the_simulator_held_back(world, held_back, end, is_given):
+    for i, pixels in enumerate(FRAMES):
+        world.send("image_raw", image(pixels, 10**9 + i * STEP_NS))
+    world.ends_by = end and end()
+    assert main(["ros", "--quiet", "--simulator", held_back, "--interpolate", "none"]) == 0
+    assert bool(world.published["events"]) == is_given  # ROS that is down takes no message
+    if is_given:
+        truth = texvent.simulate(
+            FRAMES, fps=50, simulator="esim", interpolate="none", progress=False
+        )
+        assert (events_of(world.published["events"]) == as_rows(truth, 10**6)).all()
+
+
 @pytest.mark.parametrize("end", [KeyboardInterrupt(), ExternalShutdownException()])
 def test_ctrl_c_and_a_shutdown_of_ros_end_the_node_quietly(world, capsys, end):
     world.ends_by = end
@@ -111,6 +125,27 @@ def test_a_folder_of_images_is_published(world, tmp_path):
     assert (found == as_rows(truth, world.now_ns // 1000)).all()
 
 
+def test_a_loop_faster_than_its_times_has_stamps_that_never_step_back(world, tmp_path):
+    cv2 = pytest.importorskip("cv2")
+    for i, pixels in enumerate(FRAMES):
+        cv2.imwrite(str(tmp_path / f"{i}.png"), pixels)
+    words = f"ros {tmp_path} --fps 50 --rate 0 --seed 2 --simulator esim --quiet".split()
+    assert main(words) == 0
+    first = world.published.pop("events")
+    messages = world.published["events"]
+    sys.modules["rclpy"].ok = lambda: len(messages) <= 2 * len(first)
+    assert main([*words, "--loop"]) == 0
+    stamps = [one.header.stamp.sec * 10**9 + one.header.stamp.nanosec for one in messages]
+    assert stamps == sorted(stamps)
+    once, found = events_of(first), events_of(messages)
+    count, pass_us = once.shape[1], 60_000 + 1
+    assert found.shape[1] > 2 * count
+    for number in range(2):
+        part = found[:, number * count : (number + 1) * count]
+        assert (part[2] == once[2] + number * pass_us).all()
+        assert (part[[0, 1, 3]] == once[[0, 1, 3]]).all()
+
+
 @pytest.mark.parametrize("missing", ["rclpy", "event_camera_msgs.msg"])
 def test_without_ros_one_line_says_what_to_do(world, monkeypatch, capsys, missing):
     monkeypatch.setitem(sys.modules, missing, None)
@@ -129,6 +164,7 @@ def test_without_ros_one_line_says_what_to_do(world, monkeypatch, capsys, missin
     [
         ("clip.mp4 --prompt x", "a video and --prompt are both given"),
         ("--events-topic 1st", "events_topic is '1st'; a topic has letters"),
+        ("--events-topic ~x", "events_topic is '~x'; a topic has letters"),
         ("--node a/b", "node is 'a/b'"),
         ("--packet-ms 0", "packet_ms is 0; it must be 0.001..1000"),
         ("--stamps never", "stamps"),

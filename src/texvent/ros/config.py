@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError, shown
 
-TOPIC = re.compile(r"~?/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
+TOPIC = re.compile(r"(~?/)?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 """Names of topics, absolute, relative or private, and of nodes without a slash."""
 Reliability = Literal["reliable", "best_effort"]
 
@@ -47,7 +47,8 @@ class RosConfig:
     queue: int = 10
     """Messages that wait in a queue; older ones are dropped."""
     rate: float = 1.0
-    """Speed of a video or prompt: 1 is real time, 0.1 ten times slower, 0 as fast as it can be."""
+    """Speed of a video or prompt: 1 is real time, 0.1 ten times slower, 0 as fast as it can be.
+    Stamps keep the recording's time within a pass, whatever the speed."""
     loop: bool = False
     """Begin the video or prompt again when it ends."""
     quiet: bool = False

@@ -24,12 +24,13 @@ class Answer(NamedTuple):
     """What an image gives."""
 
     packets: list[EventPacket]
-    """Messages with the events since the image before."""
+    """Messages with the events since the image before; where a recording begins, with those that
+    the simulator held back of the one before."""
     events: EventStream | None
-    """The same events; times count from the first image. None where a recording begins, or the
-    image is dropped."""
+    """The same events; times count from the first image. None where there are no such
+    events: a recording begins, or the image is dropped."""
     stamp_ns: int
-    """Time of the image, ns."""
+    """Time of the image at which the events end, ns."""
     frame_id: str
 
 
@@ -42,6 +43,13 @@ class _Recording:
     """Of the images."""
     first_ns: int
     last_ns: int
+    frame_id: str
+    """Of the last image."""
+
+    @property
+    def last_us(self) -> int:
+        """Time of the last image since the first, µs."""
+        return (self.last_ns - self.first_ns) // NS
 
 
 class ImageEvents:
@@ -88,16 +96,37 @@ class ImageEvents:
         size = SensorSize(pixels.shape[1], pixels.shape[0])
         recording, reason = self._recording, self._restart_reason(time_ns, size)
         if recording is None or reason is not None:
-            recording = self._begin(time_ns, size, reason)
+            rest = self.finish()
+            recording = self._begin(time_ns, size, reason, frame_id)
             recording.simulation.push(Frame(pixels, 0))
-            return Answer([], None, time_ns, frame_id)
+            self._recording = recording
+            return rest or Answer([], None, time_ns, frame_id)
         if time_ns - recording.last_ns < NS:
             self._drop(time_ns, recording)
             return Answer([], None, time_ns, frame_id)
-        recording.last_ns = time_ns
-        t_us = (time_ns - recording.first_ns) // NS
-        events = recording.simulation.push(Frame(pixels, t_us))
-        return Answer(self._maker.messages(events, t_us, frame_id), events, time_ns, frame_id)
+        self._recording = None  # one that stops in here cannot go on, nor be finished
+        recording.last_ns, recording.frame_id = time_ns, frame_id
+        events = recording.simulation.push(Frame(pixels, recording.last_us))
+        answer = self._answer(recording, events)
+        self._recording = recording
+        return answer
+
+    def finish(self) -> Answer | None:
+        """The events that the simulator held back, as V2CE does; the next image begins a recording.
+
+        Returns:
+            None where there is no such event.
+        """
+        recording, self._recording = self._recording, None
+        if recording is None:
+            return None
+        events = recording.simulation.finish()
+        return self._answer(recording, events) if len(events) else None
+
+    def _answer(self, recording: _Recording, events: EventStream) -> Answer:
+        frame_id = recording.frame_id
+        packets = self._maker.messages(events, recording.last_us, frame_id)
+        return Answer(packets, events, recording.last_ns, frame_id)
 
     def _restart_reason(self, time_ns: int, size: SensorSize) -> str | None:
         recording = self._recording
@@ -110,15 +139,16 @@ class ImageEvents:
             return f"time steps by {step_ns / NS_PER_S:+.3f} s, beyond max_gap"
         return None
 
-    def _begin(self, time_ns: int, size: SensorSize, reason: str | None) -> _Recording:
+    def _begin(
+        self, time_ns: int, size: SensorSize, reason: str | None, frame_id: str
+    ) -> _Recording:
         if reason is not None:
             self._warn(f"{reason}: a new recording begins")
         simulation = PushedSimulation(self._settings, size)
         check_side(simulation.size)
-        self._recording = _Recording(simulation, size, time_ns, time_ns)
         self._maker.start(time_ns)
         self.recordings += 1
-        return self._recording
+        return _Recording(simulation, size, time_ns, time_ns, frame_id)
 
     def _drop(self, time_ns: int, recording: _Recording) -> None:
         self.dropped += 1

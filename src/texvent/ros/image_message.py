@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError, few, shown
 from texvent.io.ros.messages import NS_PER_S
-from texvent.sensor import SensorSize
 
 
 class Encoding(NamedTuple):
@@ -91,11 +90,6 @@ def read_image(message: Any) -> NDArray[Any]:
     if encoding.order is None:
         return values.reshape(height, width)
     return values.reshape(height, width, encoding.channels)[:, :, list(encoding.order)]
-
-
-def image_size(message: Any) -> SensorSize:
-    """Width and height that an Image states."""
-    return SensorSize(int(message.width), int(message.height))
 
 
 def stamp_ns(message: Any) -> int:

@@ -23,7 +23,7 @@ from texvent.io.ros.messages import EVT3, NS, NS_PER_S, EventPacket
 from texvent.pipeline import Simulation
 from texvent.represent.event_frame import count_events
 from texvent.ros.config import RosConfig
-from texvent.ros.image_events import ImageEvents
+from texvent.ros.image_events import Answer, ImageEvents
 from texvent.ros.packet_messages import PacketMaker, check_side
 from texvent.run.settings import Settings
 
@@ -56,10 +56,15 @@ class Ros:
         )
 
 
-def run_image_node(settings: Settings, config: RosConfig, ros_arguments: Sequence[str]) -> int:
+def run_image_node(
+    ros: Ros, settings: Settings, config: RosConfig, ros_arguments: Sequence[str]
+) -> int:
     """Publish the events of an image topic until ROS shuts down or Ctrl-C.
 
+    Events that the simulator still holds back are published at the end, unless ROS is down.
+
     Args:
+        ros: rclpy and the messages.
         settings: options of the simulation.
         config: options of the node.
         ros_arguments: words for rclpy, beginning with --ros-args, or none.
@@ -68,14 +73,17 @@ def run_image_node(settings: Settings, config: RosConfig, ros_arguments: Sequenc
         Exit code 0.
 
     Raises:
-        MissingDependencyError: ROS 2 or a package of messages is not there.
         InputError: an image cannot be read; nothing is published of it.
     """
-    ros = Ros()
     with _open_node(ros, config, ros_arguments) as node:
         publishers = Publishers(ros, node, config)
         logic = ImageEvents(settings, config, node.get_logger().warning)
         failures: list[TexventError] = []
+
+        def give(answer: Answer) -> None:
+            publishers.publish(answer.packets)
+            if answer.events is not None:
+                publishers.show(answer.events, answer.stamp_ns, answer.frame_id)
 
         def take(message: Any) -> None:
             # An executor may swallow what a callback raises, so errors are kept for the loop.
@@ -84,9 +92,7 @@ def run_image_node(settings: Settings, config: RosConfig, ros_arguments: Sequenc
             except TexventError as error:
                 failures.append(error)
                 return
-            publishers.publish(answer.packets)
-            if answer.events is not None:
-                publishers.show(answer.events, answer.stamp_ns, answer.frame_id)
+            give(answer)
 
         node.create_subscription(
             ros.Image, config.image_topic, take, ros.profile(config.image_qos, config.queue)
@@ -96,17 +102,25 @@ def run_image_node(settings: Settings, config: RosConfig, ros_arguments: Sequenc
                 f"{config.image_topic} (sensor_msgs/Image) to {config.events_topic} "
                 f"(event_camera_msgs/EventPacket, {EVT3}), simulator {settings.run.simulator}"
             )
-        while ros.rclpy.ok() and not failures:
-            ros.rclpy.spin_once(node, timeout_sec=0.1)
+        try:
+            while ros.rclpy.ok() and not failures:
+                ros.rclpy.spin_once(node, timeout_sec=0.1)
+        finally:
+            rest = logic.finish() if ros.rclpy.ok() else None
+            if rest is not None:
+                give(rest)
         if failures:
             raise failures[0]
     return 0
 
 
-def run_source_node(simulation: Simulation, config: RosConfig, ros_arguments: Sequence[str]) -> int:
+def run_source_node(
+    ros: Ros, simulation: Simulation, config: RosConfig, ros_arguments: Sequence[str]
+) -> int:
     """Publish the events of a video or a prompt at its own speed.
 
     Args:
+        ros: rclpy and the messages.
         simulation: the run.
         config: options of the node.
         ros_arguments: words for rclpy, beginning with --ros-args, or none.
@@ -115,19 +129,23 @@ def run_source_node(simulation: Simulation, config: RosConfig, ros_arguments: Se
         Exit code 0.
 
     Raises:
-        MissingDependencyError: ROS 2 or a package of messages is not there.
         InputError: the frames cannot be used.
     """
     check_side(simulation.video.size)
     if config.loop and simulation.video.is_live:
         raise InputError("a live source cannot begin again; leave --loop out")
-    ros = Ros()
     with _open_node(ros, config, ros_arguments) as node:
         publishers = Publishers(ros, node, config)
         maker = PacketMaker(config.packet_us)
+        start_ns = 0
         for _ in itertools.count() if config.loop else range(1):
-            if not _play(simulation, config, node, publishers, maker, ros.rclpy.ok):
+            # A pass that ends before its own time, as with a rate above 1, delays the next stamps.
+            start_ns = max(node.get_clock().now().nanoseconds, start_ns)
+            maker.start(start_ns)
+            end_us = _play(simulation, config, node, publishers, maker, start_ns, ros.rclpy.ok)
+            if end_us is None:
                 break
+            start_ns += (end_us + 1) * NS
     return 0
 
 
@@ -137,12 +155,11 @@ def _play(
     node: Any,
     publishers: Publishers,
     maker: PacketMaker,
+    start_ns: int,
     is_ok: Callable[[], bool],
-) -> bool:
-    """Publish all events once; False if ROS shut down."""
-    start_ns = node.get_clock().now().nanoseconds
-    maker.start(start_ns)
-    began_ns, first_us, warned = time.monotonic_ns(), None, False
+) -> int | None:
+    """Publish all events once; how long they are, µs, or None if ROS shut down."""
+    began_ns, first_us, t_us, warned = time.monotonic_ns(), None, 0, False
     shown = [EventStream.empty(simulation.video.size)]
     for frame, packet in simulation.steps():
         first_us = frame.t_us if first_us is None else first_us
@@ -156,13 +173,13 @@ def _play(
                 node.get_logger().warning("the simulation is slower than --rate; events come late")
                 warned = True
         if not is_ok():
-            return False
+            return None
         publishers.publish(maker.messages(events, t_us, config.frame_id))
         shown.append(events)
         if frame.is_source:
             publishers.show(EventStream.concat(shown), start_ns + t_us * NS, config.frame_id)
             shown = shown[:1]
-    return True
+    return t_us
 
 
 class Publishers:

@@ -81,7 +81,7 @@ class PushedSimulation:
     def push(self, frame: Frame) -> EventStream:
         """The events between the frame before and this one; none for the first frame.
 
-        A model that needs later frames gives its events later.
+        A model that needs later frames gives its events later, the last ones in `finish`.
 
         Raises:
             InputError: another size, a time that does not increase, or a bad intensity; no frame
@@ -89,8 +89,15 @@ class PushedSimulation:
         """
         self._frames.waiting.append(frame)
         pair = next(self._pairs)
-        packets = [select_events(one, self._run) for _, one in self._simulator.advance(pair)]
-        return EventStream.concat([EventStream.empty(self.size), *packets])
+        return self._joined(self._simulator.advance(pair))
+
+    def finish(self) -> EventStream:
+        """The events that the model held back; no frame can be pushed after that."""
+        return self._joined(self._simulator.finish())
+
+    def _joined(self, packets: Iterator[tuple[Frame, EventStream]]) -> EventStream:
+        kept = [select_events(packet, self._run) for _, packet in packets]
+        return EventStream.concat([EventStream.empty(self.size), *kept])
 
 
 def check_pushable(settings: Settings) -> None:

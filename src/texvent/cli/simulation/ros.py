@@ -76,16 +76,16 @@ def run(arguments: Sequence[str]) -> int:
     from texvent.ros.node import Ros, run_image_node, run_source_node
 
     config = own.node_config()
-    Ros()  # before long work: says what is missing
+    ros = Ros()  # before long work: says what is missing
     if own.source is None and own.prompt is None:
-        return run_image_node(settings, config, ros_words)
+        return run_image_node(ros, settings, config, ros_words)
     with ConsoleProgress(is_quiet=config.quiet) as progress:
         simulation: Any
         if own.prompt is not None:
             simulation = prepare_prompt(own.prompt, settings, progress=progress)
         else:
             simulation = prepare_source(own.source, settings, progress=progress)
-    return run_source_node(simulation, config, ros_words)
+    return run_source_node(ros, simulation, config, ros_words)
 
 
 def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
