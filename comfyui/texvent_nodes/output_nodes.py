@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from texvent._registry import CODECS
 from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
+from texvent.video import MICROSECONDS
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import PALETTES
 from texvent.view.windows.cut import cut_windows
@@ -20,8 +21,6 @@ from texvent.view.windows.cut import cut_windows
 from .event_nodes import EVENTS, RATE
 from .model_nodes import CATEGORY
 from .tensors import images_of
-
-MICROSECONDS = 1_000_000
 
 
 class TexventPreviewEvents:
@@ -116,8 +115,9 @@ def output_path(prefix: str, extension: str) -> Path:
     import folder_paths  # of ComfyUI
 
     root = Path(folder_paths.get_output_directory()).resolve()
-    wanted = (root / prefix.replace("\\", "/")).resolve()
-    if not wanted.is_relative_to(root) or wanted == root or "\0" in prefix:
+    # pathlib resolves no name with a NUL.
+    wanted = root if "\0" in prefix else (root / prefix.replace("\\", "/")).resolve()
+    if not wanted.is_relative_to(root) or wanted == root:
         raise OutputError(
             f"filename_prefix is {prefix[:80]!r}, which is no name inside the output folder; give "
             "one such as events/texvent"

@@ -170,7 +170,7 @@ def test_every_format_can_be_chosen_and_a_folder_is_written(output):
 
 
 @pytest.mark.parametrize(
-    "prefix", ["../x", "a/../../x", "/etc/x", "", ".", "..", "a\\..\\..\\x", "link/x"]
+    "prefix", ["../x", "a/../../x", "/etc/x", "", ".", "..", "a\\..\\..\\x", "link/x", "a\0b"]
 )
 def test_names_stay_inside_the_output_folder(output, tmp_path, prefix):
     (tmp_path / "outside").mkdir()
