@@ -26,6 +26,7 @@ from texvent.io.atomic import atomic_file
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import sidecar_text
 from texvent.io.ros.bags import EXTRA, TOPIC, McapCodec
+from texvent.io.ros.messages import FRAME
 from texvent.io.ros.sensor_bag import open_sensor_bag
 from texvent.video import Frame
 from texvent.view.drawing.canvas import Image, png_bytes
@@ -71,7 +72,7 @@ def write_foxglove(
     with atomic_file(path, overwrite=overwrite) as part, open_sensor_bag(part, "mcap") as bag:
         streams = [
             _events(packets, bag.events_topic(TOPIC, packets.size)),
-            _images(windows, palette, bag.compressed_topic(EVENT_IMAGES, "dvs", "png")),
+            _images(windows, palette, bag.compressed_topic(EVENT_IMAGES, FRAME, "png")),
         ]
         if frames is not None:
             streams.append(_frames(frames, bag.compressed_topic(FRAMES, "camera", "jpeg")))

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import html
-import re
 
 from texvent.events import EventStream
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.page.html_parts import cloud_data, script_json
 from texvent.view.page.sample import spread_sample
-from texvent.view.page.template import palette_properties, viewer_file
+from texvent.view.page.template import DARK_BY_CLASS, fill_template
 
 CLOUD_EVENTS = 10_000
 """Most events of a cloud: 120 kB."""
-SCRIPTS = ("state.js", "cloud.js", "controls.js")
+CLOUD_SCRIPTS = ("state.js", "cloud.js", "controls.js")
 
 
 def cloud_frame(events: EventStream) -> str:
@@ -25,20 +24,17 @@ def cloud_frame(events: EventStream) -> str:
     sample = spread_sample(events, CLOUD_EVENTS)
     extent = (int(events.t[0]), int(events.t[-1]))
     data = cloud_data(sample, extent, palette=palette, seen=len(events)) | {"is_embedded": True}
-    style = (
-        f"{viewer_file('frame.css')}:root {{ {palette_properties(palette)} }}\n"
-        f":root.dark {{ {palette_properties(palette.dark)} }}"
-    )
     note = "Drag to turn; after a click, the wheel zooms."
     if len(sample) < len(events):
         note += f" {len(sample):,} of {len(events):,} events, evenly drawn."
-    parts = {
-        "note": note,
-        "style": style,
-        "data": script_json(data),
-        "script": "\n".join(map(viewer_file, SCRIPTS)),
-    }
-    page = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], viewer_file("frame.html"))
+    page = fill_template(
+        "frame.html",
+        {"note": note, "data": script_json(data)},
+        palette=palette,
+        style="frame.css",
+        scripts=CLOUD_SCRIPTS,
+        dark=DARK_BY_CLASS,
+    )
     return (
         f'<iframe title="Events in space and time" loading="lazy" '
         f'srcdoc="{html.escape(page)}"></iframe>'

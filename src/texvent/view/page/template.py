@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import resources
 
 from texvent.view.drawing.palettes import Palette
@@ -11,19 +11,33 @@ from texvent.view.drawing.palettes import Palette
 SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
 """Parts of the viewer, in the order in which they build on one another."""
 PALETTE_PARTS = ("on", "off", "background", "ink")
+DARK_BY_SYSTEM = "@media (prefers-color-scheme: dark) {\n  :root { %s }\n}"
+DARK_BY_CLASS = ":root.dark { %s }"
+"""Rules for the colours of dark mode: where the system asks for it, or the page around this one."""
 
 
-def fill_template(name: str, parts: Mapping[str, str], *, palette: Palette) -> str:
+def fill_template(
+    name: str,
+    parts: Mapping[str, str],
+    *,
+    palette: Palette,
+    style: str = "page.css",
+    scripts: Sequence[str] = SCRIPTS,
+    dark: str = DARK_BY_SYSTEM,
+) -> str:
     """The page with every `{{name}}` replaced, in one pass: inserted text is never read again.
 
     Args:
         name: file in viewer/.
         parts: what to insert, as HTML.
         palette: the colours; in dark mode those of its dark twin.
+        style: file in viewer/, for `{{style}}`.
+        scripts: files in viewer/, for `{{script}}`.
+        dark: the rule for dark mode.
     """
     known = {
-        "style": f"{viewer_file('page.css')}\n{_palette_css(palette)}",
-        "script": "\n".join(map(viewer_file, SCRIPTS)),
+        "style": f"{viewer_file(style)}\n{_palette_css(palette, dark)}",
+        "script": "\n".join(map(viewer_file, scripts)),
         **parts,
     }
     return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], viewer_file(name))
@@ -34,9 +48,8 @@ def viewer_file(name: str) -> str:
     return resources.files("texvent.view.page").joinpath("viewer", name).read_text("utf-8")
 
 
-def _palette_css(palette: Palette) -> str:
-    light, dark = map(palette_properties, (palette, palette.dark))
-    return f":root {{ {light} }}\n@media (prefers-color-scheme: dark) {{\n  :root {{ {dark} }}\n}}"
+def _palette_css(palette: Palette, dark: str) -> str:
+    return f":root {{ {palette_properties(palette)} }}\n{dark % palette_properties(palette.dark)}"
 
 
 def palette_properties(palette: Palette) -> str:
