@@ -1,17 +1,33 @@
 """Edits that a stream and packets have as methods: parts, other sizes, turned, filtered.
 
 Each is one function of `texvent.transform`, for both kinds of recordings; a stream gives a stream,
-packets give packets that are made as they are read.
+packets give packets that are made as they are read. Each is noted under `edits` in the metadata, as
+`texvent convert` does.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 if TYPE_CHECKING:
     from texvent.sensor import SizeLike
     from texvent.transform.filters.protocol import EventFilter
     from texvent.transform.orientation import Axes
+
+
+def with_edit(metadata: Mapping[str, Any], edit: Mapping[str, Any]) -> dict[str, Any]:
+    """Metadata with one more entry under `edits`: what was done to the events after their run.
+
+    An entry has the names and values of the options of `texvent convert`.
+    """
+    before = metadata.get("edits")
+    return {**metadata, "edits": [*(before if isinstance(before, list) else ()), dict(edit)]}
+
+
+def time_edit(start_us: int, stop_us: int) -> dict[str, str]:
+    """The entry of a part in time, `START,STOP` in seconds."""
+    return {"time": f"{start_us / 1_000_000},{stop_us / 1_000_000}"}
 
 
 class EventEdits:

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
-from texvent.event_edits import EventEdits
+from texvent.event_edits import EventEdits, time_edit, with_edit
 from texvent.events import EventStream
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.runtime.read_once import ReadOnce
@@ -118,7 +118,9 @@ class EventPackets(EventEdits):
                 found while reading, where the format does not tell its times before.
         """
         check_time_range(start_us, stop_us)
-        return self.cut(start_us, stop_us, partial(warn_of_doubtful_range, start_us, stop_us))
+        part = self.cut(start_us, stop_us, partial(warn_of_doubtful_range, start_us, stop_us))
+        noted = with_edit(self.metadata, time_edit(start_us, stop_us))
+        return EventPackets(part.packets, part.size, noted)
 
     def cut(
         self, start_us: int, stop_us: int, on_times: Callable[[SeenTimes], None] = _ignore

@@ -12,6 +12,7 @@ What always holds:
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -21,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.errors import InputError
-from texvent.event_edits import EventEdits
+from texvent.event_edits import EventEdits, time_edit, with_edit
 from texvent.sensor import MAX_SIDE, SensorSize, SizeLike, as_size
 from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
@@ -207,7 +208,8 @@ class EventStream(EventEdits):
         if len(self):
             seen = SeenTimes(int(self.t[0]), int(self.t[-1]) + 1)
             warn_of_doubtful_range(start_us, stop_us, seen)
-        return self.cut(start_us, stop_us)
+        part = self.cut(start_us, stop_us)
+        return part.with_metadata(with_edit(self.metadata, time_edit(start_us, stop_us)))
 
     def cut(self, start_us: int, stop_us: int) -> EventStream:
         """As `between`, for programs that go through time: any range is taken without a word."""
@@ -225,7 +227,9 @@ class EventStream(EventEdits):
 
     def with_metadata(self, metadata: Mapping[str, Any]) -> EventStream:
         """The same events with other metadata."""
-        return EventStream(**self.columns(), size=self.size, metadata=metadata)
+        changed = copy.copy(self)  # the columns were checked
+        object.__setattr__(changed, "metadata", metadata)
+        return changed
 
     def without_label(self) -> EventStream:
         """The same events without the signal/noise column."""

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
 from texvent.pipeline import text_to_events
 from texvent.run.replay import prepare_replay, render_again
 from texvent.run.settings import resolve
@@ -43,6 +44,19 @@ def test_a_generated_recording_is_filmed_again_from_its_provenance(simulation) -
 )
 def test_other_recordings_cannot_be_filmed_again(simulation, changed: dict[str, object]) -> None:
     assert render_again({**simulation.provenance, **changed}) is None
+
+
+def test_a_part_in_time_fits_its_video_and_an_edited_one_does_not(simulation) -> None:
+    events = EventStream.from_columns(
+        [1], [1], [60_000], [1], size=(48, 36), metadata=simulation.provenance
+    )
+    assert render_again(events.between(50_000, 150_000).metadata) is not None
+    turned = events.between(50_000, 150_000).rotate(180)
+    assert render_again(turned.metadata) is None
+    with pytest.raises(InputError, match="the file was cut in time after its run"):
+        prepare_replay(events.between(0, 150_000).metadata, path=Path("events.h5"))
+    with pytest.raises(InputError, match="the file was edited after its run"):
+        prepare_replay(turned.metadata, path=Path("events.h5"))
 
 
 def test_recordings_from_before_an_option_was_removed_are_made_again(simulation) -> None:

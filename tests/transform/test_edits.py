@@ -17,6 +17,7 @@ from texvent.transform.downsample import block_pixels, fire_blocks_reference
 from texvent.transform.downsample_cpu import fire_blocks
 from texvent.transform.orientation import shift
 from texvent.transform.reversal import flip_polarity, reverse_time
+from texvent.transform.window import start_at_zero
 
 from .recordings import CUTS, SIZE, packets, rows_of, stream, streams
 
@@ -44,7 +45,38 @@ def test_edits_by_hand() -> None:
     assert rows_of(events.crop(1, 1, 3, 2)) == [(1, 0, 2, 1)]
     assert rows_of(events.downsample(4)) == [(0, 0, 1, 1), (1, 1, 2, 0), (0, 0, 2, 1)]
     assert rows_of(shift(events, 1, -1)) == [(3, 0, 2, 1)]
-    assert events.rotate(90).metadata == {"seed": 1}
+
+
+EVERY_EDIT: dict[str, tuple[Callable[[EventStream], EventStream], dict[str, object]]] = {
+    "crop": (lambda events: events.crop(2, 1, 4, 3), {"crop": "2,1,4,3"}),
+    "resize": (lambda events: events.resize((5, 7)), {"resize": "5x7"}),
+    "downsample": (lambda events: events.downsample(3), {"downsample": 3}),
+    "mean": (lambda events: events.downsample(2, how="mean"), {"downsample": 2, "how": "mean"}),
+    "flip": (lambda events: events.flip("xy"), {"flip": "xy"}),
+    "rotate": (lambda events: events.rotate(180), {"rotate": 180}),
+    "filter": (
+        lambda events: events.filter("refractory", period_us=5),
+        {"filter": ["refractory:period_us=5"]},
+    ),
+    "mask": (
+        lambda events: events.filter("mask", pixels=np.zeros((6, 8), bool)),
+        {"filter": ["mask:pixels"]},
+    ),
+    "from zero": (start_at_zero, {"from_zero": True}),
+    "between": (lambda events: events.between(500_000, 900_000), {"time": "0.5,0.9"}),
+}
+
+
+@pytest.mark.parametrize("name", EVERY_EDIT)
+def test_every_edit_is_noted_after_those_before_it(name: str) -> None:
+    change, noted = EVERY_EDIT[name]
+    events = stream([(2, 1, 600_000, 1), (3, 2, 700_000, 0)])
+    expected = {"seed": 1, "edits": [noted]}
+    assert change(events).metadata == expected
+    assert change(packets(events, [1])).metadata == expected
+    again = reverse_time(change(events))
+    assert again.metadata["edits"] == [noted, {"reverse_time": True}]
+    assert events.metadata == {"seed": 1}
 
 
 @given(streams())

@@ -57,7 +57,7 @@ def test_crop_keeps_the_region_and_moves_its_corner_to_zero() -> None:
     cut = crop(packets(events, 2), Region(2, 1, 3, 3))
     assert cut.size == SensorSize(3, 3)
     assert rows_of(cut) == [(0, 0, 2, 0), (2, 2, 3, 1)]
-    assert cut.collect().metadata == {"seed": 1}
+    assert cut.collect().metadata == {"seed": 1, "edits": [{"crop": "2,1,3,3"}]}
 
 
 @pytest.mark.parametrize("region", [(6, 0, 3, 1), (0, 0, 0, 1), (0, 5, 1, 2), (-1, 0, 2, 2)])

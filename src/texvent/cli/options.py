@@ -9,7 +9,7 @@ import itertools
 import re
 import typing
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -64,6 +64,8 @@ def parse_options(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
     )
     words = _current_flags(arguments, list(map(type, groups.values())))
+    lists = set(_list_flags(groups.values()))
+    _refuse_second_lists(words, lists)
     complaint = io.StringIO()
     try:
         with _registry, contextlib.redirect_stderr(complaint):
@@ -86,6 +88,7 @@ def parse_options(
     for part in dataclasses.fields(parsed):
         group = getattr(parsed, part.name)
         values.update({one.name: getattr(group, one.name) for one in dataclasses.fields(group)})
+    _refuse_no_values(words, lists, values)
     if "" in map(str.strip, arguments):
         _refuse_empty(values, groups.values())
     protect_inputs(_inputs(values, groups.values()))
@@ -105,6 +108,45 @@ def _inputs(values: Mapping[str, Any], groups: Iterable[Any]) -> Iterator[str | 
             is_path = isinstance(one, Path) and name not in outputs
             if is_path or (isinstance(one, str) and name in inputs):
                 yield one
+
+
+def _list_flags(groups: Iterable[Any]) -> Iterator[str]:
+    """The flags that take several values at once."""
+    for config in groups:
+        apart = {*getattr(config, "repeated", ()), *getattr(config, "positional", ())}
+        for name, hint in typing.get_type_hints(type(config)).items():
+            if typing.get_origin(without_none(hint)) is tuple and name not in apart:
+                yield f"--{name.replace('_', '-')}"
+
+
+def _flag_of(word: str) -> str:
+    return word.partition("=")[0].replace("_", "-")
+
+
+def _refuse_second_lists(words: Sequence[str], lists: Collection[str]) -> None:
+    """Refuse a list that is given twice, of which the parser would only take the last.
+
+    Raises:
+        ConfigError: see above.
+    """
+    flags = [_flag_of(word) for word in words]
+    for flag in flags:
+        if flag in lists and flags.count(flag) > 1:
+            raise ConfigError(f"{flag} is given twice; write {flag} A B, all values after one flag")
+
+
+def _refuse_no_values(
+    words: Sequence[str], lists: Collection[str], values: Mapping[str, Any]
+) -> None:
+    """Refuse the flag of a list without a value, which would do nothing.
+
+    Raises:
+        ConfigError: see above.
+    """
+    for flag in map(_flag_of, words):
+        name = flag[2:].replace("-", "_")
+        if flag in lists and values[name] == ():
+            raise ConfigError(f"{flag} needs at least one value")
 
 
 def _refuse_empty(values: Mapping[str, Any], groups: Iterable[Any]) -> None:

@@ -99,7 +99,8 @@ class BlockWriter:
         self._pending_events = 0
         self._first_us = 0
         self._last_us: int | None = None
-        self._has_label = self._has_ids = self._has_left_ids = False
+        self._has_label = self._has_ids = False
+        self._left_out: set[str] = set()
 
     def __enter__(self) -> Self:
         target = self._target
@@ -127,8 +128,10 @@ class BlockWriter:
         if len(packet) == 0:
             return
         if packet.instance is not None and not self._limits.keeps_ids:
-            self._warn_of_ids()
+            self._warn_of("instance and class of events, which are")
             packet = packet.with_ids(None, None)
+        if packet.label is not None and self._limits.label == "left out":
+            self._warn_of("signal/noise label, which is")
         self._check(packet)
         self._last_us = int(packet.t[-1])
         self._pending.append(packet)
@@ -184,14 +187,14 @@ class BlockWriter:
         """Whether the file holds the instance and class of events."""
         return self._limits.keeps_ids
 
-    def _warn_of_ids(self) -> None:
-        """Say once that ids are left out."""
-        if not self._has_left_ids:
+    def _warn_of(self, what: str) -> None:
+        """Say once that a column is left out."""
+        if what not in self._left_out:
             warn(
-                f"{self._target.path}: {self._limits.name} has no place for the instance and class "
-                f"of events, which are left out; {LABELLED} hold them"
+                f"{self._target.path}: {self._limits.name} has no place for the {what} left out; "
+                f"{LABELLED} hold {'them' if what.endswith('are') else 'it'}"
             )
-        self._has_left_ids = True
+        self._left_out.add(what)
 
     def _check(self, packet: EventStream) -> None:
         first_us, has_label = int(packet.t[0]), packet.label is not None

@@ -31,12 +31,12 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
     Returns:
         The video, not rendered before it is iterated; None where the recording was not made by
         such a generator, was made by another version, or was edited since (cropped, moved in
-        time), so that the video would not fit.
+        time), so that the video would not fit. A part in time fits.
     """
     name, prompt, tables = (metadata.get(key) for key in ("generator", "prompt", "settings"))
     if not (isinstance(name, str) and isinstance(prompt, str) and isinstance(tables, Mapping)):
         return None
-    if metadata.get("texvent_version") != full_version() or metadata.get("edits"):
+    if metadata.get("texvent_version") != full_version() or _is_changed(metadata):
         return None
     if "rig" in metadata:  # seen from another place, through another lens
         return None
@@ -57,6 +57,14 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
         # Any program can write metadata: a prompt that is no scene does not make events invalid.
         return None
     return video if isinstance(video, RenderableStream) else None
+
+
+def _is_changed(metadata: Mapping[str, Any]) -> bool:
+    """Whether events were edited after their run by more than parts in time."""
+    edits = metadata.get("edits") or []
+    return not isinstance(edits, list) or any(
+        not isinstance(edit, Mapping) or set(edit) != {"time"} for edit in edits
+    )
 
 
 def prepare_replay(
@@ -84,7 +92,8 @@ def prepare_replay(
         )
     if metadata.get("edits"):
         raise InputError(
-            "the file was edited after its run (see texvent info), so its run makes another one: "
+            f"the file was {'edited' if _is_changed(metadata) else 'cut in time'} after its run "
+            "(see texvent info), so its run makes another one: "
             f"{_command(tables, facts, path)}"
         )
     if metadata.get("complete") is False:

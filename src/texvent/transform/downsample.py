@@ -26,7 +26,7 @@ from texvent.config import check_range
 from texvent.errors import ConfigError, shown
 from texvent.events import EventStream
 from texvent.sensor import MAX_SIDE, SensorSize
-from texvent.transform.packets import Recording, map_in_order, map_packets, move_events
+from texvent.transform.packets import Recording, map_in_order, map_packets, move_events, note_edit
 
 NOTHING = -1
 """In the place of a polarity, where a block does not fire."""
@@ -55,14 +55,15 @@ def downsample(events: Recording, factor: int, *, how: Literal["all", "mean"] = 
         return move_events(packet, x, y, size)
 
     if how == "all":
-        return map_packets(events, place, size=size)
+        return note_edit(map_packets(events, place, size=size), events, downsample=int(factor))
     pixels = block_pixels(events.size, factor)
 
     def start() -> Callable[[EventStream], EventStream]:
         blocks = _Accumulator(pixels)
         return lambda packet: blocks.fire(place(packet))
 
-    return map_in_order(events, start, size=size)
+    means = map_in_order(events, start, size=size)
+    return note_edit(means, events, downsample=int(factor), how=how)
 
 
 def block_pixels(size: SensorSize, factor: int) -> NDArray[np.int64]:

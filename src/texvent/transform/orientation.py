@@ -13,7 +13,7 @@ import numpy as np
 from texvent.errors import ConfigError, shown
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.packets import Recording, map_packets, move_events
+from texvent.transform.packets import Recording, map_packets, move_events, note_edit
 
 Axes = Literal["x", "y", "xy"]
 QUARTER_TURNS = (0, 90, 180, 270)
@@ -27,6 +27,10 @@ def flip(events: Recording, axes: Axes) -> Recording:
     """
     if axes not in ("x", "y", "xy"):
         raise ConfigError(f"axes is {shown(axes)}; give 'x' (left-right), 'y' (top-bottom) or 'xy'")
+    return note_edit(_flip(events, axes), events, flip=axes)
+
+
+def _flip(events: Recording, axes: str) -> Recording:
     size = events.size
 
     def mirror(packet: EventStream) -> EventStream:
@@ -48,8 +52,14 @@ def rotate(events: Recording, degrees: int) -> Recording:
     """
     if degrees not in QUARTER_TURNS:
         raise ConfigError(f"degrees is {shown(degrees)}; it must be 0, 90, 180 or 270, clockwise")
-    if degrees in (0, 180):
-        return flip(events, "xy") if degrees else events
+    if degrees == 0:
+        return events
+    turned = _flip(events, "xy") if degrees == 180 else _turn(events, degrees)
+    return note_edit(turned, events, rotate=int(degrees))
+
+
+def _turn(events: Recording, degrees: int) -> Recording:
+    """Turned by 90 or 270 degrees."""
     size = events.size
     turned = SensorSize(size.height, size.width)
 
@@ -69,4 +79,4 @@ def shift(events: Recording, dx: int, dy: int) -> Recording:
         x, y = packet.x.astype(np.int32) + dx, packet.y.astype(np.int32) + dy
         return move_events(packet, x, y, packet.size)
 
-    return map_packets(events, move)
+    return note_edit(map_packets(events, move), events, shift=f"{dx},{dy}")

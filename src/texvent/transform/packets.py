@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.event_edits import with_edit
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -69,6 +70,14 @@ def move_events(
     if not inside.all():
         columns = {name: column[inside] for name, column in columns.items()}
     return EventStream(**columns, size=size, metadata=packet.metadata)
+
+
+def note_edit(changed: Recording, given: EventStream | EventPackets, **edit: Any) -> Recording:
+    """A recording with the edits of the one it was made of, and one more entry for this edit.
+
+    What single steps noted in between goes: one call is one entry.
+    """
+    return add_metadata(changed, {"edits": with_edit(given.metadata, edit)["edits"]})
 
 
 def add_metadata(events: Recording, facts: Mapping[str, Any]) -> Recording:

@@ -9,7 +9,7 @@ import numpy as np
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize, SizeLike, as_size
-from texvent.transform.packets import Recording, map_packets, move_events
+from texvent.transform.packets import Recording, map_packets, move_events, note_edit
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,8 @@ def crop(events: Recording, region: Region) -> Recording:
         y = packet.y.astype(np.int32) - region.y
         return move_events(packet, x, y, smaller)
 
-    return map_packets(events, cut, size=smaller)
+    place = f"{region.x},{region.y},{region.width},{region.height}"
+    return note_edit(map_packets(events, cut, size=smaller), events, crop=place)
 
 
 def resize(events: Recording, size: SizeLike) -> Recording:
@@ -67,4 +68,4 @@ def resize(events: Recording, size: SizeLike) -> Recording:
     def place(packet: EventStream) -> EventStream:
         return move_events(packet, columns[packet.x], rows[packet.y], new)
 
-    return map_packets(events, place, size=new)
+    return note_edit(map_packets(events, place, size=new), events, resize=str(new))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.transform.packets import Recording, map_packets
+from texvent.transform.packets import Recording, map_packets, note_edit
 
 
 def flip_polarity(events: Recording) -> Recording:
@@ -15,7 +15,7 @@ def flip_polarity(events: Recording) -> Recording:
         columns = {**packet.columns(), "p": np.uint8(1) - packet.p}
         return EventStream(**columns, size=packet.size, metadata=packet.metadata)
 
-    return map_packets(events, exchange)
+    return note_edit(map_packets(events, exchange), events, flip_polarity=True)
 
 
 def reverse_time(events: EventStream) -> EventStream:
@@ -31,8 +31,9 @@ def reverse_time(events: EventStream) -> EventStream:
     not reversed.
     """
     if not len(events):
-        return events
+        return note_edit(events, events, reverse_time=True)
     columns = {name: column[::-1] for name, column in events.columns().items()}
     columns["t"] = events.t[0] + (events.t[-1] - columns["t"])
     columns["p"] = np.uint8(1) - columns["p"]
-    return EventStream(**columns, size=events.size, metadata=events.metadata)
+    reverse = EventStream(**columns, size=events.size, metadata=events.metadata)
+    return note_edit(reverse, events, reverse_time=True)

@@ -6,7 +6,7 @@ the coefficients of the Brown-Conrady model (those of OpenCV), separated by blan
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from texvent.errors import FileFormatError, InputError, one_line
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.packets import map_packets, move_events
+from texvent.transform.packets import map_packets, move_events, note_edit
 
 ITERATIONS = 50
 """Of the fixed-point search; it stops earlier where it has settled."""
@@ -77,7 +77,7 @@ def undistort(events: EventPackets, calibration: Calibration) -> EventPackets:
         moved = places[packet.y, packet.x]
         return move_events(packet, moved[:, 0], moved[:, 1], packet.size)
 
-    return map_packets(events, move)
+    return note_edit(map_packets(events, move), events, undistort=asdict(calibration))
 
 
 def undistorted_pixels(size: SensorSize, calibration: Calibration) -> NDArray[np.int64]:

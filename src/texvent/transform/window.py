@@ -8,7 +8,7 @@ from texvent.errors import InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.time_range import SeenTimes, describe_outside
-from texvent.transform.packets import Recording, map_packets, packets_of
+from texvent.transform.packets import Recording, map_packets, note_edit, packets_of
 from texvent.video import MICROSECONDS
 
 
@@ -41,4 +41,4 @@ def start_at_zero(events: Recording) -> Recording:
         columns = {**packet.columns(), "t": packet.t - first_us}
         return EventStream(**columns, size=packet.size, metadata=packet.metadata)
 
-    return map_packets(events, shift)
+    return note_edit(map_packets(events, shift), events, from_zero=True)

@@ -165,6 +165,22 @@ def test_validate_says_whether_the_format_notices_damage(
     assert ("the format cannot notice" in said) is not has_checksums
 
 
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (("--filter", "refractory", "--filter", "rate-limit"), "--filter is given twice; write"),
+        (("--merge", "a.h5", "--merge=b.h5"), "--merge is given twice; write --merge A B"),
+        (("--filter",), "--filter needs at least one value"),
+        (("--filter", "--crop", "0,0,8,8"), "--filter needs at least one value"),
+    ],
+)
+def test_a_list_is_given_once_and_with_values(
+    recording: EventStream, capsys: pytest.CaptureFixture[str], words: tuple[str, ...], why: str
+) -> None:
+    assert why in refused(capsys, "convert", "in.h5", "out.h5", *words)
+    assert not Path("out.h5").exists()
+
+
 def test_filters_run_in_order_and_are_noted(
     recording: EventStream, capsys: pytest.CaptureFixture[str]
 ) -> None:

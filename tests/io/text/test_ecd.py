@@ -3,9 +3,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError, InputError, TexventWarning
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import load, open_events, save
 from texvent.io.text import rows as text_rows
@@ -117,3 +119,11 @@ def test_microseconds_where_seconds_belong_are_said(tmp_path: Path) -> None:
 def test_a_day_with_fractions_of_seconds_is_taken_without_a_word(tmp_path: Path) -> None:
     path = write(tmp_path, "".join(f"{10 * k}.5 3 4 1\n" for k in range(9_000)))
     assert len(load(path, size=(240, 180))) == 9_000  # warnings are errors in tests
+
+
+def test_the_label_is_left_out_with_one_warning(tmp_path: Path) -> None:
+    events = EventStream([0, 1], [0, 0], [1, 2], [1, 0], (4, 4), label=np.array([0, 1], np.uint8))
+    with pytest.warns(TexventWarning, match="no place for the signal/noise label, which") as said:
+        save(tmp_path / "events.txt", EventPackets([events[:1], events[1:]], events.size))
+    assert len(said) == 1
+    assert load(tmp_path / "events.txt").equals(events.without_label())

@@ -28,7 +28,7 @@ from texvent.transform.filters.hot_pixels import find_hot_pixels
 from texvent.transform.filters.pixel_mask import MaskFilter
 from texvent.transform.merge import merge
 from texvent.transform.orientation import Axes, flip, rotate
-from texvent.transform.packets import add_metadata, map_packets
+from texvent.transform.packets import map_packets, note_edit
 from texvent.transform.region import Region, crop, resize
 from texvent.transform.undistort import read_calibration, undistort
 from texvent.transform.window import start_at_zero
@@ -142,7 +142,7 @@ def run(arguments: Sequence[str]) -> int:
 
 def edit(events: EventPackets, options: ConvertOptions) -> EventPackets:
     """The recording after all edits that were asked for; they are noted in its metadata."""
-    events = _filtered(events, options)
+    given, events = events, _filtered(events, options)
     if options.undistort is not None:
         events = undistort(events, read_calibration(options.undistort))
     if options.crop is not None:
@@ -161,9 +161,7 @@ def edit(events: EventPackets, options: ConvertOptions) -> EventPackets:
     if options.drop_label:
         events = map_packets(events, EventStream.without_label)
     edits = _edits(options)
-    if not edits:
-        return events
-    return add_metadata(events, {"edits": [*events.metadata.get("edits", []), edits]})
+    return note_edit(events, given, **edits) if edits else events
 
 
 def _filtered(events: EventPackets, options: ConvertOptions) -> EventPackets:

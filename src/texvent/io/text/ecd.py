@@ -4,7 +4,7 @@ The rows hold neither the sensor size nor how the events were made, so texvent w
 `NAME.txt.json` beside the text, and reads the size from there. Any other file needs the size
 from the caller; it is never guessed from the largest coordinate.
 
-The signal/noise label of events has no place in these rows and is left out.
+The signal/noise label of events has no place in these rows and is left out, with a warning.
 
 Times are written with exactly six decimals: whole µs, read back unchanged.
 

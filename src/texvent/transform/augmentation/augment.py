@@ -16,7 +16,7 @@ from texvent.events import EventStream
 from texvent.options.parts import make_part
 from texvent.options.values import plain
 from texvent.transform.augmentation.protocol import Augmentation
-from texvent.transform.packets import add_metadata
+from texvent.transform.packets import note_edit
 
 MAX_SEED = 2**63 - 1
 
@@ -79,9 +79,9 @@ class Augment:
             key = np.random.SeedSequence(int(self.seed), spawn_key=(int(epoch), int(number), place))
             events = step.apply(events, np.random.Generator(np.random.PCG64(key)))  # type: ignore[union-attr]
         if not given.metadata:
-            return events
+            return events.with_metadata({})
         note = {"augment": self.description, "number": int(number), "epoch": int(epoch)}
-        return add_metadata(events, {"edits": [*given.metadata.get("edits", []), note]})
+        return note_edit(events, given, **note)
 
     @property
     def description(self) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from texvent._registry import FILTERS
@@ -10,7 +10,7 @@ from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.options.parts import make_part
 from texvent.transform.filters.protocol import EventFilter
-from texvent.transform.packets import Recording, map_in_order
+from texvent.transform.packets import Recording, map_in_order, note_edit
 
 
 def filter_events(events: Recording, which: str | EventFilter, **options: Any) -> Recording:
@@ -44,4 +44,17 @@ def filter_events(events: Recording, which: str | EventFilter, **options: Any) -
         keep = chosen.start(chosen_from)
         return lambda packet: packet[keep(packet)]
 
-    return map_in_order(events, start)
+    return note_edit(map_in_order(events, start), events, filter=[_words(which, options)])
+
+
+def _words(which: str | EventFilter, options: Mapping[str, Any]) -> str:
+    """A filter as `texvent convert --filter` has it; of arrays only the name."""
+    if not isinstance(which, str):
+        which, options = type(which).__name__, {**getattr(which, "__dict__", {})}
+    words = [
+        f"{name}={value}" if isinstance(value, str | int | float) else name
+        for name, value in options.items()
+    ]
+    if not words:
+        return which
+    return f"{which}{',' if ':' in which else ':'}{','.join(words)}"
