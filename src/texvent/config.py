@@ -10,12 +10,13 @@ the fields, `options/values.py` converts their values.
 from __future__ import annotations
 
 import math
+import numbers
 import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
@@ -32,13 +33,27 @@ def check_range(
     """Refuse an option outside `low..high` (both allowed), NaN and infinity; None is not given.
 
     Raises:
-        ConfigError: with the option's name, its value and the range.
+        ConfigError: with the option's name, its value and the range, or that it is no number.
     """
+    if value is not None and not isinstance(value, numbers.Real):
+        raise ConfigError(f"{name} is {shown(value)}; it must be a number")
     if value is not None and not (low <= value <= high and value != math.inf):
         allowed = f"at least {low:g}" if high == math.inf else f"{_number(low)}..{_number(high)}"
         if value == math.inf:
             allowed += " and finite"
         raise ConfigError(f"{name} is {_number(value)}; it must be {allowed}")
+
+
+def check_whole(name: str, value: Any, low: float = -math.inf, high: float = math.inf) -> None:
+    """Refuse what is no whole number in `low..high` (both allowed).
+
+    Raises:
+        ConfigError: with the option's name, its value and what is allowed.
+    """
+    is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    if not (is_number and math.isfinite(value) and value == int(value)):
+        raise ConfigError(f"{name} is {shown(value)}; it must be a whole number")
+    check_range(name, value, low, high)
 
 
 def _number(value: float | Fraction) -> str:

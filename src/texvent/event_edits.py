@@ -40,6 +40,7 @@ class EventEdits:
         """The events of a region, whose top left pixel (x, y) becomes (0, 0).
 
         Raises:
+            ConfigError: a number is not whole.
             InputError: the region is empty or reaches over the sensor's edge.
         """
         from texvent.transform.region import Region, crop

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.errors import InputError
 from texvent.event_edits import with_edit
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
@@ -20,6 +21,18 @@ Recording = TypeVar("Recording", EventStream, EventPackets)
 def packets_of(events: EventStream | EventPackets) -> Iterable[EventStream]:
     """The packets of a recording; a stream is one."""
     return (events,) if isinstance(events, EventStream) else events
+
+
+def check_stream(events: object, what: str) -> None:
+    """Refuse all but a stream where a change needs all events at once.
+
+    Raises:
+        InputError: `events` is something else.
+    """
+    if not isinstance(events, EventStream):
+        raise InputError(
+            f"{what} takes an EventStream, not {type(events).__name__}; of packets call .collect()"
+        )
 
 
 def map_packets(

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from texvent.config import check_whole
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize, SizeLike, as_size
@@ -28,8 +29,11 @@ def crop(events: Recording, region: Region) -> Recording:
     """The events in a region, whose top left pixel becomes (0, 0).
 
     Raises:
+        ConfigError: one of its numbers is not whole.
         InputError: the region is empty or reaches over the sensor's edge.
     """
+    for name, value in vars(region).items():
+        check_whole(name, value)
     size = events.size
     fits_x = 0 <= region.x < region.x + region.width <= size.width
     fits_y = 0 <= region.y < region.y + region.height <= size.height

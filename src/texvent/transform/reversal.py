@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.transform.packets import Recording, map_packets, note_edit
+from texvent.transform.packets import Recording, check_stream, map_packets, note_edit
 
 
 def flip_polarity(events: Recording) -> Recording:
@@ -29,7 +29,11 @@ def reverse_time(events: EventStream) -> EventStream:
     threshold. Played backwards, the same change ends where it began, so a camera's event comes
     later, by up to the time between two events; noise, refractory period and unequal thresholds are
     not reversed.
+
+    Raises:
+        InputError: packets, or anything else.
     """
+    check_stream(events, "reverse_time")
     if not len(events):
         return note_edit(events, events, reverse_time=True)
     columns = {name: column[::-1] for name, column in events.columns().items()}

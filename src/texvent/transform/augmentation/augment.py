@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from texvent._registry import AUGMENTATIONS
-from texvent.config import check_range
+from texvent.config import check_whole
 from texvent.errors import ConfigError, shown
 from texvent.events import EventStream
 from texvent.options.parts import make_part
 from texvent.options.values import plain
 from texvent.transform.augmentation.protocol import Augmentation
-from texvent.transform.packets import note_edit
+from texvent.transform.packets import check_stream, note_edit
 
 MAX_SEED = 2**63 - 1
 
@@ -45,8 +45,8 @@ class Augment:
     """0..2⁶³−1."""
 
     def __post_init__(self) -> None:
-        check_range("seed", self.seed, 0, MAX_SEED)
-        if isinstance(self.steps, str):
+        check_whole("seed", self.seed, 0, MAX_SEED)
+        if isinstance(self.steps, str) or not isinstance(self.steps, Iterable):
             raise ConfigError(f"steps is {shown(self.steps)}; give a list, such as ['flip-x']")
         steps = tuple(
             make_part(AUGMENTATIONS, step, {}) if isinstance(step, str) else step
@@ -69,11 +69,12 @@ class Augment:
             epoch: which pass over the samples, 0 or more.
 
         Raises:
-            ConfigError: a number below 0.
-            InputError: a step does not fit the sensor, such as a crop larger than it.
+            ConfigError: a number that is not whole, or below 0.
+            InputError: no stream; or a step does not fit the sensor, such as a crop larger than it.
         """
-        check_range("number", number, 0, MAX_SEED)
-        check_range("epoch", epoch, 0, MAX_SEED)
+        check_stream(events, "Augment")
+        check_whole("number", number, 0, MAX_SEED)
+        check_whole("epoch", epoch, 0, MAX_SEED)
         given = events
         for place, step in enumerate(self.steps):
             key = np.random.SeedSequence(int(self.seed), spawn_key=(int(epoch), int(number), place))

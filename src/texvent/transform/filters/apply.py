@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent._registry import FILTERS
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.options.parts import make_part
 from texvent.transform.filters.protocol import EventFilter
@@ -36,15 +39,36 @@ def filter_events(events: Recording, which: str | EventFilter, **options: Any) -
         chosen: EventFilter = make_part(FILTERS, which, options)
     elif options:
         raise ConfigError("options belong to a filter called by its name; give them to the filter")
+    elif isinstance(which, type) or not callable(getattr(which, "start", None)):
+        raise ConfigError(
+            f"{shown(which)} is no filter; give a name ({', '.join(FILTERS.names())}) or an object "
+            "with start(events)"
+        )
     else:
         chosen = which
     chosen_from = events
 
     def start() -> Callable[[EventStream], EventStream]:
         keep = chosen.start(chosen_from)
-        return lambda packet: packet[keep(packet)]
+        return lambda packet: packet[_checked(keep(packet), packet, which)]
 
     return note_edit(map_in_order(events, start), events, filter=[_words(which, options)])
+
+
+def _checked(mask: Any, packet: EventStream, which: str | EventFilter) -> NDArray[np.bool_]:
+    """What a filter gave, if it is a mask.
+
+    Raises:
+        InputError: see above, with the filter's name.
+    """
+    kept = np.asarray(mask)
+    if kept.dtype != np.bool_ or kept.shape != (len(packet),):
+        name = which if isinstance(which, str) else type(which).__name__
+        raise InputError(
+            f"the filter {name} gave {kept.dtype} of shape {kept.shape}; it must give a mask, "
+            f"bool of shape ({len(packet)},), true where an event stays"
+        )
+    return kept
 
 
 def _words(which: str | EventFilter, options: Mapping[str, Any]) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.config import check_range
+from texvent.config import check_range, check_whole
 from texvent.events import EventStream
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
@@ -35,7 +35,7 @@ def draw_cloud(
     Raises:
         ConfigError: a value is out of range.
     """
-    check_range("max_events", max_events, 1)
+    check_whole("max_events", max_events, 1)
     check_range("point_size", point_size, 0.0)
     colours = get_palette(palette)
     sample = spread_sample(events, max_events)
