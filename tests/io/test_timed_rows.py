@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.errors import FileFormatError
 from texvent.event_packets import SeekablePackets
 from texvent.events import EventStream
 from texvent.io.files import open_events
-from texvent.io.timed_rows import TimedRows
+from texvent.io.timed_rows import TimedRows, seek_rows
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(64, 48)
@@ -71,6 +75,41 @@ def test_bisection_reads_few_events(unit: int) -> None:
         assert rows.find(t_us) == np.searchsorted(times[::unit], t_us)
         assert len(asked) <= 11
         assert all(index % unit == 0 for index in asked)
+
+
+def write_v2e(path: Path, times: list[int]) -> Path:
+    recording(len(times)).save(path, format="v2e")
+    with h5py.File(path, "r+") as file:
+        file["events"][:, 0] = times
+    return path
+
+
+@pytest.mark.parametrize("is_first_least", [False, True])
+def test_bisection_of_a_file_out_of_order_is_refused(tmp_path: Path, is_first_least: bool) -> None:
+    times = np.random.default_rng(3).integers(0, 400_000, 2000)
+    times[[0, -1]] = (0, 400_000) if is_first_least else (400_000, 0)
+    opened = open_events(write_v2e(tmp_path / "a.h5", times.tolist()), format="v2e")
+    with pytest.raises(FileFormatError, match="time decreases from"):
+        opened.between(100_000, 200_000).collect()
+    with pytest.raises(FileFormatError, match="time decreases from"):
+        opened.cut(100_000, 200_000).collect()
+    if not is_first_least:
+        with pytest.raises(FileFormatError, match="time decreases from 400000 to 0 µs"):
+            _ = opened.time_range
+
+
+def test_times_that_decrease_inside_a_part_or_between_its_blocks_are_refused(
+    tmp_path: Path,
+) -> None:
+    for times, block in (([10, 20, 50, 40, 60, 70], 6), ([10, 20, 50, 40, 60, 70], 3)):
+
+        @contextmanager
+        def opened(times: list[int] = times, block: int = block) -> Iterator[TimedRows]:
+            stored = np.array(times)
+            yield TimedRows(6, times.__getitem__, lambda a, b: {"t": stored[a:b]}, block)
+
+        with pytest.raises(FileFormatError, match="time decreases from 50 to 40 µs"):
+            [*seek_rows(tmp_path / "a.h5", opened).blocks(15, 65)]
 
 
 PEAK = """

@@ -55,7 +55,7 @@ class EvrealFolderCodec(FolderCodec):
         _open_arrays(path)
         size, metadata = _read_facts(path)
         rows = partial(_open_rows, path)
-        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(rows))
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:

@@ -153,7 +153,7 @@ class Hdf5Codec(Hdf5BlockCodec):
             _checked_columns(file, path)
             size, metadata = stored_size(file), read_metadata(file, path) or {}
         rows = partial(_open_rows, path)
-        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(rows))
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
 
 
 @contextmanager

@@ -81,7 +81,7 @@ class V2eHdf5Codec(Hdf5BlockCodec):
             _checked_events(file, path)
             size, metadata = stored_size(file), read_metadata(file, path) or {}
         rows = partial(_open_rows, path)
-        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(rows))
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
 
 
 def _checked_events(file: Any, path: Path) -> Any:

@@ -144,7 +144,7 @@ class EcfHdf5Codec(Hdf5BlockCodec):
             _checked_events(file, path)
             size, metadata = _stored_size(file), _read_metadata(file, path)
         rows = partial(_open_rows, path)
-        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(rows))
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
 
 
 @contextmanager
