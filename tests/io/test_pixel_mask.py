@@ -16,13 +16,14 @@ MASK = np.zeros((3, 5), bool)
 MASK[1, 4] = MASK[2, 0] = True
 
 
-@pytest.mark.parametrize("name", ["hot.npy", "hot.png", "hot.txt", "hot.PNG"])
+@pytest.mark.parametrize("name", ["hot.npy", "hot.png", "hot.txt", "hot.PNG", "hot.NPY"])
 def test_a_mask_comes_back(tmp_path: Path, name: str) -> None:
     path = tmp_path / name
     write_pixel_mask(path, MASK, overwrite=False)
     found = read_pixel_mask(path, SIZE)
     assert found.dtype == np.bool_
     np.testing.assert_array_equal(found, MASK)
+    assert [one.name for one in tmp_path.iterdir()] == [name]
     with pytest.raises(OutputError):
         write_pixel_mask(path, MASK, overwrite=False)
 

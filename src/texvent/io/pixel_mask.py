@@ -60,7 +60,8 @@ def write_pixel_mask(path: Path, mask: NDArray[np.bool_], *, overwrite: bool) ->
 
             part.write_bytes(cv2.imencode(".png", mask.astype(np.uint8) * 255)[1].tobytes())
         else:
-            np.save(part, mask)
+            with part.open("wb") as file:  # of a path, np.save takes .NPY for no extension
+                np.save(file, mask)
 
 
 def check_mask_name(path: Path) -> None:
