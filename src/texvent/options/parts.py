@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from texvent._registry import Registry, suggest
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, TexventError, shown
 from texvent.options.values import convert
 
 WORDS = {"true": True, "false": False, "none": None}
@@ -27,9 +27,15 @@ def make_part(
 
     Raises:
         ConfigError: unknown name or option, or a value of another type or out of range.
+        TexventError: the part, of another package, is no dataclass.
     """
     name, written = read_part(text)
     part_type = registry.load(name)
+    if not (isinstance(part_type, type) and dataclasses.is_dataclass(part_type)):
+        raise TexventError(
+            f"{registry.kind} {name!r} is {shown(part_type)}, no dataclass; the package that adds "
+            "it must make it one, whose fields are its options"
+        )
     hints = typing.get_type_hints(part_type)
     allowed = tuple(field.name for field in dataclasses.fields(part_type) if field.init)
     values = {}
