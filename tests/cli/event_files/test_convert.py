@@ -207,6 +207,7 @@ def test_hot_pixels_are_written_as_a_mask_that_other_runs_take(
     assert run("convert", "both.h5", "masked.h5", "--mask", "hot.png") == 0
     assert run("convert", "both.h5", "filtered.h5", "--filter", "hot-pixels") == 0
     masked = load("masked.h5")
+    assert masked.metadata["edits"][1:] == [{"mask": "hot.png"}]
     assert len(load("both.h5")) - len(masked) >= count
     assert not ((masked.x == 20) & (masked.y == 10)).any()
     assert load("filtered.h5").equals(masked)
@@ -214,6 +215,31 @@ def test_hot_pixels_are_written_as_a_mask_that_other_runs_take(
     assert "masks end in .npy, .png or .txt" in said
     assert run("convert", "in.h5", "x.h5", "--save-mask", "hot.png") == 3
     assert not Path("x.h5").exists()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--rotate", "45"), ("--flip", "z"), ("--downsample", "0"), ("--crop", "0,0,999,9"),
+        ("--resize", "0x3"), ("--time", "5,b"), ("--format", "nosuch"), ("--filter", "nosuch"),
+    ],
+    ids=lambda words: words[0],
+)  # fmt: skip
+def test_no_mask_is_written_where_another_option_is_wrong(
+    recording: EventStream, capsys: pytest.CaptureFixture[str], words: tuple[str, str]
+) -> None:
+    refused(capsys, "convert", "in.h5", "out.h5", "--save-mask", "hot.npy", *words)
+    assert [one.name for one in Path().iterdir()] == ["in.h5"]
+
+
+def test_the_filter_mask_is_the_option_mask_on_the_command_line(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for text in ("mask", "mask:pixels=hot.npy"):
+        said = refused(capsys, "convert", "in.h5", "out.h5", "--filter", text)
+        assert "use --mask FILE" in said
+    said = refused(capsys, "convert", "in.h5", "out.h5", "--filter", "nosuch")
+    assert "hot-pixels, rate-limit" in said
 
 
 def test_events_are_turned_mirrored_and_put_on_larger_pixels(recording: EventStream) -> None:

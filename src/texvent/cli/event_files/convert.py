@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar, cast
 
@@ -19,13 +19,14 @@ from texvent.events import EventStream
 from texvent.io.atomic import check_outputs
 from texvent.io.files import open_events, open_writer
 from texvent.io.pixel_mask import check_mask_name, read_pixel_mask, write_pixel_mask
-from texvent.options.parts import make_part
+from texvent.options.parts import make_part, read_part
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
 from texvent.transform.downsample import downsample
 from texvent.transform.filters.apply import filter_events
 from texvent.transform.filters.hot_pixels import find_hot_pixels
 from texvent.transform.filters.pixel_mask import MaskFilter
+from texvent.transform.filters.protocol import EventFilter
 from texvent.transform.merge import merge
 from texvent.transform.orientation import Axes, flip, rotate
 from texvent.transform.packets import map_packets, note_edit
@@ -42,6 +43,12 @@ DESCRIPTION = """Convert an event file, or a part of it, to another format. Memo
 
 Edits happen in this order: merge, mask, save-mask, filter, undistort, crop,
 resize, downsample, rotate, flip, from-zero, time."""
+
+MASK = "mask"
+TEXT_FILTERS = replace(
+    FILTERS, builtin={name: target for name, target in FILTERS.builtin.items() if name != MASK}
+)
+"""Filters whose options can be written as text."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,7 +127,10 @@ def run(arguments: Sequence[str]) -> int:
         arguments, {"input": ConvertOptions()}, prog="texvent convert", description=DESCRIPTION
     )
     out = options.target
-    events = edit(_open_inputs(options), options)
+    given = _open_inputs(options)
+    masked = _masked(given, options)
+    # Nothing is written until all options are accepted.
+    events = edit(masked, given, options)
     count = 0
     writer = open_writer(
         out,
@@ -129,6 +139,9 @@ def run(arguments: Sequence[str]) -> int:
         format=options.format,
         overwrite=options.overwrite,
     )
+    if options.save_mask is not None:
+        hot = find_hot_pixels(masked)
+        write_pixel_mask(options.save_mask, hot, overwrite=options.overwrite)
     with writer:
         for packet in events:
             writer.append(packet)
@@ -140,9 +153,15 @@ def run(arguments: Sequence[str]) -> int:
     return 0
 
 
-def edit(events: EventPackets, options: ConvertOptions) -> EventPackets:
-    """The recording after all edits that were asked for; they are noted in its metadata."""
-    given, events = events, _filtered(events, options)
+def edit(events: EventPackets, given: EventPackets, options: ConvertOptions) -> EventPackets:
+    """The recording after all edits but the mask; all that were asked for are noted in it.
+
+    Args:
+        events: the recording, its mask applied.
+        given: the recording before.
+        options: the command line.
+    """
+    events = _filtered(events, options)
     if options.undistort is not None:
         events = undistort(events, read_calibration(options.undistort))
     if options.crop is not None:
@@ -164,21 +183,32 @@ def edit(events: EventPackets, options: ConvertOptions) -> EventPackets:
     return note_edit(events, given, **edits) if edits else events
 
 
-def _filtered(events: EventPackets, options: ConvertOptions) -> EventPackets:
-    """The recording without the pixels of a mask, filtered; hot pixels are written where asked."""
-    if options.mask is not None:
-        events = filter_events(events, MaskFilter(read_pixel_mask(options.mask, events.size)))
+def _masked(events: EventPackets, options: ConvertOptions) -> EventPackets:
+    """The recording without the pixels of a mask; names of masks are checked."""
     if options.save_mask is not None:
         check_mask_name(options.save_mask)
         check_outputs([options.target, options.save_mask], overwrite=options.overwrite)
-    for text in options.filter:
-        make_part(FILTERS, text)  # refused before the input is read
-    if options.save_mask is not None:
-        hot = find_hot_pixels(events)
-        write_pixel_mask(options.save_mask, hot, overwrite=options.overwrite)
-    for text in options.filter:
-        events = filter_events(events, text)
+    if options.mask is None:
+        return events
+    return filter_events(events, MaskFilter(read_pixel_mask(options.mask, events.size)))
+
+
+def _filtered(events: EventPackets, options: ConvertOptions) -> EventPackets:
+    for chosen in [_make_filter(text) for text in options.filter]:
+        events = filter_events(events, chosen)
     return events
+
+
+def _make_filter(text: str) -> EventFilter:
+    """The filter that a text names.
+
+    Raises:
+        ConfigError: unknown name or option, or the mask, which has an option of its own.
+    """
+    if read_part(text)[0] == MASK:
+        raise ConfigError(f"--filter {MASK} cannot be given as text; use --mask FILE")
+    chosen: EventFilter = make_part(TEXT_FILTERS, text)
+    return chosen
 
 
 def parse_region(text: str) -> Region:
