@@ -24,28 +24,34 @@ class Scores(dict[str, float]):
             metrics: the metrics, which know their units and what is good.
         """
         super().__init__(values)
-        self._metrics = tuple(metrics)
-
-    def __reduce__(self) -> tuple[type[Scores], tuple[dict[str, float], tuple[Metric, ...]]]:
-        return Scores, (dict(self), self._metrics)
+        # Not the metrics: some hold networks, which would stay in memory and be pickled.
+        self._facts = {
+            metric.name: (
+                getattr(metric, "unit", ""),
+                GOOD.get(getattr(metric, "better", ""), ""),
+                getattr(metric, "blind_to", ""),
+            )
+            for metric in metrics
+        }
 
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
         """What a notebook shows: a table with units and what is good."""
-        known = {metric.name: metric for metric in self._metrics}
-        rows = [_cells(name, value, known.get(name)) for name, value in self.items()]
+        nothing = ("", "", "")
+        rows = [
+            _cells(name, value, *self._facts.get(name, nothing)) for name, value in self.items()
+        ]
         head = f"<thead>{_row('th', TITLES)}</thead>"
         body = "".join(_row("td", row) for row in rows)
         table = f'<table style="font-size:13px">{head}<tbody>{body}</tbody></table>'
         return {"text/plain": repr(self), "text/html": table}
 
 
-def _cells(name: str, value: float, metric: Metric | None) -> tuple[str, str, str, str]:
-    if metric is None:
-        return name, score_text(value), "", ""
-    measured = f"{score_text(value)} {metric.unit}".strip()
-    return name, measured, GOOD[metric.better], metric.blind_to
+def _cells(
+    name: str, value: float, unit: str, good: str, blind_to: str
+) -> tuple[str, str, str, str]:
+    return name, f"{score_text(value)} {unit}".strip(), good, blind_to
 
 
 def _row(tag: str, cells: Sequence[str]) -> str:

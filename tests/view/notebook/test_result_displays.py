@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import math
 import pickle
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +40,16 @@ def test_scores_are_a_dict_and_a_table():
     assert ">1.0000<" in table
     assert ">near 1<" in table
     assert f">0.0000 {load_metric('nearest').unit}<" in table
+
+
+def test_scores_let_their_metrics_go():
+    metric = load_metric("nearest")
+    scores, gone = Scores({"nearest": 1.0}, [metric]), weakref.ref(metric)
+    del metric
+    gc.collect()
+    assert gone() is None
+    assert b"NearestTime" not in pickle.dumps(scores)
+    assert "nearest" in scores._repr_mimebundle_()["text/html"]
 
 
 def test_an_undefined_score_says_so_and_names_are_escaped():
