@@ -259,3 +259,20 @@ def test_augmentations_depend_on_epoch_and_number_and_not_on_workers(samples, wo
         np.testing.assert_array_equal(sample["representation"].numpy(), expected)
     alone = StoredDataset(changed)[3, 1]["representation"]
     np.testing.assert_array_equal(alone, changed.make(3, epoch=1)["representation"])
+
+
+def test_an_epoch_chosen_during_a_pass_is_that_of_the_next_one(samples):
+    from texvent.dataset.loading.torch_loader import StoredDataset, StoredStream
+
+    changed = samples.augmented(Augment(["flip-x", "shift:pixels=3", "drop-events"], seed=2))
+    stream = StoredStream(changed, shuffle=True)
+    given = []
+    for sample in stream:
+        stream.set_epoch(1)
+        given.append(sample["number"])
+        expected = changed.make(sample["number"], epoch=0)["representation"]
+        np.testing.assert_array_equal(sample["representation"].numpy(), expected)
+    assert given == [sample["number"] for sample in StoredStream(changed, shuffle=True)]
+    assert given != [sample["number"] for sample in stream]
+    alone = StoredDataset(changed)[3]["representation"]
+    np.testing.assert_array_equal(alone, changed.make(3, epoch=0)["representation"])

@@ -103,7 +103,9 @@ class StoredDataset(_Dataset):
     """Stored samples as a map-style dataset, for samplers and loaders of your own.
 
     `[i]` gives what `StoredSamples.make` gives; `collate` puts such samples together. `[i, epoch]`
-    draws the augmentation of that epoch.
+    draws the augmentation of that epoch, and `[i]` that of epoch 0: with a sampler that gives
+    numbers alone, augmentations are the same in every epoch. Let it give pairs `(i, epoch)`, or
+    use `Loader` or `StoredStream`.
     """
 
     def __init__(self, samples: StoredSamples) -> None:
@@ -154,7 +156,7 @@ class StoredStream(_IterableDataset):
         self._epoch = _torch.zeros(1, dtype=_torch.int64).share_memory_()
 
     def set_epoch(self, epoch: int) -> None:
-        """Choose the order of the next pass, also in workers that run already.
+        """Choose order and augmentations of the next pass, also in workers that run already.
 
         Raises:
             ConfigError: epoch is below 0.
@@ -164,19 +166,17 @@ class StoredStream(_IterableDataset):
 
     def __len__(self) -> int:
         """Number of samples of this rank."""
-        return len(self._numbers())
+        return len(self.sharing.numbers(self.samples, int(self._epoch[0])))
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
         """This worker's samples, arrays as tensors; all of the rank's outside a worker."""
         info = _data.get_worker_info()
         worker, workers = (0, 1) if info is None else (info.id, info.num_workers)
-        numbers, size = self._numbers(), self.sharing.batch_size
+        epoch = int(self._epoch[0])  # of the whole pass, whatever set_epoch says meanwhile
+        numbers, size = self.sharing.numbers(self.samples, epoch), self.sharing.batch_size
         for begin in range(worker * size, len(numbers), workers * size):
             for number in numbers[begin : begin + size].tolist():
-                yield as_tensors(self.samples.make(number, epoch=int(self._epoch[0])))
-
-    def _numbers(self) -> NDArray[np.int64]:
-        return self.sharing.numbers(self.samples, int(self._epoch[0]))
+                yield as_tensors(self.samples.make(number, epoch=epoch))
 
 
 class Loader:
