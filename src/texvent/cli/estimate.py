@@ -57,8 +57,8 @@ class Estimate:
     """Extension → bytes that a file has in any case."""
     sizes_per_pair: Mapping[str, float]
     peak_bytes: int | None
-    """None where the system does not tell it."""
-    """Highest resident memory; it does not grow with the clip."""
+    """Highest resident memory, which does not grow with the clip; None where the system does not
+    tell it."""
 
     def events(self, pairs: int) -> float:
         """Events of a clip of that many pairs of frames."""

@@ -100,7 +100,7 @@ class DigitsReport(MarkdownReport):
     seconds: float
 
     def markdown(self) -> str:
-        """Accuracy of every arm, and the counts of events."""
+        """For each representation a heading and a table: the accuracy of every arm."""
         from texvent.bench.digits.report.page import accuracy_sections  # which reads reports
 
         return "\n\n".join(accuracy_sections(self))
