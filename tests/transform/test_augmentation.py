@@ -181,6 +181,8 @@ def test_what_is_wrong_is_refused_when_it_is_made() -> None:
         Augment("flip-x")
     with pytest.raises(ConfigError, match="7 is no augmentation"):
         Augment([7])
+    with pytest.raises(ConfigError, match=r"FlipX'> is no augmentation; give .* an object with"):
+        Augment([FlipX])
     with pytest.raises(ConfigError, match="crop needs width, height"):
         Augment(["crop"])
     with pytest.raises(ConfigError, match=r"probability is 2; it must be 0\.\.1"):

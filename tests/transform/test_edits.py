@@ -137,6 +137,12 @@ def test_a_block_fires_when_the_mean_of_its_pixels_has_changed_by_a_threshold() 
     assert rows_of(edge.downsample(5, how="mean")) == [(1, 1, 3, 0)]
 
 
+@pytest.mark.parametrize("how", ["all", "mean"])
+def test_a_factor_may_be_a_float_that_is_whole(how: str) -> None:
+    events = stream([(x, 0, x, 1) for x in range(8)])
+    assert events.downsample(2.0, how=how).equals(events.downsample(2, how=how))
+
+
 def test_a_brightness_step_of_the_whole_block_fires_once_per_threshold() -> None:
     """Every pixel sees the same three steps up: so does their mean."""
     rows = [(x, y, 10 * step, 1) for step in range(3) for y in range(6) for x in range(8)]

@@ -13,8 +13,9 @@ from texvent.events import EventStream
 from texvent.options.parts import read_part
 from texvent.sensor import SensorSize
 from texvent.transform.filters import kernels_cpu, reference
-from texvent.transform.filters.hot_pixels import find_hot_pixels
+from texvent.transform.filters.hot_pixels import find_hot_pixels, mask_hot_pixels
 from texvent.transform.filters.pixel_mask import MaskFilter
+from texvent.transform.filters.rate_limit import RateLimitFilter
 from texvent.transform.filters.refractory import RefractoryFilter
 
 from .recordings import CUTS, SIZE, packets, rows_of, stream, streams
@@ -65,6 +66,52 @@ def test_a_rate_limit_keeps_the_first_events_of_a_window() -> None:
     assert events.filter("rate-limit", rate_hz=4e5, window_us=5).x.tolist() == [0, 1, 3, 4]
     with pytest.raises(ConfigError, match="give window_us of at least 1000"):
         events.filter("rate-limit", rate_hz=1e3, window_us=5)
+
+
+@given(st.integers(1, 10**5), st.integers(1, 10**5))
+def test_a_window_holds_whole_events(count: int, window_us: int) -> None:
+    """Also where the float nearest to the rate lies below it, as 3 / 700e-6 does."""
+    for rate_hz in (count / (window_us * 1e-6), count * 1e6 / window_us):
+        assert RateLimitFilter(rate_hz=rate_hz, window_us=window_us).most == count
+        more = RateLimitFilter(rate_hz=rate_hz * 1.0000001, window_us=window_us)
+        assert more.most == count
+    if count > 1:
+        less = RateLimitFilter(rate_hz=count * 0.9999999e6 / window_us, window_us=window_us)
+        assert less.most == count - 1
+
+
+def test_a_window_of_the_length_that_the_message_names_holds_an_event() -> None:
+    with pytest.raises(ConfigError, match=r"give window_us of at least 33$"):
+        RateLimitFilter(rate_hz=30303.0303030303, window_us=5)
+    assert RateLimitFilter(rate_hz=30303.0303030303, window_us=33).most == 1
+
+
+@pytest.mark.parametrize(
+    ("shape", "hot"),
+    [
+        ((1, 9), [(0, 4)]),
+        ((1, 9), [(0, 0), (0, 1)]),
+        ((9, 1), [(8, 0)]),
+        ((6, 8), [(0, 3), (1, 3)]),
+        ((6, 8), [(0, 0), (0, 1)]),
+        ((6, 8), [(4, 6), (5, 7)]),
+        ((6, 8), [(0, 0)]),
+    ],
+)
+def test_hot_pixels_are_found_at_the_edge_and_on_a_line_of_pixels(
+    shape: tuple[int, int], hot: list[tuple[int, int]]
+) -> None:
+    counts = np.ones(shape, np.int64)
+    for place in hot:
+        counts[place] = 100
+    assert [*map(tuple, np.argwhere(mask_hot_pixels(counts)).tolist())] == hot
+
+
+def test_a_line_that_ends_at_the_edge_is_not_hot() -> None:
+    counts = np.ones((6, 8), np.int64)
+    counts[:, 3] = 100
+    assert not mask_hot_pixels(counts).any()
+    assert not mask_hot_pixels(np.full((1, 1), 100)).any()
 
 
 def test_hot_pixels_are_found_and_masked() -> None:

@@ -46,6 +46,7 @@ def downsample(events: Recording, factor: int, *, how: Literal["all", "mean"] = 
     check_range("factor", factor, 1, MAX_SIDE)
     if factor != int(factor):
         raise ConfigError(f"factor is {shown(factor)}; it must be a whole number")
+    factor = int(factor)  # of 2.0, which is one
     if how not in ("all", "mean"):
         raise ConfigError(f"how is {shown(how)}; it must be 'all' or 'mean'")
     size = SensorSize(-(-events.size.width // factor), -(-events.size.height // factor))

@@ -53,7 +53,7 @@ class Augment:
             for step in self.steps
         )
         for step in steps:
-            if not callable(getattr(step, "apply", None)):
+            if isinstance(step, type) or not callable(getattr(step, "apply", None)):
                 raise ConfigError(
                     f"{shown(step)} is no augmentation; give a name "
                     f"({', '.join(AUGMENTATIONS.names())}) or an object with apply(events, chance)"

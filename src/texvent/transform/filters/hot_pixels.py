@@ -75,11 +75,26 @@ def mask_hot_pixels(
     """
     hot = np.zeros(counts.shape, np.bool_)
     y, x = np.nonzero(counts >= least_events)
-    if not len(y):
+    if not len(y) or counts.size == 1:
         return hot
-    # Mirrored, so that a line which ends at the sensor's edge has two busy neighbours there too.
-    padded = np.pad(counts, 1, mode="reflect")
-    neighbours = np.stack([padded[y + dy, x + dx] for dy, dx in AROUND])
-    second_busiest = np.sort(neighbours, axis=0)[-2]
-    hot[y, x] = counts[y, x] > factor * np.maximum(second_busiest, 1)
+    # A mirrored hot pixel would count twice and hide the one at the edge, so the second time those
+    # that were found are left out beyond the edge.
+    for _ in range(2):
+        padded = _mirrored(np.where(hot, 0, counts))
+        padded[1:-1, 1:-1] = counts
+        neighbours = np.stack([padded[y + dy, x + dx] for dy, dx in AROUND])
+        second_busiest = np.sort(neighbours, axis=0)[-2]
+        hot[y, x] = counts[y, x] > factor * np.maximum(second_busiest, 1)
     return hot
+
+
+def _mirrored(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Counts with one more pixel on each side, [H + 2, W + 2].
+
+    They are mirrored, so that a line which ends at the sensor's edge has two busy neighbours there
+    too. Across a single row or column there is nothing to mirror, and they are 0.
+    """
+    for axis, length in enumerate(counts.shape):
+        width = [(1, 1) if one == axis else (0, 0) for one in range(2)]
+        counts = np.pad(counts, width, mode="reflect" if length > 1 else "constant")
+    return counts

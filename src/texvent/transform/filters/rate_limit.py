@@ -13,12 +13,16 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.transform.filters.protocol import Keep
 
+ROUNDING = 4 * float(np.finfo(np.float64).eps)
+"""Relative error of a rate that was computed, such as 3 / 700e-6: it means 3 events in 700 µs."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class RateLimitFilter:
     """Keeps the first events of every window of time, up to a rate; later ones of it are lost.
 
-    Windows are half-open and begin at multiples of `window_us`.
+    Windows are half-open and begin at multiples of `window_us`. A window holds whole events: rate
+    times length, rounded down.
 
     Raises:
         ConfigError: a value out of range, or less than one event per window.
@@ -35,13 +39,14 @@ class RateLimitFilter:
         if self.most < 1:
             raise ConfigError(
                 f"rate_hz is {self.rate_hz:g}, less than one event per window of {self.window_us} "
-                f"µs; give window_us of at least {np.ceil(1e6 / self.rate_hz):.0f}"
+                f"µs; give window_us of at least "
+                f"{np.ceil(1e6 / self.rate_hz * (1 - ROUNDING)):.0f}"
             )
 
     @property
     def most(self) -> int:
         """Events that a window holds."""
-        return int(self.rate_hz * self.window_us / 1e6)
+        return int(self.rate_hz * self.window_us / 1e6 * (1 + ROUNDING))
 
     def start(self, events: EventStream | EventPackets) -> Keep:
         """See `EventFilter`."""
