@@ -37,7 +37,7 @@ def test_a_mask_written_by_hand(tmp_path: Path) -> None:
         read_pixel_mask(path, SIZE)
     for text in ("1\n", "1 2 3\n", "a b\n", "-1 2\n", "1.5 2\n"):
         path.write_text(f"0 0\n{text}")
-        with pytest.raises(FileFormatError, match="line 2"):
+        with pytest.raises(FileFormatError, match=f"line 2: '{text.strip()}' is not a pixel"):
             read_pixel_mask(path, SIZE)
 
 

@@ -183,7 +183,9 @@ def test_what_is_wrong_is_refused_when_it_is_made() -> None:
         Augment([7])
     with pytest.raises(ConfigError, match=r"FlipX'> is no augmentation; give .* an object with"):
         Augment([FlipX])
-    with pytest.raises(ConfigError, match="crop needs width, height"):
+    with pytest.raises(
+        ConfigError, match="crop needs width, height; write crop:width=VALUE,height=VALUE"
+    ):
         Augment(["crop"])
     with pytest.raises(ConfigError, match=r"probability is 2; it must be 0\.\.1"):
         Augment(["flip-x:probability=2"])

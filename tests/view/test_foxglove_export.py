@@ -96,6 +96,7 @@ def test_texvent_reads_the_events_back(tmp_path):
     ("config", "words"),
     [
         (RenderConfig(speed=0.5), "speed is 0.5; .mcap files keep the recording's time"),
+        (RenderConfig(panels=4), "panels is 4; only .png files have panels"),
     ],
 )
 def test_options_of_videos_are_refused(tmp_path, config, words):

@@ -107,7 +107,8 @@ def _read_text(path: Path, size: SensorSize) -> NDArray[np.bool_]:
         if not words:
             continue
         if len(words) != 2 or not all(word.isdigit() and len(word) < 9 for word in words):
-            raise FileFormatError(f"{path}, line {number}: {shown(line)} is not a pixel `x y`")
+            text = shown(line.decode(errors="replace"))
+            raise FileFormatError(f"{path}, line {number}: {text} is not a pixel `x y`")
         x, y = (int(word) for word in words)
         if x >= size.width or y >= size.height:
             raise InputError(f"{path}, line {number}: ({x}, {y}) lies outside a sensor of {size}")

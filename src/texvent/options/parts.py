@@ -49,7 +49,8 @@ def make_part(
         if field.name not in values and _is_needed(field)
     ]
     if missing:
-        raise ConfigError(f"{name} needs {', '.join(missing)}; write {name}:{missing[0]}=VALUE")
+        words = ",".join(f"{option}=VALUE" for option in missing)
+        raise ConfigError(f"{name} needs {', '.join(missing)}; write {name}:{words}")
     return part_type(**values)
 
 

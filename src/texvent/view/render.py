@@ -155,6 +155,8 @@ def _mcap(
         raise ConfigError("overlay is not drawn in .mcap files; leave it out, or render a video")
     if config.speed != 1:
         raise ConfigError(f"speed is {config.speed:g}; .mcap files keep the recording's time")
+    if config.panels > 1:
+        raise ConfigError(f"panels is {config.panels}; only .png files have panels, leave it out")
     step_us = config.step_us
     windows = _cut(packets, config, step_us, config.window_us or max(1, round(step_us)))
     extent = time_range(packets) if source.frames is not None else None

@@ -154,6 +154,17 @@ def test_info_knows_every_format_and_folders_too(
         assert (facts["events"], facts["sensor"], facts["seed"]) == (5000, "346x260", 7)
 
 
+def test_info_always_shows_what_was_done_since(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    many = {**dict.fromkeys("abcdefghijk", 1), "edits": [{"crop": "0,0,8,8"}]}
+    save("many.h5", recording.with_metadata(many))
+    assert run("info", "many.h5") == 0
+    shown = capsys.readouterr().out.splitlines()
+    assert len(shown) == 11
+    assert [line.split()[0] for line in shown].count("edits") == 1
+
+
 @pytest.mark.parametrize(("name", "has_checksums"), [("out.raw", False), ("in.h5", True)])
 def test_validate_says_whether_the_format_notices_damage(
     recording: EventStream, capsys: pytest.CaptureFixture[str], name: str, has_checksums: bool

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.errors import OutputError
+from texvent.errors import ConfigError, OutputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -118,6 +118,13 @@ def test_an_existing_page_is_kept_and_an_exception_leaves_none(
     path = show(make_events(5), tmp_path / "out.html")
     with pytest.raises(OutputError, match="exists already"):
         show(make_events(5), path)
+
+
+def test_another_name_than_that_of_a_page_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"x\.foo; the name of a page ends in \.html or \.htm"):
+        show(make_events(5), tmp_path / "x.foo")
+    assert not list(tmp_path.iterdir())
+    assert show(make_events(5), tmp_path / "x.HTM").exists()
 
 
 def test_without_a_path_the_browser_opens_a_temporary_page(

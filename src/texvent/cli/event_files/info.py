@@ -42,6 +42,8 @@ ORIGIN = (
     "texvent_version",
 )
 """What is said first of how a file was made."""
+EDITS = "edits"
+"""What was done to the events since: never left out."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,7 +88,9 @@ def _main_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
     measured = [name for name in single if name in MEASURED]
     origin = [name for name in ORIGIN if name in single]
     names = dict.fromkeys([*measured, *origin, *single])
-    return {name: single[name] for name in list(names)[:MAIN_LINES]}
+    edits = [EDITS] if EDITS in names else []
+    first = [name for name in names if name not in edits][: MAIN_LINES - len(edits)]
+    return {name: single[name] for name in [*first, *edits]}
 
 
 def is_event_path(path: Path) -> bool:

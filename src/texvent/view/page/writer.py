@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import OutputError
+from texvent.errors import ConfigError, OutputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
@@ -174,8 +174,11 @@ def show(
         Where the page is.
 
     Raises:
+        ConfigError: the name is not that of a page.
         OutputError: the file exists already or cannot be written.
     """
+    if path is not None and Path(path).suffix.lower() not in (".html", ".htm"):
+        raise ConfigError(f"cannot show events in {path}; the name of a page ends in .html or .htm")
     folder = None if path is not None else tempfile.mkdtemp(prefix="texvent-")
     page = Path(path) if path is not None else Path(str(folder)) / "events.html"
     packets = (events,) if isinstance(events, EventStream) else events
