@@ -72,6 +72,7 @@ sphinx_gallery_conf = {
     "within_subsection_order": "FileNameSortKey",
     "image_scrapers": ("matplotlib",),
     "matplotlib_animations": False,
+    "capture_repr": (),
     "remove_config_comments": True,
     "show_memory": False,
     "min_reported_time": 1e6,
