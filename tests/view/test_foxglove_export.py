@@ -92,16 +92,9 @@ def test_texvent_reads_the_events_back(tmp_path):
     assert events.metadata["prompt"] == "a dot"
 
 
-@pytest.mark.parametrize(
-    ("config", "words"),
-    [
-        (RenderConfig(speed=0.5), "speed is 0.5; .mcap files keep the recording's time"),
-        (RenderConfig(panels=4), "panels is 4; only .png files have panels"),
-    ],
-)
-def test_options_of_videos_are_refused(tmp_path, config, words):
-    with pytest.raises(ConfigError, match=words):
-        render_events(moving_dot(), tmp_path / "out.mcap", config=config)
+def test_a_speed_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match=r"speed is 0\.5; \.mcap files keep the recording's time"):
+        render_events(moving_dot(), tmp_path / "out.mcap", config=RenderConfig(speed=0.5))
     assert list(tmp_path.iterdir()) == []
 
 

@@ -83,14 +83,21 @@ def test_no_events_are_an_input_error(
     assert folder_is_clean()
 
 
-@pytest.mark.parametrize("panels", [1, 4])
-def test_one_event_can_be_shown_in_every_way(tmp_path: Path, panels: int) -> None:
+@pytest.mark.parametrize(
+    ("extension", "panels"), [(".mp4", 1), (".gif", 1), (".png", 1), (".png", 4), (".html", 1)]
+)
+def test_one_event_can_be_shown_in_every_way(tmp_path: Path, extension: str, panels: int) -> None:
     event = EventStream.from_columns([3], [4], [10**12], [1], size=SIZE)
-    for extension in (".mp4", ".gif", ".png", ".html"):
-        path = render_events(
-            event, tmp_path / f"{panels}{extension}", config=RenderConfig(panels=panels)
-        )
-        assert path.stat().st_size > 300
+    path = render_events(event, tmp_path / f"out{extension}", config=RenderConfig(panels=panels))
+    assert path.stat().st_size > 300
+
+
+@pytest.mark.parametrize("extension", [".mp4", ".gif", ".html", ".rrd", ".mcap"])
+def test_panels_are_refused_where_nothing_has_panels(tmp_path: Path, extension: str) -> None:
+    path = tmp_path / f"out{extension}"
+    with pytest.raises(ConfigError, match=r"panels is 4; only \.png files have panels"):
+        render_events(moving_dot(), path, config=RenderConfig(panels=4))
+    assert not path.exists()
 
 
 def test_slices_of_equal_count_give_an_image_each(tmp_path: Path) -> None:

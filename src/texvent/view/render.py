@@ -73,6 +73,8 @@ def render_events(
         raise ConfigError(
             f"cannot render to {path}; its name must end in {', '.join(RENDER_EXTENSIONS)}"
         )
+    if config.panels > 1 and kind != ".png":
+        raise ConfigError(f"panels is {config.panels}; only .png files have panels, leave it out")
     check_output(path, overwrite=overwrite)
     packets = events if isinstance(events, EventPackets) else _as_packets(events)
     packets = packets.reporting_to(progress)
@@ -155,8 +157,6 @@ def _mcap(
         raise ConfigError("overlay is not drawn in .mcap files; leave it out, or render a video")
     if config.speed != 1:
         raise ConfigError(f"speed is {config.speed:g}; .mcap files keep the recording's time")
-    if config.panels > 1:
-        raise ConfigError(f"panels is {config.panels}; only .png files have panels, leave it out")
     step_us = config.step_us
     windows = _cut(packets, config, step_us, config.window_us or max(1, round(step_us)))
     extent = time_range(packets) if source.frames is not None else None

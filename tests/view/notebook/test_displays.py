@@ -236,7 +236,7 @@ def test_packets_of_a_file_show_a_moment(tmp_path: Path):
     path = some_events().save(tmp_path / "out.h5")
     page = html_of(texvent.open(path))
     # 40 ms of one event each 50 µs.
-    assert "800 events from 0.480 s on" in text_of(page)
+    assert "800 events from 0.480 s on, in 40 ms" in text_of(page)
     assert "1.000 s" in text_of(page)
     assert Tags(page).names.count("img") == 2
 

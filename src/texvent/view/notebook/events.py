@@ -86,5 +86,9 @@ def _glance(packets: EventPackets) -> tuple[tuple[int, int] | None, str]:
             break
     moment = EventStream.concat([EventStream.empty(packets.size), *found])
     moment = moment.without_label()[:GLANCE_EVENTS]
-    caption = f"{len(moment):,} events from {start_us / MICROSECONDS:.3f} s on"
+    shown_us = int(moment.t[-1]) + 1 - start_us if len(moment) else 0
+    caption = (
+        f"{len(moment):,} events from {start_us / MICROSECONDS:.3f} s on, "
+        f"in {shown_us / 1000:.3g} ms"
+    )
     return span, window_still(moment, caption)
