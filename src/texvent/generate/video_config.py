@@ -71,7 +71,8 @@ class DiffusersConfig(GeneratedVideoConfig):
     it changes the video a little. auto: only where the GPU's free memory would otherwise force
     layer-by-layer offload and bitsandbytes is installed."""
     decoder: Path | None = None
-    """Folder of another decoder (VAE) for the same latents, such as a tiny one: faster, coarser."""
+    """Another decoder for the same latents, faster and coarser: the file of a tiny one (TAEHV:
+    taew2_1.safetensors, taehv.pth, ...), or the folder of one saved by diffusers."""
     motion_adapter: Path | None = None
     """Folder of an AnimateDiff motion adapter: makes a Stable Diffusion model one of videos."""
     generator_device: str = "auto"

@@ -10,9 +10,9 @@ into a lossless 16-bit file, a few at a time where the decoder allows it, and ar
 from __future__ import annotations
 
 import functools
-import hashlib
 from collections.abc import Iterator
 from fractions import Fraction
+from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent._version import __version__
@@ -26,6 +26,7 @@ from texvent.generate.video_models.weight_files import CONFIG, check_part, finge
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import VideoCache, content_key
+from texvent.networks.weight_files import describe_file
 from texvent.options.values import plain
 from texvent.runtime.progress import NoProgress, Progress
 from texvent.video import PixelArray
@@ -36,7 +37,7 @@ PIXEL_OPTIONS = (
 )
 """Options that decide the pixels, beside model, prompt, seed and image."""
 NETWORK_OPTIONS = ("decoder", "motion_adapter")
-"""Options that name a folder with a network."""
+"""Options that name a network."""
 
 
 class DiffusersGenerator:
@@ -134,7 +135,7 @@ class DiffusersGenerator:
             raise InputError(f"there is no image {image}")
         for option in NETWORK_OPTIONS:
             folder = getattr(self.config, option)
-            if folder is None:
+            if folder is None or (option == "decoder" and folder.is_file()):
                 continue
             if not (folder / CONFIG).is_file():
                 raise InputError(f"there is no {option} in {folder} (no {CONFIG})")
@@ -162,6 +163,7 @@ class DiffusersGenerator:
             "prompt": prompt,
             "seed": seed,
             "options": plain(self.config),
+            **({"digests": digests} if (digests := self._digests()) else {}),
             **run.provenance(),
         }
         video = cache.store(key, frames, self.fps, facts)
@@ -178,13 +180,19 @@ class DiffusersGenerator:
         facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
         if not model.ignores_fps:
             facts["fps"] = self.fps
-        for option in NETWORK_OPTIONS:
-            if getattr(config, option) is not None:
-                facts[option] = fingerprint(getattr(config, option))
-        if config.image is not None:
-            facts["image"] = hashlib.sha256(config.image.read_bytes()).hexdigest()
+        facts |= self._digests()
         if model.folder is None:
             facts["source"] = model.source
         else:
             facts["folder"] = fingerprint(model.folder) if model.folder.is_dir() else ""
         return {**facts, "prompt": prompt, "seed": seed}
+
+    def _digests(self) -> dict[str, str]:
+        """Option → digest of the file or folder that it names."""
+        paths = {name: getattr(self.config, name) for name in (*NETWORK_OPTIONS, "image")}
+        return {name: _digest(path) for name, path in paths.items() if path is not None}
+
+
+def _digest(path: Path) -> str:
+    """Of a file, sha256; of a folder with a network, see `fingerprint`."""
+    return describe_file(path)["sha256"] if path.is_file() else fingerprint(path)

@@ -9,6 +9,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from texvent._require import require
 from texvent.errors import InputError
 from texvent.generate.diffusers_models.decoder_input import (
     SINGLE_DECODE_PIPELINES,
@@ -46,7 +47,9 @@ from texvent.generate.diffusers_models.prompt_embeddings import (
     embed_prompt,
     find_embeddings,
 )
-from texvent.generate.diffusers_models.streamed_decoding import can_stream
+from texvent.generate.diffusers_models.streamed_decoding import COGVIDEOX, can_stream
+from texvent.generate.tiny_decoder.fitting import check_model, check_pipeline, tiny_input
+from texvent.generate.tiny_decoder.network import TinyDecoder, read_tiny_decoder
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.download import ModelFiles, find_files
 from texvent.generate.video_models.known_models import VideoModel
@@ -55,6 +58,7 @@ from texvent.generate.videos.video_cache import content_key
 from texvent.runtime.progress import Progress
 from texvent.video import PixelArray
 
+EXTRA = "generate"
 PACKAGES = ("diffusers", "transformers", "torch")
 """What decides the pixels beside the weights; their versions go into the metadata."""
 
@@ -83,6 +87,7 @@ class ModelRun:
         self._files: ModelFiles = find_files(model, progress.announce)
         self._index = read_pipeline_index(self._files.folder)
         self._pipe: Pipeline | None = None
+        self._tiny = self._read_tiny_decoder()
 
     @property
     def has_guardrail(self) -> bool:
@@ -95,6 +100,10 @@ class ModelRun:
         Denoised before this returns, decoded step by step where the decoder can be.
         """
         pipe, arguments = self._prepare(prompt)
+        if self._tiny is not None:
+            with capture_decoder_input(pipe) as taken:
+                self._call(pipe, arguments, seed, "np")
+            return self._decode_tiny(self._tiny, pipe, taken[0][0])
         # The guardrail looks at decoded frames, inside the pipeline: it must decode them itself.
         is_streamed = self._class_name in SINGLE_DECODE_PIPELINES and can_stream(pipe.vae)
         if not is_streamed or self.has_guardrail:
@@ -120,6 +129,10 @@ class ModelRun:
         """Frames of latents of this model, [H, W, 3] float32 in 0..1."""
         if self._pipe is None:
             self._pipe = load_pipeline(self._request(has_text_encoder=False))
+        if self._tiny is not None:
+            torch = require("torch", extra=EXTRA)
+            values = torch.from_numpy(latents.decoder_input)[None]
+            return self._decode_tiny(self._tiny, self._pipe, values)
         return decode_frames(self._pipe, latents)
 
     def provenance(self) -> dict[str, Any]:
@@ -137,6 +150,29 @@ class ModelRun:
             facts["guardrail"] = guardrail_version()
         return {name: value for name, value in facts.items() if value is not None}
 
+    def _read_tiny_decoder(self) -> TinyDecoder | None:
+        """The tiny decoder that `--decoder` names, refused if it is not of this model's latents."""
+        path = self._config.decoder
+        if path is None or not path.is_file():
+            return None
+        if self.has_guardrail:
+            raise InputError(
+                f"{self._model.name} takes no tiny decoder: its guardrail must see the frames"
+            )
+        if self._class_name not in SINGLE_DECODE_PIPELINES:
+            raise InputError(f"{self._class_name} takes no tiny decoder: it decodes in parts")
+        tiny = read_tiny_decoder(path)
+        check_model(tiny.layout, path, self._files.folder, self._index)
+        return tiny
+
+    def _decode_tiny(
+        self, tiny: TinyDecoder, pipe: Pipeline, decoder_input: Any
+    ) -> Iterator[PixelArray]:
+        """Frames of what the model's own decoder would take, [1, C, T, h, w]."""
+        latents = tiny_input(pipe.vae, decoder_input)
+        is_padded = type(pipe.vae).__name__ == COGVIDEOX
+        return tiny.to(self._placement.device).frames(latents, pads_start=is_padded)
+
     @property
     def _class_name(self) -> str:
         if self._config.image is not None and self._model.image_pipeline is not None:
@@ -149,6 +185,10 @@ class ModelRun:
     def _motion_adapter(self) -> Path | None:
         return self._config.motion_adapter or self._files.motion_adapter
 
+    @property
+    def _decoder_folder(self) -> Path | None:
+        return None if self._tiny is not None else self._config.decoder
+
     @functools.cached_property
     def _placement(self) -> Placement:
         device, free = resolve_device(self._config.generator_device)
@@ -156,7 +196,8 @@ class ModelRun:
 
     @functools.cached_property
     def _content(self) -> str:
-        folders = (self._files.folder, self._config.decoder, self._motion_adapter)
+        # A tiny decoder is no part of the pipeline.
+        folders = (self._files.folder, self._decoder_folder, self._motion_adapter)
         return " ".join(fingerprint(folder) for folder in folders if folder is not None)
 
     def _request(self, *, has_text_encoder: bool) -> LoadRequest:
@@ -165,7 +206,7 @@ class ModelRun:
             content=self._content,
             class_name=self._class_name,
             placement=self._placement,
-            decoder=self._config.decoder,
+            decoder=self._decoder_folder,
             decoder_in_float32=self._model.needs_float32_vae,
             motion_adapter=self._motion_adapter,
             has_text_encoder=has_text_encoder,
@@ -185,6 +226,8 @@ class ModelRun:
                     f"loading {self._model.source} ({self._describe_placement()})"
                 )
             self._pipe = load_pipeline(request)
+            if self._tiny is not None and self._config.decoder is not None:
+                check_pipeline(self._tiny.layout, self._config.decoder, self._pipe)
         pipe = self._pipe
         if self.has_guardrail:
             check_prompt(getattr(pipe, PART, None), prompt)

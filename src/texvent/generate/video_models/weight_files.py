@@ -85,7 +85,7 @@ def check_part(folder: Path, class_name: str = "a network") -> None:
                     "names; put the file there"
                 )
     for path in weights:
-        _check_safetensors(path)
+        check_safetensors(path)
     if not weights and _is_network(folder):
         pickled = [path for path in folder.iterdir() if path.suffix in PICKLES]
         if pickled:
@@ -120,7 +120,12 @@ def _is_network(folder: Path) -> bool:
     return (folder / CONFIG).is_file()
 
 
-def _check_safetensors(path: Path) -> None:
+def check_safetensors(path: Path) -> None:
+    """Refuse a weights file that is truncated or not the weights, without reading them.
+
+    Raises:
+        FileFormatError: see above.
+    """
     size = path.stat().st_size
     with path.open("rb") as file:
         start = file.read(max(LENGTH_BYTES, len(POINTER)))

@@ -1,0 +1,1 @@
+"""Tiny decoders of video models' latents, in the published layout of TAEHV."""
