@@ -38,12 +38,13 @@ from texvent.scenes.description import (
     Shot,
     Surroundings,
 )
-from texvent.scenes.raycast.render import encode_srgb, render
+from texvent.scenes.raycast.render import render
 from texvent.scenes.raycast.shading.material import patch_axes, tile_average
 from texvent.scenes.raycast.surfaces.catalogue import SURFACES, build_tile
 from texvent.scenes.scene import Camera, Environment, Ground, Primitives, Scene, Shape, Texture
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
+from texvent.transfer import encode_srgb
 
 Floats = NDArray[np.float64]
 SIZE = SensorSize(346, 260)

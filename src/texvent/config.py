@@ -140,8 +140,11 @@ class CaptureConfig:
     """Stop at this time of the input, in seconds."""
     white_level: float | None = None
     """Value that means white: 1 for floats from 0 to 1, 4095 for 12 bits stored in 16. Without it,
-    white is 255 (8-bit and float) or 65535 (16-bit), and floats that never exceed 1 are
-    refused."""
+    white is 255 (8-bit and float), 65535 (16-bit), 1 (.exr, .hdr), 203 cd/m² (PQ) or 0.265 of the
+    peak (HLG), and floats that never exceed 1 are refused."""
+    transfer: Literal["auto", "gamma", "srgb", "linear", "pq", "hlg"] = "auto"
+    """How pixels are coded. All but gamma become linear light, also above white; gamma is ordinary
+    video. auto: .exr and .hdr are linear, video is what its file says, all else is gamma."""
     fit: Literal["cover", "contain", "stretch"] = "cover"
     """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
     motion: Path | None = None

@@ -22,6 +22,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
+from texvent.run.light import suit_light
 from texvent.run.provenance import describe_run
 from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
@@ -79,6 +80,7 @@ def video_to_events(
     if recipe != "none":
         drawn = draw_training_config(settings.simulate, recipe, seed=settings.run.seed)
         settings = replace(settings, simulate=drawn)
+    video, settings = suit_light(video, settings)
     return Simulation(video=video, settings=settings, prompt=prompt)
 
 

@@ -8,6 +8,8 @@ What always holds:
   float. Intermediate frames are float32 and are never rounded back to whole levels.
 * A stream has one size, strictly increasing times, and can be iterated again (live sources
   excepted: their `is_live` is true).
+* `transfer` says whether levels are gamma-coded, as in ordinary video, or linear light. A stream
+  whose frames are linear says so in its metadata, too (`transfer_of`).
 * `is_source` says which frames came from the video and which were interpolated; the paper's
   local brightness cache resets at source frames.
 """
@@ -26,6 +28,7 @@ from numpy.typing import NDArray
 from texvent.brightness import luma_bt601
 from texvent.errors import InputError, shown
 from texvent.sensor import SensorSize
+from texvent.transfer import Transfer
 
 MICROSECONDS = 1_000_000
 PREVIEW_MARK = "preview of events, drawn by texvent"
@@ -78,14 +81,16 @@ class Frame:
     """
 
     pixels: PixelArray
-    """[H, W] luma or [H, W, 3] RGB; uint8 (0..255), uint16 (0..65535) or float (0..255 scale),
-    gamma-coded as in ordinary video."""
+    """[H, W] luma or [H, W, 3] RGB; uint8 (0..255), uint16 (0..65535) or float (0..255 scale, and
+    above 255 what is brighter than diffuse white)."""
     t_us: int
     """Time, µs."""
     is_source: bool = True
     """False for a frame made by interpolation."""
     motion: Motion | None = None
     """Motion vectors and depth, where the source gives them with its frames."""
+    transfer: Transfer = Transfer.GAMMA
+    """Whether the pixels are gamma-coded or linear light."""
 
     def __post_init__(self) -> None:
         shape, dtype = self.pixels.shape, self.pixels.dtype
@@ -98,7 +103,8 @@ class Frame:
 
     def __repr__(self) -> str:
         kind = "" if self.is_source else ", intermediate"
-        return f"Frame({self.size} {_describe_pixels(self.pixels)}, t {self.t_us} µs{kind})"
+        light = ", linear" if self.transfer is Transfer.LINEAR else ""
+        return f"Frame({self.size} {_describe_pixels(self.pixels)}, t {self.t_us} µs{light}{kind})"
 
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
@@ -116,7 +122,10 @@ class Frame:
 
     @cached_property
     def luma(self) -> PixelArray:
-        """BT.601 luma, 0..255 scale, [H, W]: uint8 if the frame is 8-bit grey, else float32."""
+        """BT.601 luma, 0..255 scale, [H, W]: uint8 if the frame is 8-bit grey, else float32.
+
+        Of linear RGB it is the same sum, of light.
+        """
         pixels = self.pixels
         luma = luma_bt601(pixels) if pixels.ndim == 3 else pixels
         if pixels.dtype == np.uint16:
@@ -152,7 +161,10 @@ class FrameStream(Protocol):
 
     @property
     def metadata(self) -> Mapping[str, Any]:
-        """Where the frames come from (JSON-serialisable), stored in every output."""
+        """Where the frames come from (JSON-serialisable), stored in every output.
+
+        `{"transfer": "linear"}` among it where the frames are linear light.
+        """
         ...
 
     def __iter__(self) -> Iterator[Frame]:
@@ -217,6 +229,11 @@ class FlickeringStream(RenderableStream, Protocol):
         ...
 
 
+def transfer_of(stream: FrameStream) -> Transfer:
+    """What the frames of a stream are, known before the first of them: its metadata say it."""
+    return Transfer(stream.metadata.get("transfer", Transfer.GAMMA))
+
+
 def describe_stream(stream: FrameStream) -> str:
     """A stream of frames in one short line, for its `__repr__`."""
     count = "live" if stream.is_live else "? frames"
@@ -268,7 +285,7 @@ class Video(NotebookFrames):
         return len(self.pixels)
 
     def __getitem__(self, index: int) -> Frame:
-        return Frame(self.pixels[index], int(self.times_us[index]))
+        return Frame(self.pixels[index], int(self.times_us[index]), transfer=transfer_of(self))
 
     def __iter__(self) -> Iterator[Frame]:
         return (self[index] for index in range(len(self.pixels)))

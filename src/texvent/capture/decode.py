@@ -7,6 +7,7 @@ from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
 from av.video.reformatter import ColorRange
 
+from texvent.capture.linear_light import CODING, VIDEO_CODINGS
 from texvent.video import PixelArray
 
 QUARTER_TURN = 90
@@ -28,6 +29,12 @@ def decoded_pixels(frame: VideoFrame) -> PixelArray:
     pixels = image.to_ndarray()
     turns = round(frame.rotation / QUARTER_TURN) % 4
     return np.ascontiguousarray(np.rot90(pixels, turns)) if turns else pixels
+
+
+def coding_facts(frame: VideoFrame) -> dict[str, str]:
+    """How a decoded frame is coded, for a source's metadata: nothing where it is gamma-coded."""
+    coding = VIDEO_CODINGS.get(int(frame.color_trc))
+    return {} if coding is None else {CODING: coding}
 
 
 def pixel_format(source: VideoFormat) -> str:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.intensity_scale import usable_pixels
+from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, natural_key, usable_path
@@ -20,6 +22,8 @@ TIMESTAMP_NAMES = ("timestamps.txt", "images.txt")
 """Names under which a timestamp file is found in the folder or beside it."""
 INNER_FOLDERS = ("images", "frames", "imgs")
 """Where a recording's folder keeps its images."""
+LIGHT_EXTENSIONS = (EXR, ".hdr")
+"""Images of linear light: OpenEXR, Radiance."""
 
 
 class ImageFolder(FrameSource):
@@ -59,6 +63,7 @@ class ImageFolder(FrameSource):
             "kind": "image folder",
             "pixel_type": str(first.dtype),
             "timestamps": str(file) if file else None,
+            **coding_facts(self._paths),
         }
         size = checked_size(first.shape[1], first.shape[0])
         self._facts = SourceFacts(size, self._times.fps, len(self._paths), metadata)
@@ -74,7 +79,7 @@ class ImageFolder(FrameSource):
 
 
 def read_image(path: Path) -> PixelArray:
-    """An image at its own precision, [H, W] or [H, W, 3] RGB; OpenEXR as `exr_frame`.
+    """An image at its own precision, [H, W] or [H, W, 3] RGB; see `coding_facts` for its code.
 
     Raises:
         InputError: it holds a pixel type that frames cannot have.
@@ -100,6 +105,24 @@ def read_image(path: Path) -> PixelArray:
     if image.ndim == 3:
         image = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
     return usable_pixels(np.asarray(image), str(path))
+
+
+def coding_facts(paths: Sequence[Path]) -> dict[str, Any]:
+    """How images are coded, for a source's metadata: nothing where they are gamma-coded.
+
+    Raises:
+        InputError: some are linear light and some are not.
+    """
+    linear = [path for path in paths if path.suffix.lower() in LIGHT_EXTENSIONS]
+    if not linear:
+        return {}
+    other = next((path for path in paths if path.suffix.lower() not in LIGHT_EXTENSIONS), None)
+    if other is not None:
+        raise InputError(
+            f"{linear[0].name} is linear light and {other.name} is gamma-coded; frames must be one "
+            f"or the other, so move one kind out of {linear[0].parent}"
+        )
+    return {CODING: LINEAR, FULL_SCALE: 1.0}
 
 
 def find_images_folder(folder: Path) -> Path:

@@ -18,7 +18,7 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decode import decoded_pixels
+from texvent.capture.decode import coding_facts, decoded_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.errors import InputError
@@ -71,6 +71,7 @@ class LiveFrames(FrameSource):
             "pixel_format": first.format.name,
             "clock": self._clock,
             "frames_dropped": 0,
+            **coding_facts(first),
         }
         size = checked_size(pixels.shape[1], pixels.shape[0])
         fps = times.fps if times else None

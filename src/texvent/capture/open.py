@@ -16,6 +16,7 @@ from texvent.capture.dsec_frames import DsecFrames, is_dsec
 from texvent.capture.evreal_frames import EvrealFrames, is_evreal
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder
+from texvent.capture.linear_light import AUTO, decode_light
 from texvent.capture.motion_vectors.attach import attach_motion
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig
@@ -24,7 +25,8 @@ from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize
-from texvent.video import FrameStream
+from texvent.transfer import Transfer
+from texvent.video import FrameStream, transfer_of
 
 
 def open_frames(
@@ -43,7 +45,7 @@ def open_frames(
             file or an AEDAT4 recording with frames; a device such as /dev/video0, an address such
             as rtsp://..., a named pipe, or "-" for standard input; an array [N, H, W] or
             [N, H, W, 3] (RGB) or an iterable of such images; or a FrameStream.
-        config: frame rate, times, start, stop, fit and white level.
+        config: frame rate, times, start, stop, fit, transfer and white level.
         size: sensor size to fit the frames to, or None to keep theirs.
         t_us: [N] frame times, integer µs.
         motion: fields of motion in memory, as `attach_motion` takes them.
@@ -79,6 +81,8 @@ def open_frames(
         )
     # An array that can be read twice was looked through as a whole already.
     check_scale = stream.is_live or not isinstance(stream, ArrayFrames)
+    stream, config = decode_light(stream, config)
+    check_scale = check_scale and transfer_of(stream) is Transfer.GAMMA
     stream = attach_motion(stream, config, motion)
     return PreparedFrames(stream, config, size=size, check_scale=check_scale)
 
@@ -160,6 +164,11 @@ def _adapt_stream(
 ) -> FrameStream:
     if given is not None or config.timestamps is not None:
         raise InputError("a FrameStream has its own times; leave out fps, t_us and timestamps")
+    if config.transfer != AUTO:
+        raise InputError(
+            "a FrameStream says itself whether it is linear, by Frame.transfer and its metadata; "
+            "leave out transfer"
+        )
     is_whole = config.start == 0 and config.stop is None and config.white_level is None
     if is_whole and size in (None, stream.size):
         return stream

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
@@ -93,7 +94,7 @@ class PreparedFrames(FrameSource):
 
             pixels = fit_pixels(pixels, self.size, self._config.fit)
             motion = motion and fit_motion(motion, self.size, self._config.fit)
-        return checker.check(Frame(pixels, frame.t_us, frame.is_source, motion))
+        return checker.check(replace(frame, pixels=pixels, motion=motion))
 
     def _decide_scale(self, pixels: PixelArray, t_us: int) -> None:
         """Look at float frames until one is not black; then the scale is known."""

@@ -16,7 +16,7 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decode import decoded_pixels
+from texvent.capture.decode import coding_facts, decoded_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.errors import FileFormatError, warn
@@ -71,6 +71,7 @@ class VideoFile(FrameSource):
                 "pixel_format": first.format.name,
                 "rotation": int(first.rotation),
                 "duplicate_times_dropped": 0,
+                **coding_facts(first),
             }
             size = checked_size(pixels.shape[1], pixels.shape[0])
             fps = times.fps if times else self._rate

@@ -45,4 +45,5 @@ class ExactInterpolator:
         """
         check_between(first, second, times_us)
         for t_us in times_us:
-            yield Frame(float_luma(self._stream.at(t_us)), t_us, is_source=False)
+            exact = self._stream.at(t_us)
+            yield Frame(float_luma(exact), t_us, is_source=False, transfer=exact.transfer)

@@ -133,6 +133,7 @@ class CaptureOptions(TypedDict, total=False):
     start: float | None
     stop: float | None
     white_level: float | None
+    transfer: Literal["auto", "gamma", "srgb", "linear", "pq", "hlg"] | None
     fit: Literal["cover", "contain", "stretch"] | None
     motion: Field | None
     motion_back: Field | None

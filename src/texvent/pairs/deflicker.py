@@ -9,17 +9,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from texvent.brightness import Float64Array
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
+from texvent.transfer import Transfer
 from texvent.video import UINT16_PER_LEVEL, Frame
 
 SIDE_CELLS = 64
 """Frames are compared as means over cells, at most this many along the longer side."""
 DARK, BRIGHT = 8.0, 247.0
 """Levels outside this range are clipped or noise: they do not follow a gain."""
+DARK_LIGHT = 0.6
+"""The same for linear light, which nothing clips: what `DARK` codes, on the 0..255 scale."""
 LEAST_USED = 0.05
 """Share of the cells that must be inside that range."""
 CELLS_MOVING_TOGETHER = 16
@@ -71,7 +75,8 @@ def global_gain(first: Frame, second: Frame) -> float:
         The median of ln(I₂ / I₁) over cells, or 0 if motion alone may explain it.
     """
     earlier, later = _cells(first), _cells(second)
-    used = (earlier > DARK) & (earlier < BRIGHT) & (later > DARK) & (later < BRIGHT)
+    dark, bright = (DARK_LIGHT, math.inf) if first.transfer is Transfer.LINEAR else (DARK, BRIGHT)
+    used = (earlier > dark) & (earlier < bright) & (later > dark) & (later < bright)
     if used.mean() < LEAST_USED:
         return 0.0
     ratio = np.log(later[used] / earlier[used])
@@ -97,4 +102,4 @@ def _scaled(frame: Frame, log_factor: float) -> Frame:
     if frame.pixels.dtype == np.uint16:
         factor /= UINT16_PER_LEVEL
     pixels = np.asarray(frame.pixels * np.float64(factor), dtype=np.float32)
-    return Frame(pixels, frame.t_us, frame.is_source, frame.motion)
+    return replace(frame, pixels=pixels)

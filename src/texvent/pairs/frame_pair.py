@@ -85,4 +85,5 @@ def hold_earlier(first: Frame, second: Frame) -> MotionInterpolation:
     wait_us = min(CHANGE_DURATION_US, (second.t_us - first.t_us) // 2)
     times_us = (second.t_us - wait_us,) if wait_us > 0 else ()
     positions = (0.0,) * len(times_us)
-    return MotionInterpolation(float_luma(first), float_luma(second), None, times_us, positions)
+    levels = float_luma(first), float_luma(second)
+    return MotionInterpolation(*levels, None, times_us, positions, first.transfer)

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.video import Frame
+from texvent.transfer import WHITE, Transfer, encode_srgb
+from texvent.video import Frame, PixelArray
 
 
 def position(first: Frame, second: Frame, t_us: int) -> float:
@@ -19,6 +20,35 @@ def position(first: Frame, second: Frame, t_us: int) -> float:
 def float_luma(frame: Frame) -> NDArray[np.float32]:
     """Luma of a frame as float32, [H, W], 0..255 scale; 8-bit levels convert exactly."""
     return np.ascontiguousarray(frame.luma, dtype=np.float32)
+
+
+def matching_luma(frame: Frame) -> PixelArray:
+    """Luma as flow and scene changes are found in: `matching_levels` of it."""
+    return matching_levels(frame.luma, frame.transfer)
+
+
+def matching_levels(levels: PixelArray, transfer: Transfer) -> PixelArray:
+    """Levels in which detail counts alike in shade and in glare, for comparing images.
+
+    Args:
+        levels: [...] 0..255 scale.
+        transfer: what they are.
+
+    Returns:
+        Gamma-coded levels; above white they go on as `255 · (1 + ln(level / 255))`. Those of
+        ordinary video are returned as they are.
+
+    Example:
+        >>> light = np.array([2.55, 255.0, 2550.0])
+        >>> matching_levels(light, Transfer.LINEAR).round().tolist()
+        [25.0, 255.0, 512.0]
+    """
+    if transfer is Transfer.LINEAR:
+        levels = encode_srgb(levels / np.float32(WHITE))
+    if levels.dtype.kind != "f" or levels.max() <= WHITE:
+        return levels
+    compressed = np.float32(WHITE) * (1 + np.log(np.maximum(levels, WHITE) / np.float32(WHITE)))
+    return np.where(levels > WHITE, compressed, levels).astype(np.float32)
 
 
 def check_between(first: Frame, second: Frame, times_us: Sequence[int]) -> None:

@@ -16,6 +16,7 @@ from texvent.pairs.instants import check_between, float_luma, position
 from texvent.runtime.background_jit import is_ready, wait_until_ready
 from texvent.runtime.read_only import read_only
 from texvent.sensor import SensorSize
+from texvent.transfer import Transfer
 from texvent.video import Frame
 
 FloatImage = NDArray[np.float32]
@@ -46,6 +47,8 @@ class MotionInterpolation:
     """Times of the intermediate frames, µs, strictly increasing."""
     positions: Sequence[float]
     """τ of each intermediate frame, 0 = earlier, 1 = later."""
+    transfer: Transfer = Transfer.GAMMA
+    """Whether luma is gamma-coded or linear."""
 
     def __post_init__(self) -> None:
         # Numba compiles for arrays that can be written and for those that cannot: one is enough.
@@ -65,7 +68,8 @@ class MotionInterpolation:
         """
         check_between(first, second, times_us)
         places = [position(first, second, t_us) for t_us in times_us]
-        return cls(float_luma(first), float_luma(second), flows, tuple(times_us), places)
+        levels = float_luma(first), float_luma(second)
+        return cls(*levels, flows, tuple(times_us), places, first.transfer)
 
     @property
     def size(self) -> SensorSize:
@@ -81,7 +85,7 @@ class MotionInterpolation:
         for start in range(0, len(self), step):
             images = self._draw(start, start + step)
             for image, t_us in zip(images, self.times_us[start:], strict=False):
-                yield Frame(image, t_us, is_source=False)
+                yield Frame(image, t_us, is_source=False, transfer=self.transfer)
 
     @property
     def undrawn_frames(self) -> Iterator[UndrawnFrame]:
@@ -117,7 +121,7 @@ class UndrawnFrame(Frame):
     def __init__(self, motion: MotionInterpolation, index: int) -> None:
         # A frozen dataclass takes no assignments.
         vars(self).update(t_us=motion.times_us[index], is_source=False)
-        vars(self).update(_size=motion.size, _undrawn=(motion, index))
+        vars(self).update(transfer=motion.transfer, _size=motion.size, _undrawn=(motion, index))
 
     @cached_property
     def pixels(self) -> Any:

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
+from texvent.pairs.instants import matching_luma
 from texvent.pairs.shift_correlation import shift_agreement
 from texvent.video import Frame
 
@@ -162,7 +163,7 @@ class _Match:
 
 
 def _thumbnail(frame: Frame) -> _Thumbnail:
-    luma = frame.luma
+    luma = matching_luma(frame)
     height, width = luma.shape
     cell = max(LEAST_CELL_PX, -(-max(height, width) // SIDE_CELLS))
     # A long strip keeps at least one block across.

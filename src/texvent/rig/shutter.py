@@ -120,7 +120,7 @@ def expose_frames(
         shadows: whether there are shadows.
     """
     # Imported here: the kernels load Numba.
-    from texvent.scenes.raycast.render import encode_srgb
+    from texvent.transfer import encode_srgb
 
     for t_us in times_us:
         light = expose(scene, size, shutter, t_us / MICROSECONDS, samples=samples, shadows=shadows)

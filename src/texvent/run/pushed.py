@@ -13,11 +13,13 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from texvent.capture.linear_light import decode_light
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pipeline import select_events
+from texvent.run.light import suit_light
 from texvent.run.memory import check_memory
 from texvent.run.prepare import check_run
 from texvent.run.settings import Settings
@@ -26,7 +28,7 @@ from texvent.simulate.build import build_simulator
 from texvent.simulate.randomized_options import draw_training_config
 from texvent.video import Frame
 
-USED_CAPTURE = ("white_level", "fit")
+USED_CAPTURE = ("white_level", "fit", "transfer")
 """Options of frames that have a meaning for pushed ones."""
 
 
@@ -55,11 +57,13 @@ class PushedSimulation:
         check_pushable(settings)
         self._threads = ExitStack()  # a live stream has no thread to end
         self._frames = _PushedFrames(size)
-        source: Any = self._frames
-        if settings.size is not None or settings.source.white_level is not None:
+        source, config = decode_light(self._frames, settings.source)
+        if settings.size is not None or config.white_level is not None:
             from texvent.capture.prepare import PreparedFrames  # may bring OpenCV
 
-            source = PreparedFrames(self._frames, settings.source, size=settings.size)
+            is_coded = source is self._frames
+            source = PreparedFrames(source, config, size=settings.size, check_scale=is_coded)
+        source, settings = suit_light(source, settings)
         self.size: SensorSize = source.size
         """Sensor size, pixels."""
         check_memory(settings, self.size)

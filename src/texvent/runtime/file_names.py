@@ -15,7 +15,7 @@ MAX_NAME_BYTES, MAX_PATH_BYTES = 255, 4095
 IMAGE_EXTENSIONS = frozenset(
     (
         *(".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".jp2"),
-        *(".pgm", ".ppm", ".pnm", ".exr"),
+        *(".pgm", ".ppm", ".pnm", ".exr", ".hdr"),
     )
 )
 """Files of these names are the frames of an image folder."""

@@ -8,6 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent import transfer
+
 Float32Array = NDArray[np.float32]
 
 MOST_LEVELS = 14
@@ -57,10 +59,4 @@ def decode_srgb(coded: NDArray[np.uint8]) -> Float32Array:
     return _LINEAR[coded]
 
 
-def _linear_levels() -> Float32Array:
-    share = np.arange(256) / 255.0
-    high = ((share + 0.055) / 1.055) ** 2.4
-    return np.where(share <= 0.04045, share / 12.92, high).astype(np.float32)
-
-
-_LINEAR = _linear_levels()
+_LINEAR = transfer.decode_srgb(np.arange(256) / 255.0)

@@ -21,7 +21,9 @@ class Simulator(Protocol):
     may also declare `default_interpolate`, the interpolation it was made for. One whose weights are
     a file of the user's may offer `provenance(config)`: facts about that file, stored with the
     events. It may declare `bytes_per_pixel`: memory that its pixels, its packets and the frames
-    that wait for it take, measured on moving texture; `run.memory` adds it up.
+    that wait for it take, measured on moving texture; `run.memory` adds it up. It may declare
+    `takes_linear` as True: then frames of linear light reach it as they are, and are gamma-coded
+    before otherwise.
     """
 
     config_type: ClassVar[type]

@@ -18,6 +18,7 @@ import numpy as np
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.video import Frame
+from texvent.view.drawing.event_image import frame_image
 
 HERE = Path(__file__).parent
 BLENDER = HERE / "blender_sample"
@@ -61,8 +62,7 @@ def write_unreal(folder: Path, index: int, frame: Frame) -> None:
     """As Movie Render Queue: one OpenEXR file per frame with all passes, half floats."""
     import OpenEXR
 
-    light = (frame.pixels / np.float32(255)).astype(np.float64)
-    light = np.where(light <= 0.04045, light / 12.92, ((light + 0.055) / 1.055) ** 2.4)
+    light = frame.pixels / np.float32(255)
     planes: dict[str, Any] = {name: light[..., k] for k, name in enumerate("RGB")}
     planes["A"] = np.ones(light.shape[:2])
     vectors, depth = ndc(frame) / 4 + 0.5, frame.motion.depth * 100
@@ -76,7 +76,7 @@ def write_unreal(folder: Path, index: int, frame: Frame) -> None:
 
 def write_png(path: Path, frame: Frame) -> None:
     """The frame in 8 bits."""
-    pixels = np.clip(np.round(frame.pixels), 0, 255).astype(np.uint8)
+    pixels = frame_image(frame)
     cv2.imwrite(str(path), pixels[..., ::-1])
 
 

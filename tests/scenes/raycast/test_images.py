@@ -9,9 +9,10 @@ from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, sheet
 
 from texvent.scenes.image import SurfaceImage, decode_srgb, surface_image
 from texvent.scenes.projection import place_in_image
-from texvent.scenes.raycast.render import encode_srgb, render_light
+from texvent.scenes.raycast.render import render_light
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
+from texvent.transfer import encode_srgb
 
 SIZE = SensorSize(48, 36)
 

@@ -9,9 +9,10 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.runtime.threads import THREADS_VARIABLE
-from texvent.scenes.raycast.render import encode_srgb, render, sample_pattern
+from texvent.scenes.raycast.render import render, sample_pattern
 from texvent.scenes.scene import Environment, Ground, Shape, Texture
 from texvent.sensor import SensorSize
+from texvent.transfer import encode_srgb
 
 from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, moving, showcase, still
 

@@ -14,8 +14,15 @@ from numpy.typing import NDArray
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
 from texvent.capture.camera_path.trajectory_file import PoseFile, read_trajectory
-from texvent.capture.image_folder import read_image
+from texvent.capture.image_folder import coding_facts, read_image
 from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels, usable_pixels
+from texvent.capture.linear_light import (
+    FULL_SCALE,
+    GAMMA,
+    find_coding,
+    linear_facts,
+    to_light,
+)
 from texvent.capture.motion_vectors.conventions import named_convention
 from texvent.capture.motion_vectors.fields import FRAME_EXTENSIONS, read_file
 from texvent.capture.motion_vectors.values import metric_depth
@@ -159,8 +166,10 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
                 "texvent batch FOLDER"
             )
         pixels, where, kind = read_image(path), str(path), "still image"
+        coded = coding_facts([path])
     elif hasattr(source, "__array__"):
         pixels, where, kind = usable_pixels(np.asarray(source), "the image"), "the image", "array"
+        coded = {}
         if pixels.ndim not in (2, 3) or (pixels.ndim == 3 and pixels.shape[2] != 3):
             raise InputError(
                 "camera needs one image, [H, W] or [H, W, 3]; got shape "
@@ -171,12 +180,16 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
             f"camera moves a camera over one still image, not over {type(source).__name__}; give "
             "its path or an array [H, W] or [H, W, 3], or leave camera out"
         )
+    facts: dict[str, Any] = {"source": where if kind != "array" else "array", "kind": kind}
+    facts |= {"pixel_type": str(pixels.dtype), **coded}
+    coding, white_level = find_coding(facts, config)
+    if coding != GAMMA:
+        pixels = to_light(pixels, coding, facts.get(FULL_SCALE), white_level)
+        facts |= linear_facts(coding)
     check_intensity(pixels, where)
-    facts = {"source": where if kind != "array" else "array", "kind": kind}
-    facts["pixel_type"] = str(pixels.dtype)
-    if config.white_level is not None:
-        pixels = scale_to_levels(pixels, config.white_level)
-    elif pixels.dtype.kind == "f":
+    if coding == GAMMA and white_level is not None:
+        pixels = scale_to_levels(pixels, white_level)
+    elif coding == GAMMA and pixels.dtype.kind == "f":
         refuse_unit_range(float(pixels.max()), where)
     return np.asarray(Frame(pixels, 0).luma, dtype=np.float32), facts
 

@@ -15,7 +15,15 @@ from texvent.capture.camera_path.surfaces import Surfaces
 from texvent.capture.camera_path.view import View, fitted_view
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.sensor import SensorSize
-from texvent.video import Frame, Motion, NotebookFrames, describe_stream, frame_time_us
+from texvent.transfer import WHITE, encode_srgb
+from texvent.video import (
+    Frame,
+    Motion,
+    NotebookFrames,
+    describe_stream,
+    frame_time_us,
+    transfer_of,
+)
 
 INSTANTS = 300
 """Instants of a path that are looked at to find the scale."""
@@ -107,11 +115,19 @@ class PhotoFrames(NotebookFrames):
         for index in range(self.frame_count):
             t_us = self._time(index)
             levels, depth = self._render(self.path(t_us))
-            yield Frame(levels, t_us, motion=self._motion(index, depth))
+            motion = self._motion(index, depth)
+            yield Frame(levels, t_us, motion=motion, transfer=transfer_of(self))
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W] float32 luma on the 0..255 scale."""
-        return Frame(self._render(self.path(t_us))[0], t_us, is_source=False)
+        levels, _ = self._render(self.path(t_us))
+        return Frame(levels, t_us, is_source=False, transfer=transfer_of(self))
+
+    def gamma_coded(self) -> PhotoFrames:
+        """The same camera over the image as gamma-coded levels, where it is linear light."""
+        facts = {name: one for name, one in self.facts.items() if name != "transfer"}
+        levels = encode_srgb(self.levels / np.float32(WHITE))
+        return replace(self, levels=levels, facts=facts)
 
     def _time(self, index: int) -> int:
         return frame_time_us(index, self.fps, self.start_us)

@@ -1,11 +1,8 @@
 """OpenEXR images: linear light as frames, and the passes of a renderer.
 
-Frames of texvent are gamma-coded on the 0..255 scale, as ordinary video is. A pixel of an EXR file
-is linear light, where 1 is white: it becomes 255 times sRGB's curve, which goes on above white. So
-nothing is clipped or rounded, and a frame equals what the renderer's own 8-bit PNG holds before it
-rounds (Blender: view transform Standard). Light below 0, which filters leave behind, counts as 0.
+A pixel of an EXR file is linear light, where 1 is white; nothing is clipped or rounded.
 
-Source: OpenEXR's technical introduction; IEC 61966-2-1 (sRGB).
+Source: OpenEXR's technical introduction.
 """
 
 from __future__ import annotations
@@ -22,9 +19,6 @@ from texvent._require import require
 from texvent.errors import FileFormatError, InputError, few, one_line, shown
 
 EXR = ".exr"
-LINEAR_BELOW = 0.0031308
-"""sRGB's curve is a line below this much light."""
-WHITE = 255.0
 REC709 = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
 """x and y of red, green, blue and white in OpenEXR's attribute chromaticities."""
 CODED = ("pq", "hlg", "srgb", "g22", "g24", "g18")
@@ -96,7 +90,7 @@ def exr_frame(path: Path) -> NDArray[np.float32]:
     """The colour of an OpenEXR file as a frame: see the module.
 
     Returns:
-        [H, W] or [H, W, 3], float32, gamma-coded, 255 where the light is 1.
+        [H, W] or [H, W, 3], float32, linear light, 1 is white.
 
     Raises:
         InputError: its pixels are coded for a display (PQ, HLG), or it has no colour.
@@ -109,23 +103,11 @@ def exr_frame(path: Path) -> NDArray[np.float32]:
             found = image.find(*wanted)
             if found:
                 _check_linear(image)
-                return gamma_coded(np.squeeze(np.stack([found[one] for one in wanted], axis=-1)))
+                planes = [found[one] for one in wanted]
+                return planes[0] if len(planes) == 1 else np.stack(planes, axis=-1)
     raise InputError(
         f"{path} has no colour (R, G, B or Y); its channels: {few(sorted(image.channels))}"
     )
-
-
-def gamma_coded(light: NDArray[Any]) -> NDArray[np.float32]:
-    """Linear light (1 is white) as intensity of a frame: 255 times sRGB's curve, not clipped above.
-
-    Example:
-        >>> gamma_coded(np.array([0.0, 0.5, 1.0, 4.0])).round().tolist()
-        [0.0, 188.0, 255.0, 465.0]
-    """
-    light = np.maximum(np.asarray(light, dtype=np.float32), np.float32(0))  # keeps NaN
-    curve = np.float32(1.055) * light ** np.float32(1 / 2.4) - np.float32(0.055)
-    line = np.float32(12.92) * light
-    return np.asarray(np.where(light <= LINEAR_BELOW, line, curve) * np.float32(WHITE), np.float32)
 
 
 def _check_linear(image: ExrImage) -> None:

@@ -33,6 +33,7 @@ from texvent.capture.motion_vectors.values import (
 )
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, warn
+from texvent.pairs.instants import matching_luma
 from texvent.video import MICROSECONDS, Frame, FrameStream, Motion
 
 CHECKED_FRAMES = 4
@@ -163,7 +164,7 @@ class MotionFrames(FrameSource):
 
     def _levels(self, frame: Frame) -> NDArray[np.float32]:
         white = self._config.white_level
-        luma = frame.luma if white is None else scale_to_levels(frame.luma, white)
+        luma = matching_luma(frame) if white is None else scale_to_levels(frame.luma, white)
         return np.asarray(luma, dtype=np.float32)
 
     def _motion(

@@ -8,7 +8,7 @@ import weakref
 import numpy as np
 
 from texvent.interpolate.dis_flow.estimator import DisFlow, FlowArray
-from texvent.pairs.instants import float_luma
+from texvent.pairs.instants import matching_luma
 from texvent.video import Frame
 
 FAST_PERCENTILE = 99.9
@@ -34,7 +34,10 @@ class PairFlow:
             Two flows, [H, W, 2] float32 as (x, y), px.
         """
         if self._flows is None or not self._is_of(first, second):
-            self._flows = self._dis.both_ways(float_luma(first), float_luma(second))
+            levels = (
+                np.ascontiguousarray(matching_luma(one), np.float32) for one in (first, second)
+            )
+            self._flows = self._dis.both_ways(*levels)
             self._pair = weakref.ref(first), weakref.ref(second)
         return self._flows
 

@@ -76,7 +76,7 @@ class MotionInterpolator:
                 if self._stream is not None:
                     wanted = _grown(kind == MIXED)
                     image[wanted] = self._stream.luma_of(t_us, wanted)
-                yield Frame(image, t_us, is_source=False)
+                yield Frame(image, t_us, is_source=False, transfer=pair.transfer)
 
 
 def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -92,4 +92,5 @@ def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
 def _rendered(stream: MovingStream, times_us: Sequence[int]) -> Iterator[Frame]:
     """Frames of which so much would have to be rendered that they are rendered whole."""
     for t_us in times_us:
-        yield Frame(float_luma(stream.at(t_us)), t_us, is_source=False)
+        frame = stream.at(t_us)
+        yield Frame(float_luma(frame), t_us, is_source=False, transfer=frame.transfer)

@@ -9,7 +9,14 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.interpolate.motion.draw_cpu import CHANGED, DARK, FOLLOWED, MIXED, Side, draw
-from texvent.interpolate.motion.layers_cpu import FURTHEST, SPEED_ORDER, Floats, make_layers
+from texvent.interpolate.motion.layers_cpu import (
+    FURTHEST,
+    GAMMA,
+    SPEED_ORDER,
+    WHITE,
+    Floats,
+    make_layers,
+)
 from texvent.interpolate.motion.paths_cpu import (
     LEAST_MOTION_PX,
     bend_of,
@@ -18,6 +25,7 @@ from texvent.interpolate.motion.paths_cpu import (
     reverse_vectors,
 )
 from texvent.pairs.instants import float_luma
+from texvent.transfer import Transfer
 from texvent.video import Frame, Motion
 
 NEAREST_M = 1e-3
@@ -38,6 +46,8 @@ class MotionPair:
     """Rows and columns in which something moves; the frames are mixed in place elsewhere."""
     sides: tuple[Side, Side]
     """Both frames in that part."""
+    transfer: Transfer
+    """Of the frames; levels are gamma-coded here whatever it is."""
 
     @classmethod
     def of(cls, first: Frame, second: Frame) -> MotionPair:
@@ -52,7 +62,7 @@ class MotionPair:
                 f"interpolate is 'motion', but the frames at {first.t_us} and {second.t_us} µs "
                 "have no motion vectors to each other; give --motion, or use interpolate flow"
             )
-        levels = float_luma(first), float_luma(second)
+        levels = _coded(first), _coded(second)
         orders = _order(start, start.forward, first), _order(stop, stop.backward, second)
         forward, backward = start.forward, stop.backward
         if forward is None:
@@ -71,7 +81,8 @@ class MotionPair:
                 bend_of(stop.forward, stop.backward),
             )
         ]
-        return cls(*levels, part, (_side(cut[0::2], cut[1::2]), _side(cut[1::2], cut[0::2])))
+        sides = _side(cut[0::2], cut[1::2]), _side(cut[1::2], cut[0::2])
+        return cls(*levels, part, sides, first.transfer)
 
     def draw(self, place: float) -> tuple[Floats, NDArray[np.uint8]]:
         """The image at τ = `place`, [H, W], and for each pixel `FOLLOWED` or `MIXED`."""
@@ -84,7 +95,18 @@ class MotionPair:
             inside = np.empty_like(image[self.part]), np.empty_like(kind[self.part])
             draw(*self.sides, position, *inside)
             image[self.part], kind[self.part] = inside
+        if self.transfer is Transfer.LINEAR:
+            light = (np.maximum(image, 0) / np.float32(WHITE)) ** np.float32(GAMMA)
+            image = np.asarray(np.float32(WHITE) * light, np.float32)
         return image, kind
+
+
+def _coded(frame: Frame) -> Floats:
+    """Gamma-coded luma, by the curve that the kernels undo where they add light up."""
+    luma = float_luma(frame)
+    if frame.transfer is Transfer.LINEAR:
+        luma = _floats(np.float32(WHITE) * (luma / np.float32(WHITE)) ** np.float32(1 / GAMMA))
+    return luma
 
 
 def moving_part(forward: Floats, backward: Floats) -> tuple[slice, slice]:

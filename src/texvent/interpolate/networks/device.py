@@ -12,6 +12,7 @@ import numpy as np
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, InputError
 from texvent.interpolate.networks.torch_import import Tensor, import_torch
+from texvent.pairs.instants import matching_levels
 from texvent.video import UINT16_PER_LEVEL, Frame
 
 WHITE = 255.0
@@ -64,10 +65,11 @@ def image_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
 
 
 def _levels(frame: Frame) -> np.ndarray[Any, np.dtype[np.float32]]:
-    """[1 or 3, H, W] float32, 0..255 scale."""
+    """[1 or 3, H, W] float32, 0..255 scale, as `pairs.instants.matching_levels` has them."""
     pixels = np.asarray(frame.pixels, dtype=np.float32)
     if frame.pixels.dtype == np.uint16:
         pixels = pixels / np.float32(UINT16_PER_LEVEL)
+    pixels = matching_levels(pixels, frame.transfer)
     return pixels[None] if pixels.ndim == 2 else np.moveaxis(pixels, 2, 0)
 
 

@@ -63,7 +63,7 @@ class NetworkInterpolator(ABC):
                     f"{self._path}: the network's output is NaN or infinite; with float16 try "
                     "bfloat16 or float32"
                 )
-            yield Frame(luma.cpu().numpy(), t_us, is_source=False)
+            yield Frame(luma.cpu().numpy(), t_us, is_source=False, transfer=first.transfer)
 
     def _draw(
         self, images: Sequence[Tensor], lumas: Sequence[Tensor], positions: Sequence[float]

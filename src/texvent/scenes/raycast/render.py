@@ -18,6 +18,7 @@ from texvent.scenes.raycast.lamps.light_up import light_up
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.scene import Float32Array, Float64Array, Primitives, Scene
 from texvent.sensor import SensorSize
+from texvent.transfer import encode_srgb
 
 
 def world_at(
@@ -169,12 +170,3 @@ def sample_pattern(count: int) -> Float64Array:
         place *= 0.5
     rank = np.argsort(np.argsort(reversed_bits, kind="stable"), kind="stable")
     return (np.stack([index, rank], axis=1) + 0.5) / count
-
-
-def encode_srgb(linear: Float64Array) -> Float32Array:
-    """Gamma-code linear light 0..1 to 0..255 with the sRGB curve (IEC 61966-2-1), unrounded."""
-    light = linear.astype(np.float32)
-    low = light * np.float32(12.92)
-    high = np.float32(1.055) * np.power(light, np.float32(1 / 2.4)) - np.float32(0.055)
-    coded = np.where(light <= np.float32(0.0031308), low, high)
-    return np.asarray(coded * np.float32(255.0), dtype=np.float32)

@@ -63,6 +63,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     """
 
     config_type: ClassVar[type] = EsimConfig
+    takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 90
     presets: ClassVar[Mapping[str, EsimConfig]] = {
         "default": EsimConfig(),

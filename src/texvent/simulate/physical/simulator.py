@@ -71,6 +71,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
     """
 
     config_type: ClassVar[type] = PhysicalConfig
+    takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 190
     presets: ClassVar[Mapping[str, PhysicalConfig]] = PRESETS
 

@@ -49,6 +49,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     """
 
     config_type: ClassVar[type] = SenpiConfig
+    takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 60
     presets: ClassVar[Mapping[str, SenpiConfig]] = PRESETS
 

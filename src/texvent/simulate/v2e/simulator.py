@@ -60,6 +60,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
     """
 
     config_type: ClassVar[type] = V2eConfig
+    takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 190
     presets: ClassVar[Mapping[str, V2eConfig]] = PRESETS
 

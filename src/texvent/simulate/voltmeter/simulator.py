@@ -44,6 +44,7 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
     """
 
     config_type: ClassVar[type] = VoltmeterConfig
+    takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 60
     presets: ClassVar[Mapping[str, VoltmeterConfig]] = PRESETS
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.transfer import WHITE, Transfer, encode_srgb
 from texvent.video import UINT16_PER_LEVEL, Frame
 from texvent.view.drawing.canvas import Image
 from texvent.view.drawing.palettes import Palette
@@ -99,7 +100,7 @@ def draw_fading(fading: NDArray[Any], palette: Palette) -> Image:
 
 
 def frame_image(frame: Frame) -> Image:
-    """A frame as 8-bit RGB, for display only.
+    """A frame as 8-bit RGB, for display only: linear light is gamma-coded, and ends at white.
 
     Returns:
         [H, W, 3] uint8.
@@ -107,8 +108,10 @@ def frame_image(frame: Frame) -> Image:
     pixels = frame.pixels
     if pixels.dtype == np.uint16:
         pixels = pixels / np.float32(UINT16_PER_LEVEL)
+    if frame.transfer is Transfer.LINEAR:
+        pixels = encode_srgb(pixels / np.float32(WHITE))
     if pixels.dtype != np.uint8:
-        pixels = np.rint(np.clip(pixels, 0, 255)).astype(np.uint8)
+        pixels = np.rint(np.clip(pixels, 0, WHITE)).astype(np.uint8)
     if pixels.ndim == 2:
         pixels = np.repeat(pixels[:, :, None], 3, axis=2)
     return np.ascontiguousarray(pixels, dtype=np.uint8)

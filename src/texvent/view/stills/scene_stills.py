@@ -8,6 +8,7 @@ import numpy as np
 
 from texvent.video import RenderableStream
 from texvent.view.drawing.canvas import png_bytes
+from texvent.view.drawing.event_image import frame_image
 
 GAP_PX = 4
 
@@ -23,8 +24,6 @@ def draw_stills(video: RenderableStream, times_us: Sequence[int]) -> bytes:
     width = len(times_us) * (size.width + GAP_PX) - GAP_PX
     row = np.full((size.height, width, 3), 255, np.uint8)
     for number, t_us in enumerate(times_us):
-        pixels = np.asarray(video.at(t_us).pixels, np.float32)
-        rgb = pixels if pixels.ndim == 3 else np.repeat(pixels[..., None], 3, axis=2)
         left = number * (size.width + GAP_PX)
-        row[:, left : left + size.width] = np.clip(np.rint(rgb), 0, 255)
+        row[:, left : left + size.width] = frame_image(video.at(t_us))
     return png_bytes(row)

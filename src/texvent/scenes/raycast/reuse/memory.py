@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.scenes.raycast.acceleration import TILE
-from texvent.scenes.raycast.render import encode_srgb, light_of_rows, world_and_shapes
+from texvent.scenes.raycast.render import light_of_rows, world_and_shapes
 from texvent.scenes.raycast.reuse.changed import Drawn, changed_tiles
 from texvent.scenes.scene import Float32Array, Scene
 from texvent.sensor import SensorSize
+from texvent.transfer import encode_srgb
 
 MOST_CHANGED = 0.9
 """Above this share of tiles all are drawn."""

@@ -1,0 +1,120 @@
+"""Coded pixels → linear light: OpenEXR and Radiance images, HDR10 and HLG video.
+
+A source says in its metadata how its pixels are coded (`"coding"`), if not as ordinary video; the
+option `transfer` overrides it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.config import CaptureConfig
+from texvent.transfer import DECODERS, WHITE, Transfer
+from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray
+
+UINT16_FULL = WHITE * UINT16_PER_LEVEL
+AUTO, GAMMA, LINEAR = "auto", "gamma", "linear"
+CODING = "coding"
+"""Key in a source's metadata; absent where pixels are gamma-coded."""
+FULL_SCALE = "full_scale"
+"""Key in a source's metadata: the value that is white, or a signal's 1, where the pixels' type does
+not say it."""
+VIDEO_CODINGS = {8: LINEAR, 16: "pq", 18: "hlg"}
+"""libav's number of a transfer characteristic (ISO/IEC 23091-2) → coding; others are gamma-coded.
+"""
+
+
+def decode_light(stream: FrameStream, config: CaptureConfig) -> tuple[FrameStream, CaptureConfig]:
+    """The stream as linear light where it is not gamma-coded, and what is left to do to it.
+
+    Args:
+        stream: frames as they come.
+        config: its `transfer` says how they are coded, unless it is auto; its `white_level` which
+            light is white.
+    """
+    coding, white_level = find_coding(stream.metadata, config)
+    if coding == GAMMA:
+        return stream, replace(config, white_level=white_level)
+    return LinearFrames(stream, coding, white_level), replace(config, white_level=None)
+
+
+def find_coding(facts: Mapping[str, Any], config: CaptureConfig) -> tuple[str, float | None]:
+    """How pixels are coded, and the level that is white, if any is stated.
+
+    Args:
+        facts: metadata of the source.
+        config: its `transfer` and `white_level`.
+    """
+    coding = facts.get(CODING, GAMMA) if config.transfer == AUTO else config.transfer
+    if coding in (GAMMA, LINEAR):
+        return coding, config.white_level or facts.get(FULL_SCALE)
+    return coding, config.white_level
+
+
+def linear_facts(coding: str) -> dict[str, str]:
+    """What the metadata of frames say that were made linear."""
+    return {CODING: coding, "transfer": Transfer.LINEAR.value}
+
+
+class LinearFrames(FrameSource):
+    """The frames of a source as linear light, 255 where it is white.
+
+    Args:
+        source: its frames, coded.
+        coding: linear, srgb, pq or hlg.
+        white_level: as for `to_light`.
+    """
+
+    def __init__(self, source: FrameStream, coding: str, white_level: float | None) -> None:
+        self._source, self._coding, self._white_level = source, coding, white_level
+        self._facts = SourceFacts(
+            source.size, source.fps, source.frame_count, source.metadata, source.is_live
+        )
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """The source's, and that the frames are linear."""
+        return {**self._source.metadata, **linear_facts(self._coding)}
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order, float32."""
+        full_scale = self._source.metadata.get(FULL_SCALE)
+        for frame in self._source:
+            pixels = to_light(frame.pixels, self._coding, full_scale, self._white_level)
+            yield replace(frame, pixels=pixels, transfer=Transfer.LINEAR)
+
+
+def to_light(
+    pixels: PixelArray,
+    coding: str,
+    full_scale: float | None = None,
+    white_level: float | None = None,
+) -> NDArray[np.float32]:
+    """Coded pixels as linear light, 255 where it is white. NaN stays.
+
+    Args:
+        pixels: [H, W] or [H, W, 3], any type of `Frame.pixels`.
+        coding: linear, srgb, pq or hlg.
+        full_scale: value of the signal 1; None: as for frames of that type (65535 for uint16, else
+            255).
+        white_level: light that is white, in the unit of the coding: cd/m² of PQ, a share of the
+            peak of HLG and sRGB, a pixel's value where it is linear. None: `DECODERS` has it, and
+            linear pixels are white at full scale.
+    """
+    full = full_scale or (UINT16_FULL if pixels.dtype == np.uint16 else WHITE)
+    if coding == LINEAR:
+        # What filters leave below 0 counts as 0.
+        light = np.maximum(np.asarray(pixels, np.float32), np.float32(0))
+        return light * np.float32(WHITE / (white_level or full))
+    decode, own_white = DECODERS[coding]
+    gain = np.float32(WHITE / (white_level or own_white))
+    if pixels.dtype.kind == "f":
+        return decode(pixels / full) * gain
+    levels = np.arange(np.iinfo(pixels.dtype).max + 1)
+    return (decode(levels / full) * gain)[pixels]

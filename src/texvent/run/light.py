@@ -1,0 +1,72 @@
+"""Linear or gamma-coded: the frames as a pixel model is defined for them.
+
+Models that declare `takes_linear` get linear light as it is. All others are defined on the luma of
+ordinary video: linear frames are gamma-coded for them by sRGB's curve, which goes on above white.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from texvent._registry import SIMULATORS
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.intensity_scale import float_levels
+from texvent.options.fields import option_names
+from texvent.run.settings import Settings
+from texvent.transfer import WHITE, Transfer, encode_srgb
+from texvent.video import Frame, FrameStream, transfer_of
+
+
+def suit_light(video: FrameStream, settings: Settings) -> tuple[FrameStream, Settings]:
+    """The video as the pixel model of a run takes it, and the options for that.
+
+    The option `gamma` of a model undoes the coding of frames: of linear ones it is 1.
+    """
+    if transfer_of(video) is Transfer.GAMMA:
+        return video, settings
+    if not getattr(SIMULATORS.load(settings.run.simulator), "takes_linear", False):
+        return gamma_coded(video), settings
+    if "gamma" in option_names(type(settings.simulate)):
+        settings = replace(settings, simulate=replace(settings.simulate, gamma=1.0))
+    return video, settings
+
+
+def gamma_coded(video: FrameStream) -> FrameStream:
+    """A linear stream as gamma-coded frames.
+
+    A stream that renders its frames codes them itself, so that it can still render any instant.
+    """
+    code_itself: Callable[[], FrameStream] | None = getattr(video, "gamma_coded", None)
+    return GammaCodedFrames(video) if code_itself is None else code_itself()
+
+
+class GammaCodedFrames(FrameSource):
+    """The frames of a linear stream, gamma-coded."""
+
+    def __init__(self, source: FrameStream) -> None:
+        self._source = source
+        self._facts = SourceFacts(
+            source.size, source.fps, source.frame_count, source.metadata, source.is_live
+        )
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """The source's, without what says that it is linear."""
+        return {name: one for name, one in self._source.metadata.items() if name != "transfer"}
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order, float32."""
+        for frame in self._source:
+            yield gamma_coded_frame(frame)
+
+
+def gamma_coded_frame(frame: Frame) -> Frame:
+    """A frame as gamma-coded levels, float32 where it was linear."""
+    if frame.transfer is Transfer.GAMMA:
+        return frame
+    coded = encode_srgb(float_levels(frame.pixels) / np.float32(WHITE))
+    return replace(frame, pixels=coded, transfer=Transfer.GAMMA)
