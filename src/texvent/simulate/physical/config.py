@@ -23,7 +23,8 @@ class PhysicalConfig:
 
     gamma: float = 2.2
     """Exponent that turns the levels of ordinary video into linear light; 1 for frames that are
-    linear already, such as those of a DAVIS."""
+    linear already, such as those of a DAVIS. Frames that say so themselves, such as OpenEXR, are
+    taken as they are whatever it is."""
     balance: float = 10.0
     """Balance α, in linear levels of 0..255: what is added to intensities before the logarithm,
     as the current that flows in the dark."""
