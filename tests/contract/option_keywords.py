@@ -121,6 +121,8 @@ def kinds_of(name: str, hint: Any) -> list[str]:
         return [f"Literal[{', '.join(map(repr, arguments))}]"]
     if origin in (typing.Union, types.UnionType):
         return [kind for one in arguments if one is not type(None) for kind in kinds_of(name, one)]
+    if origin is tuple:
+        return [f"Sequence[{SCALARS[arguments[0]]}]"]
     if hint is Fraction:
         return ["Rate"]
     return [SCALARS[hint]]

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError
+from texvent.generate.video_models.adapters import Adapter, parse_adapter
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,6 +62,9 @@ class DiffusersConfig(GeneratedVideoConfig):
     """What not to show."""
     image: Path | None = None
     """Image to start from, where the model can."""
+    lora: tuple[str, ...] = ()
+    """Adapter (LoRA): FILE, FOLDER or hub:org/name[/file], each with :WEIGHT if it is not 1, and
+    with :high or :low where a model has two transformers. May be repeated."""
     dtype: Literal["auto", "float32", "bfloat16", "float16"] = "auto"
     """Number format of the weights; auto: the model's own on a GPU, float32 on a CPU."""
     offload: Literal["auto", "none", "model", "sequential"] = "auto"
@@ -78,8 +82,16 @@ class DiffusersConfig(GeneratedVideoConfig):
     generator_device: str = "auto"
     """Where to generate: auto, cpu, cuda, cuda:1, mps."""
 
+    repeated: ClassVar[tuple[str, ...]] = ("lora",)
+
+    @property
+    def adapters(self) -> tuple[Adapter, ...]:
+        """What `lora` says."""
+        return tuple(map(parse_adapter, self.lora))
+
     def __post_init__(self) -> None:
         super().__post_init__()
+        self.adapters  # noqa: B018  (refused before any work)
         for name, low in (("frames", 2), ("width", 8), ("height", 8), ("steps", 1)):
             check_range(name, getattr(self, name), low, 65_535)
         check_range("guidance", self.guidance, 0.0, 1000.0)

@@ -64,7 +64,8 @@ def plain(value: Any) -> Any:
 def convert(value: Any, hint: Any, where: str) -> Any:
     """`value` as type `hint`; bool, int, float, str, Path, Fraction, Literal and unions of them.
 
-    Values of other types are taken as they are.
+    For a tuple of any number of those, one alone is taken too. Values of other types are taken as
+    they are.
 
     Raises:
         ConfigError: it is of another type; the message begins with `where`.
@@ -75,6 +76,9 @@ def convert(value: Any, hint: Any, where: str) -> Any:
             allowed = tuple(str(argument) for argument in arguments)
             raise ConfigError(f"{where} is {shown(value)}; {suggest(value, allowed)}")
         return value
+    if origin is tuple and arguments[-1] is Ellipsis:
+        several = value if isinstance(value, (list, tuple)) else (value,)
+        return tuple(convert(one, arguments[0], where) for one in several)
     if origin in (typing.Union, types.UnionType):
         if value is None and type(None) in arguments:
             return None

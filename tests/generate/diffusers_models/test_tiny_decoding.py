@@ -1,6 +1,7 @@
 """Pipelines whose frames come from a tiny decoder: the right latents, and refusals before work."""
 
 import dataclasses
+import hashlib
 import os
 from types import SimpleNamespace
 
@@ -34,7 +35,8 @@ def test_wan_is_decoded_from_what_it_denoises(name, models, tmp_path):
     video = generator.generate(PROMPT)
     assert expected.shape == (5, 32, 32, 3)
     assert np.abs(pixels(video) / 65_535 - expected).max() < 1e-4
-    assert len(video.metadata["digests"]["decoder"]) == 64
+    sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
+    assert video.metadata["files"] == [{"file": str(path), "sha256": sha256}]
     again = np.stack(list(generator.decode(latents)))
     assert np.abs(again - expected).max() < 1e-4
 

@@ -20,6 +20,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.generate.diffusers_models.model_run import ModelRun
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.adapters import Adapter, find_local
 from texvent.generate.video_models.download import find_downloaded
 from texvent.generate.video_models.known_models import VideoModel
 from texvent.generate.video_models.weight_files import CONFIG, check_part, fingerprint
@@ -140,6 +141,8 @@ class DiffusersGenerator:
             if not (folder / CONFIG).is_file():
                 raise InputError(f"there is no {option} in {folder} (no {CONFIG})")
             check_part(folder)
+        for adapter in self.config.adapters:
+            find_local(adapter)
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
     def _loaded(self, progress: Progress) -> ModelRun:
@@ -163,7 +166,7 @@ class DiffusersGenerator:
             "prompt": prompt,
             "seed": seed,
             "options": plain(self.config),
-            **({"digests": digests} if (digests := self._digests()) else {}),
+            **({"files": files} if (files := self._files()) else {}),
             **run.provenance(),
         }
         video = cache.store(key, frames, self.fps, facts)
@@ -180,19 +183,36 @@ class DiffusersGenerator:
         facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
         if not model.ignores_fps:
             facts["fps"] = self.fps
-        facts |= self._digests()
+        for name in (*NETWORK_OPTIONS, "image"):
+            if getattr(config, name) is not None:
+                facts[name] = _digest(getattr(config, name))
+        if config.lora:
+            facts["lora"] = [
+                [_adapter_content(one), one.weight, one.noise_or_name] for one in config.adapters
+            ]
         if model.folder is None:
             facts["source"] = model.source
         else:
             facts["folder"] = fingerprint(model.folder) if model.folder.is_dir() else ""
         return {**facts, "prompt": prompt, "seed": seed}
 
-    def _digests(self) -> dict[str, str]:
-        """Option → digest of the file or folder that it names."""
-        paths = {name: getattr(self.config, name) for name in (*NETWORK_OPTIONS, "image")}
-        return {name: _digest(path) for name, path in paths.items() if path is not None}
+    def _files(self) -> list[dict[str, str]]:
+        """The single files that decide the frames, by path and sha256; `replay` compares them."""
+        config = self.config
+        paths = [config.image, config.decoder, *map(find_local, config.adapters)]
+        return [
+            {"file": str(path), "sha256": _digest(path)}
+            for path in paths
+            if path is not None and path.is_file()
+        ]
 
 
 def _digest(path: Path) -> str:
     """Of a file, sha256; of a folder with a network, see `fingerprint`."""
     return describe_file(path)["sha256"] if path.is_file() else fingerprint(path)
+
+
+def _adapter_content(adapter: Adapter) -> str:
+    """Digest of its file, or its name on the hub: looking for a video fetches nothing."""
+    path = find_local(adapter)
+    return adapter.source if path is None else _digest(path)

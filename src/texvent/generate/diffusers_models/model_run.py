@@ -11,6 +11,7 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import InputError
+from texvent.generate.diffusers_models.adapter_loading import check_adapters, describe_few_steps
 from texvent.generate.diffusers_models.decoder_input import (
     SINGLE_DECODE_PIPELINES,
     capture_decoder_input,
@@ -51,6 +52,7 @@ from texvent.generate.diffusers_models.streamed_decoding import COGVIDEOX, can_s
 from texvent.generate.tiny_decoder.fitting import check_model, check_pipeline, tiny_input
 from texvent.generate.tiny_decoder.network import TinyDecoder, read_tiny_decoder
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.adapters import AdapterFile, find_adapter
 from texvent.generate.video_models.download import ModelFiles, find_files
 from texvent.generate.video_models.known_models import VideoModel
 from texvent.generate.video_models.weight_files import fingerprint, read_pipeline_index
@@ -87,7 +89,9 @@ class ModelRun:
         self._files: ModelFiles = find_files(model, progress.announce)
         self._index = read_pipeline_index(self._files.folder)
         self._pipe: Pipeline | None = None
+        self._adapters: tuple[AdapterFile, ...] = ()
         self._tiny = self._read_tiny_decoder()
+        self._adapters = self._find_adapters()
 
     @property
     def has_guardrail(self) -> bool:
@@ -128,7 +132,7 @@ class ModelRun:
     def decode(self, latents: Latents) -> Iterator[PixelArray]:
         """Frames of latents of this model, [H, W, 3] float32 in 0..1."""
         if self._pipe is None:
-            self._pipe = load_pipeline(self._request(has_text_encoder=False))
+            self._pipe = self._load(has_text_encoder=False)
         if self._tiny is not None:
             torch = require("torch", extra=EXTRA)
             values = torch.from_numpy(latents.decoder_input)[None]
@@ -143,6 +147,7 @@ class ModelRun:
             "pipeline": self._class_name,
             "dtype": self._placement.dtype,
             "quantize": self._placement.quantize,
+            "lora": [one.facts for one in self._adapters] or None,
             "licence": self._model.licence_and_terms,
             **{name: metadata.version(name) for name in PACKAGES},
         }
@@ -164,6 +169,18 @@ class ModelRun:
         tiny = read_tiny_decoder(path)
         check_model(tiny.layout, path, self._files.folder, self._index)
         return tiny
+
+    def _find_adapters(self) -> tuple[AdapterFile, ...]:
+        """The files of `--lora`, refused if the pipeline cannot take them; fetched if need be."""
+        adapters = self._config.adapters
+        if not adapters:
+            return ()
+        pipeline_class = find_pipeline_class(self._request(has_text_encoder=True))
+        check_adapters(adapters, pipeline_class, self._index)
+        hint = describe_few_steps(adapters, pipeline_class, self._config)
+        if hint is not None:
+            self.progress.announce(hint)
+        return tuple(find_adapter(one, self.progress.announce) for one in adapters)
 
     def _decode_tiny(
         self, tiny: TinyDecoder, pipe: Pipeline, decoder_input: Any
@@ -209,8 +226,13 @@ class ModelRun:
             decoder=self._decoder_folder,
             decoder_in_float32=self._model.needs_float32_vae,
             motion_adapter=self._motion_adapter,
+            adapters=self._adapters,
             has_text_encoder=has_text_encoder,
         )
+
+    def _load(self, *, has_text_encoder: bool) -> Pipeline:
+        request = self._request(has_text_encoder=has_text_encoder)
+        return load_pipeline(request, self.progress.announce)
 
     def _prepare(self, prompt: str) -> tuple[Pipeline, dict[str, Any]]:
         """The pipeline, and the prompt as it wants it: text, or embeddings."""
@@ -225,7 +247,7 @@ class ModelRun:
                 self.progress.announce(
                     f"loading {self._model.source} ({self._describe_placement()})"
                 )
-            self._pipe = load_pipeline(request)
+            self._pipe = load_pipeline(request, self.progress.announce)
             if self._tiny is not None and self._config.decoder is not None:
                 check_pipeline(self._tiny.layout, self._config.decoder, self._pipe)
         pipe = self._pipe
@@ -239,7 +261,7 @@ class ModelRun:
             # Loaded for a prompt whose embeddings were known; this one needs the encoder. Nothing
             # may hold the old one while the new one is loaded.
             self._pipe = pipe = None
-            pipe = self._pipe = load_pipeline(self._request(has_text_encoder=True))
+            pipe = self._pipe = self._load(has_text_encoder=True)
         guidance = default_guidance(pipe, self._config)
         return pipe, embed_prompt(
             pipe, prompt, self._config.negative_prompt, key=key, guidance=guidance

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import ConfigError, InputError
+from texvent.generate.diffusers_models.adapter_loading import load_adapters
 from texvent.generate.diffusers_models.device_placement import Placement
 from texvent.generate.diffusers_models.guardrail import (
     PART,
@@ -18,6 +20,7 @@ from texvent.generate.diffusers_models.guardrail import (
 )
 from texvent.generate.diffusers_models.streamed_decoding import LTX
 from texvent.generate.diffusers_models.torchvision_stub import install_torchvision_stub
+from texvent.generate.video_models.adapters import AdapterFile
 from texvent.generate.video_models.loading import loading, quiet_libraries
 from texvent.generate.video_models.weight_files import read_pipeline_index
 
@@ -50,6 +53,7 @@ class LoadRequest:
     decoder_in_float32: bool
     motion_adapter: Path | None = None
     """Folder of the motion adapter of an image model."""
+    adapters: tuple[AdapterFile, ...] = ()
     has_text_encoder: bool = True
     """False leaves the text encoder out: prompts come as embeddings."""
 
@@ -81,11 +85,17 @@ def resolve_device(wish: str, option: str = "generator_device") -> tuple[str, in
     return str(device), free
 
 
-def load_pipeline(request: LoadRequest) -> Pipeline:
+def load_pipeline(
+    request: LoadRequest, announce: Callable[[str], None] = lambda line: None
+) -> Pipeline:
     """The pipeline, in evaluation mode, placed as asked. The last one is kept for the next prompt.
 
     One that has a text encoder also serves requests without, so that a batch that mixes new and
     known prompts loads its model once.
+
+    Args:
+        request: what is loaded.
+        announce: receives what of an adapter is left out.
 
     Raises:
         FileFormatError: a weight file does not fit its network.
@@ -95,7 +105,7 @@ def load_pipeline(request: LoadRequest) -> Pipeline:
     kept = find_kept(request)
     if kept is None:
         forget_pipeline()  # before the next is loaded: memory holds one
-        kept = _KEPT[request] = _load(request)
+        kept = _KEPT[request] = _load(request, announce)
     return kept
 
 
@@ -128,7 +138,7 @@ def find_pipeline_class(request: LoadRequest) -> Any:
     return pipeline_class
 
 
-def _load(request: LoadRequest) -> Pipeline:
+def _load(request: LoadRequest, announce: Callable[[str], None]) -> Pipeline:
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
     pipeline_class = find_pipeline_class(request)
     parts: dict[str, Any] = {}
@@ -147,6 +157,8 @@ def _load(request: LoadRequest) -> Pipeline:
     pipe = _from_pretrained(pipeline_class, request, parts)
     if PART in parts:
         check_wiring(pipe)
+    for note in load_adapters(pipe, request.adapters):
+        announce(note)
     place_pipeline(pipe, request.placement)
     for part in pipe.components.values():
         # A text encoder in training mode drops units at random.

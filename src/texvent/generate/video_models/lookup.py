@@ -13,16 +13,12 @@ from typing import TYPE_CHECKING
 
 from texvent.errors import ConfigError, shown
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.hub_names import HUB, REPOSITORY
 from texvent.generate.video_models.known_models import MODELS, VideoModel
 
 if TYPE_CHECKING:
     from texvent.generate.diffusers_models.generator import DiffusersGenerator
     from texvent.sensor import SensorSize
-
-REPOSITORY = r"[A-Za-z0-9]\w*(?:[.-]\w+)*/[A-Za-z0-9]\w*(?:[.-]\w+)*"
-"""`organisation/name` as the model hub allows it: no two dots or hyphens in a row."""
-HUB = "hub:"
-"""Prefix of a generator name that is a repository of the model hub: `hub:org/name`."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from texvent._require import require
 from texvent.errors import InputError, TexventError
-from texvent.generate.video_models.lookup import HUB
+from texvent.generate.video_models.hub_names import HUB
 
 EXTRA = "generate"
 

@@ -1,0 +1,135 @@
+"""What `--lora` says, and where the files are: on this machine, and in the cache of the hub."""
+
+import dataclasses
+import os
+
+import pytest
+
+from texvent.errors import ConfigError, FileFormatError, InputError, TexventError
+from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.adapters import (
+    Adapter,
+    find_adapter,
+    find_local,
+    parse_adapter,
+)
+from texvent.options.values import with_options
+
+EMPTY = (2).to_bytes(8, "little") + b"{}"
+"""A whole safetensors file without tensors."""
+
+
+@pytest.mark.parametrize(
+    ("text", "source", "weight", "noise"),
+    [
+        ("fast.safetensors", "fast.safetensors", 1.0, None),
+        ("./a b/fast.safetensors:0.8", "./a b/fast.safetensors", 0.8, None),
+        ("fast.safetensors:-1e-1", "fast.safetensors", -0.1, None),
+        ("fast.safetensors:0:low", "fast.safetensors", 0.0, "low"),
+        ("folder:high", "folder", 1.0, "high"),
+        ("hub:org/name", "hub:org/name", 1.0, None),
+        ("hub:org/name@v1.0/a/b.safetensors:2", "hub:org/name@v1.0/a/b.safetensors", 2.0, None),
+        ("C:model.safetensors", "C:model.safetensors", 1.0, None),
+    ],
+)
+def test_source_weight_and_transformer_are_told_apart(text, source, weight, noise):
+    assert parse_adapter(text) == Adapter(source, weight, noise)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "write FILE or FILE:WEIGHT"),
+        (":0.5", "write FILE or FILE:WEIGHT"),
+        ("a.safetensors:nan", "write FILE or FILE:WEIGHT"),
+        ("a.safetensors:1.2.3", "write FILE or FILE:WEIGHT"),
+        ("a.safetensors:inf", "write FILE or FILE:WEIGHT"),
+        ("hub:name", "names no repository"),
+        ("hub:org/na--me", "names no repository"),
+        ("old.pt:0.5", "is a pickle"),
+        ("hub:org/name/old.bin", "is a pickle"),
+    ],
+)
+def test_other_forms_are_refused_as_an_option(text, message):
+    with pytest.raises(ConfigError, match=message):
+        DiffusersConfig(lora=(text,))
+
+
+@pytest.mark.parametrize(
+    ("source", "noise"),
+    [
+        ("hub:org/name/sub/high_noise_model.safetensors", "high"),
+        ("wan-Low-Noise.safetensors", "low"),
+        ("Wan2.2-Lightning_T2V-A14B-4steps-lora_HIGH_fp16.safetensors", "high"),
+        ("a_LOW.safetensors", "low"),
+        ("HIGH/style.safetensors", None),
+        ("low_light.safetensors", None),
+        ("SLOW.safetensors", None),
+    ],
+)
+def test_names_say_which_transformer_a_file_is_for(source, noise):
+    assert Adapter(source).noise_or_name == noise
+    assert Adapter(source, noise="low").noise_or_name == "low"
+
+
+def test_a_file_of_options_may_name_one_or_several():
+    config = DiffusersConfig()
+    assert with_options(config, {"lora": "a.safetensors"}, where="here").lora == ("a.safetensors",)
+    several = with_options(config, {"lora": ["a.safetensors", "b.safetensors:2"]}, where="here")
+    assert [one.weight for one in several.adapters] == [1.0, 2.0]
+    assert dataclasses.replace(several).lora == several.lora
+    with pytest.raises(ConfigError, match="here: lora is 3; it must be text"):
+        with_options(config, {"lora": [3]}, where="here")
+
+
+def test_files_and_folders_on_this_machine(tmp_path):
+    path = tmp_path / "a.safetensors"
+    path.write_bytes(EMPTY)
+    assert find_local(Adapter(str(path))) == path
+    assert find_local(Adapter(str(tmp_path))) == path
+    (tmp_path / "b.safetensors").write_bytes(EMPTY)
+    with pytest.raises(InputError, match=r"does not say which adapter: a\.safetensors, b\."):
+        find_local(Adapter(str(tmp_path)))
+    saved = tmp_path / "pytorch_lora_weights.safetensors"
+    saved.write_bytes(EMPTY)
+    assert find_local(Adapter(str(tmp_path))) == saved
+    assert find_local(Adapter("hub:org/name")) is None
+    (tmp_path / "note.txt").write_text("no adapter")
+    for source, message in (
+        ("none", "there is no adapter"),
+        ("note.txt", "from .safetensors only"),
+    ):
+        with pytest.raises(InputError, match=message):
+            find_local(Adapter(str(tmp_path / source)))
+    path.write_bytes(EMPTY + b"more")
+    with pytest.raises(FileFormatError, match="is damaged"):
+        find_local(Adapter(str(path)))
+
+
+@pytest.mark.torch
+def test_a_repository_of_the_cache_is_used_and_another_is_told(tmp_path, monkeypatch):
+    """The layout of the hub's cache: a folder per commit, and what the branches point at."""
+    os.environ["HF_HUB_OFFLINE"] = "1"
+    pytest.importorskip("huggingface_hub")
+    from huggingface_hub import constants
+
+    monkeypatch.setattr(constants, "HF_HUB_CACHE", str(tmp_path))
+    commit = "0" * 40
+    repository = tmp_path / "models--org--name"
+    (repository / "refs").mkdir(parents=True)
+    (repository / "refs" / "main").write_text(commit)
+    snapshot = repository / "snapshots" / commit
+    (snapshot / "sub").mkdir(parents=True)
+    path = snapshot / "sub" / "fast.safetensors"
+    path.write_bytes(EMPTY)
+    lines = []
+    for source in ("hub:org/name/sub/fast.safetensors", "hub:org/name"):
+        found = find_adapter(Adapter(source, 0.5), lines.append)
+        assert found.path == path
+        assert found.facts == {"source": source, "sha256": found.sha256, "weight": 0.5}
+    assert lines == []
+    with pytest.raises(TexventError, match=r"org/other/a\.safetensors is not on this machine"):
+        find_adapter(Adapter("hub:org/other/a.safetensors"), lines.append)
+    assert lines[0].startswith("fetching the adapter hub:org/other/a.safetensors")
+    with pytest.raises(TexventError, match=r"org/third is not on this machine"):
+        find_adapter(Adapter("hub:org/third"), lines.append)
