@@ -63,6 +63,10 @@ COMMANDS = {
         "texvent.cli.event_files.info",
         "What an event file or video holds, and how it was made.",
     ),
+    "check": (
+        "texvent.cli.simulation.check",
+        "What a video is like for an event camera: flicker, repeats, cuts, event rate.",
+    ),
     "convert": (
         "texvent.cli.event_files.convert",
         "Another event format, a region, a time range, files merged.",

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, OutputError
-from texvent.generate.videos.failure_filter import measure_video
 from texvent.generate.videos.stored_video import open_stored, to_16_bits, write_video
 from texvent.generate.videos.video_cache import VideoCache, content_key, made_folder
+from texvent.video_check.measurer import measure_video
 
 FPS = Fraction(30_000, 1001)
 

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from texvent.dataset.specification.specification import Filters
 from texvent.errors import TexventError
 from texvent.events import EventStream
-from texvent.generate.videos.failure_filter import VideoMeasurer, judge_measures
 from texvent.pipeline import Simulation
 from texvent.represent.event_frame import count_events
+from texvent.video_check.measurer import VideoMeasurer
+from texvent.video_check.report import judge_measures
 
 COLUMNS = ("x", "y", "t", "p")
 PREVIEW_US, PREVIEW_WIDTH = 50_000, 256

@@ -10,10 +10,15 @@ from texvent.errors import TexventError
 from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.clip_model import check_clip_model
 from texvent.generate.videos.clip_score import measure_clip_score
-from texvent.generate.videos.failure_filter import FailureReport, check_video, judge_measures
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import MEASURES
 from texvent.runtime.progress import NoProgress, Progress
+from texvent.video_check.report import (
+    VideoReport,
+    check_video,
+    has_all_measures,
+    judge_measures,
+)
 
 
 def generate_checked(
@@ -58,21 +63,22 @@ def generate_checked(
     raise TexventError(_refusal(report, tries))
 
 
-def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> FailureReport:
+def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> VideoReport:
     """What is wrong with the video itself, and whether it shows the prompt."""
-    measures = video.metadata.get(MEASURES)
-    report = check_video(video) if measures is None else judge_measures(dict(measures))
+    measures = video.metadata.get(MEASURES) or {}
+    report = judge_measures(measures) if has_all_measures(measures) else check_video(video)
     if config.agreement_model is None:
         return report
     score = measure_clip_score(video, prompt, config.agreement_model)
     low = config.min_agreement is not None and score < config.min_agreement
-    return FailureReport(
+    return dataclasses.replace(
+        report,
         problems=(*report.problems, *((f"agreement {score:.3f}",) if low else ())),
         measures={**report.measures, "agreement": score},
     )
 
 
-def _with_findings(video: StoredVideo, report: FailureReport) -> StoredVideo:
+def _with_findings(video: StoredVideo, report: VideoReport) -> StoredVideo:
     """The video with the findings in place of the bare measures."""
     facts = {name: fact for name, fact in video.metadata.items() if name != MEASURES}
     return dataclasses.replace(video, metadata={**facts, "check": report.as_facts()})
@@ -93,7 +99,7 @@ def nth_seed(seed: int, attempt: int) -> int:
     return int.from_bytes(digest[:4], "big") >> 1
 
 
-def _refusal(report: FailureReport, tries: int) -> str:
+def _refusal(report: VideoReport, tries: int) -> str:
     seeds = "the video" if tries == 1 else f"all {tries} videos, each of another seed,"
     return (
         f"{seeds} failed the check of generated videos: {report.summary}. Reword the prompt, try "

@@ -19,16 +19,16 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import OutputError
-from texvent.generate.videos.failure_filter import VideoMeasurer, measure_video
 from texvent.generate.videos.stored_video import EXTENSION, StoredVideo, write_video
 from texvent.io.atomic import atomic_file
 from texvent.options.values import plain
 from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
 from texvent.sensor import SensorSize
 from texvent.video import PixelArray
+from texvent.video_check.measurer import VideoMeasurer, measure_video
 
 MEASURES = "measures"
-"""Key of the failure filter's numbers in a video's metadata."""
+"""Key of the numbers of `texvent.video_check` in a video's metadata."""
 LAYOUT = 1
 """Goes into every key; raised when the same request would be stored in another way."""
 
@@ -98,7 +98,7 @@ class VideoCache:
     ) -> StoredVideo:
         """Write a video and its note; see `stored_video.write_video`.
 
-        The failure filter's measures are taken while the frames pass by and are noted too.
+        The measures of `texvent.video_check` are taken while the frames pass by and are noted too.
         """
         measurer = VideoMeasurer()
         path = self._path(key, EXTENSION)

@@ -1,6 +1,5 @@
-"""The failure filter passes real and embedded clips and catches deliberately broken ones."""
+"""Real and embedded clips pass the checks of a generated video; deliberately broken ones do not."""
 
-from fractions import Fraction
 from pathlib import Path
 
 import cv2
@@ -9,16 +8,13 @@ import pytest
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import InputError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.generate.video_config import GeneratedVideoConfig
-from texvent.generate.videos.failure_filter import block_means, check_video, neighbour_correlation
-from texvent.generate.videos.retries import generate_checked, nth_seed
-from texvent.generate.videos.stored_video import write_video
 from texvent.sensor import SensorSize
 from texvent.video import Frame
+from texvent.video_check.blocks import block_means, neighbour_correlation, percentile_of_counts
+from texvent.video_check.report import check_video
 
-CLIP = Path(__file__).parents[2] / "clips" / "bigbuckbunny_excerpt.mp4"
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 RNG = np.random.default_rng(0)
 
 
@@ -115,74 +111,14 @@ def test_block_means_and_correlation_by_hand():
 def test_the_report_goes_into_metadata_as_plain_values(clip):
     facts = check_video(frames([clip[0]] * 3)).as_facts()
     assert facts["problems"] == ["frozen", "no motion"]
-    assert all(isinstance(value, float) for name, value in facts.items() if name != "problems")
-
-
-class Told:
-    def __init__(self):
-        self.lines = []
-
-    def announce(self, line):
-        self.lines.append(line)
-
-
-@pytest.fixture
-def make(tmp_path, clip):
-    """Seed 0 and its first successor freeze; every other seed moves."""
-    asked = []
-
-    def make_video(seed, progress):
-        asked.append(seed)
-        is_bad = seed in (0, nth_seed(0, 1))
-        luma = np.stack([clip[0]] * 8) if is_bad else clip[:8]
-        images = np.repeat(luma[..., None], 3, axis=3)
-        return write_video(
-            images / np.float32(255),
-            tmp_path / f"{seed}.avi",
-            Fraction(8),
-            {"seed": seed},
-            overwrite=True,
-        )
-
-    make_video.asked = asked
-    return make_video
-
-
-def test_retrying_takes_the_first_seed_that_passes(make):
-    told = Told()
-    config = GeneratedVideoConfig(on_failure="retry", retries=3)
-    video = generate_checked(make, config, prompt="a pan", seed=0, progress=told)
-    assert make.asked == [0, nth_seed(0, 1), nth_seed(0, 2)]
-    assert video.metadata["seed"] == nth_seed(0, 2)
-    assert video.metadata["check"]["problems"] == []
-    assert len(told.lines) == 2
-
-
-def test_a_missing_clip_model_is_named_before_anything_is_generated(make, tmp_path):
-    config = GeneratedVideoConfig(agreement_model=tmp_path / "none")
-    with pytest.raises(InputError, match=r"there is no CLIP model in .*none"):
-        generate_checked(make, config, prompt="a pan", seed=0, progress=Told())
-    assert make.asked == []
-
-
-def test_retrying_gives_up_after_the_last_seed(make):
-    config = GeneratedVideoConfig(on_failure="retry", retries=1)
-    with pytest.raises(TexventError, match="all 2 videos, each of another seed, failed"):
-        generate_checked(make, config, prompt="a pan", seed=0, progress=Told())
-
-
-def test_rejecting_warning_and_ignoring(make):
-    told = Told()
-    with pytest.raises(TexventError, match=r"failed the check .*frozen, no motion"):
-        generate_checked(
-            make, GeneratedVideoConfig(on_failure="reject"), prompt="a pan", seed=0, progress=told
-        )
-    warned = generate_checked(
-        make, GeneratedVideoConfig(on_failure="warn"), prompt="a pan", seed=0, progress=told
+    assert all(
+        isinstance(facts[name], float) for name in facts if name not in ("problems", "remarks")
     )
-    assert warned.metadata["check"]["problems"] == ["frozen", "no motion"]
-    assert told.lines[-1] == "warning: the generated video looks failed: frozen, no motion"
-    ignored = generate_checked(
-        make, GeneratedVideoConfig(on_failure="ignore"), prompt="a pan", seed=0, progress=told
-    )
-    assert "check" not in ignored.metadata
+
+
+def test_percentiles_of_counts_are_those_of_the_values():
+    values = np.random.default_rng(0).integers(0, 50, 1000)
+    counts = np.bincount(values, minlength=60)
+    for percent in (0, 5, 50, 95, 100):
+        expected = np.percentile(values, percent, method="inverted_cdf")
+        assert percentile_of_counts(counts, percent) == (expected if percent else 0)

@@ -1,0 +1,152 @@
+"""`texvent check VIDEO`: what in a video harms events, and what helps."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from rich.console import Console
+from rich.table import Table
+
+from texvent.cli.command import resolve_command
+from texvent.cli.notices import write_out
+from texvent.cli.option_types import REQUIRED
+from texvent.run.check import WholeCheck, check_frames, open_source
+from texvent.runtime.console_progress import ConsoleProgress
+from texvent.video import MICROSECONDS
+from texvent.video_check.report import Finding
+
+FOUND = 1
+"""Exit code with --strict of a video in which something was found."""
+SHOWN_CUTS = 8
+DESCRIPTION = """Look through a video once and say what in it harms events, and which option helps:
+flicker, repeated frames, cuts, compression, banding, motion per frame, the event rate to expect.
+All options of texvent simulate that decide events are taken: the rate is for them.
+
+  texvent check clip.mp4
+  texvent check clip.mp4 --sensor davis346 --contrast-threshold 0.3 --all
+
+Exit code: 0; with --strict 1 if something was found."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckOptions:
+    """Which frames."""
+
+    input_texts: ClassVar[tuple[str, ...]] = ("source",)
+    positional: ClassVar[tuple[str, ...]] = ("source",)
+    main_options: ClassVar[tuple[str, ...]] = (
+        "all", "json", "strict", "quiet", "sensor", "fit", "fps", "start", "stop", "simulator",
+        "preset", "contrast_threshold", "config",
+    )  # fmt: skip
+
+    source: str = REQUIRED
+    """Video file, image folder, camera (/dev/video0), stream (rtsp://...) or - (standard input)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckOutput:
+    """How to say it."""
+
+    short_flags: ClassVar[dict[str, str]] = {"quiet": "-q"}
+    outputs: ClassVar[tuple[str, ...]] = ()
+
+    all: bool = False
+    """Say of every check what it is for, also of those that found nothing."""
+    json: bool = False
+    """Print JSON instead of a table, with all measures and the spectrum of flicker."""
+    strict: bool = False
+    """End with exit code 1 if something was found."""
+    quiet: bool = False
+    """No progress."""
+    config: Path | None = None
+    """TOML or YAML file with options; flags override it."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    settings, own, output = resolve_command(
+        "simulate",
+        arguments,
+        CheckOptions(),
+        description=DESCRIPTION,
+        prog="texvent check",
+        output=CheckOutput(),
+    )
+    with ConsoleProgress(is_quiet=output.quiet) as progress:
+        found = check_frames(open_source(own.source, settings), settings, progress)
+    if output.json:
+        write_out(json.dumps(describe_check(found), indent=2) + "\n")
+    else:
+        _print_check(found, is_whole=output.all)
+    is_fine = not any(one.is_found for one in found.report.findings)
+    return 0 if is_fine or not output.strict else FOUND
+
+
+def describe_check(found: WholeCheck) -> dict[str, Any]:
+    """All that was found, JSON-ready."""
+    spectrum = found.spectrum
+    fps = found.report.measures["fps"]
+    return {
+        "found": [*found.report.problems, *found.report.remarks],
+        "sensor": str(found.size),
+        "findings": [one.as_facts() for one in found.report.findings],
+        "measures": {name: round(one, 6) for name, one in found.report.measures.items()},
+        "cuts_s": [time / MICROSECONDS for time in found.cut_times_us],
+        "flicker": None
+        if spectrum is None
+        else {
+            "hz": [round(float(one) * fps, 4) for one in spectrum.frequency],
+            "whole_log": [round(float(one), 6) for one in spectrum.whole_log],
+            "blocks_log": [round(float(one), 6) for one in spectrum.blocks_log],
+            "line_share": [round(float(one), 4) for one in spectrum.line_share],
+        },
+    }
+
+
+def _print_check(found: WholeCheck, *, is_whole: bool) -> None:
+    """What was found with advice, then the other checks; a summary last."""
+    findings = found.report.findings
+    full = [one for one in findings if one.is_found or is_whole]
+    rest = [one for one in findings if one not in full]
+    console = Console(highlight=False)
+    if full:
+        table = _table("check", "measured", "limit", "what it does to events", "what helps")
+        for one in full:
+            advice = one.check.effect, one.check.help
+            table.add_row(_mark(one), one.value, one.check.limit, *advice)
+        console.print(table)
+    if rest:
+        table = _table("nothing found" if full else "check", "measured", "limit")
+        for one in rest:
+            table.add_row(one.check.name, one.value, one.check.limit)
+        console.print(*([""] if full else []), table, sep="\n")
+    write_out("\n".join(["", *_summary(found), ""]))
+
+
+def _table(*titles: str) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 2, 0, 0))
+    for title in titles:
+        table.add_column(title)
+    return table
+
+
+def _mark(one: Finding) -> str:
+    return f"! {one.check.name}" if one.is_found else one.check.name
+
+
+def _summary(found: WholeCheck) -> list[str]:
+    measures, report = found.report.measures, found.report
+    names = [*report.problems, *report.remarks]
+    lines = [
+        f"{measures['frames']:.0f} frames, {measures['fps']:.4g} fps, sensor {found.size}",
+        f"found: {', '.join(names)}" if names else "nothing found",
+    ]
+    if found.cut_times_us:
+        times = [f"{time / MICROSECONDS:.3f}" for time in found.cut_times_us[:SHOWN_CUTS]]
+        more = ", ..." if len(found.cut_times_us) > SHOWN_CUTS else ""
+        lines.insert(1, f"cuts at {', '.join(times)}{more} s")
+    return lines

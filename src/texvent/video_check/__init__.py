@@ -1,0 +1,1 @@
+"""What a video is like for an event camera: measures of one pass, and what they amount to."""

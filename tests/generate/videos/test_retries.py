@@ -1,0 +1,100 @@
+"""Videos that fail the checks are refused, reported, or made again with another seed."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from texvent.errors import InputError, TexventError
+from texvent.generate.video_config import GeneratedVideoConfig
+from texvent.generate.videos.retries import generate_checked, nth_seed
+from texvent.generate.videos.stored_video import write_video
+from texvent.generate.videos.video_cache import MEASURES
+
+
+@pytest.fixture
+def clip():
+    """8 frames of a pan over a textured image: [N, H, W], 0..255."""
+    rng = np.random.default_rng(3)
+    ground = np.kron(rng.uniform(20, 235, (12, 20)), np.ones((8, 8)))
+    return np.stack([ground[:, 2 * i : 2 * i + 128] for i in range(8)]).astype(np.float32)
+
+
+class Told:
+    def __init__(self):
+        self.lines = []
+
+    def announce(self, line):
+        self.lines.append(line)
+
+
+@pytest.fixture
+def make(tmp_path, clip):
+    """Seed 0 and its first successor freeze; every other seed moves."""
+    asked = []
+
+    def make_video(seed, progress):
+        asked.append(seed)
+        is_bad = seed in (0, nth_seed(0, 1))
+        luma = np.stack([clip[0]] * 8) if is_bad else clip[:8]
+        images = np.repeat(luma[..., None], 3, axis=3)
+        return write_video(
+            images / np.float32(255),
+            tmp_path / f"{seed}.avi",
+            Fraction(8),
+            {"seed": seed},
+            overwrite=True,
+        )
+
+    make_video.asked = asked
+    return make_video
+
+
+def test_retrying_takes_the_first_seed_that_passes(make):
+    told = Told()
+    config = GeneratedVideoConfig(on_failure="retry", retries=3)
+    video = generate_checked(make, config, prompt="a pan", seed=0, progress=told)
+    assert make.asked == [0, nth_seed(0, 1), nth_seed(0, 2)]
+    assert video.metadata["seed"] == nth_seed(0, 2)
+    assert video.metadata["check"]["problems"] == []
+    assert len(told.lines) == 2
+
+
+def test_a_missing_clip_model_is_named_before_anything_is_generated(make, tmp_path):
+    config = GeneratedVideoConfig(agreement_model=tmp_path / "none")
+    with pytest.raises(InputError, match=r"there is no CLIP model in .*none"):
+        generate_checked(make, config, prompt="a pan", seed=0, progress=Told())
+    assert make.asked == []
+
+
+def test_retrying_gives_up_after_the_last_seed(make):
+    config = GeneratedVideoConfig(on_failure="retry", retries=1)
+    with pytest.raises(TexventError, match="all 2 videos, each of another seed, failed"):
+        generate_checked(make, config, prompt="a pan", seed=0, progress=Told())
+
+
+def test_rejecting_warning_and_ignoring(make):
+    told = Told()
+    with pytest.raises(TexventError, match=r"failed the check .*frozen, no motion"):
+        generate_checked(
+            make, GeneratedVideoConfig(on_failure="reject"), prompt="a pan", seed=0, progress=told
+        )
+    warned = generate_checked(
+        make, GeneratedVideoConfig(on_failure="warn"), prompt="a pan", seed=0, progress=told
+    )
+    assert warned.metadata["check"]["problems"] == ["frozen", "no motion"]
+    assert told.lines[-1] == "warning: the generated video looks failed: frozen, no motion"
+    ignored = generate_checked(
+        make, GeneratedVideoConfig(on_failure="ignore"), prompt="a pan", seed=0, progress=told
+    )
+    assert "check" not in ignored.metadata
+
+
+def test_measures_of_an_older_cache_are_taken_anew(make):
+    def make_old(seed, progress):
+        return make(seed, progress).with_metadata(**{MEASURES: {"still_share": 0.0}})
+
+    config = GeneratedVideoConfig(on_failure="warn")
+    video = generate_checked(make_old, config, prompt="a pan", seed=0, progress=Told())
+    assert video.metadata["check"]["problems"] == ["frozen", "no motion"]
+    assert video.metadata["check"]["blockiness"] >= 1
