@@ -65,7 +65,7 @@ COMMANDS = {
     ),
     "check": (
         "texvent.cli.simulation.check",
-        "What a video is like for an event camera: flicker, repeats, cuts, event rate.",
+        "What in a video harms events, and which option helps.",
     ),
     "convert": (
         "texvent.cli.event_files.convert",

@@ -231,7 +231,8 @@ def _count_events(simulation: Simulation) -> tuple[int, float]:
         if frame.is_source:
             times_us.append(frame.t_us)
             events.append(0)
-    events[-2] += events.pop()  # what the simulator gives when it finishes
+    at_the_end = events.pop()
+    events[-1] += at_the_end
     skipped = 1 if len(events) > 1 else 0
     return sum(events[skipped:]), (times_us[-1] - times_us[skipped]) / MICROSECONDS
 

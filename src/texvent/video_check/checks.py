@@ -27,8 +27,8 @@ BANDED_SHARE = 0.1
 IRREGULAR_SHARE = 0.02
 MOTION_SHARE = 0.04
 """Of the longer side, per frame: 13 px of 320."""
-LOW_RATE_HZ, HIGH_RATE_HZ = 0.2, 50.0
-"""Events per pixel and second."""
+LOW_RATE_HZ, HIGH_RATE_HZ = 0.2, 100.0
+"""Events per pixel and second. A DAVIS346 reads 12 million per second, 133 per pixel."""
 
 
 @dataclass(frozen=True, kw_only=True)

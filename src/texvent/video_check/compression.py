@@ -15,8 +15,8 @@ HIGHEST_STEP = 8.0
 by more."""
 LINES = 180
 """Of taller images only every second, third ... row is read, so that about so many are."""
-LEAST_STEP = 0.05
-"""Mean step of an image of no detail, levels: none of it is due to blocks."""
+LEAST_STEP = 0.25
+"""Levels: steps and changes finer than a quarter of a code value are no detail."""
 PEAK_DEVIATIONS, PEAK_RATIO = 6.0, 1.5
 """A pair renews the image if its resting blocks change by so many deviations (1.4826 median
 absolute deviations) above the median, and by this many times the median."""

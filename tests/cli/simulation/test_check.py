@@ -1,0 +1,92 @@
+"""`texvent check` prints what it found, and advises options that exist."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+from tests.video_check.made_clips import encode, pan
+
+from texvent.cli.app import main
+from texvent.options.fields import option_names
+from texvent.run.settings import default_settings
+from texvent.video_check.checks import CHECKS
+
+OF_GENERATE = {"seed", "on_failure"}
+
+
+@pytest.fixture(scope="module")
+def clip(tmp_path_factory):
+    """A pan whose every fourth frame is shown twice."""
+    images = np.repeat(pan(24), np.resize([1, 1, 1, 2], 24), axis=0)
+    return encode(images, tmp_path_factory.mktemp("check") / "clip.mp4", fps=30, crf="16")
+
+
+@pytest.mark.parametrize("columns", [80, 120])
+def test_the_table_names_what_was_found_first_and_fits(clip, capsys, monkeypatch, columns):
+    monkeypatch.setenv("COLUMNS", str(columns))
+    assert main(["check", str(clip), "-q"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= columns
+    first = next(line for line in lines if line.startswith(("! ", "frozen")))
+    assert first.startswith("! repeated")
+    assert lines[-1] == "found: repeated frames"
+    assert "30 fps" in lines[-2]
+
+
+def test_all_advises_on_every_check(clip, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "400")
+    assert main(["check", str(clip), "-q", "--all"]) == 0
+    said = capsys.readouterr().out
+    assert "nothing found" not in said
+    assert all(check.effect in said for check in CHECKS)
+
+
+def test_json_has_all_measures_and_the_spectrum(clip, capsys):
+    assert main(["check", str(clip), "-q", "--json", "--sensor", "64x48"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["found"] == ["repeated frames"]
+    assert facts["sensor"] == "64x48"
+    assert [one["check"] for one in facts["findings"]] == [check.name for check in CHECKS]
+    assert facts["measures"]["pattern_period"] == 5
+    assert len(facts["flicker"]["hz"]) == len(facts["flicker"]["whole_log"]) == 16
+    assert facts["flicker"]["hz"][-1] == pytest.approx(15)
+
+
+def test_strict_says_by_its_exit_code_whether_something_was_found(clip, tmp_path, capsys):
+    fine = encode(pan(24), tmp_path / "fine.mp4", crf="16")
+    assert main(["check", str(clip), "-q", "--strict"]) == 1
+    assert main(["check", str(fine), "-q", "--strict"]) == 0
+    assert capsys.readouterr().out.endswith("nothing found\n")
+
+
+def test_advice_names_options_that_exist():
+    settings = default_settings("simulate")
+    known = {name for group in settings.groups().values() for name in option_names(type(group))}
+    advised = {
+        flag.replace("-", "_")
+        for check in CHECKS
+        for flag in re.findall(r"--([a-z-]+)", check.help)
+    }
+    assert advised <= known | OF_GENERATE | {"video_only"}
+    assert "deflicker" in advised
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["none.mp4"], "none.mp4"),
+        (["{clip}", "--target-rate", "1000"], "target_rate decides the event rate"),
+        (["{clip}", "-o", "out.h5"], "-o"),
+        (["{clip}", "--sensor", "0x0"], "0x0"),
+    ],
+    ids=["missing", "target rate", "output", "sensor"],
+)
+def test_bad_input_is_one_line(clip, capsys, words, said):
+    assert main(["check", *(word.format(clip=clip) for word in words)]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+    assert said in captured.err
