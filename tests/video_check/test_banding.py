@@ -71,7 +71,8 @@ def test_dither_and_grain_hide_the_stairs():
 
 def test_stairs_of_colour_are_seen_in_green():
     colour = np.stack([np.rint(gradient() * scale) for scale in (0.7, 1.0, 1.3)], axis=-1)
-    assert np.array_equal(code_values(colour.astype(np.uint8)), np.rint(gradient()))
+    (frame,) = frames([colour.astype(np.uint8)])
+    assert np.array_equal(code_values(frame), np.rint(gradient()))
     assert "banding" in check_video(frames([colour.astype(np.uint8)] * 2)).remarks
 
 

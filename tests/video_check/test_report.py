@@ -10,6 +10,7 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
+from texvent.transfer import Transfer, decode_srgb
 from texvent.video import Frame
 from texvent.video_check.blocks import block_means, neighbour_correlation, percentile_of_counts
 from texvent.video_check.report import check_video
@@ -122,3 +123,10 @@ def test_percentiles_of_counts_are_those_of_the_values():
     for percent in (0, 5, 50, 95, 100):
         expected = np.percentile(values, percent, method="inverted_cdf")
         assert percentile_of_counts(counts, percent) == (expected if percent else 0)
+
+
+def test_linear_light_measures_as_its_gamma_coded_image(clip):
+    light = 255 * decode_srgb(clip / np.float32(255))
+    linear = [Frame(one, i * 40_000, transfer=Transfer.LINEAR) for i, one in enumerate(light)]
+    of_light, of_code = check_video(linear).measures, check_video(frames(clip)).measures
+    assert of_light == pytest.approx(of_code, rel=1e-3, abs=1e-3)

@@ -19,6 +19,7 @@ from texvent.config import CaptureConfig
 from texvent.errors import ConfigError
 from texvent.interpolate.dis_flow.estimator import DisFlow
 from texvent.options.keywords import SimulateOptions
+from texvent.pairs.instants import matching_luma
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.pipeline import Simulation
 from texvent.run.settings import Settings, resolve
@@ -166,7 +167,7 @@ class _Windows:
         scale = max(1.0, max(self.size) / FLOW_SIDE)
         small = SensorSize(*(max(1, round(side / scale)) for side in self.size))
         earlier, later = (
-            np.asarray(fit_pixels(np.asarray(one.luma, np.float32), small, "stretch"), np.float32)
+            np.asarray(fit_pixels(matching_luma(one), small, "stretch"), np.float32)
             for one in (first, second)
         )
         self._flow = self._flow or DisFlow()
@@ -241,7 +242,7 @@ class _Window(FrameSource):
     """A few frames of a stream, in memory."""
 
     def __init__(self, whole: FrameStream, frames: list[Frame]) -> None:
-        self._facts = SourceFacts(whole.size, whole.fps, len(frames), {}, False)
+        self._facts = SourceFacts(whole.size, whole.fps, len(frames), whole.metadata)
         self._frames = frames
 
     def __iter__(self) -> Iterator[Frame]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.video import UINT16_PER_LEVEL, PixelArray
+from texvent.pairs.instants import matching_levels
+from texvent.video import UINT16_PER_LEVEL, Frame
 from texvent.video_check.blocks import SeenFrame
 
 TILE = 16
@@ -34,7 +35,7 @@ class Banding:
         """Take one frame."""
         if not seen.is_sampled or min(seen.luma.shape) < TILE:
             return
-        smooth, banded = classify_tiles(code_values(seen.frame.pixels))
+        smooth, banded = classify_tiles(code_values(seen.frame))
         self._tiles += smooth.size
         self._smooth += int(smooth.sum())
         self._banded += int(banded.sum())
@@ -45,14 +46,16 @@ class Banding:
         return {"smooth_share": self._smooth / tiles, "banded_share": self._banded / tiles}
 
 
-def code_values(pixels: PixelArray) -> NDArray[np.float32]:
+def code_values(frame: Frame) -> NDArray[np.float32]:
     """One channel as it is stored, on the 0..255 scale: grey, or green, the most of luma.
 
-    Luma itself mixes three channels, whose stairs lie in different places.
+    Luma itself mixes three channels, whose stairs lie in different places. Linear light is coded.
     """
+    pixels = frame.pixels
     plane = pixels[..., GREEN] if pixels.ndim == 3 else pixels
     scale = UINT16_PER_LEVEL if pixels.dtype == np.uint16 else 1.0
-    return np.asarray(plane, dtype=np.float32) / np.float32(scale)
+    levels = np.asarray(plane, dtype=np.float32) / np.float32(scale)
+    return np.asarray(matching_levels(levels, frame.transfer), dtype=np.float32)
 
 
 def classify_tiles(plane: NDArray[np.float32]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.pairs.instants import matching_luma
 from texvent.video import Frame
 
 GRID = 64
@@ -26,14 +27,14 @@ class SeenFrame:
     index: int
     """0 for the first frame."""
     luma: NDArray[np.float32]
-    """[H, W], 0..255 scale."""
+    """[H, W], 0..255 scale; gamma-coded, also of frames that are linear light."""
     means: NDArray[np.float32]
     """Means of its blocks; see `block_means`."""
 
     @classmethod
     def of(cls, frame: Frame, index: int) -> SeenFrame:
         """The frame with its luma and block means."""
-        luma = np.asarray(frame.luma, dtype=np.float32)
+        luma = np.asarray(matching_luma(frame), dtype=np.float32)
         return cls(frame, index, luma, block_means(luma))
 
     @property
