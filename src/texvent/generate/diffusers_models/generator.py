@@ -19,6 +19,7 @@ from texvent._version import __version__
 from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.generate.diffusers_models.model_run import ModelRun
+from texvent.generate.diffusers_models.pipeline_call import read_image
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.adapters import Adapter, find_local
 from texvent.generate.video_models.download import find_downloaded
@@ -131,9 +132,8 @@ class DiffusersGenerator:
     def _check(self, prompt: str) -> None:
         if not prompt.strip():
             raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")
-        image = self.config.image
-        if image is not None and not image.is_file():
-            raise InputError(f"there is no image {image}")
+        if self.config.image is not None:
+            read_image(self.config.image)
         for option in NETWORK_OPTIONS:
             folder = getattr(self.config, option)
             if folder is None or (option == "decoder" and folder.is_file()):

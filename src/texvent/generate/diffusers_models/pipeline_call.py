@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,10 @@ RATE_ARGUMENTS = ("fps", "frame_rate")
 SOUND = "sample_audio"
 """Switch of pipelines that can make sound as well, which no event shows."""
 STEP_CALLBACK = "callback_on_step_end"
+GUIDER = "guider"
+"""Part of pipelines that holds the guidance scale, where the call does not take one."""
+DISTILLED = "true_cfg_scale"
+"""Argument of pipelines that make one pass, and follow no negative prompt, unless it is set."""
 
 
 def call_pipeline(
@@ -67,10 +72,11 @@ def call_pipeline(
     if SOUND in accepted:
         arguments[SOUND] = False
     if "image" in accepted:
-        arguments.update(_image(config))
+        arguments.update(_image(config, accepted))
     if STEP_CALLBACK in accepted:
         arguments[STEP_CALLBACK] = _step_callback(progress)
-    output = _run(pipe, {**arguments, "output_type": output_type}, seed)
+    with _guided(pipe, config, accepted):
+        output = _run(pipe, {**arguments, "output_type": output_type}, seed)
     return output if output_type == "latent" else output[0]
 
 
@@ -86,8 +92,15 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
     accepted = inspect.signature(pipeline_class.__call__).parameters
     name = pipeline_class.__name__
     for option, names in ARGUMENTS.items():
-        if getattr(config, option) is not None and not set(names) & set(accepted):
+        is_taken = bool(set(names) & set(accepted))
+        if option == "guidance":
+            is_taken |= GUIDER in inspect.signature(pipeline_class).parameters
+        if getattr(config, option) is not None and not is_taken:
             raise ConfigError(f"{option} is set, but {name} does not take it")
+    if config.negative_prompt is not None and DISTILLED in accepted:
+        raise ConfigError(
+            f"negative_prompt is set, but {name} is distilled to one pass, which follows none"
+        )
     if config.image is not None and "image" not in accepted:
         raise ConfigError(f"image is set, but {name} starts from text alone")
     image = accepted.get("image")
@@ -130,29 +143,58 @@ def _options(config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter])
     """The options that are set, by the names that a call accepts."""
     values = {option: getattr(config, option) for option in ARGUMENTS}
     return {
-        next(name for name in ARGUMENTS[option] if name in accepted): value
+        name: value
         for option, value in values.items()
-        if value is not None
+        for name in ARGUMENTS[option]
+        if value is not None and name in accepted
     }
 
 
-def _image(config: DiffusersConfig) -> dict[str, Any]:
-    """The image to start from, cut and resized to the video's size."""
+@contextlib.contextmanager
+def _guided(
+    pipe: Any, config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]
+) -> Iterator[None]:
+    """Inside, the part that holds the guidance scale has the one that was asked for."""
+    usual = getattr(pipe, GUIDER, None)
+    if config.guidance is None or usual is None or "guidance_scale" in accepted:
+        yield
+        return
+    pipe.guider = usual.new(guidance_scale=config.guidance)
+    try:
+        yield
+    finally:
+        pipe.guider = usual
+
+
+def _image(config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]) -> dict[str, Any]:
+    """The image to start from, its middle cut to the video's shape and resized to its size."""
     if config.image is None:
         return {}
+    image = read_image(config.image)
+    size = [
+        getattr(config, name) or (accepted[name].default if name in accepted else None)
+        for name in ("width", "height")
+    ]
+    if all(isinstance(side, int) for side in size):
+        image = require("PIL.ImageOps", extra=EXTRA).fit(image, tuple(size))
+    return {"image": image}
+
+
+def read_image(path: Path) -> Any:
+    """An image as PIL's RGB image, turned as its camera noted.
+
+    Raises:
+        InputError: it is not there, or no image.
+        MissingDependencyError: Pillow is not installed.
+    """
     images, operations = (require(f"PIL.{name}", extra=EXTRA) for name in ("Image", "ImageOps"))
-    return {"image": _fit_image(images, operations, config.image, config)}
-
-
-def _fit_image(images: Any, operations: Any, path: Path, config: DiffusersConfig) -> Any:
+    if not path.is_file():
+        raise InputError(f"there is no image {path}")
     try:
         with images.open(path) as opened:
-            image = opened.convert("RGB")
-    except OSError as error:
+            return operations.exif_transpose(opened).convert("RGB")
+    except (OSError, ValueError, SyntaxError, images.DecompressionBombError) as error:
         raise InputError(f"{path} cannot be read as an image ({one_line(error)})") from error
-    if config.width is None or config.height is None:
-        return image
-    return operations.fit(image, (config.width, config.height))
 
 
 def _step_callback(progress: Progress) -> Any:

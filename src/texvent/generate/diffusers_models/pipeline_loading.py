@@ -159,7 +159,8 @@ def _load(request: LoadRequest, announce: Callable[[str], None]) -> Pipeline:
         check_wiring(pipe)
     for note in load_adapters(pipe, request.adapters):
         announce(note)
-    place_pipeline(pipe, request.placement)
+    with quiet_libraries():
+        place_pipeline(pipe, request.placement)
     for part in pipe.components.values():
         # A text encoder in training mode drops units at random.
         if hasattr(part, "eval") and callable(part.eval):

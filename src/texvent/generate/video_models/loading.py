@@ -26,6 +26,8 @@ NOISE = re.compile(
     r"|should be kept in float32: \[\]"
     # An image model's index lists parts that a video pipeline of the same weights does not have.
     r"|Keyword arguments .* are not expected by .* and will be ignored"
+    # Said several times; it was true of former versions of torch.
+    r"|Pipelines loaded with `dtype=torch.float16` cannot run with `cpu`"
     # What of an adapter fits nothing is an error of `adapter_loading`.
     r"|No LoRA keys associated|Loading adapter weights from state_dict led|was unsuccessful with"
 )

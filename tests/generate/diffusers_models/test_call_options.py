@@ -1,0 +1,195 @@
+"""Steps, guidance, image and number format reach the call of every pipeline, or are refused."""
+
+import inspect
+import json
+import os
+import shutil
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+pytestmark = [pytest.mark.torch, pytest.mark.usefixtures("model_cache")]
+os.environ["HF_HUB_OFFLINE"] = "1"
+torch = pytest.importorskip("torch")
+torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
+diffusers = pytest.importorskip("diffusers")
+
+from PIL import Image  # noqa: E402
+
+from texvent.cli.app import main  # noqa: E402
+from texvent.errors import ConfigError  # noqa: E402
+from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
+from texvent.generate.video_config import DiffusersConfig  # noqa: E402
+from texvent.generate.video_models.known_models import MODELS  # noqa: E402
+from texvent.runtime.progress import NoProgress  # noqa: E402
+
+from .. import tiny_pipelines  # noqa: E402
+from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
+
+PIPELINES = sorted(
+    {name for row in MODELS.values() for name in (row.pipeline, row.image_pipeline) if name}
+)
+
+
+def stand_in(name):
+    """An object with the signatures of a pipeline's class, which notes how it is called."""
+    real = getattr(diffusers, name)
+    calls = []
+
+    def called(self, **arguments):
+        calls.append((arguments, getattr(self, "guider", None)))
+        return [[np.zeros((5, 8, 8, 3), np.float32)]]
+
+    called.__signature__ = inspect.signature(real.__call__)
+    members = {"__call__": called, "maybe_free_model_hooks": lambda self: None}
+    kind = type(name, (), {**members, "__signature__": inspect.signature(real)})
+    pipe = kind()
+    if "guider" in inspect.signature(real).parameters:
+        pipe.guider = diffusers.ClassifierFreeGuidance(guidance_scale=9.0)
+    return pipe, calls
+
+
+def call(pipe, **options):
+    return call_pipeline(
+        pipe,
+        {"prompt": PROMPT},
+        DiffusersConfig(**options),
+        fps=Fraction(24),
+        seed=0,
+        output_type="np",
+        progress=NoProgress(),
+    )
+
+
+@pytest.fixture
+def start(tmp_path):
+    path = tmp_path / "start.png"
+    Image.new("RGB", (64, 32), "red").save(path)
+    return path
+
+
+@pytest.mark.parametrize("name", PIPELINES)
+def test_steps_and_guidance_reach_the_call_of_every_pipeline(name, start):
+    pipe, calls = stand_in(name)
+    accepted = inspect.signature(type(pipe).__call__).parameters
+    image = {"image": start} if "image" in accepted else {}
+    call(pipe, guidance=1.5, **image)
+    arguments, guider = calls[0]
+    assert arguments.get("guidance_scale", getattr(guider, "guidance_scale", None)) == 1.5
+    assert set(arguments) <= set(accepted)
+    if guider is not None:
+        assert pipe.guider.guidance_scale == 9.0, "as it was for the next call"
+    if "num_inference_steps" in accepted:
+        call(pipe, steps=7, **image)
+        assert calls[1][0]["num_inference_steps"] == 7
+    else:
+        with pytest.raises(ConfigError, match=f"steps is set, but {name} does not take it"):
+            call(pipe, steps=7, **image)
+
+
+def test_a_negative_prompt_that_would_be_left_out_is_refused():
+    pipe, _ = stand_in("HunyuanVideoPipeline")
+    with pytest.raises(ConfigError, match="distilled to one pass, which follows none"):
+        call(pipe, negative_prompt="dark")
+
+
+def test_guidance_is_that_of_both_transformers_of_wan_22(models):
+    pipe = diffusers.WanPipeline.from_pretrained(models("wan22"))
+    whole = pipe(
+        prompt=PROMPT,
+        num_frames=5,
+        width=32,
+        height=32,
+        num_inference_steps=4,
+        guidance_scale=2.0,
+        guidance_scale_2=2.0,
+        generator=torch.Generator("cpu").manual_seed(3),
+        output_type="np",
+    ).frames[0]
+    ours = pixels(build(models("wan22"), steps=4, guidance=2.0).generate(PROMPT))
+    assert np.abs(ours / 65_535 - whole).max() < 1e-4
+
+
+@pytest.mark.parametrize("name", tiny_pipelines.BUILDERS)
+@pytest.mark.parametrize("dtype", ["bfloat16", "float16"])
+@pytest.mark.filterwarnings("ignore:__array__ implementation:DeprecationWarning")  # torch's
+def test_half_precision_makes_nearly_the_same_frames(name, dtype, models, capsys):
+    whole = pixels(build(models(name)).generate(PROMPT)) / 65_535
+    capsys.readouterr()
+    video = build(models(name), dtype=dtype).generate(PROMPT)
+    assert video.metadata["dtype"] == dtype
+    assert np.abs(pixels(video) / 65_535 - whole).mean() < 0.01
+    assert "float16" not in capsys.readouterr().err
+
+
+def run(arguments, capsys):
+    """Exit code of the command line, and the last line that it wrote as an error."""
+    capsys.readouterr()
+    code = main(arguments)
+    return code, [line for line in capsys.readouterr().err.splitlines() if "error" in line]
+
+
+@pytest.fixture
+def command(models, tmp_path):
+    """`texvent generate` with a model that starts from images: folders named like its row."""
+    for kind, folder in (("wan", "Wan2.2-TI2V-5B-Diffusers"), ("ltx", "LTX-Video")):
+        shutil.copytree(models(kind), tmp_path / folder)
+    index = tmp_path / "Wan2.2-TI2V-5B-Diffusers" / "model_index.json"
+    index.write_text(json.dumps({**json.loads(index.read_text()), "expand_timesteps": True}))
+
+    def words(folder, image, out):
+        options = {**OPTIONS, "generator": tmp_path / folder, "image": image, "out": out}
+        flags = [(f"--{name.replace('_', '-')}", str(value)) for name, value in options.items()]
+        return ["generate", PROMPT, "--video-only", "--overwrite", *sum(flags, ())]
+
+    return words
+
+
+def frames_of(path):
+    from texvent.generate.videos.stored_video import reopen
+
+    video = reopen(path)
+    return pixels(video), video.metadata
+
+
+@pytest.mark.parametrize("folder", ["Wan2.2-TI2V-5B-Diffusers", "LTX-Video"])
+def test_the_middle_of_an_image_is_fitted_to_the_video_and_noted(folder, command, tmp_path, capsys):
+    """A band at each side is cut away; a camera's note that the image is turned is followed."""
+    rng = np.random.default_rng(0)
+    middle = rng.integers(0, 255, (32, 32, 3), dtype=np.uint8)
+    wide = np.concatenate((np.zeros((32, 16, 3), np.uint8), middle, middle[:, :16]), axis=1)
+    Image.fromarray(middle).save(tmp_path / "middle.png")
+    Image.fromarray(wide).save(tmp_path / "wide.png")
+    turned = Image.fromarray(np.rot90(middle, 1).copy())
+    turned.save(
+        tmp_path / "turned.png",
+        exif=b"Exif\0\0MM\0*\0\0\0\x08\0\1\1\x12\0\3\0\0\0\1\0\6\0\0\0\0\0\0",
+    )
+    Image.fromarray(255 - middle).save(tmp_path / "other.png")
+    made = {}
+    for name in ("middle", "wide", "turned", "other"):
+        out = tmp_path / f"{name}.avi"
+        assert main(command(folder, tmp_path / f"{name}.png", out)) == 0
+        made[name], metadata = frames_of(out)
+        assert metadata["pipeline"].endswith("ImageToVideoPipeline")
+        assert metadata["files"][0]["file"] == str(tmp_path / f"{name}.png")
+        assert len(metadata["files"][0]["sha256"]) == 64
+    assert np.array_equal(made["middle"], made["wide"])
+    assert np.array_equal(made["middle"], made["turned"])
+    assert not np.array_equal(made["middle"], made["other"])
+
+
+def test_wrong_images_are_one_line_before_any_work(command, models, start, tmp_path, capsys):
+    out = tmp_path / "out.avi"
+    (tmp_path / "note.png").write_text("no image")
+    folder = "LTX-Video"
+    for image, message in (("none.png", "there is no image"), ("note.png", "cannot be read as an")):
+        code, lines = run(command(folder, tmp_path / image, out), capsys)
+        assert code != 0
+        assert len(lines) == 1
+        assert message in lines[0]
+    code, lines = run(command(models("wan"), start, out), capsys)
+    assert code != 0
+    assert lines == ["error: image is set, but WanPipeline starts from text alone"]
+    assert not out.exists()
