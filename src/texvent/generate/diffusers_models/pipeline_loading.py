@@ -199,6 +199,13 @@ def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str,
 
 
 def _quantization(request: LoadRequest) -> Any:
+    index = read_pipeline_index(request.folder)
+    parts = [part for part in QUANTIZED_PARTS if (index.get(part) or [None])[0] is not None]
+    if not parts:
+        raise ConfigError(
+            f"quantize is {request.placement.quantize!r}, but {request.folder} has no video "
+            "transformer, the only part that is quantised; give --quantize none"
+        )
     diffusers = require("diffusers", extra=EXTRA)
     require("bitsandbytes", extra="quantize")
     torch = require("torch", extra=EXTRA)
@@ -213,7 +220,7 @@ def _quantization(request: LoadRequest) -> Any:
             "bnb_4bit_compute_dtype": getattr(torch, request.placement.dtype),
         }
     return diffusers.PipelineQuantizationConfig(
-        quant_backend=backend, quant_kwargs=options, components_to_quantize=list(QUANTIZED_PARTS)
+        quant_backend=backend, quant_kwargs=options, components_to_quantize=parts
     )
 
 
