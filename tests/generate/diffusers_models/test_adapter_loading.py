@@ -17,6 +17,7 @@ peft = pytest.importorskip("peft")
 
 from safetensors.torch import load_file, save_file  # noqa: E402
 
+from texvent.cli.app import main  # noqa: E402
 from texvent.errors import (  # noqa: E402
     ConfigError,
     FileFormatError,
@@ -24,7 +25,7 @@ from texvent.errors import (  # noqa: E402
     MissingDependencyError,
 )
 
-from ..tiny_models import PROMPT, build, pixels  # noqa: E402
+from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 from .test_tiny_decoding import Quiet  # noqa: E402
 
 RANK, ALPHA = 2, 6.0
@@ -188,6 +189,20 @@ def test_the_adapter_is_part_of_what_a_video_is_kept_under_and_says(models, tmp_
     save_adapter(tmp_path / "b", factors(weights_of(models("wan")), seed=9), "diffusers")
     shutil.copy(tmp_path / "b" / path.name, path)
     assert build(models("wan"), lora=(f"{path}:0.5",)).plan(PROMPT) is not None
+
+
+def test_a_recording_is_made_again_unless_the_adapter_was_changed(models, tmp_path, capsys):
+    path, _ = save_adapter(tmp_path / "a", factors(weights_of(models("wan"))), "diffusers")
+    options = {**OPTIONS, "generator": models("wan"), "interpolate": "none", "lora": f"{path}:0.5"}
+    flags = [(f"--{name.replace('_', '-')}", str(value)) for name, value in options.items()]
+    out, again = tmp_path / "out.h5", tmp_path / "again.h5"
+    assert main(["generate", PROMPT, "-o", str(out), "--events-only", *sum(flags, ())]) == 0
+    assert main(["replay", str(out), "-o", str(again)]) == 0
+    assert "the same bytes" in capsys.readouterr().out
+    save_adapter(tmp_path / "b", factors(weights_of(models("wan")), seed=9), "diffusers")
+    shutil.copy(tmp_path / "b" / path.name, path)
+    assert main(["replay", str(out), "-o", str(again), "--overwrite"]) != 0
+    assert f"error: {path} was changed since" in capsys.readouterr().err
 
 
 def test_tensors_that_fit_nothing_are_an_error(models, tmp_path, capsys):
