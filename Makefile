@@ -25,7 +25,8 @@ DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	if $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then echo $$p; break; fi; done)
-PIP_OPTIONS := --quiet --disable-pip-version-check -c constraints.txt
+# Most modules of these environments are never imported; Python compiles the others at first use.
+PIP_OPTIONS := --quiet --disable-pip-version-check --no-compile -c constraints.txt
 PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
 # The base and test environments take only files whose SHA-256 is in requirements/. HASHES=0 takes any
 # build of the versions in constraints.txt, for machines whose index serves wheels of its own.
@@ -35,6 +36,9 @@ PLAIN := -m pip install --quiet --disable-pip-version-check --no-deps --no-build
 NO_HASH = echo "error: pip could not install the files that requirements/ lists (see above). If your index serves builds of its own, run: make HASHES=0 $(MAKECMDGOALS)"; exit 2
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
 COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header -c constraints.txt
+
+# Tests start many processes: without compiled modules each would compile texvent anew.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help demo test fuzz test-torch test-app test-dataset test-notebooks test-gpl docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
