@@ -46,7 +46,7 @@ def test_another_convention_is_found_and_named(text):
     )
     expected = {"forward": scene.forward(2), "backward": scene.backward(2)}
     # With even motion, "to the next frame" and "away from the previous one" are the same vectors.
-    assert found == pytest.approx(expected[verdict.better.direction])
+    np.testing.assert_allclose(found, expected[verdict.better.direction], rtol=1e-6, atol=1e-12)
     assert changes(convention, verdict.better, direction)
 
 

@@ -54,7 +54,7 @@ def test_a_bar_before_a_background_is_drawn_as_defined(place):
     # The bar is upright: two rows at the image's edges and one inside.
     rows = PIXELS[np.isin(PIXELS[:, 1], (0, 5, HEIGHT - 1))]
     image, expected = both_at(*bar_pair(), place, rows)
-    assert image == pytest.approx(expected, abs=0.02)
+    np.testing.assert_allclose(image, expected, rtol=0, atol=0.02)
 
 
 def test_random_surfaces_are_drawn_as_defined():

@@ -85,9 +85,17 @@ def judge(
     """
     given = replace(convention, direction=direction)
     samples = [_Samples.of(frame) for frame in frames]
+    samples = [one for one in samples if one.knows(direction)]
+    if not samples:
+        return None
+    said = [_follow(one, given) for one in samples]
+    at_rest = [one.difference(direction, None) for one in samples]
     candidates = []
     for other in _alternatives(given):
-        errors = [_errors(one, given, other) for one in samples]
+        errors = [
+            _errors(one, other, followed, still)
+            for one, followed, still in zip(samples, said, at_rest, strict=True)
+        ]
         own, theirs, still = (np.concatenate(part) for part in zip(*errors, strict=True))
         if own.size >= FEWEST_SAMPLES:
             candidates.append((other, _mean(own), _mean(theirs), _mean(still)))
@@ -184,20 +192,25 @@ class _Samples:
         )
 
 
+_Followed = tuple[FloatArray, FloatArray]
+
+
+def _follow(samples: _Samples, meaning: Convention) -> _Followed:
+    """Where a meaning takes the samples, [n, 2] px, and how much the neighbour differs there."""
+    along = samples.along(meaning)
+    return along, samples.difference(meaning.direction, np.nan_to_num(along))
+
+
 def _errors(
-    samples: _Samples, given: Convention, other: Convention
+    samples: _Samples, other: Convention, said: _Followed, still: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Differences along both meanings and without vectors, at the samples that move in either."""
-    if not (samples.knows(given.direction) and samples.knows(other.direction)):
+    if not samples.knows(other.direction):
         return (np.empty(0, np.float32),) * 3
-    along, along_other = samples.along(given), samples.along(other)
+    (along, differs), (along_other, differs_other) = said, _follow(samples, other)
     is_moving = (np.abs(along).max(-1) > MOVING_PX) | (np.abs(along_other).max(-1) > MOVING_PX)
     is_moving &= np.isfinite(along).all(-1) & np.isfinite(along_other).all(-1)
-    return (
-        samples.difference(given.direction, np.nan_to_num(along))[is_moving],
-        samples.difference(other.direction, np.nan_to_num(along_other))[is_moving],
-        samples.difference(given.direction, None)[is_moving],
-    )
+    return differs[is_moving], differs_other[is_moving], still[is_moving]
 
 
 def _sample(
