@@ -164,13 +164,15 @@ def part_way(start: Point, end: Point, share: float) -> Point:
 
 def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:
     """The same parts carried along by a motion."""
-    return [each.at(compose(motion, each.to_body)) for each in parts]
+    parts = list(parts)
+    maps = compose(motion, np.array([each.to_body for each in parts]).reshape(-1, 3, 4))
+    return [each.at(to_body) for each, to_body in zip(parts, maps, strict=True)]
 
 
 def compose(outer: Affine, inner: Affine) -> Affine:
-    """The map that applies `inner`, then `outer`."""
+    """The map that applies `inner`, then `outer`; `inner` may be many maps, [..., 3, 4]."""
     product = outer[:, :3] @ inner
-    product[:, 3] += outer[:, 3]
+    product[..., 3] += outer[:, 3]
     return product
 
 

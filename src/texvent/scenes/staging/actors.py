@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from texvent.scenes.models.shapes import bounds, compose, moved, rod
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
+
+_CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+"""Of a box two units wide."""
 
 
 def seeded(seed: int, *role: object) -> np.random.Generator:
@@ -91,6 +94,10 @@ class Actor:
     """Whether it crosses the road."""
     headroom_m: float = 0.0
     """Room above it that the image should show too: for smoke, m."""
+    _boxes: dict[float, tuple[Float64Array, Float64Array]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+    """Boxes at instants that were asked for: framing asks for the same ones six times."""
 
     @property
     def size_m(self) -> float:
@@ -158,14 +165,17 @@ class Actor:
 
     def corners(self, time_s: float, limit_m: float = np.inf) -> Float64Array:
         """[8, 3] corners of its box in the world, m; extents above `limit_m` are cut to it."""
-        low, high = self._box(time_s)
+        time_s = float(time_s)
+        if time_s not in self._boxes:
+            self._boxes[time_s] = self._box(time_s)
+        low, high = self._boxes[time_s]
+        high = high.copy()
         high[2] += self.headroom_m
         middle = 0.5 * (low + high)
         middle[:2] = np.where(high[:2] - low[:2] > limit_m, 0.0, middle[:2])
         half = 0.5 * np.minimum(high - low, limit_m)
         middle[2] = low[2] + half[2]
-        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-        points = middle + signs * half
+        points = middle + _CORNERS * half
         to_world = self.trajectory.at(time_s).to_world()
         return np.asarray(points @ to_world[:, :3].T + to_world[:, 3])
 

@@ -1,6 +1,7 @@
 """Acts: what is held stays in the hand, bodies meet when they should, nothing jumps."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,6 +30,7 @@ DURATION_S = 2.0
 CONTACT_M = 0.02
 
 
+@cache
 def stage(
     *objects: SceneObject, acts: tuple[Relation, ...], place: str | None = None, seed: int = 0
 ) -> ComposedScene:
