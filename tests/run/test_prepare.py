@@ -81,7 +81,7 @@ def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
 
 
 def test_a_web_job_reaches_its_target_rate(tmp_path):
-    options = {**SMALL, "noise": "none", "target_rate": 20_000.0}
+    options = {**SMALL, "noise": "none", "interpolate": "blend", "target_rate": 20_000.0}
     done = job(tmp_path, prompt=PROMPT, options=options)
     events = texvent.load(done.files["events"])
     assert len(events) / 0.2 == pytest.approx(20_000, rel=0.3)
@@ -90,7 +90,8 @@ def test_a_web_job_reaches_its_target_rate(tmp_path):
 
 def test_the_search_for_a_target_rate_says_how_far_it_is():
     calls = []
-    settings = resolve("generate", {**SMALL, "noise": "none", "target_rate": 20_000.0})
+    options = {**SMALL, "noise": "none", "interpolate": "blend", "target_rate": 20_000.0}
+    settings = resolve("generate", options)
     run = prepare_prompt(
         PROMPT, settings, progress=CallbackProgress(lambda *step: calls.append(step))
     )
@@ -116,7 +117,7 @@ def test_a_prompt_a_source_and_a_video_make_the_same_run():
 
 def test_samples_of_videos_honour_the_target_rate():
     frames = np.random.default_rng(0).uniform(0, 255, (6, 24, 32)).astype(np.float32)
-    options = {"fps": 10, "noise": "none", "interpolate": "none", "target_rate": 4_000.0}
+    options = {"fps": 10, "noise": "none", "interpolate": "blend", "target_rate": 4_000.0}
     sample = SimulatedSamples(
         videos=[frames],
         simulation=options,

@@ -37,6 +37,8 @@ seeds = 2
 simulator = "esim"
 """
 
+QUICK = SPECIFICATION.replace("[options]", '[options]\ninterpolate = "none"')
+
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
@@ -125,6 +127,7 @@ def test_a_plan_of_a_learned_model_costs_gpu_hours(folder, capsys):
 
 
 def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
+    (folder / "cars.toml").write_text(QUICK)
     assert run("plan", "cars.toml", "--trial", 4, "--workers", 1) == 0
     rows = [line.split() for line in capsys.readouterr().out.splitlines()]
     planned = {row[0]: int(row[2].replace(",", "")) for row in rows if row[0] in ("paper", "esim")}
@@ -136,6 +139,7 @@ def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
 
 
 def test_making_again_changes_nothing_and_going_on_needs_the_folder_alone(folder, capsys):
+    (folder / "cars.toml").write_text(QUICK)
     assert run("make", "cars.toml", "--workers", 1) == 0
     assert "12 samples" in capsys.readouterr().out
     before = digests(folder / "cars")
