@@ -90,9 +90,10 @@ def scenes() -> Iterator[tuple[str, FrameStream]]:
 def print_findings() -> None:
     """Measures and findings of every clip."""
     for name, source in (*clips(), *scenes()):
-        found = check_source(source, progress=False).report
+        size = sensor_of(open_frames(source, CaptureConfig()))
+        found = check_source(source, sensor=tuple(size), progress=False).report
         values = " ".join(f"{key} {found.measures[key]:.3g}" for key in SHOWN)
-        print(f"{name}: {[*found.problems, *found.remarks]} {values}")
+        print(f"{name}: {[*found.problems, *found.remarks]} {values}", flush=True)
 
 
 def print_rates() -> None:

@@ -27,7 +27,7 @@ BANDED_SHARE = 0.1
 IRREGULAR_SHARE = 0.02
 MOTION_SHARE = 0.04
 """Of the longer side, per frame: 13 px of 320."""
-LOW_RATE_HZ, HIGH_RATE_HZ = 0.2, 100.0
+LOW_RATE_HZ, HIGH_RATE_HZ = 0.05, 100.0
 """Events per pixel and second. A DAVIS346 reads 12 million per second, 133 per pixel."""
 
 
@@ -180,7 +180,7 @@ CHECKS = (
         value=_repeats,
         limit=f"{REPEAT_SHARE:.0%}",
         effect="silence, then twice the change: the rate beats, times are wrong",
-        help="drop them first: ffmpeg -vf mpdecimate -fps_mode vfr; texvent keeps the times",
+        help="drop them (ffmpeg -vf mpdecimate), then --fps with the true rate",
     ),
     Check(
         name="beat",
@@ -197,7 +197,7 @@ CHECKS = (
         is_found=lambda one: one["blockiness"] > BLOCKINESS,
         value=lambda one: f"{one['blockiness']:.2f} times",
         limit=f"{BLOCKINESS:g}",
-        effect="edges on a grid of 8 px fire where things pass",
+        effect="false events in smooth areas, lost ones in detail",
         help="a better copy; a smaller --sensor averages blocks",
     ),
     Check(
