@@ -19,7 +19,7 @@ FLASH_LEVELS = 20.0
 DARK_LEVEL, BRIGHT_LEVEL = 12.0, 243.0
 NOISE_CORRELATION = 0.4
 """Images have above 0.8."""
-BEAT_SHARE = 0.15
+BEAT_SHARE, LEAST_SHOWN_SHARE = 0.15, 0.01
 REPEAT_SHARE = 0.02
 BLOCKINESS = 1.2
 KEY_RATIO = 1.5
@@ -60,7 +60,7 @@ def _repeats(one: Measures) -> str:
 
 
 def _beat(one: Measures) -> str:
-    if not one["beat_share"]:
+    if one["beat_share"] < LEAST_SHOWN_SHARE:
         return "none"
     text = f"{one['beat_log']:.3f} log at {one['beat_hz']:.1f} Hz in {one['beat_share']:.0%}"
     mains = mains_alias(one["beat_hz"], one["fps"], round(one["frames"]))
@@ -245,7 +245,7 @@ CHECKS = (
         value=_motion,
         limit=f"{MOTION_SHARE:.0%} of the side",
         effect="interpolation loses things that move this far: ghosts instead of edges",
-        help="more frames per second; a smaller --sensor; --motion of a renderer",
+        help="more frames per second; --motion of a renderer; generate: --interpolate exact",
     ),
     Check(
         name="event rate",
