@@ -91,7 +91,7 @@ def print_findings() -> None:
     """Measures and findings of every clip."""
     for name, source in (*clips(), *scenes()):
         size = sensor_of(open_frames(source, CaptureConfig()))
-        found = check_source(source, sensor=tuple(size), progress=False).report
+        found = check_source(source, sensor=str(size), progress=False).report
         values = " ".join(f"{key} {found.measures[key]:.3g}" for key in SHOWN)
         print(f"{name}: {[*found.problems, *found.remarks]} {values}", flush=True)
 
