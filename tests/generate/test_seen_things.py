@@ -11,8 +11,9 @@ import pytest
 from texvent.errors import InputError, TexventWarning
 from texvent.generate.landmarks import SKY, Landmark
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.generate.seen_things import image_points, list_unseen
+from texvent.generate.seen_things import find_evidence, image_points, look_for_things
 from texvent.scenes.description import SceneDescription, SceneObject
+from texvent.scenes.evidence import report_on
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.report import PromptReport
 from texvent.scenes.scene import Camera, Shape
@@ -29,7 +30,7 @@ def ball_scene(scale: float = 1.0):
 
 
 def test_a_thing_before_the_camera_is_seen():
-    assert list_unseen(ball_scene(), SIZE, 1.0) == ()
+    assert look_for_things(ball_scene(), SIZE, 1.0).faults == {1: None}
 
 
 def test_a_thing_behind_the_camera_is_not():
@@ -42,15 +43,17 @@ def test_a_thing_behind_the_camera_is_not():
             return replace(camera, rotation=np.stack([-axes[0], axes[1], -axes[2]]))
 
     turned = Turned(**vars(scene))
-    assert list_unseen(turned, SIZE, 1.0) == ("ball (out of view)",)
+    assert look_for_things(turned, SIZE, 1.0).faults == {1: "out of view"}
 
 
 def test_one_of_several_is_counted():
     description = SceneDescription("3 balls", objects=(SceneObject("ball", count=3),))
     scene = compose.compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
-    assert list_unseen(scene, SIZE, 1.0) == ()
+    assert look_for_things(scene, SIZE, 1.0).faults == dict.fromkeys((1, 2, 3))
     fewer = replace(scene, actors=scene.actors[1:])
-    assert list_unseen(fewer, SIZE, 1.0) == ("1 of 3 balls (out of view)",)
+    assert look_for_things(fewer, SIZE, 1.0).faults == {1: "out of view", 2: None, 3: None}
+    evidence = find_evidence(fewer, description, SIZE, 1.0)
+    assert report_on(description, evidence).not_shown == ("1 of 3 balls (out of view)",)
 
 
 def test_a_thing_behind_a_wall_is_hidden_and_a_sky_behind_it_out_of_view():
@@ -69,9 +72,10 @@ def test_a_thing_behind_a_wall_is_hidden_and_a_sky_behind_it_out_of_view():
 
     walled = Walled(**vars(scene))
     sky = [Landmark("starry sky", frozenset({SKY}))]
-    assert list_unseen(walled, SIZE, 1.0) == ("ball (hidden)",)
-    assert list_unseen(walled, SIZE, 1.0, landmarks=sky)[1:] == ("starry sky (out of view)",)
-    assert list_unseen(scene, SIZE, 1.0, landmarks=sky) == ()
+    assert look_for_things(walled, SIZE, 1.0).faults == {1: "hidden"}
+    found = look_for_things(walled, SIZE, 1.0, landmarks=sky)
+    assert found.places == {"starry sky": "out of view"}
+    assert look_for_things(scene, SIZE, 1.0, landmarks=sky).places == {}
 
 
 class Discs:
@@ -109,31 +113,56 @@ class Discs:
     ("discs", "reported"),
     [
         # A disc of 1 m fills 20 % of the width, one of 10 cm 2 %, one of 30 cm 6 % and 0.38 % of
-        # the points, one of 15 cm 3 % and 0.09 %.
-        (((1, 0.0, 1.0, 10.0),), ()),
-        (((1, 0.0, 0.3, 10.0),), ()),
-        (((1, 0.0, 0.15, 10.0),), ("plate (too small)",)),
-        (((1, 0.0, 0.1, 10.0),), ("plate (too small)",)),
+        # the points, one of 20 cm 4 % and 0.17 %.
+        (((1, 0.0, 1.0, 10.0),), None),
+        (((1, 0.0, 0.3, 10.0),), None),
+        (((1, 0.0, 0.2, 10.0),), "too small"),
+        (((1, 0.0, 0.1, 10.0),), "too small"),
         # The lid before the middle hides 0.9² = 81 % of it, a smaller one 0.7² = 49 %.
-        (((1, 0.0, 1.0, 10.0), (2, 0.0, 0.9, 9.99)), ("plate (mostly hidden)",)),
-        (((1, 0.0, 1.0, 10.0), (2, 0.0, 0.7, 9.99)), ()),
+        (((1, 0.0, 1.0, 10.0), (2, 0.0, 0.9, 9.99)), "mostly hidden"),
+        (((1, 0.0, 1.0, 10.0), (2, 0.0, 0.7, 9.99)), None),
         # The picture's edge is 5 m to the right: 0.5 m of 4 m are inside, or 1.5 m.
-        (((1, 6.5, 2.0, 10.0),), ("plate (cut off)",)),
-        (((1, 5.5, 2.0, 10.0),), ()),
-        (((1, 8.0, 2.0, 10.0),), ("plate (out of view)",)),
+        (((1, 6.5, 2.0, 10.0),), "cut off"),
+        (((1, 5.5, 2.0, 10.0),), None),
+        (((1, 8.0, 2.0, 10.0),), "out of view"),
     ],
 )
 def test_a_thing_that_is_hardly_seen_is_named_with_the_reason(discs, reported):
     scene = Discs(*discs)
     scene.class_names = {disc[0]: Discs.class_names[disc[0]] for disc in discs}
-    assert list_unseen(scene, SIZE, 0.0) == reported
+    assert look_for_things(scene, SIZE, 0.0).faults[1] == reported
 
 
-def test_copies_that_are_hardly_seen_are_counted_by_reason():
-    scene = Discs((1, 0.0, 1.0, 10.0), (2, 2.0, 0.1, 10.0), (3, 9.0, 1.0, 10.0))
-    scene.class_names = dict.fromkeys((1, 2, 3), "hand")
-    found = list_unseen(scene, SIZE, 0.0)
-    assert set(found) == {"1 of 3 hands (too small)", "1 of 3 hands (out of view)"}
+def test_what_fills_a_few_pixels_of_a_coarse_sensor_is_too_small():
+    scene = Discs((1, 0.0, 0.5, 10.0))  # 10 % of the width: 230 pixels of one sensor, 8 of another
+    scene.class_names = {1: "plate"}
+    assert look_for_things(scene, SIZE, 0.0).faults == {1: None}
+    assert look_for_things(scene, SensorSize(32, 24), 0.0).faults == {1: "too small"}
+
+
+def test_motion_is_what_moves_in_the_image():
+    """A disc 10 m away that goes 40 cm moves 7 pixels; 4 mm are none, nor does a camera move it."""
+
+    class Moving(Discs):
+        class_names: ClassVar = {1: "plate"}
+        way = 0.0
+        turn = 0.0
+
+        def primitives(self, time_s):
+            shapes = super().primitives(time_s)
+            shapes.to_world[:, 0, 3] += self.way * time_s
+            return shapes
+
+        def camera(self, time_s):
+            angle = self.turn * time_s
+            cosine, sine = np.cos(angle), np.sin(angle)
+            axes = [[cosine, sine, 0.0], [0.0, 0.0, -1.0], [-sine, cosine, 0.0]]
+            return replace(super().camera(time_s), rotation=np.array(axes))
+
+    scene = Moving((1, 0.0, 1.0, 10.0))
+    for way, turn, still in ((0.4, 0.0, set()), (0.004, 0.0, {1}), (0.0, 0.2, {1})):
+        scene.way, scene.turn = way, turn
+        assert look_for_things(scene, SIZE, 1.0).still == still
 
 
 def test_a_place_is_in_view_if_its_scenery_is():
@@ -142,8 +171,8 @@ def test_a_place_is_in_view_if_its_scenery_is():
     assert len(nouns) <= len(scene.primitives(0.0).shape)
     assert set(nouns) > {"", "bush"}
     seen, unseen = Landmark("shrubs", frozenset({"bush"})), Landmark("forest", frozenset({"pine"}))
-    found = list_unseen(scene, SIZE, 1.0, landmarks=[seen, unseen], scenery=nouns)
-    assert found == ("forest (out of view)",)
+    found = look_for_things(scene, SIZE, 1.0, landmarks=[seen, unseen], scenery=nouns)
+    assert found.places == {"forest": "out of view"}
 
 
 @pytest.mark.parametrize("size", [(346, 260), (1280, 720), (32, 24)])
@@ -171,7 +200,9 @@ def test_what_is_never_in_view_is_reported_and_refused_by_strict(monkeypatch):
     with pytest.warns(TexventWarning, match="prompt words not shown: ball .out of view"):
         video = ProceduralGenerator(config, size=SIZE).generate(prompt)
     report = PromptReport.of_metadata(video.metadata)
-    assert report.not_shown == ("ball (out of view)",)
-    assert "ball" not in report.shown
+    assert report.not_shown == (
+        "ball (out of view)", "red (ball out of view)", "bounces (ball out of view)",
+    )  # fmt: skip
+    assert report.shown == ("dog", "runs")
     with pytest.raises(InputError, match=r"strict: .* not shown: ball"):
         ProceduralGenerator(replace(config, strict=True), size=SIZE).generate(prompt)

@@ -16,6 +16,7 @@ from texvent.scenes.staging.scenery_tables import SCENERY
 
 SKY, WATER, ROAD = "sky", "water", "road"
 """Marks that are no nouns of scenery."""
+_SKY = ("sky", "skies", "clouds", "overcast")
 _SKY_WORDS = frozenset({"stars", "starry", "starry sky", "sunset", "sunrise"})
 _NOUNS = {
     "forest": frozenset({"pine", "tree", "palm"}),
@@ -50,7 +51,8 @@ def list_landmarks(description: SceneDescription) -> list[Landmark]:
         if words and marks:
             found.append(Landmark(words[0], marks))
     if said.sky is not None or said.clouds is not None:
-        found.append(Landmark("sky", frozenset({SKY})))
+        words = [word for word in description.shown if word.split()[-1] in _SKY]
+        found.append(Landmark(words[0] if words else "sky", frozenset({SKY})))
     return found + [
         Landmark(word, frozenset({SKY})) for word in description.shown if word in _SKY_WORDS
     ]

@@ -280,9 +280,9 @@ class ProceduralGenerator:
 
     def _stage(self, prompt: str) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
-        from texvent.generate.landmarks import list_landmarks
-        from texvent.generate.seen_things import list_unseen
+        from texvent.generate.seen_things import find_evidence
         from texvent.scenes.assets import list_files
+        from texvent.scenes.evidence import report_on
         from texvent.scenes.language.parser import parse_prompt
         from texvent.scenes.staging.compose import compose_scene
 
@@ -295,11 +295,8 @@ class ProceduralGenerator:
             duration_s=self.config.duration,
             nouns=self._shown_nouns(description),
         )
-        unseen = list_unseen(
-            scene, self.size, self.config.duration,
-            landmarks=list_landmarks(description), scenery=scene.list_scenery(),
-        )  # fmt: skip
-        report = self._accepted(description.report((*scene.not_shown, *unseen)))
+        evidence = find_evidence(scene, description, self.size, self.config.duration)
+        report = self._accepted(report_on(description, evidence))
         return scene, report, list_files(description, self._nouns)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Which things of a scene its camera ever shows, and how well: what stays hidden is not shown."""
+"""Which things of a scene its camera ever shows, how well, and whether they move in the image."""
 
 from __future__ import annotations
 
@@ -6,36 +6,46 @@ import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.generate.landmarks import SKY, Landmark, is_marked
-from texvent.scenes.inflection import pluralise
-from texvent.scenes.projection import place_in_image, ray_directions
+from texvent.generate.landmarks import SKY, Landmark, is_marked, list_landmarks
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.evidence import Evidence
+from texvent.scenes.projection import place_in_image, project, ray_directions
 from texvent.scenes.raycast.render import world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
 from texvent.scenes.raycast.trace import GROUND
 from texvent.scenes.raycast.visibility import count_unoccluded
 from texvent.scenes.scene import Camera, Float64Array, Primitives, Scene, Shape
+from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.compose import ComposedScene
 from texvent.sensor import SensorSize
 
 INSTANTS = 9
 """Instants of the clip at which it is looked for things."""
-MOST_COUNTED = 6
-"""Things of a noun that are counted one by one; of more, some may hide each other."""
+UNEVEN = 0.05
+"""Share of the clip by which they are moved."""
+NO_ROOM = "no room for it"
+"""Why an object without a body is not shown."""
 MOST_POINTS = 4000
 """Image points that are looked at per instant."""
 LEAST_SIZE = 0.025
 """Share of the picture's width or height below which a thing is a speck."""
-LEAST_AREA, SMALL_SIZE = 0.0015, 0.06
+LEAST_AREA, SMALL_SIZE = 0.0025, 0.1
 """Share of the picture's points below which a thing up to this size is a speck too."""
+LEAST_PIXELS = 20
+"""Pixels below which nothing can be told of a thing."""
 LEAST_SEEN = 0.25
 """Share of a thing's silhouette of which less is hardly seen."""
 LARGE_AREA = 0.03
 """Share of the picture's points from which on a thing is seen, however far it reaches beyond."""
 LEAST_MARK = 0.003
 """Share of the picture's points that what a place is known by covers at least."""
+LEAST_MOTION_PX = 1.0
+"""Way in the image, over the clip, below which a thing stands still."""
 
 
 @dataclass
@@ -54,6 +64,8 @@ class _Sight:
     seen: float = 0.0
     """Product of both, at the best instant."""
     most_inside: float = 0.0
+    moved_px: float = 0.0
+    """Way of the part that goes furthest, in the image of a camera that stands still, pixels."""
 
     def add(self, points: int, alone: int, extent: float, inside: float) -> None:
         """Take an instant into account.
@@ -72,29 +84,74 @@ class _Sight:
         if unhidden * inside > self.seen:
             self.seen, self.unhidden, self.inside = unhidden * inside, unhidden, inside
 
-    def fault(self, all_points: int) -> str | None:
-        """Why it is not shown, or None."""
+    def fault(self, all_points: int, pixels: int) -> str | None:
+        """Why it is not shown, or None; of so many points and pixels of the image."""
         share = self.points / all_points
         if not self.points and self.most_inside < LEAST_SEEN:
             return "out of view"
         if not self.points:
             return "hidden" if self.alone else "too small"
-        if self.extent < LEAST_SIZE or (share < LEAST_AREA and self.extent < SMALL_SIZE):
+        is_speck = share < LEAST_AREA and self.extent < SMALL_SIZE
+        if self.extent < LEAST_SIZE or is_speck or share * pixels < LEAST_PIXELS:
             return "too small"
         if self.seen < LEAST_SEEN and share < LARGE_AREA:
             return "mostly hidden" if self.unhidden < self.inside else "cut off"
         return None
 
 
-def list_unseen(
+class Findings(NamedTuple):
+    """What was found of a scene's things and places."""
+
+    faults: dict[int, str | None]
+    """Instance id → why it is not shown, such as "hidden", or None."""
+    still: frozenset[int]
+    """Instances that do not move in the image."""
+    places: dict[str, str]
+    """Words of places and of the sky that are not shown → why."""
+
+
+def find_evidence(
+    scene: ComposedScene, description: SceneDescription, size: SensorSize, duration_s: float
+) -> Evidence:
+    """What a staged scene shows of its description.
+
+    Args:
+        scene: the staged scene.
+        description: what it was staged from.
+        size: of the image, pixels.
+        duration_s: of the clip, s.
+    """
+    found = look_for_things(
+        scene, size, duration_s,
+        landmarks=list_landmarks(description), scenery=scene.list_scenery(),
+    )  # fmt: skip
+    copies: dict[int, list[int]] = {index: [] for index in range(len(description.objects))}
+    for instance, index in scene.object_of.items():
+        copies[index].append(instance)
+    for relation in description.relations:
+        # A coat, or who rides a bicycle, may be a part of another's model.
+        ends = (relation.subject, *relation.targets)
+        if relation.kind in ACTS and any(copies[index] for index in ends):
+            whole = next(copies[index] for index in ends if copies[index])
+            for index in ends:
+                copies[index] = copies[index] or whole
+    return Evidence(
+        scene.unmet,
+        {index: [found.faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},
+        frozenset(index for index, own in copies.items() if found.still.issuperset(own)),
+        found.places,
+    )
+
+
+def look_for_things(
     scene: Scene,
     size: SensorSize,
     duration_s: float,
     *,
     landmarks: Sequence[Landmark] = (),
     scenery: Sequence[str] = (),
-) -> tuple[str, ...]:
-    """Things and places that the camera does not show, and why.
+) -> Findings:
+    """What the camera shows of a scene's things and places.
 
     Args:
         scene: the scene; its `class_names` are looked for.
@@ -104,23 +161,52 @@ def list_unseen(
         scenery: noun of each shape of the scene that is scenery, "" for others.
 
     Returns:
-        Their nouns with the reason, such as "dog (mostly hidden)"; or how many of them, such as
-        "1 of 3 dogs (too small)", of at most `MOST_COUNTED`; and "forest (out of view)".
+        Why things and places are not shown, and what does not move.
     """
     sights = {one: _Sight() for one in scene.class_names}
     marks: Counter[str] = Counter()
     points = image_points(size)
-    for time_s in np.linspace(0.0, duration_s, INSTANTS):
-        marks |= _look(scene, float(time_s), size, points, sights, scenery)
+    last: _View | None = None
+    for time_s in _choose_instants(duration_s):
+        view = _look(scene, float(time_s), size, points, sights)
+        marks |= _count_marks(scene, view, points, scenery)
+        if last is not None:
+            _follow(last, view, sights)
+        last = view
     least = LEAST_MARK * len(points)
-    return (
-        *_name_faults(scene.class_names, sights, len(points)),
-        *(
-            f"{landmark.word} (out of view)"
+    return Findings(
+        {one: sight.fault(len(points), size.width * size.height) for one, sight in sights.items()},
+        frozenset(one for one, sight in sights.items() if sight.moved_px < LEAST_MOTION_PX),
+        {
+            landmark.word: "out of view"
             for landmark in landmarks
             if all(marks[mark] < least for mark in landmark.marks)
-        ),
+        },
     )
+
+
+def _choose_instants(duration_s: float) -> Float64Array:
+    """Instants with uneven gaps, s: what repeats itself is at another point of its round."""
+    even = np.linspace(0.0, 1.0, INSTANTS)
+    return np.asarray(duration_s * (even + UNEVEN * np.sin(2.0 * np.pi * even)))
+
+
+class _View(NamedTuple):
+    """What the camera sees at an instant."""
+
+    time_s: float
+    camera: Camera
+    size: SensorSize
+    shapes: Primitives
+    depth: Float64Array
+    """[k] of each image point, m."""
+    number: NDArray[np.int32]
+    """[k] shape of each image point."""
+
+    @property
+    def owner(self) -> NDArray[np.int32]:
+        """[n] instance of each shape."""
+        return np.asarray(self.shapes.instance, dtype=np.int32)
 
 
 def _look(
@@ -129,41 +215,80 @@ def _look(
     size: SensorSize,
     points: Float64Array,
     sights: Mapping[int, _Sight],
-    scenery: Sequence[str],
-) -> Counter[str]:
-    """Notes what is seen of each thing at an instant; points of all marks of places."""
+) -> _View:
+    """Notes what is seen of each thing at an instant."""
     world, shapes = world_and_shapes(scene, time_s, size)
-    camera = scene.camera(time_s)
-    depth, number = cast(world, points)
-    owner = np.asarray(shapes.instance, dtype=np.int32)
-    highest = max(int(owner.max(initial=0)), max(sights, default=0))
-    seen = np.bincount(owner[number[number >= 0]], minlength=highest + 1)
-    alone = np.zeros(highest + 1, dtype=np.int64)
+    view = _View(time_s, scene.camera(time_s), size, shapes, *cast(world, points))
+    owner = view.owner
+    count = 1 + max(int(owner.max(initial=0)), max(sights, default=0))
+    seen = np.bincount(owner[view.number[view.number >= 0]], minlength=count)
+    alone = np.zeros(count, dtype=np.int64)
     count_unoccluded(world, owner, points, alone)
-    places = _place_in_frame(shapes, owner, camera, size, highest + 1)
+    places = _place_in_frame(view, count)
     for one, sight in sights.items():
         sight.add(int(seen[one]), int(alone[one]), *(float(v) for v in places[one]))
-    marks = Counter({SKY: int(np.isinf(depth).sum())})
-    for one, name in scene.class_names.items():
-        marks[name] += int(seen[one])
-    if scenery:
-        for shape, count in zip(*np.unique(number[number >= 0], return_counts=True), strict=True):
-            marks[scenery[shape] if shape < len(scenery) else ""] += int(count)
-    is_ground = number == GROUND
-    rays = ray_directions(camera, size, points[is_ground]) * depth[is_ground, None]
-    mark, where = is_marked(scene.environment(time_s), (camera.position + rays)[:, :2])
+    return view
+
+
+def _count_marks(
+    scene: Scene, view: _View, points: Float64Array, scenery: Sequence[str]
+) -> Counter[str]:
+    """Points of all marks of places."""
+    marks = Counter({SKY: int(np.isinf(view.depth).sum())})
+    shapes, counts = np.unique(view.number[view.number >= 0], return_counts=True)
+    owner = view.owner
+    for shape, count in zip(shapes, counts, strict=True):
+        marks[scene.class_names.get(int(owner[shape]), "")] += int(count)
+        marks[scenery[shape] if shape < len(scenery) else ""] += int(count)
+    is_ground = view.number == GROUND
+    rays = ray_directions(view.camera, view.size, points[is_ground]) * view.depth[is_ground, None]
+    spots = (view.camera.position + rays)[:, :2]
+    mark, where = is_marked(scene.environment(view.time_s), spots)
     marks[mark] += int(where.sum())
     return marks
 
 
-def _place_in_frame(
-    shapes: Primitives, owner: NDArray[np.int32], camera: Camera, size: SensorSize, count: int
-) -> Float64Array:
+def _follow(before: _View, after: _View, sights: Mapping[int, _Sight]) -> None:
+    """Add the way of each thing's parts that are seen, for a camera that stays where it was.
+
+    A mesh that deforms, a lamp and a surface that change are motion too.
+    """
+    seen = np.unique(after.number[after.number >= 0])
+    first, last = before.shapes, after.shapes
+    owner = after.owner
+    seen = seen[owner[seen] > 0]
+    reach = np.concatenate([np.zeros((3, 1)), 0.7 * np.eye(3), -0.7 * np.eye(3)], axis=1)
+    spots = [
+        project(
+            before.camera, before.size,
+            (one.to_world[seen, :, :3] @ reach + one.to_world[seen, :, 3:]).transpose(0, 2, 1),
+        )
+        for one in (first, last)
+    ]  # fmt: skip
+    way = np.linalg.norm(spots[1][..., :2] - spots[0][..., :2], axis=2)
+    is_ahead = (spots[0][..., 2] > 0.0) & (spots[1][..., 2] > 0.0) & np.isfinite(way)
+    way = np.where(is_ahead, way, 0.0).max(axis=1)
+    changes = (first.emission[seen] != last.emission[seen]) | np.any(
+        first.colour[seen] != last.colour[seen], axis=1
+    )
+    if first.mesh is not None and last.mesh is not None:
+        changes |= first.mesh[seen] != last.mesh[seen]
+    way = np.where(changes, LEAST_MOTION_PX, way)
+    furthest: dict[int, float] = {}
+    for one, moved in zip(owner[seen], way, strict=True):
+        furthest[int(one)] = max(furthest.get(int(one), 0.0), float(moved))
+    for number, moved in furthest.items():
+        if number in sights:
+            sights[number].moved_px += moved
+
+
+def _place_in_frame(view: _View, count: int) -> Float64Array:
     """[count, 2] of each instance: its extent within the image, and which share lies there.
 
     From the boxes around its shapes: the extent is a share of the image's width or height, the
     greater one.
     """
+    shapes, owner, camera, size = view.shapes, view.owner, view.camera, view.size
     axes = np.asarray(camera.rotation)
     linear = axes @ shapes.to_world[:, :, :3]
     middle = (shapes.to_world[:, :, 3] - camera.position) @ axes.T
@@ -185,23 +310,6 @@ def _place_in_frame(
     found[:, 0] = np.maximum((last - first) / edge, 0.0).max(axis=1)
     areas = np.bincount(one, whole, count)
     found[:, 1] = np.bincount(one, inner, count) / np.where(areas > 0.0, areas, 1.0)
-    return found
-
-
-def _name_faults(
-    names: Mapping[int, str], sights: Mapping[int, _Sight], all_points: int
-) -> list[str]:
-    """As in "dog (cut off)" or "1 of 3 dogs (too small)"."""
-    found = []
-    for noun, total in Counter(names.values()).items():
-        faults = [sights[one].fault(all_points) for one in names if names[one] == noun]
-        reasons = Counter(fault for fault in faults if fault is not None)
-        if sum(reasons.values()) == total:
-            found.append(f"{noun} ({reasons.most_common(1)[0][0]})")
-        elif total <= MOST_COUNTED:
-            found += [
-                f"{count} of {total} {pluralise(noun)} ({why})" for why, count in reasons.items()
-            ]
     return found
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from texvent.scenes.inflection import list_finite_forms, pluralise
 from texvent.scenes.report import PromptReport
 from texvent.scenes.report import Substitution as Substitution
 from texvent.scenes.scene import Colour
+from texvent.scenes.wording import describe
 
 
 @dataclass(frozen=True)
@@ -212,6 +212,23 @@ class Surroundings:
 
 
 @dataclass(frozen=True)
+class Claim:
+    """What a word of the prompt stands for, at one of the places where the prompt has it."""
+
+    word: str
+    aspect: str
+    """"name" (of objects), "count", "motion", "relation" or "quality" (whatever else it says)."""
+    things: tuple[int, ...]
+    """Indices of the objects that show it."""
+    relations: tuple[Relation, ...] = ()
+    """Relations that it stands for."""
+    motion: int | None = None
+    """Which of the motions of its objects, from 0; None = none, or not known."""
+    move: str | None = None
+    """Kind of the camera's move that it asks for."""
+
+
+@dataclass(frozen=True)
 class SceneDescription:
     """A prompt, understood as far as it could be."""
 
@@ -231,6 +248,8 @@ class SceneDescription:
     """Words that are shown as something else."""
     not_understood: tuple[str, ...] = ()
     """Words that had no effect on the scene, in order, each once."""
+    claims: tuple[Claim, ...] = ()
+    """What the words that are shown, or substituted, stand for."""
     notes: tuple[str, ...] = ()
     """What the parser decided or left out, as sentences."""
 
@@ -244,159 +263,12 @@ class SceneDescription:
         """
         return self.report().lines()
 
-    def report(self, not_shown: tuple[str, ...] = ()) -> PromptReport:
-        """What becomes of the prompt's words.
-
-        Args:
-            not_shown: what the staged scene does not show, as "dog (hidden)" or "on the table".
-        """
-        hidden = {words.partition(" (")[0] for words in not_shown}
-        lines = [self._describe_object(index) for index in range(len(self.objects))]
-        lines.extend(self._describe_effect(effect) for effect in self.effects)
-        lines.append(f"place: {_describe_surroundings(self.surroundings)}")
-        lines.append(f"light: {_describe_light(self.light)}")
-        lines.append(f"camera: {_describe_shot(self.shot)}")
-        if self.absent:
-            lines.append(f"left out as asked: {', '.join(self.absent)}")
+    def report(self) -> PromptReport:
+        """What becomes of the prompt's words, before the scene is staged."""
         return PromptReport(
-            scene=tuple(lines),
-            shown=tuple(word for word in self.shown if word not in hidden),
+            scene=describe(self),
+            shown=self.shown,
             substituted=self.substituted,
-            not_shown=not_shown,
             not_understood=self.not_understood,
             notes=self.notes,
         )
-
-    def _describe_object(self, index: int) -> str:
-        scene_object = self.objects[index]
-        words = [_describe_count(scene_object)]
-        if scene_object.colour is not None:
-            words.append(scene_object.colour.name)
-        if scene_object.scale != 1.0:
-            words.append(f"{scene_object.scale:g} times its usual size")
-        if scene_object.motion is not None:
-            words.append(describe_motion(scene_object.motion, is_plural=scene_object.count > 1))
-        for motion in scene_object.then:
-            words.append(f"then {describe_motion(motion, is_plural=scene_object.count > 1)}")
-        if scene_object.side is not None:
-            words.append(_SIDES[scene_object.side])
-        if scene_object.is_lit is not None:
-            words.append("lit" if scene_object.is_lit else "not lit")
-        if scene_object.blink_hz is not None:
-            words.append(f"blinking at {scene_object.blink_hz:g} Hz")
-        for relation in self.relations:
-            if relation.subject == index:
-                others = (_describe_count(self.objects[target]) for target in relation.targets)
-                targets = "each other" if relation.targets == (index,) else " and ".join(others)
-                words.append(f"{RELATION_WORDS.get(relation.kind, relation.kind)} {targets}")
-        return ", ".join(words)
-
-    def _describe_effect(self, effect: Effect) -> str:
-        words = effect.kind if effect.colour is None else f"{effect.colour.name} {effect.kind}"
-        if effect.source is not None:
-            words += f", from {self.objects[effect.source].noun}"
-        return words if effect.start_s is None else f"{words}, after {effect.start_s:g} s"
-
-
-_SIDES = {
-    "left": "on the left",
-    "right": "on the right",
-    "centre": "in the middle",
-    "far": "far away",
-    "near": "in the foreground",
-}
-RELATION_WORDS = {
-    "front": "in front of",
-    "surround": "surrounded by",
-    "follow": "following",
-    "overtake": "overtaking",
-    "hold": "holding",
-    "carry": "carrying",
-    "wear": "wearing",
-    "ride": "riding",
-    "push": "pushing",
-    "work on": "working on",
-    "pull": "pulling",
-    "kick": "kicking",
-    "hit": "hitting",
-    "throw": "throwing",
-    "catch": "catching",
-    "collide": "meeting",
-}
-"""Relation → words for it, where they differ from its name."""
-_BACKDROPS = {
-    "mountain": "mountains around (the ground itself stays flat)",
-    "forest": "forest around",
-    "city": "buildings around",
-}
-_DIRECTIONS = {
-    "towards": "towards the camera",
-    "circle": "in a circle",
-    "across": "across the picture",
-}
-
-
-def _describe_count(scene_object: SceneObject) -> str:
-    name = scene_object.noun
-    return f"{scene_object.count} {name if scene_object.count == 1 else pluralise(name)}"
-
-
-def describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
-    """A motion in words, such as "runs towards the camera"."""
-    if motion.kind in _NAMED or " " in motion.kind:
-        words = [f"{'do' if is_plural else 'does'} '{motion.kind}'"]
-    else:
-        verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
-        words = [verb if is_plural else list_finite_forms(verb)[1], *rest]
-    if motion.direction is not None:
-        words.append(_DIRECTIONS.get(motion.direction, motion.direction))
-    if motion.speed_m_s is not None:
-        words.append(f"at {motion.speed_m_s:.3g} m/s")
-    elif motion.pace != 1.0:
-        words.append(f"at {motion.pace:.2g} times its usual speed")
-    return " ".join(words)
-
-
-_NAMED = ("push-up", "sit-up", "phone", "fist", "victory", "ok")
-"""Activities named by a noun."""
-_PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
-
-
-def _describe_surroundings(surroundings: Surroundings) -> str:
-    words = [surroundings.place or "what suits the things"]
-    if surroundings.road is not None:
-        words.append(f"{surroundings.road} road")
-    if surroundings.colour is not None:
-        words.append(surroundings.colour.name)
-    if surroundings.sky is not None:
-        words.append(f"{surroundings.sky.name} sky")
-    if surroundings.weather is not None:
-        words.append(surroundings.weather)
-    if surroundings.clouds is not None:
-        words.append("clouds" if surroundings.clouds > 0 else "no clouds")
-    words.extend(_BACKDROPS[backdrop] for backdrop in surroundings.backdrops)
-    if surroundings.has_snow and surroundings.place != "snow":
-        words.append("snow on the ground")
-    if surroundings.has_dust:
-        words.append("dust")
-    return ", ".join(words)
-
-
-def _describe_light(light: Illumination) -> str:
-    words = [light.kind or "day"]
-    if light.flicker_hz is not None:
-        words.append(f"flickering at {light.flicker_hz:g} Hz")
-    if light.shadows is not None:
-        words.append("with shadows" if light.shadows else "without shadows")
-    return ", ".join(words)
-
-
-def _describe_shot(shot: Shot) -> str:
-    words = [" ".join(filter(None, (move.kind, move.direction))) for move in shot.moves]
-    if not words:
-        words = ["static"]
-    if shot.view is not None:
-        words.append(f"{shot.view} view")
-    if shot.framing is not None:
-        words.append(f"{shot.framing} shot")
-    return ", ".join(words)

@@ -53,7 +53,7 @@ def unrelated(kind: str, *bodies: Actor) -> list[str]:
     nouns = [bodies[0].noun.name, bodies[1].noun.name]
     objects = (SceneObject(nouns[0]), SceneObject(nouns[1], len(bodies) - 1))
     description = SceneDescription("", objects, (Relation(kind, 0, (1,)),))
-    return list_not_shown(description, bodies, DURATION_S)
+    return [one.text for one in list_not_shown(description, bodies, DURATION_S)]
 
 
 def unmoved(
@@ -69,7 +69,7 @@ def unmoved(
         description, place=place, road=road or RoadLine(), distance_m=10.0, room_m=9.0
     )
     stage = Stage(description, actors, CAMERA, environment.at(0.0), place, DURATION_S)
-    return list_acts_not_shown(stage)
+    return [one.text for one in list_acts_not_shown(stage)]
 
 
 TABLE_TOP_M = part_boxes(body(0, "table", at()), 0.0).hull[1][2]
@@ -197,10 +197,11 @@ def test_moves_of_the_camera_are_made(kind) -> None:
     path = replace(CAMERA, moves=shot.moves)
     assert list_moves_not_shown(shot, path, DURATION_S) == []
     words = f"camera {kind} {directions.get(kind, 'left')}"
-    assert list_moves_not_shown(shot, CAMERA, DURATION_S) == [words]
+    assert [one.text for one in list_moves_not_shown(shot, CAMERA, DURATION_S)] == [words]
     other = {"in": "out", "out": "in", "up": "down", "down": "up"}
     turned = (CameraMove(kind, other.get(directions.get(kind, ""), "right")),)
-    assert list_moves_not_shown(shot, replace(CAMERA, moves=turned), DURATION_S) == [words]
+    found = list_moves_not_shown(shot, replace(CAMERA, moves=turned), DURATION_S)
+    assert [one.text for one in found] == [words]
 
 
 def test_boxes_of_parts_hold_their_shapes() -> None:

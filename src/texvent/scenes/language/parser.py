@@ -17,6 +17,7 @@ from texvent.scenes.description import SceneDescription, Substitution
 from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
+from texvent.scenes.language.word_claims import SILENT_PREPOSITIONS, list_claims, says_something
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.language.words.tagging import tag_words
@@ -36,11 +37,6 @@ _SILENT = frozenset(
      Pos.TO, Pos.PRONOUN}
 )  # fmt: skip
 """Parts of speech that need no effect of their own."""
-_SILENT_PREPOSITIONS = frozenset(
-    {"of", "by", "at", "for", "with", "in", "on", "to", "from", "as", "into", "about", "via",
-     "within", "upon", "out", "off", "like"}
-)  # fmt: skip
-"""Prepositions that are not reported: the noun after them is, if it is not shown."""
 
 
 def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescription:
@@ -87,6 +83,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         shown=shown,
         substituted=substituted,
         not_understood=unread,
+        claims=list_claims(words),
         notes=(*notes, *description.notes),
     )
     return complete_description(description, nouns)
@@ -125,8 +122,9 @@ def _account(
         elif word.pos in _SILENT and not word.is_lost:
             continue
         elif word.is_used:
-            shown[word.text] = None
-        elif word.is_lost or word.text not in _SILENT_PREPOSITIONS:
+            if says_something(word):
+                shown[f"no {word.text}" if word.is_absent else word.text] = None
+        elif word.is_lost or word.text not in SILENT_PREPOSITIONS:
             for token in word.tokens:
                 is_article = len(word.tokens) > 1 and token.text in ("the", "a")
                 if not token.is_punctuation and not is_article:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from texvent.errors import InputError
-from texvent.scenes.description import Relation, SceneDescription
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import (
@@ -68,10 +69,12 @@ class ComposedScene:
     lamps: LampPlan
     class_names: dict[int, str]
     """Instance id → noun."""
-    not_shown: tuple[str, ...] = ()
-    """Words of the prompt that the scene could not show, such as "under the table"."""
+    unmet: tuple[Unmet, ...] = ()
+    """What the prompt says and the scene could not show, such as "under the table"."""
     still_nouns: tuple[str, ...] = ()
     """Noun of each shape of `still`."""
+    object_of: Mapping[int, int] = field(default_factory=dict)
+    """Instance id → index of the description's object that it is a copy of."""
 
     def list_scenery(self) -> list[str]:
         """Noun of each shape of the scene that is scenery, "" for those of actors before it."""
@@ -108,6 +111,11 @@ class ComposedScene:
         puffs += [effect.puffs(time_s) for effect in effects]
         surroundings = self.animated_environment.at(time_s)
         return replace(surroundings, lamps=lamps, puffs=np.concatenate(puffs))
+
+    @property
+    def not_shown(self) -> tuple[str, ...]:
+        """Words for what the prompt says and the scene could not show."""
+        return tuple(dict.fromkeys(one.text for one in self.unmet))
 
     @property
     def flicker_hz(self) -> float | None:
@@ -173,6 +181,8 @@ def compose_scene(
     placed += [item.place(first_free + number) for number, (_, item) in enumerate(surrounding)]
     names = {actor.instance: actor.noun.name for actor in actors}
     names.update({first_free + number: item.noun for number, (_, item) in enumerate(surrounding)})
+    object_of = {actor.instance: actor.object_index for actor in actors}
+    object_of.update({first_free + n: index for n, (index, _) in enumerate(surrounding)})
     distance = camera_path.framing.distance_m
     animated_environment = build_environment(
         description, place=place, road=view.road,
@@ -191,13 +201,13 @@ def compose_scene(
     particles = stage_effects(description, setting)
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed),
+        tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
     )  # fmt: skip
 
 
 def _name_shapes(
     items: Sequence[SceneryItem],
-    surrounding: Sequence[tuple[Relation, SceneryItem]],
+    surrounding: Sequence[tuple[int, SceneryItem]],
     placed: Sequence[PlacedModel],
 ) -> tuple[str, ...]:
     nouns = [item.noun for item in (*items, *(item for _, item in surrounding))]
@@ -267,15 +277,15 @@ def _scatter_all(
     actors: Sequence[Actor],
     nouns: Mapping[str, Noun],
     seed: int,
-) -> tuple[list[SceneryItem], list[tuple[Relation, SceneryItem]]]:
-    """Scenery of the place, and the objects that the prompt puts all around.
+) -> tuple[list[SceneryItem], list[tuple[int, SceneryItem]]]:
+    """Scenery of the place, and the objects that the prompt puts all around, with their index.
 
     Nouns that the prompt counts are not used as scenery: "two trees" are two trees.
     """
     said = {scene_object.noun for scene_object in description.objects}
     allowed = {name: noun for name, noun in nouns.items() if name not in description.absent}
     unsaid = {name: noun for name, noun in allowed.items() if name not in said}
-    around: list[tuple[Relation, SceneryItem]] = []
+    around: list[tuple[int, SceneryItem]] = []
     for relation in description.relations:
         if relation.kind not in SCENIC:
             continue
@@ -292,7 +302,7 @@ def _scatter_all(
                 found = line_route(
                     [rule], view.travel, actors, allowed, rng=rng, road_half_m=view.road_half_width
                 )
-            around.extend((relation, item) for item in found)
+            around.extend((target, item) for item in found)
     rules = [] if description.surroundings.is_empty else list(SCENERY.get(place, ()))
     for backdrop in description.surroundings.backdrops:
         rules.extend(BACKDROPS[backdrop])
@@ -310,12 +320,15 @@ def _scatter_all(
 
 
 def _list_missing_scenery(
-    description: SceneDescription, found: Sequence[tuple[Relation, SceneryItem]]
-) -> list[str]:
+    description: SceneDescription, found: Sequence[tuple[int, SceneryItem]]
+) -> list[Unmet]:
     """What should stand around and found no place."""
     shown = {item.noun for _, item in found}
     return [
-        f"{relation.kind} {description.objects[target].noun}"
+        Unmet(
+            f"{relation.kind} {description.objects[target].noun}",
+            relation=(relation.subject, relation.targets),
+        )
         for relation in description.relations
         if relation.kind in SCENIC
         for target in relation.targets

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion, SceneDescription
+from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.placement.spatial_relations import GATES
 from texvent.scenes.staging.trajectories.phases import left_out
@@ -17,20 +18,21 @@ _PLACES_TO_GO = frozenset(
 
 def prepare(
     description: SceneDescription, nouns: Mapping[str, Noun], duration_s: float
-) -> tuple[SceneDescription, list[str]]:
-    """The description as it is staged, and words of it that cannot be shown.
+) -> tuple[SceneDescription, list[Unmet]]:
+    """The description as it is staged, and what of it cannot be shown.
 
     A camera that follows something which stays in its place would show nothing: the subject does
     what it usually does, and what cannot move is passed by the camera instead.
     """
     missing = []
-    for scene_object in description.objects:
+    for number, scene_object in enumerate(description.objects):
         said = [*filter(None, [scene_object.motion]), *scene_object.then]
         for motion in left_out(said, duration_s):
-            missing.append(
+            text = (
                 f"the {scene_object.noun}'s {motion.kind} after {motion.start_s:g} s "
                 f"(the clip ends at {duration_s:g} s)"
             )
+            missing.append(Unmet(text, motion=(number, said.index(motion))))
     description = _face_passages(description)
     follows = any(move.kind == "follow" for move in description.shot.moves)
     if not follows or not description.objects:
@@ -54,7 +56,7 @@ def prepare(
         replace(move, kind="truck", direction="right") if move.kind == "follow" else move
         for move in description.shot.moves
     )
-    missing.append(f"following the {subject.noun}, which does not move")
+    missing.append(Unmet(f"following the {subject.noun}, which does not move", move="follow"))
     return replace(description, shot=replace(description.shot, moves=moves)), missing
 
 

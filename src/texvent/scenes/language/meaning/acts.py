@@ -13,12 +13,11 @@ from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_liv
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.fitting import choose_act, fit_verb, is_played
 from texvent.scenes.language.meaning.referents import Referent
-from texvent.scenes.language.vocabulary.acts import OF_ONESELF
+from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB, OF_ONESELF
 from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ, Verb
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
-from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.people.activities import WORKING
 
@@ -170,6 +169,7 @@ class ActReader:
             word.is_used = True
         for index in hands or people:
             self._add_motion(index, ObjectMotion(name), clause)
+        self._draft.link_motion(words, hands or people)
         if name in WORKING and not is_exact:
             targets = [index for one in objects if one.is_things for index in one.things]
             self._draft.relate("work on", people, targets[:1])
@@ -394,10 +394,6 @@ def _carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:
     return replace(motion, direction=before.direction) if keeps else motion
 
 
-EFFECT_BY_VERB: dict[str, str] = {
-    verb: kind for kind, words in EFFECTS.items() for verb in words.verbs if " " not in verb
-}
-"""Verb of one word → the effect it means."""
 _FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")
 _SWITCHES = ("turn", "change", "switch", "go")
 _SIGNALS = ("red", "yellow", "amber", "green")

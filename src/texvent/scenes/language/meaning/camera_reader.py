@@ -222,6 +222,9 @@ class CameraReader:
                 self._moves[-1] = replace(last, kind="orbit", direction=None, means=None)
             elif word.text in ("towards", "toward", "to") and last.kind == "travel":
                 self._moves[-1] = replace(last, kind="dolly", direction="in", means=None)
+            elif last.kind == "static":
+                word.is_lost = True
+                return
             word.is_used = True
             self.aim(referent)
         elif referent.kind == "place" and word.text in _TRAVEL_PREPOSITIONS | {"at", "on"}:

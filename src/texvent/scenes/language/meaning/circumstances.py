@@ -16,10 +16,11 @@ from texvent.scenes.language.meaning.relations import WEAK_PREPOSITIONS, Relatio
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE
+from texvent.scenes.language.vocabulary.objects import LIKENESSES, LIQUIDS
 from texvent.scenes.language.vocabulary.scene import PART_COLOURS, SPELT
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.effects import EFFECTS
 
 _PLACE_PREPOSITIONS = frozenset(
@@ -34,6 +35,8 @@ _LIGHT_PREPOSITIONS = frozenset(
     {"in", "at", "by", "under", "during", "on", "with", "into", "of", "against", "before", "from",
      "as", "through"}
 )  # fmt: skip
+_OF_THINGS = (Role.DIRECTION, Role.PACE, Role.SIDE, Role.STILL)
+"""Roles of adverbs that say something of the clause's objects."""
 _MOTION_BY_PREPOSITION = {"across": "across", "up": "up", "down": "down"}
 
 
@@ -67,6 +70,8 @@ class CircumstanceReader:
                 word.is_used = True
             elif role in (Role.LIGHT, Role.CLOUDS, Role.PLACE, Role.WEATHER):
                 self._surroundings.read(word, is_negated=False)
+            if word.is_used and role in _OF_THINGS:
+                self._draft.link_motion([word], scope.movers or scope.subjects)
 
     def _read_direction(self, word: Word, scope: Scope) -> None:
         direction = str(word.meaning.value).strip()
@@ -273,6 +278,7 @@ class CircumstanceReader:
         for index in scope.subjects:
             if is_person(self._draft.noun(index)):
                 one.attributes.colour(self._draft.objects[index])
+                link(one.group.modifiers, [index])
                 word.is_used = True
 
     def _read_style(self, one: Referent) -> None:
@@ -363,6 +369,7 @@ class CircumstanceReader:
 
     def _use_part(self, one: Referent, things: Sequence[int]) -> None:
         """The part is shown; its colour too, if it is the usual one."""
+        link(one.group.words, things)
         if one.group.head is not None:
             one.group.head.is_used = True
         for colour, words in one.attributes.colours:
@@ -386,15 +393,5 @@ class CircumstanceReader:
         return None
 
 
-LIQUIDS = frozenset(
-    {"coffee", "tea", "water", "milk", "juice", "soup", "beer", "wine", "lemonade", "cocoa"}
-)
-"""What fills a vessel: "a cup of coffee" is one thing."""
-LIKENESSES = frozenset(
-    {"poster", "picture", "painting", "photo", "photograph", "drawing", "statue", "sculpture",
-     "figurine", "model", "portrait", "logo", "silhouette", "reflection", "map", "toy", "image",
-     "replica", "costume", "shadow"}
-)  # fmt: skip
-"""What shows a thing without its being there: "a statue of a horse"."""
 _BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
               "from": "away", "at": "towards"}  # fmt: skip

@@ -21,7 +21,7 @@ from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS, WEATHER_VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
-from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.protocol import Noun
 
 POSTER = "poster"
@@ -226,11 +226,14 @@ class ClauseMeaning:
         self._read_subject_phrases(clause, subjects, things)
         movers: list[int] = []
         is_picture = self._show_pictures(clause, things, objects)
+        before = len(self._draft.relations)
         if clause.verb is not None and things and not is_picture:
             if clause.is_passive and not (clause.is_participle and is_plain_past(clause.verb)):
                 movers = self._acts.undergo(clause, things, agents)
             else:
                 movers = self._acts.read(clause, things, objects)
+            self._draft.link_motion([clause.verb], movers or things)
+            clause.verb.relations = tuple(self._draft.relations[before:])
         if clause.verb is None and not clause.complements:
             for word in clause.auxiliaries:
                 word.is_lost = word.text.split()[0].rstrip("s") in _ASPECTS
@@ -284,6 +287,7 @@ class ClauseMeaning:
         item = PartialObject(noun, motions=[ObjectMotion(activity)])
         index = self._draft.add(item)
         if index is not None:
+            self._draft.link_motion([*words, *clause.adverbs], [index])
             self._draft.note(f"a {noun} does it ({activity}): no one is named")
             of_subjects = [phrase for group in clause.subjects for phrase in group.phrases]
             scope = Scope([index], [index], is_verb_shown=True)
@@ -372,6 +376,7 @@ class ClauseMeaning:
         """As in "The car is red"; "painted orange"."""
         for group in clause.complements:
             one = self._referents.resolve(group)
+            link(group.modifiers, scope.subjects)
             for index in scope.subjects:
                 one.attributes.apply(self._draft.objects[index], self._draft.noun(index))
 

@@ -14,6 +14,7 @@ from texvent.scenes.description import (
     Relation,
     SceneObject,
 )
+from texvent.scenes.language.words.word import Word, link
 from texvent.scenes.models.protocol import Noun
 
 _ONE_EACH = ("hold", "carry", "wear", "ride", "push", "pull")
@@ -140,6 +141,11 @@ class Draft:
             item = self.objects[target]
             if kind in _ONE_EACH and count > 1 and not item.is_counted:
                 item.count = count
+
+    def link_motion(self, words: Iterable[Word], things: Sequence[int]) -> None:
+        """These words are about the last motion of these objects."""
+        if things:
+            link(words, things, max(len(self.objects[things[0]].motions) - 1, 0))
 
     def note(self, text: str) -> None:
         """Say something once."""

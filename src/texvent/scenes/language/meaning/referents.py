@@ -29,7 +29,7 @@ from texvent.scenes.language.vocabulary.function import (
 from texvent.scenes.language.vocabulary.objects import MAX_COUNT, PLURAL_COUNT, SURROUND_COUNT
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.language.words.word import Word, link, mark_used
 
 PERSON = "person"
 OUR = ("our", "my")
@@ -106,6 +106,8 @@ class Referents:
             self._wholes = wholes if preposition == "with" else ()
             found = self._read(group, preposition)
             self._known[id(group)] = found
+            if found.is_things:
+                link(group.words, found.things)
         return found
 
     def recall(self, group: NounGroup | None) -> Referent | None:
@@ -227,6 +229,8 @@ class Referents:
         mark_used(word for word in (group.determiner, group.head) if word is not None)
         if group.negation is not None:
             group.negation.is_used = True
+        if group.head is not None:
+            group.head.is_absent = group.head.text not in NOBODY
         self._draft.exclude(noun)
         return Referent("absent", group)
 

@@ -36,7 +36,7 @@ class RelationReader:
             word.is_used = not scope.is_lost
             word.is_lost = scope.is_lost
             return
-        is_used = False
+        is_used, before = False, len(self._draft.relations)
         kind = self._relation_kind(word, things)
         if scope.has_verb and not scope.is_verb_shown:
             is_used = self._rest(word, kind, things, scope)
@@ -46,6 +46,7 @@ class RelationReader:
             subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
             is_used = self._relate(kind, subjects, things)
         word.is_used, word.is_lost = is_used, not is_used
+        word.relations = tuple(self._draft.relations[before:])
 
     def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
         """As in "zebras with a giraffe behind them": the giraffe is behind them."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence, Set
 
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.acts import EFFECT_BY_VERB
 from texvent.scenes.language.meaning.circumstances import CircumstanceReader
 from texvent.scenes.language.meaning.referents import Referent, Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
+from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used

@@ -70,6 +70,7 @@ class SurroundingsReader:
         else:
             is_used = self.read(head, is_negated=is_negated, value=one.value)
         head.is_used = head.is_used or is_used
+        head.is_absent = is_used and is_negated
         if is_used and is_negated and one.group.negation is not None:
             one.group.negation.is_used = True
         return is_used

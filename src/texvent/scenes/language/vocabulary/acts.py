@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from texvent.scenes.models.effects import EFFECTS
+
 SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "cook": (
         "mix", "season", "whisk", "fry", "grill", "roast", "prepare", "boil",
@@ -76,3 +78,7 @@ OF_ONESELF = frozenset(
      "sink"}
 )  # fmt: skip
 """Motions that are done to nothing: who "flips a pancake" does not jump."""
+EFFECT_BY_VERB: dict[str, str] = {
+    verb: kind for kind, words in EFFECTS.items() for verb in words.verbs if " " not in verb
+}
+"""Verb of one word → the effect it means."""

@@ -156,3 +156,14 @@ COMPOUNDS: dict[str, tuple[str, ...]] = {
                      "calibration pattern", "calibration target", "chessboard pattern"),
 }  # fmt: skip
 """Noun → compounds that mean it, though their last word alone does not."""
+
+LIQUIDS = frozenset(
+    {"coffee", "tea", "water", "milk", "juice", "soup", "beer", "wine", "lemonade", "cocoa"}
+)
+"""What fills a vessel: "a cup of coffee" is one thing."""
+LIKENESSES = frozenset(
+    {"poster", "picture", "painting", "photo", "photograph", "drawing", "statue", "sculpture",
+     "figurine", "model", "portrait", "logo", "silhouette", "reflection", "map", "toy", "image",
+     "replica", "costume", "shadow"}
+)  # fmt: skip
+"""What shows a thing without its being there: "a statue of a horse"."""

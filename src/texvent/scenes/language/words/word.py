@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
+from texvent.scenes.description import Relation
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.tokens import Token
@@ -25,6 +26,14 @@ class Word:
     """What is shown in its place, if that is something else."""
     others: tuple[Meaning, ...] = field(default=())
     """Its other readings."""
+    is_absent: bool = False
+    """Whether the prompt says that there is none of it."""
+    things: tuple[int, ...] = ()
+    """Objects that it names or says something of, by index."""
+    relations: tuple[Relation, ...] = ()
+    """Relations of objects that it stands for."""
+    motion: int | None = None
+    """Which motion of its first object it is about, from 0."""
 
     @property
     def pos(self) -> Pos:
@@ -60,6 +69,13 @@ class Word:
 
 CONTRACTED = frozenset({"it", "that", "there", "he", "she", "what", "who", "let", "here"})
 """Words after which 's is "is"."""
+
+
+def link(words: Iterable[Word], things: Sequence[int], motion: int | None = None) -> None:
+    """These words are about these objects, and about one of their motions."""
+    for word in words:
+        word.things = tuple(dict.fromkeys((*word.things, *things)))
+        word.motion = motion
 
 
 def mark_used(words: Iterable[Word]) -> None:

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import ObjectMotion, SceneDescription, describe_motion
+from texvent.scenes.description import ObjectMotion, SceneDescription
+from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Environment, Float64Array
@@ -17,6 +18,7 @@ from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS, Phase, schedule
+from texvent.scenes.wording import describe_motion
 
 _SAMPLES = 13
 """Instants of a phase."""
@@ -53,7 +55,7 @@ class Stage:
     duration_s: float
 
 
-def list_acts_not_shown(stage: Stage) -> list[str]:
+def list_acts_not_shown(stage: Stage) -> list[Unmet]:
     """Motions of the prompt that the scene does not show, such as "dog runs towards the camera".
 
     What rides, is ridden, kicked, carried or led has its motion from another one: relations check
@@ -72,12 +74,15 @@ def list_acts_not_shown(stage: Stage) -> list[str]:
         is_plural = scene_object.count > 1
         name = pluralise(scene_object.noun) if is_plural else scene_object.noun
         if index not in carried and not _has_support(stage, copies[0]):
-            missing.append(f"{name} on the ground")
+            missing.append(Unmet(f"{name} on the ground"))
         if scene_object.motion is None or index in bound:
             continue
-        for phase in schedule((scene_object.motion, *scene_object.then), stage.duration_s):
+        said = (scene_object.motion, *scene_object.then)
+        for phase in schedule(said, stage.duration_s):
             if not _is_shown(stage, copies[0], phase, is_carried=index in carried):
-                missing.append(f"{name} {_describe(stage, phase.motion, is_plural=is_plural)}")
+                text = f"{name} {_describe(stage, phase.motion, is_plural=is_plural)}"
+                number = next((n for n, one in enumerate(said) if one is phase.motion), 0)
+                missing.append(Unmet(text, motion=(index, number)))
     return missing
 
 

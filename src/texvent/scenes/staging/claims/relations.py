@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import RELATION_WORDS, SceneDescription
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
@@ -21,6 +22,7 @@ from texvent.scenes.staging.claims.contact import (
     strikes,
     touches,
 )
+from texvent.scenes.wording import RELATION_WORDS
 
 _INSTANTS = 13
 _FINER = 8
@@ -45,7 +47,7 @@ class _Body(NamedTuple):
 
 def list_not_shown(
     description: SceneDescription, actors: Sequence[Actor], duration_s: float
-) -> list[str]:
+) -> list[Unmet]:
     """Relations of the prompt that its objects do not have in the scene.
 
     Args:
@@ -54,7 +56,7 @@ def list_not_shown(
         duration_s: length of the clip, s.
 
     Returns:
-        Words such as "under the table", in the order of the relations.
+        As "under the table", in the order of the relations.
     """
     bodies: dict[int, _Body] = {}
     times = np.linspace(0.0, duration_s, _INSTANTS)
@@ -73,7 +75,8 @@ def list_not_shown(
             names = " and ".join(_name(description, index) for index in relation.targets)
             words = f"{_PHRASES.get(relation.kind, relation.kind)} the {names}"
             is_named = relation.kind in _BY_CONTACT
-            missing.append(f"{_name(description, relation.subject)} {words}" if is_named else words)
+            text = f"{_name(description, relation.subject)} {words}" if is_named else words
+            missing.append(Unmet(text, relation=(relation.subject, relation.targets)))
     return missing
 
 

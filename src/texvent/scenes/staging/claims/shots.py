@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.scenes.description import CameraMove, Shot
+from texvent.scenes.evidence import Unmet
 from texvent.scenes.scene import Camera
 from texvent.scenes.staging.camera.camera_path import CameraPath
 
@@ -15,7 +16,7 @@ _LEAST_SHARE = 0.01
 _SIGNS = {"left": -1.0, "down": -1.0, "out": -1.0, "counter-clockwise": -1.0}
 
 
-def list_moves_not_shown(shot: Shot, path: CameraPath, duration_s: float) -> list[str]:
+def list_moves_not_shown(shot: Shot, path: CameraPath, duration_s: float) -> list[Unmet]:
     """Moves that the camera does not make, such as "camera pan left".
 
     Of a move that has its phase for itself the direction counts; where moves add up, that the
@@ -34,7 +35,7 @@ def list_moves_not_shown(shot: Shot, path: CameraPath, duration_s: float) -> lis
             is_shown = amount > 1.0 if is_alone else _changes(begin, end)
         if not is_shown:
             words = (w for w in ("camera", move.kind, move.direction) if w)
-            missing.append(" ".join(words))
+            missing.append(Unmet(" ".join(words), move=move.kind))
     return missing
 
 

@@ -1,0 +1,146 @@
+"""What a staged scene shows of its description, and the report that follows from it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.inflection import pluralise
+from texvent.scenes.report import PromptReport
+
+MOST_COUNTED = 6
+"""Copies of an object that are counted one by one; of more, some may hide each other."""
+STILL = "no motion to be seen"
+_AT_REST = frozenset({"stand", "sit", "lie"})
+_NAMELESS = frozenset({"relation", "motion"})
+_AMID = frozenset({"surround", "among"})
+"""Relations that hold whether or not all of the targets are in view."""
+
+
+class Unmet(NamedTuple):
+    """Something that the prompt says and the staged scene does not show."""
+
+    text: str
+    """For the report, such as "under the table"."""
+    relation: tuple[int, tuple[int, ...]] | None = None
+    """Subject and targets of the relation that does not hold."""
+    motion: tuple[int, int] | None = None
+    """Object, and which of its motions it does not make, from 0."""
+    move: str | None = None
+    """Kind of the move that the camera does not make."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a staged scene shows."""
+
+    unmet: Sequence[Unmet] = ()
+    """What its bodies do not do."""
+    faults: Mapping[int, Sequence[str | None]] = field(default_factory=dict)
+    """Object → for each copy why it is not seen, such as "hidden", or None."""
+    still: frozenset[int] = frozenset()
+    """Objects that do not move in the image."""
+    places: Mapping[str, str] = field(default_factory=dict)
+    """Words of places, of the sky and of effects that are not seen → why."""
+
+
+def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport:
+    """What becomes of the prompt's words in a staged scene.
+
+    A word is shown if, at every place where the prompt has it, what it stands for is to be seen:
+    one of its objects, all copies of a count, all objects of a relation, an object that moves. Else
+    it is listed as not shown, with the reason.
+    """
+    missing = dict.fromkeys(one.text for one in evidence.unmet)
+    missing |= dict.fromkeys(_name_unseen(description, evidence))
+    missing |= {f"{word} ({reason})": None for word, reason in evidence.places.items()}
+    named = {phrase.partition(" (")[0] for phrase in missing} | set(evidence.places)
+    lost: dict[str, str | None] = {}
+    for claim in description.claims:
+        if _fails(claim, description, evidence):
+            reason = _find_reason(claim, description, evidence)
+            is_named = claim.word in named or claim.aspect == "name"
+            lost[claim.word] = None if is_named else reason or lost.get(claim.word)
+    missing |= {f"{word} ({reason})": None for word, reason in lost.items() if reason}
+    gone = named | set(lost)
+    plain = description.report()
+    return replace(
+        plain,
+        shown=tuple(word for word in plain.shown if word not in gone),
+        substituted=tuple(one for one in plain.substituted if one.said not in gone),
+        not_shown=tuple(missing),
+    )
+
+
+def _name_unseen(description: SceneDescription, evidence: Evidence) -> list[str]:
+    """As in "seagulls (too small)" or "1 of 3 dogs (hidden)"; objects without a word by noun."""
+    names: dict[int, list[str]] = {}
+    for claim in description.claims:
+        for index in claim.things if claim.aspect == "name" else ():
+            names.setdefault(index, []).append(claim.word)
+    found = []
+    for index, faults in evidence.faults.items():
+        noun = description.objects[index].noun
+        reasons = Counter(fault for fault in faults if fault is not None)
+        if _is_unseen(index, evidence):
+            for word in dict.fromkeys(names.get(index, [noun])):
+                found.append(f"{word} ({reasons.most_common(1)[0][0]})")
+        elif len(faults) <= MOST_COUNTED:
+            for reason, count in reasons.items():
+                found.append(f"{count} of {len(faults)} {pluralise(noun)} ({reason})")
+    return found
+
+
+def _is_unseen(index: int, evidence: Evidence) -> bool:
+    faults = evidence.faults.get(index, ())
+    return bool(faults) and all(fault is not None for fault in faults)
+
+
+def _fails(claim: Claim, description: SceneDescription, evidence: Evidence) -> bool:
+    """Whether a word does not hold in the scene."""
+    unmet = {one.relation for one in evidence.unmet}
+    if any((one.subject, one.targets) in unmet for one in claim.relations):
+        return True
+    if claim.move is not None and any(one.move == claim.move for one in evidence.unmet):
+        return True
+    if claim.motion is not None and any(
+        one.motion == (index, claim.motion) for one in evidence.unmet for index in claim.things
+    ):
+        return True
+    return _find_reason(claim, description, evidence) is not None
+
+
+def _find_reason(claim: Claim, description: SceneDescription, evidence: Evidence) -> str | None:
+    """Why what a word stands for is not to be seen, such as "dog hidden"; None where it is."""
+    for relation in claim.relations:
+        ends = [relation.subject, *relation.targets]
+        unseen = [index for index in ends if _is_unseen(index, evidence)]
+        if unseen and (relation.kind not in _AMID or len(unseen) == len(ends)):
+            return _reason(unseen[0], description, evidence)
+    unseen = [index for index in claim.things if _is_unseen(index, evidence)]
+    if unseen and len(unseen) == len(claim.things):
+        return _reason(unseen[0], description, evidence)
+    if claim.aspect == "count":
+        for index in claim.things:
+            faults = evidence.faults.get(index, ())
+            if len(faults) <= MOST_COUNTED and any(fault is not None for fault in faults):
+                return f"not all {pluralise(description.objects[index].noun)} in view"
+    if claim.aspect == "motion":
+        movers = [index for index in claim.things if _is_moving(index, description)]
+        if movers and evidence.still.issuperset(movers):
+            return STILL
+    return None
+
+
+def _reason(index: int, description: SceneDescription, evidence: Evidence) -> str:
+    fault = next(fault for fault in evidence.faults[index] if fault is not None)
+    return f"{description.objects[index].noun} {fault}"
+
+
+def _is_moving(index: int, description: SceneDescription) -> bool:
+    """Whether an object is to move."""
+    said = description.objects[index]
+    return any(one is not None and one.kind not in _AT_REST for one in (said.motion, *said.then))

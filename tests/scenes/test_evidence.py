@@ -1,0 +1,92 @@
+"""A word is listed as shown only if what it stands for is to be seen in the staged scene."""
+
+from __future__ import annotations
+
+import pytest
+
+from texvent.scenes.evidence import Evidence, Unmet, report_on
+from texvent.scenes.language.parser import parse_prompt
+
+SEEN = [None]
+PROMPT = "a huge red lorry drives left behind three seagulls"
+
+
+def test_all_is_shown_if_all_is_seen() -> None:
+    description = parse_prompt(PROMPT)
+    report = report_on(description, Evidence(faults={0: SEEN, 1: SEEN * 3}))
+    assert report == description.report()
+    assert set(report.shown) == {
+        "huge", "red", "lorry", "drives", "left", "behind", "three", "seagulls"
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("faults", "still", "shown", "not_shown"),
+    [
+        (
+            {0: ["hidden"], 1: SEEN * 3}, (), {"three", "seagulls"},
+            ("lorry (hidden)", "huge (truck hidden)", "red (truck hidden)",
+             "drives (truck hidden)", "left (truck hidden)", "behind (truck hidden)"),
+        ),
+        (
+            {0: SEEN, 1: ["too small"] * 3}, (), {"huge", "red", "lorry", "drives", "left"},
+            ("seagulls (too small)", "behind (gull too small)", "three (gull too small)"),
+        ),
+        (
+            {0: SEEN, 1: [None, "cut off", None]}, (),
+            {"huge", "red", "lorry", "drives", "left", "behind", "seagulls"},
+            ("1 of 3 gulls (cut off)", "three (not all gulls in view)"),
+        ),
+        (
+            {0: SEEN, 1: SEEN * 3}, (0, 1),
+            {"huge", "red", "lorry", "behind", "three", "seagulls"},
+            ("drives (no motion to be seen)", "left (no motion to be seen)"),
+        ),
+    ],
+    ids=["object", "other", "copy", "motion"],
+)  # fmt: skip
+def test_what_is_said_of_an_unseen_thing_is_not_shown_either(
+    faults, still, shown, not_shown
+) -> None:
+    report = report_on(parse_prompt(PROMPT), Evidence(faults=faults, still=frozenset(still)))
+    assert set(report.shown) == shown
+    assert report.not_shown == not_shown
+    assert not report.is_faithful
+
+
+def test_a_word_leaves_the_shown_ones_with_its_motion_relation_or_move() -> None:
+    seen = {0: SEEN, 1: SEEN}
+    turns = parse_prompt("a car turns left, then a dog runs")
+    report = report_on(turns, Evidence([Unmet("car turns left", motion=(0, 0))], seen))
+    assert report.shown == ("car", "dog", "runs")
+    under = parse_prompt("a cat sleeps under a chair")
+    report = report_on(under, Evidence([Unmet("under the chair", relation=(0, (1,)))], seen))
+    assert "under" not in report.shown
+    assert {"cat", "chair"} <= set(report.shown)
+    pans = parse_prompt("a dog sits, the camera pans left")
+    report = report_on(pans, Evidence([Unmet("camera pan left", move="pan")], {0: SEEN}))
+    assert "pans" not in report.shown
+    assert report.not_shown == ("camera pan left",)
+
+
+def test_a_kind_that_is_not_seen_is_no_substitute() -> None:
+    spaniel = parse_prompt("a spaniel runs on a beach")
+    report = report_on(spaniel, Evidence(faults={0: ["cut off"]}, places={"beach": "out of view"}))
+    assert report.substituted == report.shown == ()
+    assert report.not_shown == (
+        "spaniel (cut off)", "beach (out of view)", "runs (dog cut off)"
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("prompt", "shown"),
+    [
+        ("A video of a car, at very high resolution, with its wheels", {"car", "wheels"}),
+        ("the camera looks at a dog in a kitchen with soft light", {"dog", "kitchen"}),
+        ("a dog runs through the frame, without a cat", {"dog", "runs", "no cat"}),
+        ("a ball on a table under a lamp", {"ball", "table", "under", "lamp"}),
+    ],
+)
+def test_words_of_grammar_are_never_shown(prompt: str, shown: set[str]) -> None:
+    assert set(parse_prompt(prompt).shown) <= shown
+    assert shown - {"wheels", "under"} <= set(parse_prompt(prompt).shown)
