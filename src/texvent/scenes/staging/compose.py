@@ -42,6 +42,7 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
+from texvent.scenes.staging.placement.into_view import move_into_view
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.road_choice import find_road
@@ -170,6 +171,11 @@ def compose_scene(
         description, actors, place, seed=seed, aspect=size.height / size.width,
         duration_s=duration_s, travel=travel,
     )  # fmt: skip
+    if travel is None and ground is not Ground.NONE:
+        actors = move_into_view(
+            description, actors, camera_path,
+            aspect=size.height / size.width, duration_s=duration_s,
+        )  # fmt: skip
     view = _describe_view(place, camera_path, actors, duration_s, description.surroundings.road)
     if travel is not None:
         view = replace(view, road=travel.road, travel=travel)

@@ -206,7 +206,7 @@ class SurroundingsReader:
 
     def build(self) -> tuple[Surroundings, Illumination]:
         """The surroundings and the light as understood."""
-        if self._is_lit():
+        if self._light is not None or self._flicker_hz is not None:
             mark_used(self._glows)
         surroundings = Surroundings(
             place=self._place,
