@@ -47,8 +47,8 @@ def complete_description(
         or description.effects
         or any(_is_moving(scene_object) for scene_object in objects)
     ):
-        return _rest_the_others(description)
-    return _rest_the_others(_set_in_motion(description, nouns))
+        return _park(_rest_the_others(description), nouns)
+    return _park(_rest_the_others(_set_in_motion(description, nouns)), nouns)
 
 
 _CREWS: dict[str, tuple[SceneObject, ...]] = {
@@ -97,6 +97,30 @@ def _give_usual_work(description: SceneDescription) -> SceneDescription:
 
 HAS_RIDER = frozenset({"bicycle", "motorcycle"})
 """Nouns whose models come with the person who rides them."""
+_RIDERS = frozenset({"cyclist", "bicyclist", "motorcyclist", "biker"})
+"""Words for who rides them."""
+
+
+def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Bicycles and motorcycles that only stand there have no rider."""
+    ridden = {
+        target
+        for relation in description.relations
+        if relation.kind == "ride"
+        for target in relation.targets
+    }
+    ridden |= {
+        index
+        for claim in description.claims
+        for index in claim.things
+        if claim.word.removesuffix("s") in _RIDERS
+    }
+    objects = list(description.objects)
+    for index, one in enumerate(objects):
+        is_parked = one.noun in HAS_RIDER and one.motion == STANDING and not one.then
+        if is_parked and index not in ridden and f"parked {one.noun}" in nouns:
+            objects[index] = replace(one, noun=f"parked {one.noun}")
+    return replace(description, objects=tuple(objects))
 
 
 TOWERING = frozenset(

@@ -97,7 +97,7 @@ _NOUNS: tuple[str, ...] = (
     "treadmill", "crutch", "paddle", "stethoscope", "hammock", "sundial", "spider web",
     "starfish", "windsock", "tank", "cannon", "snowmobile", "golf cart", "cable car",
     "submarine",
-    "girl",
+    "girl", "parked bicycle", "parked motorcycle",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

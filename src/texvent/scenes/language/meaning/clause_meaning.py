@@ -364,7 +364,7 @@ class ClauseMeaning:
                 continue
             for group in phrase.groups:
                 found = self._referents.resolve(group, "by")
-                if found.is_things:
+                if any(self._draft.noun(index).motion != "stand" for index in found.things):
                     agents.extend(found.things)
                     phrase.preposition.is_used = True
                     self._around.read_group_phrases(found, Scope(found.things, []))

@@ -162,7 +162,8 @@ class Referents:
         if is_thing and place is not None:
             if place.value == "indoor" and preposition in _OUTSIDE:
                 return Role.NOUN
-            return Role.PLACE if preposition in _LOCATIVE else Role.NOUN
+            is_around = preposition in _AROUND and place.value == "mountain"
+            return Role.PLACE if is_around or preposition in _LOCATIVE else Role.NOUN
         if is_thing and self.has_body and head.lemma in BODY_PARTS:
             return Role.PART
         if is_thing and head.read_as(Role.PART) is not None:
@@ -229,10 +230,17 @@ class Referents:
         mark_used(word for word in (group.determiner, group.head) if word is not None)
         if group.negation is not None:
             group.negation.is_used = True
+        if group.head is not None and self._comes_with_a_part(group.head.text):
+            group.head.is_used, group.head.is_lost = False, True
+            return Referent("unknown", group)
         if group.head is not None:
             group.head.is_absent = group.head.text not in NOBODY
         self._draft.exclude(noun)
         return Referent("absent", group)
+
+    def _comes_with_a_part(self, part: str) -> bool:
+        """As in "a bicycle with no wheel": the model has one all the same."""
+        return any(_shows(self._draft, i, part) for i in range(len(self._draft.objects)))
 
     def _read_thing(
         self, group: NounGroup, attributes: Attributes, preposition: str | None

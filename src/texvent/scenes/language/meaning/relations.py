@@ -42,6 +42,9 @@ class RelationReader:
             is_used = self._rest(word, kind, things, scope)
         elif word.text == "with":
             is_used = self._read_with(things, scope)
+        elif kind == "above" and self._is_on_ground(scope.movers or scope.subjects):
+            # As in "play badminton over a net": they stand at it, which "over" does not say.
+            self._relate("beside", scope.subjects, things)
         elif kind is not None and not self._is_journey_of_none(kind, scope):
             subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
             is_used = self._relate(kind, subjects, things)
@@ -67,6 +70,15 @@ class RelationReader:
         if kind is None or word.text not in _RESTING or scope.has_object:
             return False
         return self._relate(kind, scope.subjects, things)
+
+    def _is_on_ground(self, subjects: Sequence[int]) -> bool:
+        """Whether they are people or animals whose motion leaves them on the ground."""
+        return all(
+            is_living(self._draft.noun(index))
+            and self._draft.noun(index).habitat == "ground"
+            and not any(one.kind in _OFF_GROUND for one in self._draft.objects[index].motions)
+            for index in subjects
+        )
 
     def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
         return kind in _JOURNEYS and scope.has_verb and not scope.movers
@@ -110,6 +122,9 @@ class RelationReader:
 
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})
 _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
+_OFF_GROUND = frozenset(
+    {"jump", "fly", "rise", "fall", "throw", "hover", "swing", "float", "climb"}
+)
 WEAK_PREPOSITIONS: dict[object, str] = {
     "at": "beside", "by": "beside", "across": "on", "along": "past",
 }  # fmt: skip

@@ -1,8 +1,9 @@
-"""Bicycle and motorcycle, each with a rider who keeps hands and feet where they belong."""
+"""Bicycle and motorcycle: with a rider who keeps hands and feet where they belong, or parked."""
 
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import bend
@@ -30,8 +31,10 @@ _GEAR = 0.45
 """Turns of the pedals per turn of the wheels."""
 
 
-def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a bicycle with a rider who pedals; `colour` is its frame."""
+def build_bicycle(
+    *, colour: Colour | None, scale: float, seed: int, has_rider: bool = True
+) -> ArticulatedModel:
+    """Make a bicycle with a rider who pedals, or alone; `colour` is its frame."""
     frame = Material(paint(colour, seed, "frame", _FRAMES))
     outfit = dress_person(ADULT, colour=None, seed=seed)
     wheels = [Wheel((x, 0.0, 0.34), 0.34, 0.045) for x in (0.54, -0.54)]
@@ -47,8 +50,9 @@ def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> Articula
         rod(frame, (0.54, 0.0, 0.34), (0.36, 0.0, 0.96), 0.026),
         rod(DARK, (grip[0], -0.26, grip[2]), (grip[0], 0.26, grip[2]), 0.022),
         ball(DARK, (-0.24, 0.0, 0.91), (0.28, 0.15, 0.08)),
-        *_upper_body(outfit, hips, (0.10, 0.0, 1.44), grip),
     ]
+    if has_rider:
+        rigid += _upper_body(outfit, hips, (0.10, 0.0, 1.44), grip)
 
     def articulate(pose: Pose) -> list[ModelPart]:
         parts = spoked_wheels(wheels, pose.distance_m)
@@ -58,14 +62,17 @@ def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> Articula
             pedal: Point = (crank[0] + 0.17 * s, side * 0.11, crank[2] + 0.17 * c)
             parts.append(rod(STEEL, (crank[0], side * 0.08, crank[2]), pedal, 0.018))
             ankle = (pedal[0] - 0.04, pedal[1], pedal[2] + 0.10)
-            parts += draw_leg(outfit, (hips[0], side * 0.09, hips[2]), ankle, pitch=0.15)
+            if has_rider:
+                parts += draw_leg(outfit, (hips[0], side * 0.09, hips[2]), ankle, pitch=0.15)
         return parts
 
     return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
-def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a motorcycle with a rider in a helmet; `colour` is its tank."""
+def build_motorcycle(
+    *, colour: Colour | None, scale: float, seed: int, has_rider: bool = True
+) -> ArticulatedModel:
+    """Make a motorcycle with a rider in a helmet, or alone; `colour` is its tank."""
     tank = Material(paint(colour, seed, "frame", _FRAMES))
     leather = Material((0.035, 0.035, 0.04))
     outfit = Outfit(DARK, leather, leather, leather, leather, DARK)
@@ -85,6 +92,10 @@ def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> Artic
         rod(DARK, (grip[0], -0.36, grip[2]), (grip[0], 0.36, grip[2]), 0.025),
         ball(HEADLIGHT, (0.60, 0.0, 0.88), (0.16, 0.22, 0.22)),
         ball(TAILLIGHT, (-1.00, 0.0, 0.78), (0.06, 0.16, 0.08)),
+    ]
+    if not has_rider:
+        return wheeled_model(rigid, wheels, scale)
+    rigid += [
         *_upper_body(outfit, hips, neck, grip, wide=0.30),
         ball(tank, (0.13, 0.0, 1.52), (0.30, 0.27, 0.31)),
         ball(GLASS, (0.19, 0.0, 1.53), (0.20, 0.25, 0.13)),
@@ -92,7 +103,6 @@ def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> Artic
     for side in (1.0, -1.0):
         ankle = (-0.14, side * 0.20, 0.40)
         rigid += draw_leg(outfit, (hips[0], side * 0.12, hips[2]), ankle, pitch=0.1)
-
     return wheeled_model(rigid, wheels, scale)
 
 
@@ -118,4 +128,6 @@ NOUNS = (
         "motorcycle", build_motorcycle, "ground", 11.0, "drive",
         ("motorbike", "motorcyclist", "biker"),
     ),
+    Noun("parked bicycle", partial(build_bicycle, has_rider=False), "fixed", 0.0, "stand"),
+    Noun("parked motorcycle", partial(build_motorcycle, has_rider=False), "fixed", 0.0, "stand"),
 )  # fmt: skip
