@@ -54,6 +54,14 @@ def test_what_is_said_of_an_unseen_thing_is_not_shown_either(
     assert not report.is_faithful
 
 
+def test_of_many_more_than_half_must_be_seen() -> None:
+    cows = parse_prompt("a herd of cows runs")
+    few = report_on(cows, Evidence(faults={0: [None] * 3 + ["too small"] * 6}))
+    assert "cows (too small)" in few.not_shown
+    most = report_on(cows, Evidence(faults={0: [None] * 6 + ["too small"] * 3}))
+    assert most.is_faithful
+
+
 def test_a_word_leaves_the_shown_ones_with_its_motion_relation_or_move() -> None:
     seen = {0: SEEN, 1: SEEN}
     turns = parse_prompt("a car turns left, then a dog runs")

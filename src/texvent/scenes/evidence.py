@@ -95,8 +95,12 @@ def _name_unseen(description: SceneDescription, evidence: Evidence) -> list[str]
 
 
 def _is_unseen(index: int, evidence: Evidence) -> bool:
+    """Whether no copy of it is seen, or of many fewer than half."""
     faults = evidence.faults.get(index, ())
-    return bool(faults) and all(fault is not None for fault in faults)
+    unseen = sum(fault is not None for fault in faults)
+    return bool(faults) and (
+        unseen == len(faults) or (len(faults) > MOST_COUNTED and 2 * unseen > len(faults))
+    )
 
 
 def _fails(claim: Claim, description: SceneDescription, evidence: Evidence) -> bool:

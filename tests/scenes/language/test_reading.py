@@ -526,3 +526,43 @@ def test_from_behind_a_thing_is_no_view() -> None:
 )
 def test_water_that_is_sprayed_and_rain_on_things_fit_the_place(prompt: str, place: str) -> None:
     assert parse_prompt(prompt).surroundings.place == place
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("a parked motorcycle", ["parked motorcycle"]),
+        ("two bicycles are parked by a fence", ["parked bicycle", "fence"]),
+        ("a bicycle leans against a wall", ["parked bicycle", "wall"]),
+        ("a bicycle drives left", ["bicycle"]),
+        ("a cyclist waits at a sign", ["bicycle", "sign"]),
+        ("a man on a bike waits", ["man", "bicycle"]),
+    ],
+)
+def test_what_is_parked_has_no_rider(prompt: str, nouns: list[str]) -> None:
+    assert [one.noun for one in parse_prompt(prompt).objects] == nouns
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kind", "unread"),
+    [
+        ("two women play badminton over a net", "beside", ("over",)),
+        ("a horse jumps over a fence", "above", ()),
+        ("a bird flies over a fence", "above", ()),
+    ],
+)
+def test_who_stays_on_the_ground_is_not_above_a_thing(prompt, kind, unread) -> None:
+    description = parse_prompt(prompt)
+    assert [one.kind for one in description.relations] == [kind]
+    assert description.not_understood == unread
+
+
+def test_parts_that_a_model_has_and_places_of_a_still_camera_are_reported() -> None:
+    assert "wheel" in parse_prompt("a car with no wheel").not_understood
+    assert "behind" in parse_prompt("a dog runs. The camera is behind a tree.").not_understood
+
+
+def test_mountains_around_are_a_backdrop_and_no_objects() -> None:
+    lake = parse_prompt("a sailboat on a lake surrounded by mountains")
+    assert [one.noun for one in lake.objects] == ["sailboat"]
+    assert lake.surroundings.backdrops == ("mountain",)

@@ -149,8 +149,8 @@ class ClauseMeaning:
             if one.group.head is not None:
                 one.group.head.is_used = True
             self._camera.read_attributes(one.attributes)
-            for phrase in one.group.phrases:
-                self._around.read_phrase(phrase, Scope([], [], has_verb=False))
+            scope = Scope([], [], is_lost=one.kind == "camera", has_verb=False)
+            self._around.read_phrases(one.group.phrases, scope)
         phrases = self._resolve_phrases(clause.phrases)
         objects = [self._referents.resolve(group) for group in clause.objects]
         self._camera.read_clause(clause, objects, phrases)
