@@ -17,7 +17,7 @@ from texvent.scenes.evidence import Evidence
 from texvent.scenes.projection import place_in_image, project, ray_directions
 from texvent.scenes.raycast.render import world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
-from texvent.scenes.raycast.trace import GROUND
+from texvent.scenes.raycast.trace import GROUND, NOTHING
 from texvent.scenes.raycast.visibility import count_unoccluded
 from texvent.scenes.scene import Camera, Float64Array, Primitives, Scene, Shape
 from texvent.scenes.staging.acts.acts import ACTS
@@ -44,6 +44,8 @@ LARGE_AREA = 0.03
 """Share of the picture's points from which on a thing is seen, however far it reaches beyond."""
 LEAST_MARK = 0.003
 """Share of the picture's points that what a place is known by covers at least."""
+IN_FOG = 2.5
+"""Distance, as a multiple of that at which colours have faded to 37 %, from which on fog hides."""
 LEAST_MOTION_PX = 1.0
 """Way in the image, over the clip, below which a thing stands still."""
 
@@ -218,7 +220,9 @@ def _look(
 ) -> _View:
     """Notes what is seen of each thing at an instant."""
     world, shapes = world_and_shapes(scene, time_s, size)
-    view = _View(time_s, scene.camera(time_s), size, shapes, *cast(world, points))
+    depth, number = cast(world, points)
+    number[np.isfinite(depth) & (depth > IN_FOG * scene.environment(time_s).fog_distance)] = NOTHING
+    view = _View(time_s, scene.camera(time_s), size, shapes, depth, number)
     owner = view.owner
     count = 1 + max(int(owner.max(initial=0)), max(sights, default=0))
     seen = np.bincount(owner[view.number[view.number >= 0]], minlength=count)
