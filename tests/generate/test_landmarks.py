@@ -23,6 +23,7 @@ def test_a_place_that_is_said_has_landmarks():
     assert "pine" in landmarks("forest", "pine forest")["pine forest"]
     assert "oven" in landmarks("kitchen", "kitchen")["kitchen"]
     assert landmarks("road", "forest", backdrops=("forest",)).keys() == {"forest"}
+    assert landmarks("mountain", "valley", "slopes").keys() == {"valley", "slopes"}
 
 
 def test_a_place_that_is_not_said_or_has_nothing_of_its_own_has_none():

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.inflection import list_plurals
-from texvent.scenes.language.vocabulary.scene import PLACES
+from texvent.scenes.language.vocabulary.scene import PLACES, STEEP
 from texvent.scenes.scene import Environment, Float64Array, Ground
 from texvent.scenes.staging.road import RoadLine
 from texvent.scenes.staging.scenery_tables import SCENERY
@@ -48,8 +48,7 @@ def list_landmarks(description: SceneDescription) -> list[Landmark]:
         words = [word for word in description.shown if _is_word_for(place, word)]
         words += [one.said for one in description.substituted if _is_word_for(place, one.shown)]
         marks = _marks_of(place, is_empty=said.is_empty and place not in said.backdrops)
-        if words and marks:
-            found.append(Landmark(words[0], marks))
+        found += [Landmark(word, marks) for word in words if marks]
     if said.sky is not None or said.clouds is not None:
         words = [word for word in description.shown if word.split()[-1] in _SKY]
         found.append(Landmark(words[0] if words else "sky", frozenset({SKY})))
@@ -61,7 +60,8 @@ def list_landmarks(description: SceneDescription) -> list[Landmark]:
 def _is_word_for(place: str, word: str) -> bool:
     if place == "city" and word not in _CITY_WORDS:
         return False
-    return any(word == one or word in list_plurals(one) for one in PLACES.get(place, ()))
+    names = (*PLACES.get(place, ()), *(STEEP if place == "mountain" else ()))
+    return any(word == one or word in list_plurals(one) for one in names)
 
 
 def _marks_of(place: str, *, is_empty: bool) -> frozenset[str]:
