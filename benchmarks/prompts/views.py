@@ -16,7 +16,7 @@ from benchmarks.prompts.rates import Share
 from benchmarks.prompts.sheet import read_prompts
 from texvent.errors import InputError
 from texvent.generate.seen_things import find_evidence
-from texvent.scenes.evidence import Evidence, report_on
+from texvent.scenes.evidence import Evidence, is_to_move, report_on
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.compose import compose_scene
 
@@ -56,7 +56,10 @@ def measure(prompt: str) -> dict[str, dict[str, list[str]]]:
     objects: dict[str, list[str]] = {}
     named = {index for claim in description.claims for index in claim.things}
     for index in sorted(named):
-        objects.setdefault(state_of(index, evidence), []).append(description.objects[index].noun)
+        state = state_of(index, evidence)
+        if state == SEEN and index in evidence.still and is_to_move(index, description):
+            state = "seen, but not moving"
+        objects.setdefault(state, []).append(description.objects[index].noun)
     report = report_on(description, evidence)
     words = {
         "shown": list(report.shown),
@@ -70,8 +73,7 @@ def measure(prompt: str) -> dict[str, dict[str, list[str]]]:
 def state_of(index: int, evidence: Evidence) -> str:
     """What is seen of an object: of several copies, of most of them."""
     faults = Counter(fault or SEEN for fault in evidence.faults[index])
-    state = faults.most_common(1)[0][0]
-    return f"{SEEN}, but it does not move" if state == SEEN and index in evidence.still else state
+    return faults.most_common(1)[0][0]
 
 
 def as_markdown(counts: dict[str, dict[str, Counter[str]]]) -> str:

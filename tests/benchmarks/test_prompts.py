@@ -108,6 +108,16 @@ def test_a_verb_stands_for_the_kind_of_motion_that_one_clause_gives():
     assert structure.action_kinds(GoldAction("zorble", "car")) == {"zorbl"}
 
 
+def test_views_count_what_is_named_by_what_is_seen_of_it(tmp_path, monkeypatch, capsys):
+    (tmp_path / "p.csv").write_text("id,prompt\na1,a red ball bounces\na2,qwerty zxcv\n")
+    assert run(monkeypatch, "views", tmp_path / "p.csv", "--json", tmp_path / "v.json") == 0
+    assert "| objects seen | 100 %" in capsys.readouterr().out
+    ball, refused = json.loads((tmp_path / "v.json").read_text())
+    assert ball["objects"] == {"seen": ["ball"]}
+    assert ball["words"]["shown"] == ["red", "ball", "bounces"]
+    assert "nothing in the prompt was understood" in refused["error"]
+
+
 def test_strips_are_drawn_and_the_same_command_goes_on(tmp_path, monkeypatch, capsys):
     rows = [["id", "style", "prompt"], ["a1", "short", "a red ball bounces next to a wug"],
             ["a2", "short", "qwerty zxcv"]]  # fmt: skip

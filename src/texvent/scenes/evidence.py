@@ -133,7 +133,7 @@ def _find_reason(claim: Claim, description: SceneDescription, evidence: Evidence
             if len(faults) <= MOST_COUNTED and any(fault is not None for fault in faults):
                 return f"not all {pluralise(description.objects[index].noun)} in view"
     if claim.aspect == "motion":
-        movers = [index for index in claim.things if _is_moving(index, description)]
+        movers = [index for index in claim.things if is_to_move(index, description)]
         if movers and evidence.still.issuperset(movers):
             return STILL
     return None
@@ -144,7 +144,7 @@ def _reason(index: int, description: SceneDescription, evidence: Evidence) -> st
     return f"{description.objects[index].noun} {fault}"
 
 
-def _is_moving(index: int, description: SceneDescription) -> bool:
+def is_to_move(index: int, description: SceneDescription) -> bool:
     """Whether an object is to move."""
     said = description.objects[index]
     return any(one is not None and one.kind not in _AT_REST for one in (said.motion, *said.then))
