@@ -36,7 +36,7 @@ LEAST_SIZE = 0.025
 """Share of the picture's width or height below which a thing is a speck."""
 LEAST_AREA, SMALL_SIZE = 0.0025, 0.1
 """Share of the picture's points below which a thing up to this size is a speck too."""
-LEAST_PIXELS = 20
+LEAST_PIXELS = 12
 """Pixels below which nothing can be told of a thing."""
 LEAST_SEEN = 0.25
 """Share of a thing's silhouette of which less is hardly seen."""
