@@ -1,7 +1,6 @@
 """From latents to frames: whole pipelines whose clips are decoded a few frames at a time."""
 
 import os
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -16,9 +15,6 @@ from texvent.errors import FileFormatError, InputError  # noqa: E402
 from texvent.generate.diffusers_models import pipeline_loading  # noqa: E402
 from texvent.generate.diffusers_models.decoder_input import SINGLE_DECODE_PIPELINES  # noqa: E402
 from texvent.generate.diffusers_models.device_placement import Placement  # noqa: E402
-from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
-from texvent.generate.video_config import DiffusersConfig  # noqa: E402
-from texvent.runtime.progress import NoProgress  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
 from ..tiny_models import PROMPT, build, pixels  # noqa: E402
@@ -152,24 +148,3 @@ def test_an_image_model_with_a_motion_adapter_makes_a_video(models, tmp_path):
     weights.write_bytes(weights.read_bytes()[:-10])
     with pytest.raises(FileFormatError, match=r"adapter/.*is damaged"):
         build(models("stable-diffusion"), motion_adapter=adapter).generate(PROMPT)
-
-
-def test_no_sound_is_made_for_events():
-    class Pipeline:
-        def __call__(self, prompt, *, sample_audio=True, generator, output_type, return_dict):
-            return [[sample_audio]]
-
-        def maybe_free_model_hooks(self):
-            pass
-
-    config = DiffusersConfig()
-    frames = call_pipeline(
-        Pipeline(),
-        {"prompt": PROMPT},
-        config,
-        fps=Fraction(24),
-        seed=0,
-        output_type="np",
-        progress=NoProgress(),
-    )
-    assert frames is False

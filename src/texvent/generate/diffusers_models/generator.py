@@ -38,6 +38,8 @@ PIXEL_OPTIONS = (
     *("negative_prompt", "dtype", "quantize"),
 )
 """Options that decide the pixels, beside model, prompt, seed and image."""
+PIXEL_FACTS = ("call", "sigmas", "scheduler")
+"""What of a model's row decides the pixels too."""
 NETWORK_OPTIONS = ("decoder", "motion_adapter")
 """Options that name a network."""
 
@@ -134,6 +136,8 @@ class DiffusersGenerator:
             raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")
         if self.config.image is not None:
             read_image(self.config.image)
+        elif self.model.needs_image:
+            raise InputError(f"{self.model.name} starts from an image; give --image PATH")
         for option in NETWORK_OPTIONS:
             folder = getattr(self.config, option)
             if folder is None or (option == "decoder" and folder.is_file()):
@@ -181,6 +185,7 @@ class DiffusersGenerator:
         """Everything that decides the frames."""
         model, config = self.model, self.config
         facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
+        facts |= {name: value for name in PIXEL_FACTS if (value := getattr(model, name))}
         if not model.ignores_fps:
             facts["fps"] = self.fps
         for name in (*NETWORK_OPTIONS, "image"):

@@ -21,6 +21,8 @@ from texvent.errors import InputError, TexventError
 PACKAGE = "cosmos-guardrail"
 MODULE = "cosmos_guardrail"
 PART = "safety_checker"
+GUARDRAIL_SWITCH = "enable_safety_checker"
+"""Setting of Cosmos 3 that its saved index may leave off; texvent always sets it."""
 
 
 def needs_guardrail(index: Mapping[str, Any]) -> bool:

@@ -196,7 +196,7 @@ class ModelRun:
             return self._model.image_pipeline
         if self._motion_adapter is not None:
             return MOTION_PIPELINE
-        return str(self._index["_class_name"])
+        return self._model.pipeline or str(self._index["_class_name"])
 
     @property
     def _motion_adapter(self) -> Path | None:
@@ -227,6 +227,7 @@ class ModelRun:
             decoder_in_float32=self._model.needs_float32_vae,
             motion_adapter=self._motion_adapter,
             adapters=self._adapters,
+            scheduler=tuple(self._model.scheduler.items()),
             has_text_encoder=has_text_encoder,
         )
 
@@ -294,6 +295,7 @@ class ModelRun:
             pipe,
             arguments,
             self._config,
+            model=self._model,
             fps=self._fps,
             seed=seed,
             output_type=kind,

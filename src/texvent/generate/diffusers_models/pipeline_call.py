@@ -11,15 +11,19 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError, one_line
+from texvent.generate.diffusers_models.call_adjustments import SIGMAS, adjusted, has_guider
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.known_models import VideoModel
 from texvent.runtime.progress import Progress
 
 EXTRA = "generate"
+PYRAMID_STEPS = "pyramid_num_inference_steps_list"
+"""Steps at each of several sizes, small to large."""
 ARGUMENTS: Mapping[str, tuple[str, ...]] = {
     "frames": ("num_frames", "video_length", "frames"),
     "width": ("width",),
     "height": ("height",),
-    "steps": ("num_inference_steps",),
+    "steps": ("num_inference_steps", PYRAMID_STEPS),
     "guidance": ("guidance_scale",),
     "negative_prompt": ("negative_prompt",),
 }
@@ -27,11 +31,10 @@ ARGUMENTS: Mapping[str, tuple[str, ...]] = {
 RATE_ARGUMENTS = ("fps", "frame_rate")
 SOUND = "sample_audio"
 """Switch of pipelines that can make sound as well, which no event shows."""
-STEP_CALLBACK = "callback_on_step_end"
-GUIDER = "guider"
-"""Part of pipelines that holds the guidance scale, where the call does not take one."""
 DISTILLED = "true_cfg_scale"
 """Argument of pipelines that make one pass, and follow no negative prompt, unless it is set."""
+FRAME_DIMENSIONS = 4
+"""Of one video, [F, H, W, 3]; most pipelines return a batch of them."""
 
 
 def call_pipeline(
@@ -39,6 +42,7 @@ def call_pipeline(
     prompt: Mapping[str, Any],
     config: DiffusersConfig,
     *,
+    model: VideoModel,
     fps: Fraction,
     seed: int,
     output_type: str,
@@ -50,6 +54,7 @@ def call_pipeline(
         pipe: a diffusers pipeline.
         prompt: `{"prompt": text}`, or embeddings by the pipeline's argument names.
         config: options; those that are None are not passed.
+        model: its row, with what the call needs beside them.
         fps: passed where the model takes the rate as an input (it changes the pixels).
         seed: of a CPU generator, which gives the same noise on every device.
         output_type: "np" for frames [F, H, W, 3] float32 in 0..1, "latent" for latents.
@@ -63,7 +68,13 @@ def call_pipeline(
         TexventError: the GPU's memory is too small.
     """
     accepted = check_options(type(pipe), config)
-    arguments = {**_options(config, accepted), **prompt}
+    torch = require("torch", extra=EXTRA)
+    generator = torch.Generator("cpu").manual_seed(seed)
+    # Other step counts have no levels of their own: the pipeline's schedule gives them.
+    sigmas = model.sigmas if config.steps in (None, len(model.sigmas or ())) else None
+    arguments = {**model.call, **_options(config, accepted), **prompt}
+    if sigmas is not None and SIGMAS in accepted:
+        arguments[SIGMAS] = list(sigmas)
     if "prompt_embeds" in prompt:
         arguments.pop("negative_prompt", None)
     for name in RATE_ARGUMENTS:
@@ -73,11 +84,13 @@ def call_pipeline(
         arguments[SOUND] = False
     if "image" in accepted:
         arguments.update(_image(config, accepted))
-    if STEP_CALLBACK in accepted:
-        arguments[STEP_CALLBACK] = _step_callback(progress)
-    with _guided(pipe, config, accepted):
-        output = _run(pipe, {**arguments, "output_type": output_type}, seed)
-    return output if output_type == "latent" else output[0]
+    arguments |= {"output_type": output_type, "generator": generator}
+    with adjusted(
+        pipe, accepted, progress, guidance=config.guidance, sigmas=sigmas, generator=generator
+    ):
+        output = _run(pipe, arguments)
+    is_batch = output_type != "latent" and output.ndim > FRAME_DIMENSIONS
+    return output[0] if is_batch else output
 
 
 def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str, inspect.Parameter]:
@@ -94,7 +107,7 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
     for option, names in ARGUMENTS.items():
         is_taken = bool(set(names) & set(accepted))
         if option == "guidance":
-            is_taken |= GUIDER in inspect.signature(pipeline_class).parameters
+            is_taken |= has_guider(pipeline_class)
         if getattr(config, option) is not None and not is_taken:
             raise ConfigError(f"{option} is set, but {name} does not take it")
     if config.negative_prompt is not None and DISTILLED in accepted:
@@ -109,13 +122,11 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
     return accepted
 
 
-def _run(pipe: Any, arguments: Mapping[str, Any], seed: int) -> Any:
+def _run(pipe: Any, arguments: Mapping[str, Any]) -> Any:
     """The first result of a call."""
     torch = require("torch", extra=EXTRA)
     try:
-        return pipe(
-            **arguments, generator=torch.Generator("cpu").manual_seed(seed), return_dict=False
-        )[0]
+        return pipe(**arguments, return_dict=False)[0]
     except ValueError as error:
         raise ConfigError(
             f"{type(pipe).__name__} refuses the options: {one_line(error)}"
@@ -141,29 +152,20 @@ def default_guidance(pipe: Any, config: DiffusersConfig) -> float:
 
 def _options(config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]) -> dict[str, Any]:
     """The options that are set, by the names that a call accepts."""
-    values = {option: getattr(config, option) for option in ARGUMENTS}
-    return {
-        name: value
-        for option, value in values.items()
-        for name in ARGUMENTS[option]
-        if value is not None and name in accepted
+    arguments = {
+        name: getattr(config, option)
+        for option, names in ARGUMENTS.items()
+        for name in names
+        if getattr(config, option) is not None and name in accepted
     }
+    if PYRAMID_STEPS in arguments:
+        arguments[PYRAMID_STEPS] = _spread(arguments[PYRAMID_STEPS], accepted[PYRAMID_STEPS])
+    return arguments
 
 
-@contextlib.contextmanager
-def _guided(
-    pipe: Any, config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]
-) -> Iterator[None]:
-    """Inside, the part that holds the guidance scale has the one that was asked for."""
-    usual = getattr(pipe, GUIDER, None)
-    if config.guidance is None or usual is None or "guidance_scale" in accepted:
-        yield
-        return
-    pipe.guider = usual.new(guidance_scale=config.guidance)
-    try:
-        yield
-    finally:
-        pipe.guider = usual
+def _spread(steps: int, parameter: inspect.Parameter) -> list[int]:
+    """Steps for each size of a pyramid, at least one, together `steps` or a little more."""
+    return [-(-steps // len(parameter.default))] * len(parameter.default)
 
 
 def _image(config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]) -> dict[str, Any]:
@@ -195,12 +197,3 @@ def read_image(path: Path) -> Any:
             return operations.exif_transpose(opened).convert("RGB")
     except (OSError, ValueError, SyntaxError, images.DecompressionBombError) as error:
         raise InputError(f"{path} cannot be read as an image ({one_line(error)})") from error
-
-
-def _step_callback(progress: Progress) -> Any:
-    def report(pipe: Any, step: int, time: Any, tensors: dict[str, Any]) -> dict[str, Any]:
-        del time
-        progress.advance("denoise", step + 1, int(pipe.num_timesteps))
-        return tensors
-
-    return report

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
+import inspect
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -13,6 +14,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.adapter_loading import load_adapters
 from texvent.generate.diffusers_models.device_placement import Placement
 from texvent.generate.diffusers_models.guardrail import (
+    GUARDRAIL_SWITCH,
     PART,
     check_wiring,
     load_guardrail,
@@ -32,6 +34,8 @@ TEXT_PARTS = ("text_encoder", "tokenizer")
 MOTION_PIPELINE = "AnimateDiffPipeline"
 """Runs an image model with a motion adapter."""
 QUANTIZED_PARTS = ("transformer", "transformer_2")
+TILED_ONLY = ("AutoencoderKLAllegro",)
+"""Decoders that diffusers runs in tiles only."""
 
 
 _KEPT: dict[LoadRequest, Pipeline] = {}
@@ -54,6 +58,8 @@ class LoadRequest:
     motion_adapter: Path | None = None
     """Folder of the motion adapter of an image model."""
     adapters: tuple[AdapterFile, ...] = ()
+    scheduler: tuple[tuple[str, Any], ...] = ()
+    """Settings of the noise schedule beside the saved ones; "class": another diffusers class."""
     has_text_encoder: bool = True
     """False leaves the text encoder out: prompts come as embeddings."""
 
@@ -145,6 +151,8 @@ def _load(request: LoadRequest, announce: Callable[[str], None]) -> Pipeline:
     if needs_guardrail(read_pipeline_index(request.folder)):
         install_torchvision_stub()
         parts[PART] = load_guardrail()
+        if GUARDRAIL_SWITCH in inspect.signature(pipeline_class.__init__).parameters:
+            parts[GUARDRAIL_SWITCH] = True
     if not request.has_text_encoder:
         parts.update(dict.fromkeys(TEXT_PARTS))
     if request.decoder is not None:
@@ -159,6 +167,8 @@ def _load(request: LoadRequest, announce: Callable[[str], None]) -> Pipeline:
         check_wiring(pipe)
     for note in load_adapters(pipe, request.adapters):
         announce(note)
+    if request.scheduler:
+        pipe.scheduler = _make_scheduler(pipe.scheduler, dict(request.scheduler))
     with quiet_libraries():
         place_pipeline(pipe, request.placement)
     for part in pipe.components.values():
@@ -167,6 +177,13 @@ def _load(request: LoadRequest, announce: Callable[[str], None]) -> Pipeline:
             part.eval()
     pipe.set_progress_bar_config(disable=True)
     return pipe
+
+
+def _make_scheduler(saved: Any, settings: dict[str, Any]) -> Any:
+    """A noise schedule with other settings than the saved one, or of another class."""
+    name = settings.pop("class", None)
+    kind = type(saved) if name is None else getattr(require("diffusers", extra=EXTRA), name)
+    return kind.from_config(saved.config, **settings)
 
 
 def _load_motion(request: LoadRequest, folder: Path) -> dict[str, Any]:
@@ -233,7 +250,8 @@ def place_pipeline(pipe: Pipeline, placement: Placement) -> None:
     else:
         pipe.to(placement.device)
     decoder: Any = getattr(pipe, DECODER, None)
-    if placement.tiles_decoder and hasattr(decoder, "enable_tiling"):
+    is_tiled = placement.tiles_decoder or type(decoder).__name__ in TILED_ONLY
+    if is_tiled and hasattr(decoder, "enable_tiling"):
         decoder.enable_tiling()
     if placement.tiles_decoder and type(decoder).__name__ == LTX:
         decoder.use_framewise_decoding = True
