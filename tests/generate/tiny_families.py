@@ -12,6 +12,7 @@ import diffusers
 import transformers
 from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
 
+from . import tiny_pipelines
 from .tiny_pipelines import clip_text, qwen, t5, wan_vae
 
 WAN_LIKE = {
@@ -33,6 +34,7 @@ SMALL_TEXT = {
 }
 SANA_BINS = "diffusers.pipelines.sana_video.pipeline_sana_video.ASPECT_RATIO_480_BIN"
 """Sizes that the pipeline generates at, by aspect ratio; all are near 480 lines."""
+SANA_PATCH = {SANA_BINS: {"1.0": [32.0, 32.0]}}
 CONNECTOR = {
     "num_attention_heads": 2,
     "attention_head_dim": 8,
@@ -45,14 +47,16 @@ CONNECTOR = {
 class Family:
     """How to build a family's tiny pipeline, and what its run needs."""
 
-    build: Callable[[Any], Any]
+    build: Callable[[], Any]
+    pipeline: str
+    """diffusers class that runs."""
     options: dict[str, Any] = field(default_factory=dict)
     """Beside or instead of `tiny_models.OPTIONS`."""
     frames: int = 5
     """What comes out."""
     steps: int = 2
     """Denoising steps that are reported."""
-    size: int | None = 32
+    size: tuple[int, int] = (32, 32)
     """Height and width that come out."""
     takes_image: bool = False
     patches: dict[str, Any] = field(default_factory=dict)
@@ -61,8 +65,8 @@ class Family:
     """Last part of the repository of the row whose facts the run takes."""
 
 
-def umt5(folder):
-    return t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config)
+def umt5():
+    return t5(None, transformers.UMT5EncoderModel, transformers.UMT5Config)
 
 
 def flow_match(**facts):
@@ -75,10 +79,10 @@ def flow_unipc():
     )
 
 
-def wan_image_to_video(folder):
+def wan_image_to_video():
     size = {"height": 32, "width": 32}
     return diffusers.WanImageToVideoPipeline(
-        **umt5(folder),
+        **umt5(),
         vae=wan_vae(),
         scheduler=flow_unipc(),
         transformer=diffusers.WanTransformer3DModel(**WAN_LIKE | {"in_channels": 36}, image_dim=4),
@@ -96,26 +100,28 @@ def wan_image_to_video(folder):
     )
 
 
-def skyreels_parts(folder):
+def skyreels_parts(*, takes_fps):
     return {
-        **umt5(folder),
+        **umt5(),
         "vae": wan_vae(),
         "scheduler": flow_unipc(),
-        "transformer": diffusers.SkyReelsV2Transformer3DModel(**WAN_LIKE, inject_sample_info=False),
+        "transformer": diffusers.SkyReelsV2Transformer3DModel(
+            **WAN_LIKE, inject_sample_info=takes_fps
+        ),
     }
 
 
-def skyreels(folder):
-    return diffusers.SkyReelsV2Pipeline(**skyreels_parts(folder))
+def skyreels():
+    return diffusers.SkyReelsV2Pipeline(**skyreels_parts(takes_fps=False))
 
 
-def skyreels_forcing(folder):
-    return diffusers.SkyReelsV2DiffusionForcingPipeline(**skyreels_parts(folder))
+def skyreels_forcing():
+    return diffusers.SkyReelsV2DiffusionForcingPipeline(**skyreels_parts(takes_fps=True))
 
 
-def anyflow(folder):
+def anyflow():
     return diffusers.AnyFlowPipeline(
-        **umt5(folder),
+        **umt5(),
         vae=wan_vae(),
         scheduler=diffusers.FlowMapEulerDiscreteScheduler(shift=5.0),
         transformer=diffusers.AnyFlowTransformer3DModel(
@@ -124,9 +130,9 @@ def anyflow(folder):
     )
 
 
-def helios_parts(folder):
+def helios_parts():
     return {
-        **umt5(folder),
+        **umt5(),
         "vae": wan_vae(),
         "transformer": diffusers.HeliosTransformer3DModel(
             **WAN_LIKE,
@@ -138,22 +144,22 @@ def helios_parts(folder):
     }
 
 
-def helios(folder):
-    scheduler = diffusers.HeliosScheduler(
-        stage_range=[0, 1], stages=1, use_dynamic_shifting=True
-    )
-    return diffusers.HeliosPipeline(**helios_parts(folder), scheduler=scheduler)
+def helios():
+    scheduler = diffusers.HeliosScheduler(stage_range=[0, 1], stages=1, use_dynamic_shifting=True)
+    return diffusers.HeliosPipeline(**helios_parts(), scheduler=scheduler)
 
 
-def helios_distilled(folder):
+def helios_distilled():
     # With the usual gamma, 1/3, diffusers 0.42 factorises a singular matrix, which fails on a CPU.
     scheduler = diffusers.HeliosDMDScheduler(use_dynamic_shifting=True, gamma=0.3)
-    return diffusers.HeliosPyramidPipeline(
-        **helios_parts(folder), scheduler=scheduler, is_distilled=True
-    )
+    return diffusers.HeliosPyramidPipeline(**helios_parts(), scheduler=scheduler, is_distilled=True)
 
 
-def ltx2(folder):
+def ltx():
+    return tiny_pipelines.ltx(None)
+
+
+def ltx2():
     tokenizer = gemma_tokenizer()
     text = SMALL_TEXT | {"head_dim": 8, "num_key_value_heads": 2, "vocab_size": len(tokenizer)}
     vision = SMALL_TEXT | {"image_size": 14, "patch_size": 14}
@@ -162,7 +168,11 @@ def ltx2(folder):
     )
     audio = {"base_channels": 4, "latent_channels": 2, "ch_mult": (1,), "num_res_blocks": 1}
     audio |= {"output_channels": 2, "in_channels": 2, "mel_bins": 8, "resolution": 32}
-    connector = {f"{kind}_connector_{name}": value for kind in ("video", "audio") for name, value in CONNECTOR.items()}
+    connector = {
+        f"{kind}_connector_{name}": value
+        for kind in ("video", "audio")
+        for name, value in CONNECTOR.items()
+    }
     return diffusers.LTX2Pipeline(
         tokenizer=tokenizer,
         text_encoder=transformers.Gemma3ForConditionalGeneration(gemma).eval(),
@@ -221,9 +231,9 @@ def ltx2(folder):
     )
 
 
-def fast_wan(folder):
+def fast_wan():
     return diffusers.WanPipeline(
-        **umt5(folder),
+        **umt5(),
         vae=wan_vae(),
         scheduler=flow_unipc(),
         transformer=diffusers.WanTransformer3DModel(**WAN_LIKE),
@@ -231,7 +241,7 @@ def fast_wan(folder):
     )
 
 
-def motif(folder):
+def motif():
     text = transformers.T5Gemma2TextConfig(
         hidden_size=32,
         num_hidden_layers=1,
@@ -242,9 +252,12 @@ def motif(folder):
         num_key_value_heads=2,
         dropout_rate=0.0,
     )
-    encoder = transformers.T5Gemma2EncoderConfig(text_config=text)
+    vision = SMALL_TEXT | {"num_hidden_layers": 1, "image_size": 16, "patch_size": 8}
+    encoder = transformers.T5Gemma2EncoderConfig(
+        text_config=text, vision_config=vision, mm_tokens_per_image=4
+    )
     return diffusers.MotifVideoPipeline(
-        tokenizer=t5(folder)["tokenizer"],
+        tokenizer=t5(None)["tokenizer"],
         text_encoder=transformers.models.t5gemma2.modeling_t5gemma2.T5Gemma2Encoder(encoder).eval(),
         vae=wan_vae(),
         scheduler=flow_match(shift=7.0),
@@ -258,9 +271,11 @@ def motif(folder):
             patch_size=1,
             patch_size_t=1,
             text_embed_dim=32,
+            image_embed_dim=16,
             rope_axes_dim=(4, 4, 4),
         ),
         guider=diffusers.AdaptiveProjectedGuidance(),
+        feature_extractor=transformers.SiglipImageProcessorPil(size={"height": 16, "width": 16}),
     )
 
 
@@ -275,8 +290,8 @@ def hunyuan_vae(levels=4):
     )
 
 
-def hunyuan(folder):
-    letters = t5(folder)["tokenizer"]
+def hunyuan():
+    letters = t5(None)["tokenizer"]
     llama = transformers.LlamaConfig(**SMALL_TEXT, vocab_size=len(letters), pad_token_id=0)
     clip = clip_text(length=77)
     return diffusers.HunyuanVideoPipeline(
@@ -302,7 +317,7 @@ def hunyuan(folder):
     )
 
 
-def qwen_text(folder):
+def qwen_text():
     """The text half of Qwen2.5-VL, with its tokenizer."""
     parts = qwen()
     return {
@@ -311,12 +326,12 @@ def qwen_text(folder):
     }
 
 
-def hunyuan15_parts(folder, task):
+def hunyuan15_parts(task):
     letters = transformers.ByT5Tokenizer()
     small_t5 = {"d_model": 16, "d_kv": 8, "d_ff": 16, "num_layers": 1, "num_heads": 2}
     byt5 = transformers.T5Config(vocab_size=len(letters), **small_t5)
     return {
-        **qwen_text(folder),
+        **qwen_text(),
         "tokenizer_2": letters,
         "text_encoder_2": transformers.T5EncoderModel(byt5).eval(),
         "vae": diffusers.AutoencoderKLHunyuanVideo15(
@@ -348,11 +363,11 @@ def hunyuan15_parts(folder, task):
     }
 
 
-def hunyuan15(folder):
-    return diffusers.HunyuanVideo15Pipeline(**hunyuan15_parts(folder, "t2v"))
+def hunyuan15():
+    return diffusers.HunyuanVideo15Pipeline(**hunyuan15_parts("t2v"))
 
 
-def hunyuan15_image(folder):
+def hunyuan15_image():
     vision = transformers.SiglipVisionConfig(
         hidden_size=12,
         intermediate_size=16,
@@ -362,15 +377,15 @@ def hunyuan15_image(folder):
         patch_size=2,
     )
     return diffusers.HunyuanVideo15ImageToVideoPipeline(
-        **hunyuan15_parts(folder, "i2v"),
+        **hunyuan15_parts("i2v"),
         image_encoder=transformers.SiglipVisionModel(vision).eval(),
         feature_extractor=transformers.SiglipImageProcessorPil(size={"height": 54, "width": 54}),
     )
 
 
-def mochi(folder):
+def mochi():
     return diffusers.MochiPipeline(
-        **t5(folder),
+        **t5(None),
         vae=diffusers.AutoencoderKLMochi(
             latent_channels=12,
             encoder_block_out_channels=(32,) * 4,
@@ -390,9 +405,9 @@ def mochi(folder):
     )
 
 
-def allegro(folder):
+def allegro():
     return diffusers.AllegroPipeline(
-        **t5(folder),
+        **t5(None),
         vae=diffusers.AutoencoderKLAllegro(
             down_block_types=("AllegroDownBlock3D",) * 4,
             up_block_types=("AllegroUpBlock3D",) * 4,
@@ -417,9 +432,9 @@ def allegro(folder):
     )
 
 
-def latte(folder):
+def latte():
     return diffusers.LattePipeline(
-        **t5(folder),
+        **t5(None),
         vae=diffusers.AutoencoderKL(
             block_out_channels=(8,) * 4,
             down_block_types=("DownEncoderBlock2D",) * 4,
@@ -456,7 +471,7 @@ def gemma_tokenizer():
     return transformers.GemmaTokenizer(vocab=vocabulary, merges=[])
 
 
-def sana(folder):
+def sana():
     tokenizer = gemma_tokenizer()
     gemma = transformers.Gemma2Config(
         head_dim=8,
@@ -490,7 +505,7 @@ def sana(folder):
     )
 
 
-def easyanimate(folder):
+def easyanimate():
     return diffusers.EasyAnimatePipeline(
         **qwen(),
         vae=diffusers.AutoencoderKLMagvit(
@@ -516,7 +531,7 @@ def easyanimate(folder):
     )
 
 
-def kandinsky_text(folder):
+def kandinsky_text():
     clip = clip_text(length=77)
     return {
         **qwen(),
@@ -540,17 +555,17 @@ KANDINSKY = {
 }
 
 
-def kandinsky5(folder):
+def kandinsky5():
     return diffusers.Kandinsky5T2VPipeline(
-        **kandinsky_text(folder),
+        **kandinsky_text(),
         scheduler=flow_match(shift=5.0),
         transformer=diffusers.Kandinsky5Transformer3DModel(**KANDINSKY),
     )
 
 
-def kandinsky6(folder):
+def kandinsky6():
     return diffusers.Kandinsky6TI2VAPipeline(
-        **kandinsky_text(folder),
+        **kandinsky_text(),
         scheduler=diffusers.PiflowScheduler(),
         transformer=diffusers.Kandinsky6Transformer3DModel(
             **KANDINSKY | {"out_visual_dim": 40, "out_audio_dim": 200}  # a grid of ten
@@ -558,7 +573,7 @@ def kandinsky6(folder):
     )
 
 
-def cosmos3(folder):
+def cosmos3():
     import cosmos_guardrail
 
     tokenizer = qwen()["tokenizer"]
@@ -584,26 +599,84 @@ def cosmos3(folder):
     )
 
 
+SQUARE = {"width": 64, "height": 64}
 FAMILIES = {
-    "wan-image": Family(wan_image_to_video, takes_image=True),
-    "fast-wan": Family(fast_wan, {"steps": 3}, steps=3, named="FastWan2.2-TI2V-5B-FullAttn-Diffusers"),
-    "skyreels": Family(skyreels),
-    "skyreels-forcing": Family(skyreels_forcing),
-    "anyflow": Family(anyflow),
-    "helios": Family(helios, frames=33),
-    "helios-distilled": Family(helios_distilled, {"width": 64, "height": 64, "steps": 3, "guidance": 1.0}, frames=33, size=64, steps=3, named="Helios-Distilled"),
-    "motif": Family(motif),
-    "hunyuan": Family(hunyuan),
-    "hunyuan15": Family(hunyuan15),
-    "hunyuan15-image": Family(hunyuan15_image, {"width": None, "height": None}, takes_image=True),
-    "mochi": Family(mochi, {"frames": 7}, frames=7),
-    "allegro": Family(allegro, {"frames": 24, "width": 320, "height": 320}, frames=24, size=320),
-    "latte": Family(latte),
-    "sana": Family(sana, patches={SANA_BINS: {"1.0": [32.0, 32.0]}}),
-    "easyanimate": Family(easyanimate, named="EasyAnimateV5.1-7b-zh-diffusers"),
-    "kandinsky5": Family(kandinsky5),
-    "kandinsky6": Family(kandinsky6, {"guidance": 1.0}),
-    "cosmos3": Family(cosmos3),
-    "ltx2": Family(ltx2),
-    "ltx2-distilled": Family(ltx2, {"steps": 8, "guidance": 1.0}, steps=8, named="LTX-2.3-Distilled-Diffusers"),
+    "wan-image": Family(wan_image_to_video, "WanImageToVideoPipeline", takes_image=True),
+    "fast-wan": Family(
+        fast_wan,
+        "WanPipeline",
+        {"steps": 3, "guidance": 1.0},
+        steps=3,
+        named="FastWan2.2-TI2V-5B-FullAttn-Diffusers",
+    ),
+    "skyreels": Family(skyreels, "SkyReelsV2Pipeline"),
+    "skyreels-forcing": Family(
+        skyreels_forcing,
+        "SkyReelsV2DiffusionForcingPipeline",
+        named="SkyReels-V2-DF-1.3B-540P-Diffusers",
+    ),
+    "skyreels-forcing-image": Family(
+        skyreels_forcing,
+        "SkyReelsV2DiffusionForcingImageToVideoPipeline",
+        takes_image=True,
+        named="SkyReels-V2-DF-1.3B-540P-Diffusers",
+    ),
+    "anyflow": Family(anyflow, "AnyFlowPipeline"),
+    "helios": Family(helios, "HeliosPipeline", frames=33),
+    "helios-distilled": Family(
+        helios_distilled,
+        "HeliosPyramidPipeline",
+        {**SQUARE, "steps": 3, "guidance": 1.0},
+        frames=33,
+        size=(64, 64),
+        steps=6,  # the first chunk takes twice as many
+        named="Helios-Distilled",
+    ),
+    "motif": Family(motif, "MotifVideoPipeline"),
+    "motif-image": Family(
+        motif, "MotifVideoImage2VideoPipeline", takes_image=True, named="Motif-Video-2B"
+    ),
+    "hunyuan": Family(hunyuan, "HunyuanVideoPipeline"),
+    "hunyuan15": Family(hunyuan15, "HunyuanVideo15Pipeline"),
+    "hunyuan15-image": Family(
+        hunyuan15_image,
+        "HunyuanVideo15ImageToVideoPipeline",
+        {"width": None, "height": None},
+        size=(28, 36),
+        takes_image=True,
+    ),
+    "mochi": Family(mochi, "MochiPipeline", {"frames": 7}, frames=7),
+    "allegro": Family(
+        allegro,
+        "AllegroPipeline",
+        {"frames": 24, "width": 320, "height": 320},
+        frames=24,
+        size=(320, 320),
+    ),
+    "latte": Family(latte, "LattePipeline"),
+    "sana": Family(sana, "SanaVideoPipeline", patches=SANA_PATCH),
+    "sana-image": Family(
+        sana,
+        "SanaImageToVideoPipeline",
+        takes_image=True,
+        patches=SANA_PATCH,
+        named="SANA-Video_2B_480p_diffusers",
+    ),
+    "easyanimate": Family(
+        easyanimate, "EasyAnimatePipeline", named="EasyAnimateV5.1-7b-zh-diffusers"
+    ),
+    "kandinsky5": Family(kandinsky5, "Kandinsky5T2VPipeline"),
+    "kandinsky6": Family(kandinsky6, "Kandinsky6TI2VAPipeline", {"guidance": 1.0}),
+    "cosmos3": Family(cosmos3, "Cosmos3OmniPipeline"),
+    "ltx-image": Family(ltx, "LTXImageToVideoPipeline", takes_image=True, named="LTX-Video"),
+    "ltx2": Family(ltx2, "LTX2Pipeline", named="LTX-2"),
+    "ltx2-distilled": Family(
+        ltx2,
+        "LTX2Pipeline",
+        {"steps": 8, "guidance": 1.0},
+        steps=8,
+        named="LTX-2.3-Distilled-Diffusers",
+    ),
+    "ltx2-image": Family(ltx2, "LTX2ImageToVideoPipeline", takes_image=True, named="LTX-2"),
 }
+"""Name of the test → its pipeline. Those of `tiny_pipelines` are run by the other tests."""

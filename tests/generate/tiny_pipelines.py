@@ -173,8 +173,10 @@ def qwen():
     )
     tokenizer.pad_token = "<|endoftext|>"
     tokenizer.chat_template = (
-        "{% for m in messages %}<|im_start|>{{ m['role'] }}: {% for c in m['content'] %}"
-        "{{ c['text'] }}{% endfor %}<|im_end|>{% endfor %}"
+        "{% for m in messages %}<|im_start|>{{ m['role'] }}: "
+        "{% if m['content'] is string %}{{ m['content'] }}"
+        "{% else %}{% for c in m['content'] %}{{ c['text'] }}{% endfor %}{% endif %}"
+        "<|im_end|>{% endfor %}"
     )
     config = transformers.Qwen2_5_VLConfig(
         text_config={

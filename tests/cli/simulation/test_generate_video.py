@@ -122,12 +122,14 @@ def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, ca
     assert run("generators") == 0
     shown = capsys.readouterr().out
     row = next(line for line in shown.splitlines() if line.startswith("cosmos-7b"))
-    assert "121 x 1280x704, 24 fps" in row
-    assert "74 / 24.4 " in row
-    assert "NVIDIA Open Model License" in row
-    assert "ends if its guardrail is bypassed" in row
-    assert "  cosmos3-nano: github.com/NVIDIA/cosmos: README.md, LICENSE" in shown.splitlines()
-    assert shown.splitlines()[1].startswith("procedural")
+    cells = ["cosmos-7b", "24", "121", "1280x704", "36", "74", "/", "24.4", "-", "NVIDIA"]
+    assert row.split()[:10] == cells
+    row = next(line for line in shown.splitlines() if line.startswith("kandinsky5-distill"))
+    assert row.split()[-2:] == ["35", "MIT"]
+    assert "NVIDIA Open Model License; ends if its guardrail is bypassed (" in shown
+    assert "cosmos3-nano, cosmos3-super: OpenMDW-1.1 (github.com/NVIDIA/cosmos:" in shown
+    assert "  kandinsky5-lite, kandinsky5-distill: H100; github.com/kandinskylab" in shown
+    assert shown.splitlines()[0].startswith("procedural")
     assert "pip install 'texvent[generate]'" in shown
 
 
@@ -138,20 +140,34 @@ def test_a_narrow_terminal_hides_nothing_of_the_list(folder, capsys, monkeypatch
     starts = {line.split(" ")[0] for line in shown.splitlines()}
     assert {"procedural", "opensora", *MODELS} <= starts
     assert "\N{HORIZONTAL ELLIPSIS}" not in shown
-    words = {word for model in MODELS.values() for word in model.licence_and_terms.split()}
-    assert words <= set(shown.split())
+    for model in MODELS.values():
+        assert f"{model.licence_and_terms} ({model.licence_source})" in shown
 
 
-def test_the_list_marks_low_frame_rates_in_a_hundred_columns(folder, capsys, monkeypatch):
+def test_the_list_recommends_24_frames_per_second_in_a_hundred_columns(folder, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "100")
     assert run("generators") == 0
     lines = capsys.readouterr().out.splitlines()
-    assert max(map(len, lines)) <= 100
+    tables = lines[
+        : lines.index(
+            "None was run here with its published weights. Every pipeline runs"
+            " in texvent's tests with"
+        )
+    ]
+    assert max(map(len, tables)) <= 100
+    second = next(i for i, line in enumerate(lines) if line.startswith("fewer than 24"))
+    recommended = {line.split()[0] for line in lines[:second] if line.strip()}
     rows = {line.split()[0]: line for line in lines if line.strip()}
-    assert "16 fps low" in rows["wan-1.3b"]
-    assert "24 fps " in rows["wan2.2-5b"]
-    low = {name for name in MODELS if " fps low" in rows[name]}
-    assert low == {name for name, model in MODELS.items() if model.fps < 24}
+    assert recommended & set(MODELS) == {name for name, row in MODELS.items() if row.fps >= 24}
+    assert "16 low" in rows["wan-1.3b"]
+    assert {name for name in MODELS if " low " in rows[name]} == set(MODELS) - recommended
+
+
+def test_a_model_of_few_frames_per_second_warns_in_one_line(folder, capsys):
+    assert run("generate", PROMPT, "--generator", "latte", "--dry-run") == 0
+    said = capsys.readouterr().err
+    assert said.startswith("warning  latte makes 8 frames per second")
+    assert said.count("\n") == 1
 
 
 def test_the_list_as_json_has_every_row_with_its_licence_and_source(folder, capsys):
@@ -163,6 +179,9 @@ def test_the_list_as_json_has_every_row_with_its_licence_and_source(folder, caps
     assert "not in the EU" in row["licence_terms"]
     assert row["licence_source"] == "github.com/Tencent-Hunyuan/HunyuanVideo-1.5: LICENSE"
     assert (row["fps"], row["is_low_fps"], rows["latte"]["is_low_fps"]) == (24, False, True)
+    assert (row["is_recommended"], rows["latte"]["is_recommended"]) == (True, False)
+    assert rows["helios-distilled"]["time_s"] == 6.8
+    assert "19.5 frames/s on H100" in rows["helios-distilled"]["time_source"]
 
 
 def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):

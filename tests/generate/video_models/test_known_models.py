@@ -7,7 +7,7 @@ import pytest
 
 from texvent._registry import GENERATORS
 from texvent.cli.app import main
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, TexventWarning
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models import lookup
 from texvent.generate.video_models.download import describe_terms
@@ -26,14 +26,34 @@ def test_every_row_says_where_what_how_fast_and_under_which_licence():
         assert model.fps is not None
         assert model.fps > 0
         assert model.frames >= 16
-        assert model.width % 8 == 0
-        assert model.height % 8 == 0
+        if model.width is None:
+            assert model.needs_image, "the size is the image's"
+        else:
+            assert model.width % 8 == 0
+            assert model.height % 8 == 0
+
+
+def test_every_row_was_tried_and_times_say_where_they_were_read():
+    for model in MODELS.values():
+        assert model.is_verified
+        assert (model.time_s is None) == (not model.time_source)
+        assert model.is_low_fps == (model.fps < 24)
+
+
+def test_few_frames_per_second_are_warned_about_and_24_are_not():
+    with pytest.warns(TexventWarning, match="cogvideox-5b makes 8 frames per second"):
+        lookup.warn_low_fps("cogvideox-5b")
+    with pytest.warns(TexventWarning, match="makes 16 frames per second"):
+        lookup.warn_low_fps("./models/Wan2.1-T2V-1.3B-Diffusers")
+    for name in ("wan2.2-5b", "procedural", "opensora", "./my-model"):
+        lookup.warn_low_fps(name)
 
 
 def test_licences_say_where_they_were_read_or_that_they_were_not():
-    unread = {name for name, model in MODELS.items() if not model.licence_source}
-    assert unread == {"motif-2b"}
-    assert "not known" in MODELS["motif-2b"].licence
+    assert all(model.licence_source for model in MODELS.values())
+    motif = MODELS["motif-2b"]
+    assert "says a third party" in motif.licence
+    assert motif.licence_source.endswith("not the publisher's")
     for model in MODELS.values():
         assert "general knowledge" not in describe_terms(model)
         assert model.licence_source in describe_terms(model)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
@@ -17,22 +17,20 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import FileFormatError
 from texvent.generate.video_models.download import find_downloaded
-from texvent.generate.video_models.known_models import MODELS, VideoModel
+from texvent.generate.video_models.known_models import LEAST_FPS, MODELS, VideoModel
 
 HUB_PACKAGE = "huggingface_hub"
 PIPELINE_PACKAGE = "diffusers"
-MAKES_WIDTH = len("81 x 1360x768, 16 fps low")
-LEAST_FPS = 24
-"""Models of a lower frame rate are marked: much moves far between their frames."""
-ROOMY_WIDTH = 120
-"""Columns of a terminal in which sentences need not be narrow."""
-DESCRIPTION = """List the text-to-video generators: what they make, under which licence, and
-whether they are here. --generator takes a name of the list, a folder of a saved diffusers pipeline,
-or any repository of the model hub.
+TITLES = ("name", "here", "fps", "frames", "size", "steps", "GPU GB", "time s", "licence")
+LICENCE_WIDTH = len("Tencent Hunyuan")
+"""Columns in which the names of licences wrap at their spaces; with fewer they stand below only."""
+DESCRIPTION = """List the text-to-video generators: what they make, what they need, under which
+licence, and whether they are here. --generator takes a name of the list, a folder of a saved
+diffusers pipeline, or any repository of the model hub.
 
-  texvent generate "a red car" --generator wan-1.3b
-  texvent generate "a red car" --generator ./my-model --fps 16
-  texvent generate "a red car" --generator hub:org/name --fps 16"""
+  texvent generate "a red car" --generator wan2.2-5b
+  texvent generate "a red car" --generator ./my-model --fps 24
+  texvent generate "a red car" --generator hub:org/name --fps 24"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +38,7 @@ class GeneratorsOptions:
     """How to list them."""
 
     json: bool = False
-    """Print JSON, with the source of every licence."""
+    """Print JSON, with the source of every licence and time."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -56,12 +54,12 @@ def run(arguments: Sequence[str]) -> int:
         facts += [_model_facts(model) for model in MODELS.values()]
         write_out(json.dumps(facts, indent=1) + "\n")
     else:
-        _print_table()
+        _print_list()
     return 0
 
 
 def _part_facts(name: str) -> dict[str, Any]:
-    here, summary, _, licence = _describe_part(name)
+    here, summary, licence = _describe_part(name)
     return {"name": name, "here": here == "yes", "summary": summary, "licence": licence}
 
 
@@ -69,49 +67,70 @@ def _model_facts(model: VideoModel) -> dict[str, Any]:
     """What `--json` prints of a row; null: not known, or the pipeline's own default."""
     facts = dataclasses.asdict(model)
     del facts["folder"]  # rows have none
-    rate = {"fps": None if model.fps is None else float(model.fps), "is_low_fps": _is_low(model)}
+    rate = {
+        "fps": None if model.fps is None else float(model.fps),
+        "is_low_fps": model.is_low_fps,
+        "is_recommended": not model.is_low_fps,
+    }
     return {**facts, **rate, "here": _is_here(model) == "yes"}
 
 
-def _print_table() -> None:
+def _print_list() -> None:
     console = Console(highlight=False)
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for title in ("name", "here", "makes", "GPU GB", "licence"):
-        # Sentences wrap in a narrow terminal; what is typed or compared stays whole.
-        table.add_column(
-            title,
-            no_wrap=title in ("name", "here", "GPU GB"),
-            # A least width alone would let rich cut the last column by what it lacks.
-            width=MAKES_WIDTH if title == "makes" and console.width < ROOMY_WIDTH else None,
-        )
+    parts = Table(box=None, pad_edge=False, show_header=False)
     for name in GENERATORS.entries():
-        table.add_row(name, *_describe_part(name))
-    for model in MODELS.values():
-        table.add_row(model.name, *_describe_model(model))
-    console.print(table)
+        parts.add_row(name, *_describe_part(name))
+    console.print(parts)
+    models = list(MODELS.values())
+    cells = {model.name: _describe_model(model) for model in models}
+    widths = [max(map(len, column)) for column in zip(TITLES, *cells.values(), strict=True)]
+    rest = console.width - sum(width + 2 for width in widths[:-1])
+    shown = len(TITLES) if rest >= LICENCE_WIDTH else len(TITLES) - 1
+    for title, is_low in (
+        (f"recommended for events: {LEAST_FPS} frames per second and more", False),
+        (f"fewer than {LEAST_FPS}: much moves between two frames; texvent warns", True),
+    ):
+        table = Table(box=None, pad_edge=False, header_style="bold")
+        for name, width in list(zip(TITLES, widths, strict=True))[:shown]:
+            is_last = name == TITLES[-1]
+            table.add_column(
+                name, no_wrap=not is_last, width=min(width, rest) if is_last else width
+            )
+        for model in models:
+            if model.is_low_fps == is_low:
+                table.add_row(*cells[model.name][:shown])
+        console.print(f"\n{title}", markup=False)
+        console.print(table)
     for line in _notes():
         console.print(line, style="dim", markup=False, soft_wrap=True)
 
 
-def _describe_part(name: str) -> tuple[str, str, str, str]:
-    """Cells of a generator that is no row of the table of models."""
+def _describe_part(name: str) -> tuple[str, str, str]:
+    """Cells of a generator that is no row of the table of models: here, what it is, licence."""
     part = GENERATORS.load(name)
     summary = (part.__doc__ or "").strip().splitlines()[0]
     find_missing = getattr(part, "find_missing", None)
     here = "yes" if find_missing is None or find_missing() is None else ""
-    return here, summary, "", getattr(part, "licence", "part of texvent")
+    return here, summary, getattr(part, "licence", "part of texvent")
 
 
-def _describe_model(model: VideoModel) -> tuple[str, str, str, str]:
-    makes = f"{model.frames} x {model.width}x{model.height}, {model.fps} fps"
-    makes += " low" if _is_low(model) else ""
+def _describe_model(model: VideoModel) -> tuple[str, ...]:
+    """Cells of a row, by `TITLES`."""
+    size = "image's" if model.width is None else f"{model.width}x{model.height}"
     memory = " / ".join("-" if gb is None else f"{gb:g}" for gb in (model.gpu_gb, model.offload_gb))
-    footnotes = ("" if model.licence_source else " ?") + ("" if model.is_verified else " *")
-    return _is_here(model), makes, memory, model.licence_and_terms + footnotes
-
-
-def _is_low(model: VideoModel) -> bool:
-    return model.fps is not None and model.fps < LEAST_FPS
+    rate = f"{model.fps} low" if model.is_low_fps else f"{model.fps}"
+    marks = ("" if model.licence_source else " ?") + ("" if model.is_verified else " *")
+    return (
+        model.name,
+        _is_here(model),
+        rate,
+        str(model.frames),
+        size,
+        str(model.steps),
+        memory,
+        "-" if model.time_s is None else f"{model.time_s:g}",
+        model.licence + marks,
+    )
 
 
 def _is_here(model: VideoModel) -> str:
@@ -124,21 +143,29 @@ def _is_here(model: VideoModel) -> str:
     return "yes" if found is not None else ""
 
 
-def _sources() -> list[str]:
-    """One line for every source of licences, with the models it is for."""
+def _grouped(lines: Iterable[tuple[str, str]]) -> list[str]:
+    """One line for every text, before it the names of the models that it is for."""
     names: dict[str, list[str]] = {}
-    for model in MODELS.values():
-        if model.licence_source:
-            names.setdefault(model.licence_source, []).append(model.name)
-    return [f"  {', '.join(models)}: {source}" for source, models in names.items()]
+    for name, text in lines:
+        names.setdefault(text, []).append(name)
+    return [f"  {', '.join(models)}: {text}" for text, models in names.items()]
 
 
 def _notes() -> list[str]:
+    models = MODELS.values()
+    images = ", ".join(model.name for model in models if model.needs_image)
     notes = [
-        "makes: frames x size. GPU GB, as reported: every part on the GPU / with --offload model.",
-        f"low: {LEAST_FPS} fps and more suit events. * pipeline not tried by texvent's tests.",
-        "? licence not read. The others were read at the publisher's, and may change:",
-        *_sources(),
+        "",
+        "GPU GB, as reported: every part on the GPU / with --offload model. time s: one video of",
+        "that many frames, as its publisher says. These start from an image (--image):",
+        f"  {images}",
+        "None was run here with its published weights. Every pipeline runs in texvent's tests with",
+        "tiny random ones (* not yet). Times were read in:",
+        *_grouped((model.name, model.time_source) for model in models if model.time_s),
+        "Licences (? not read), read at the publisher's unless a line says otherwise:",
+        *_grouped(
+            (model.name, f"{model.licence_and_terms} ({model.licence_source})") for model in models
+        ),
         "Learned models are fetched from the model hub when first used, after showing the licence.",
     ]
     if find_spec(PIPELINE_PACKAGE) is None:

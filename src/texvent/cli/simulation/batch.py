@@ -23,6 +23,7 @@ from texvent.cli.run import print_settings
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, OutputError, TexventError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.options.values import plain
 from texvent.run.files import RunFiles
@@ -106,6 +107,8 @@ def run(arguments: Sequence[str]) -> int:
     if output.dry_run:
         return _describe(plan, samples, manifest)
     _refuse_prompts(plan, samples)
+    if isinstance(own, PromptBatchOptions):
+        warn_low_fps(own.generator)
     plan.folder.mkdir(parents=True, exist_ok=True)
     manifest.begin(_options(plan, is_of_videos), overwrite=output.overwrite)
     return _make_all(plan, samples, manifest, jobs=own.jobs, is_quiet=output.quiet)

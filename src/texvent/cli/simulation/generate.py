@@ -18,6 +18,7 @@ from texvent.cli.simulation.preview import check_preview, write_preview
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, make_video, prepare_prompt
@@ -100,6 +101,7 @@ def run(arguments: Sequence[str]) -> int:
     files = output.files(own.prompt)
     if files.truth:
         check_generator(own.generator)
+    warn_low_fps(own.generator)
     if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
         write_out(f"{plan}\n")
         return 0
@@ -162,6 +164,7 @@ def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) 
         )
     check_output(path, overwrite=output.overwrite)
     truth = _truth_of_video(path, own, output)
+    warn_low_fps(own.generator)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         video = make_video(own.prompt, settings, upsample=own, progress=progress)
         write_stream(video, path, overwrite=output.overwrite)

@@ -102,7 +102,7 @@ def adjusted(
 
 def has_guider(pipeline_class: type) -> bool:
     """Whether guidance is a part of the pipeline, not an argument of its call."""
-    return GUIDER in inspect.signature(pipeline_class.__init__).parameters
+    return GUIDER in inspect.signature(pipeline_class).parameters
 
 
 def _replace(stack: contextlib.ExitStack, owner: Any, name: str, value: Any) -> None:

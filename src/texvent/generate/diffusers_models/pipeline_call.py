@@ -12,6 +12,7 @@ from typing import Any
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError, one_line
 from texvent.generate.diffusers_models.call_adjustments import SIGMAS, adjusted, has_guider
+from texvent.generate.diffusers_models.pipeline_loading import TILED_ONLY
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import VideoModel
 from texvent.runtime.progress import Progress
@@ -68,6 +69,7 @@ def call_pipeline(
         TexventError: the GPU's memory is too small.
     """
     accepted = check_options(type(pipe), config)
+    _check_tiles(pipe, config)
     torch = require("torch", extra=EXTRA)
     generator = torch.Generator("cpu").manual_seed(seed)
     # Other step counts have no levels of their own: the pipeline's schedule gives them.
@@ -120,6 +122,25 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
     if image is not None and image.default is inspect.Parameter.empty and config.image is None:
         raise ConfigError(f"{name} starts from an image; give --image PATH")
     return accepted
+
+
+def _check_tiles(pipe: Any, config: DiffusersConfig) -> None:
+    """Refuse sizes of which a decoder that knows only whole tiles would leave a part black.
+
+    Raises:
+        ConfigError: frames or size are not made of whole tiles.
+    """
+    if type(getattr(pipe, "vae", None)).__name__ not in TILED_ONLY:
+        return
+    for option, tile, stride in zip(
+        ("frames", "height", "width"), pipe.vae.kernel, pipe.vae.stride, strict=True
+    ):
+        value = getattr(config, option)
+        if value is not None and (value < tile or (value - tile) % stride):
+            raise ConfigError(
+                f"{option} is {value}, of which {type(pipe).__name__} would leave a part black; "
+                f"allowed: {tile}, {tile + stride}, {tile + 2 * stride}, ..."
+            )
 
 
 def _run(pipe: Any, arguments: Mapping[str, Any]) -> Any:

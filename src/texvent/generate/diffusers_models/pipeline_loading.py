@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 import inspect
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -147,12 +147,7 @@ def find_pipeline_class(request: LoadRequest) -> Any:
 def _load(request: LoadRequest, announce: Callable[[str], None]) -> Pipeline:
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
     pipeline_class = find_pipeline_class(request)
-    parts: dict[str, Any] = {}
-    if needs_guardrail(read_pipeline_index(request.folder)):
-        install_torchvision_stub()
-        parts[PART] = load_guardrail()
-        if GUARDRAIL_SWITCH in inspect.signature(pipeline_class.__init__).parameters:
-            parts[GUARDRAIL_SWITCH] = True
+    parts = _load_guardrail_part(pipeline_class, request)
     if not request.has_text_encoder:
         parts.update(dict.fromkeys(TEXT_PARTS))
     if request.decoder is not None:
@@ -177,6 +172,15 @@ def _load(request: LoadRequest, announce: Callable[[str], None]) -> Pipeline:
             part.eval()
     pipe.set_progress_bar_config(disable=True)
     return pipe
+
+
+def _load_guardrail_part(pipeline_class: Any, request: LoadRequest) -> dict[str, Any]:
+    """The guardrail, for models that must not run without it."""
+    if not needs_guardrail(read_pipeline_index(request.folder)):
+        return {}
+    install_torchvision_stub()
+    has_switch = GUARDRAIL_SWITCH in inspect.signature(pipeline_class).parameters
+    return {PART: load_guardrail(), **({GUARDRAIL_SWITCH: True} if has_switch else {})}
 
 
 def _make_scheduler(saved: Any, settings: dict[str, Any]) -> Any:

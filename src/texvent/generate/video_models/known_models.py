@@ -244,6 +244,7 @@ _ROWS = (
     # The LTX-2.x licence of August 2026, now in that file, is for LTX-2.5 and later.
     _row("ltx2", "Lightricks/LTX-2", "LTX2Pipeline",
          (121, 512, 768), 24, 30, "LTX-2 Community License (2026-01-05)", **_LTX_2,
+         differs="the call leaves the frame count open; 121 without a head that chooses it",
          call={"spatio_temporal_guidance_blocks": [29]}),
     _row("ltx2.3-distilled", "diffusers/LTX-2.3-Distilled-Diffusers", "LTX2Pipeline",
          (121, 512, 768), 24, 8, "LTX-2 Community License (2026-01-05)", **_LTX_2_DISTILLED,
@@ -311,7 +312,8 @@ _ROWS = (
          (132, 384, 640), 24, 6, "Apache-2.0", **_HELIOS, guidance=1.0,
          call={"is_amplify_first_chunk": True},
          differs="the publisher's two steps at each of three sizes, without guidance",
-         time_s=6.8, time_source="19.5 frames/s on H100; github.com/PKU-YuanGroup/Helios: README.md"),
+         time_s=6.8,
+         time_source="19.5 frames/s on H100; github.com/PKU-YuanGroup/Helios: README.md"),
     _row("motif-2b", "Motif-Technologies/Motif-Video-2B", "MotifVideoPipeline",
          (121, 736, 1280), 24, 50, "Apache-2.0, says a third party", **_TINY,
          image_pipeline="MotifVideoImage2VideoPipeline", offload_gb=30,

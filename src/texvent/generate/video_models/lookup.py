@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, shown, warn
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.hub_names import HUB, REPOSITORY
-from texvent.generate.video_models.known_models import MODELS, VideoModel
+from texvent.generate.video_models.known_models import LEAST_FPS, MODELS, VideoModel
 
 if TYPE_CHECKING:
     from texvent.generate.diffusers_models.generator import DiffusersGenerator
@@ -88,6 +88,23 @@ def find(name: str) -> ModelGenerator | None:
             dataclasses.replace(known, name=name, repo="", revision=None, folder=path)
         )
     return None
+
+
+def warn_low_fps(name: str) -> None:
+    """Say that a model makes few frames per second; other generators are let pass.
+
+    Args:
+        name: what `--generator` was given.
+
+    Warns:
+        TexventWarning: it makes fewer than `LEAST_FPS`.
+    """
+    part = find(name)
+    if part is not None and part.model.is_low_fps:
+        warn(
+            f"{part.model.name} makes {part.model.fps} frames per second, so much moves between "
+            f"two of them; models of {LEAST_FPS} and more suit events better: texvent generators"
+        )
 
 
 def _row_like(last_name: str) -> VideoModel:

@@ -1,0 +1,201 @@
+"""A tiny pipeline of every family of the table, from its files to frames.
+
+Saved by `save_pretrained`; found, checked, loaded, called and decoded by the code that runs the
+published models. Offline.
+"""
+
+import os
+
+import numpy as np
+import pytest
+
+pytestmark = [
+    pytest.mark.torch,
+    pytest.mark.usefixtures("model_cache"),
+    # Of noise schedules in diffusers 0.42.1 under NumPy 2; texvent cannot change it.
+    pytest.mark.filterwarnings("ignore:__array_:DeprecationWarning"),
+    # Of Mochi on a CPU.
+    pytest.mark.filterwarnings("ignore:In CPU autocast:UserWarning"),
+]
+os.environ["HF_HUB_OFFLINE"] = "1"
+torch = pytest.importorskip("torch")
+torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
+pytest.importorskip("diffusers")
+
+from texvent.errors import ConfigError, InputError  # noqa: E402
+from texvent.generate.diffusers_models import model_run  # noqa: E402
+from texvent.generate.diffusers_models.decoder_input import SINGLE_DECODE_PIPELINES  # noqa: E402
+from texvent.generate.video_models.known_models import MODELS  # noqa: E402
+
+from .. import tiny_pipelines  # noqa: E402
+from ..tiny_families import FAMILIES  # noqa: E402
+from ..tiny_models import PROMPT, build, pixels  # noqa: E402
+
+ELSEWHERE = {"CosmosTextToWorldPipeline", "Cosmos2_5_PredictBasePipeline", "CogVideoXPipeline"}
+ELSEWHERE |= {"WanPipeline", "LTXPipeline", "AnimateDiffPipeline"}
+"""Pipelines that the other tests of this folder run."""
+QUICK = [name for name in FAMILIES if name != "allegro"]
+
+
+class Steps:
+    def __init__(self):
+        self.seen = []
+
+    def announce(self, line):
+        pass
+
+    def advance(self, stage, done, total):
+        self.seen.append((stage, done, total))
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory):
+    """Folder of a family's tiny pipeline, saved once."""
+    folders = {}
+
+    def find(name):
+        family = FAMILIES[name]
+        if name not in folders:
+            folder = tmp_path_factory.mktemp(name) / (family.named or "tiny")
+            with tiny_pipelines.random_weights():
+                family.build().save_pretrained(folder, safe_serialization=True)
+            folders[name] = folder
+        return folders[name]
+
+    return find
+
+
+@pytest.fixture
+def start_image(tmp_path):
+    from PIL import Image
+
+    path = tmp_path / "start.png"
+    Image.fromarray(np.random.default_rng(0).integers(0, 255, (48, 64, 3), np.uint8)).save(path)
+    return path
+
+
+@pytest.fixture
+def make(saved, start_image, monkeypatch):
+    """Make a family's video with some seed and options; the steps it reported."""
+
+    def run(name, seed=3, **options):
+        family = FAMILIES[name]
+        for place, value in family.patches.items():
+            monkeypatch.setattr(place, value)
+        image = {"image": start_image} if family.takes_image else {}
+        steps = Steps()
+        generator = build(saved(name), seed=seed, **{**family.options, **image, **options})
+        return generator.generate(PROMPT, progress=steps), steps.seen
+
+    return run
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_every_family_goes_from_its_files_to_frames(name, make):
+    family = FAMILIES[name]
+    video, steps = make(name)
+    frames = pixels(video)
+    assert video.metadata["pipeline"] == family.pipeline
+    assert frames.shape == (family.frames, *family.size, 3)
+    assert frames.std(axis=(1, 2, 3)).min() > 0, "every frame shows something"
+    assert steps == [("denoise", step + 1, family.steps) for step in range(family.steps)]
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_a_seed_repeats_and_another_gives_other_frames(name, make):
+    first, again, other = (pixels(make(name, seed, reuse_video=False)[0]) for seed in (3, 3, 4))
+    assert np.array_equal(first, again)
+    assert not np.array_equal(first, other)
+
+
+STREAMED = [name for name in QUICK if FAMILIES[name].pipeline in SINGLE_DECODE_PIPELINES]
+
+
+@pytest.mark.parametrize("name", STREAMED)
+def test_decoding_step_by_step_gives_the_frames_of_the_pipeline_itself(name, make, monkeypatch):
+    ours = pixels(make(name, reuse_video=False)[0])
+    monkeypatch.setattr(model_run, "can_stream", lambda decoder: False)
+    whole = pixels(make(name, reuse_video=False)[0])
+    assert np.abs(ours.astype(np.int64) - whole).max() <= 1, "of 65535"
+
+
+def test_every_pipeline_of_the_table_that_counts_as_tried_is_run_by_a_test():
+    run = ELSEWHERE | {family.pipeline for family in FAMILIES.values()}
+    for model in MODELS.values():
+        named = {model.pipeline, model.image_pipeline} - {None}
+        assert model.is_verified == (named <= run), f"{model.name}: {named - run}"
+
+
+@pytest.mark.parametrize("name", ["motif", "hunyuan15"])
+def test_guidance_reaches_pipelines_that_keep_it_in_a_part_of_theirs(name, make):
+    weak, strong = (pixels(make(name, guidance=scale)[0]) for scale in (1.5, 20.0))
+    assert not np.array_equal(weak, strong)
+    again = pixels(make(name, guidance=1.5, reuse_video=False)[0])
+    assert np.array_equal(weak, again), "the scale of one call does not stay for the next"
+
+
+def test_few_step_models_use_the_levels_they_were_distilled_for(make, monkeypatch):
+    """FastWan's call takes no levels: they are set on its schedule, whose noise is seeded too."""
+    import diffusers
+
+    taken = []
+    step = diffusers.FlowMatchLCMScheduler.step
+
+    def note(self, output, time, sample, generator=None, return_dict=True):
+        taken.append((round(float(time)), generator is not None))
+        return step(self, output, time, sample, generator=generator, return_dict=return_dict)
+
+    monkeypatch.setattr(diffusers.FlowMatchLCMScheduler, "step", note)
+    make("fast-wan")
+    assert taken == [(1000, True), (757, True), (522, True)]
+    taken.clear()
+    make("fast-wan", steps=2)
+    assert [time for time, _ in taken] != [1000, 757]
+    assert len(taken) == 2
+
+
+def test_other_step_counts_of_a_few_step_model_are_allowed(make):
+    _, steps = make("ltx2-distilled", steps=3)
+    assert len(steps) == 3
+
+
+def test_the_publishers_noise_schedule_is_used(make, saved, monkeypatch):
+    """SkyReels' files say a flow shift of 1; its page asks for 8."""
+    named = MODELS["skyreels2-df-1.3b"]
+    assert dict(named.scheduler) == {"flow_shift": 8.0}
+    generator = build(saved("skyreels-forcing"))
+    generator.generate(PROMPT)
+    assert generator._run._pipe.scheduler.config.flow_shift == 8.0
+
+
+def test_the_frame_rate_is_an_input_of_ltx_2_and_cosmos_3(make):
+    for name in ("ltx2", "cosmos3", "skyreels-forcing"):
+        slow, fast = (pixels(make(name, fps=fps)[0]) for fps in (16, 30))
+        assert not np.array_equal(slow, fast), name
+
+
+def test_a_model_that_starts_from_an_image_says_so_before_anything_is_fetched():
+    part = MODELS["wan2.2-i2v-a14b"]
+    with pytest.raises(InputError, match="starts from an image; give --image PATH"):
+        build(f"hub:{part.repo}", width=32).generate(PROMPT)
+
+
+def test_sizes_that_allegro_would_leave_partly_black_are_refused(make):
+    with pytest.raises(ConfigError, match=r"height is 400, of which .*allowed: 320, 520, 720"):
+        make("allegro", height=400)
+
+
+def test_the_guardrail_of_cosmos_3_stays_on_whatever_its_index_says(saved, make):
+    import json
+
+    import cosmos_guardrail
+
+    path = saved("cosmos3") / "model_index.json"
+    index = json.loads(path.read_text())
+    path.write_text(json.dumps({**index, "enable_safety_checker": False}))
+    before = cosmos_guardrail.CosmosSafetyChecker.checked_frames
+    video, _ = make("cosmos3", seed=11)
+    path.write_text(json.dumps(index))
+    assert cosmos_guardrail.CosmosSafetyChecker.checked_frames == before + video.frame_count
+    with pytest.raises(InputError, match="guardrail blocks this prompt"):
+        build(saved("cosmos3")).generate("a weapon")
