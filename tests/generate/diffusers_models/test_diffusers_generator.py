@@ -150,7 +150,7 @@ def test_a_batch_of_new_and_known_prompts_loads_its_model_once(models, monkeypat
     loaded = []
     real = pipeline_loading._load
     monkeypatch.setattr(
-        pipeline_loading, "_load", lambda request: loaded.append(request) or real(request)
+        pipeline_loading, "_load", lambda *given: loaded.append(given) or real(*given)
     )
     watcher = Watcher()
     for prompt, seed in ((PROMPT, 3), (PROMPT, 4), ("a blue dog", 3), (PROMPT, 5)):

@@ -75,6 +75,15 @@ def test_the_page_of_generators_names_the_licence_of_every_row():
         assert (words if model.licence_source else "not read") in line
 
 
+def test_the_page_of_generators_has_the_facts_of_every_row():
+    page = (Path(__file__).parents[3] / "docs" / "generators.md").read_text(encoding="utf-8")
+    for model in MODELS.values():
+        size = "image's" if model.width is None else f"{model.width}x{model.height}"
+        rate = f"{model.fps} low" if model.is_low_fps else f"{model.fps}"
+        facts = (f"`{model.name}`", model.repo, rate, model.frames, size, model.steps)
+        assert f"| {' | '.join(map(str, facts))} | {model.pipeline} |" in page
+
+
 def test_the_papers_default_is_the_first_row():
     assert next(iter(MODELS)) == "cosmos-7b"
     paper = MODELS["cosmos-7b"]

@@ -8,6 +8,7 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from texvent._require import require
 from texvent.errors import InputError, TexventError
@@ -100,7 +101,7 @@ def _download(model: VideoModel) -> Path:
                     model.motion_adapter, allow_patterns=[CONFIG, "*.safetensors"]
                 )
             return Path(
-                diffusers.DiffusionPipeline.download(
+                _downloading_class(diffusers, model).download(
                     model.repo, revision=model.revision, use_safetensors=True
                 )
             )
@@ -115,6 +116,12 @@ def _download(model: VideoModel) -> Path:
         ) from error
     except (OSError, ValueError) as error:
         raise TexventError(_missing_text(model, error)) from error
+
+
+def _downloading_class(diffusers: Any, model: VideoModel) -> Any:
+    """The class that knows which files are needed; an index may name one of another library."""
+    own = None if model.motion_adapter is not None else model.pipeline
+    return getattr(diffusers, own or "", diffusers.DiffusionPipeline)
 
 
 @contextlib.contextmanager
