@@ -32,9 +32,11 @@ SMALL_TEXT = {
     "num_hidden_layers": 2,
     "num_attention_heads": 2,
 }
-SANA_BINS = "diffusers.pipelines.sana_video.pipeline_sana_video.ASPECT_RATIO_480_BIN"
-"""Sizes that the pipeline generates at, by aspect ratio; all are near 480 lines."""
-SANA_PATCH = {SANA_BINS: {"1.0": [32.0, 32.0]}}
+SANA_PATCH = {
+    f"diffusers.pipelines.sana_video.{module}.ASPECT_RATIO_480_BIN": {"1.0": [32.0, 32.0]}
+    for module in ("pipeline_sana_video", "pipeline_sana_video_i2v")
+}
+"""Sizes that the pipelines generate at, by aspect ratio; the real ones are near 480 lines."""
 CONNECTOR = {
     "num_attention_heads": 2,
     "attention_head_dim": 8,

@@ -21,7 +21,7 @@ from texvent.cli.app import main  # noqa: E402
 from texvent.errors import ConfigError  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
-from texvent.generate.video_models.known_models import MODELS  # noqa: E402
+from texvent.generate.video_models.known_models import MODELS, VideoModel  # noqa: E402
 from texvent.runtime.progress import NoProgress  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
@@ -39,7 +39,7 @@ def stand_in(name):
 
     def called(self, **arguments):
         calls.append((arguments, getattr(self, "guider", None)))
-        return [[np.zeros((5, 8, 8, 3), np.float32)]]
+        return [np.zeros((1, 5, 8, 8, 3), np.float32)]
 
     called.__signature__ = inspect.signature(real.__call__)
     members = {"__call__": called, "maybe_free_model_hooks": lambda self: None}
@@ -55,6 +55,7 @@ def call(pipe, **options):
         pipe,
         {"prompt": PROMPT},
         DiffusersConfig(**options),
+        model=VideoModel(name="someone's"),
         fps=Fraction(24),
         seed=0,
         output_type="np",
@@ -80,12 +81,11 @@ def test_steps_and_guidance_reach_the_call_of_every_pipeline(name, start):
     assert set(arguments) <= set(accepted)
     if guider is not None:
         assert pipe.guider.guidance_scale == 9.0, "as it was for the next call"
+    call(pipe, steps=7, **image)
     if "num_inference_steps" in accepted:
-        call(pipe, steps=7, **image)
         assert calls[1][0]["num_inference_steps"] == 7
     else:
-        with pytest.raises(ConfigError, match=f"steps is set, but {name} does not take it"):
-            call(pipe, steps=7, **image)
+        assert calls[1][0]["pyramid_num_inference_steps_list"] == [3, 3, 3]
 
 
 def test_a_negative_prompt_that_would_be_left_out_is_refused():
