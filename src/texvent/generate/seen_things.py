@@ -130,6 +130,12 @@ def find_evidence(
     copies: dict[int, list[int]] = {index: [] for index in range(len(description.objects))}
     for instance, index in scene.object_of.items():
         copies[index].append(instance)
+    for actor in scene.actors:
+        # A keyboard comes with who types on it.
+        nouns = {noun for prop in actor.props for noun in prop.nouns}
+        for index, own in copies.items():
+            if not own and description.objects[index].noun in nouns:
+                copies[index] = [actor.instance]
     for relation in description.relations:
         # A coat, or who rides a bicycle, may be a part of another's model.
         ends = (relation.subject, *relation.targets)
