@@ -7,7 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.transfer import DECODERS, decode_hlg, decode_pq, decode_srgb, encode_srgb
+from texvent.transfer import (
+    DECODERS,
+    decode_half,
+    decode_hlg,
+    decode_pq,
+    decode_srgb,
+    encode_half,
+    encode_srgb,
+)
 
 
 def test_srgb_is_iec_61966_2_1_and_goes_on_above_white():
@@ -67,9 +75,22 @@ def test_hlg_undoes_the_printed_oetf(light):
 
 
 @pytest.mark.parametrize("coding", DECODERS)
-def test_more_signal_is_more_light_and_nan_stays(coding):
+def test_more_signal_is_more_light(coding):
     decode, white = DECODERS[coding]
     light = decode(np.linspace(0, 1, 1024))
+    assert np.isfinite(light).all()
     assert np.all(np.diff(light) >= 0)
     assert 0 < white <= light[-1]
+
+
+@pytest.mark.parametrize("decode", [decode_srgb, decode_pq, decode_hlg])
+def test_nan_stays(decode):
     assert np.isnan(decode(np.array(np.nan)))
+
+
+@given(st.floats(0, 60_000))
+def test_half_floats_keep_light_to_a_2048th(light):
+    level = encode_half(np.array(light)).item()
+    assert float(decode_half(np.array(level / 65_535))) == pytest.approx(
+        light, rel=1 / 2048, abs=6e-8
+    )

@@ -1,7 +1,7 @@
 """How light is coded in pixels: transfer functions between signals and linear light.
 
 A signal is a share of full scale, 0..1; light is proportional to photons. Every function takes and
-returns arrays of one shape, and keeps NaN. Nothing is clipped above.
+returns arrays of one shape.
 
 Source: IEC 61966-2-1 (sRGB); ITU-R BT.2100, tables 4 (PQ) and 5 (HLG); reference white: ITU-R
     BT.2408, section 2.2.
@@ -22,6 +22,8 @@ WHITE = 255.0
 """Level of diffuse white in frames, whatever their transfer."""
 LINEAR_BELOW = 0.0031308
 """sRGB's curve is a line below this much light."""
+HALF_MAX = 65_504.0
+UINT16_MAX = 65_535
 CODED_LINEAR_BELOW = 12.92 * LINEAR_BELOW
 PQ_M1, PQ_M2 = 2610 / 16384, 2523 / 4096 * 128
 PQ_C1, PQ_C2, PQ_C3 = 3424 / 4096, 2413 / 4096 * 32, 2392 / 4096 * 32
@@ -54,6 +56,11 @@ def encode_srgb(light: NDArray[Any]) -> Float32Array:
     high = np.float32(1.055) * np.power(light, np.float32(1 / 2.4)) - np.float32(0.055)
     coded = np.where(light <= np.float32(LINEAR_BELOW), low, high)
     return np.asarray(coded * np.float32(WHITE), dtype=np.float32)
+
+
+def linear_levels(light: NDArray[Any]) -> Float32Array:
+    """Light (1 is white) as levels of linear frames (255 is white)."""
+    return np.asarray(light, np.float32) * np.float32(WHITE)
 
 
 def decode_srgb(signal: NDArray[Any]) -> Float32Array:
@@ -98,7 +105,29 @@ def decode_hlg(signal: NDArray[Any]) -> Float32Array:
     return np.where(coded <= 0.5, coded**2 / 3.0, curve).astype(np.float32)
 
 
+def encode_half(light: NDArray[Any]) -> NDArray[np.uint16]:
+    """Light, 1 is white, as 16-bit levels: the bits of half floats, whose order is that of numbers.
+
+    A level is at most 1/2048 of its light away. Light below 0 counts as 0, above 65504 as that.
+
+    Example:
+        >>> encode_half(np.array([0.0, 1.0, 2.0])).tolist()  # IEEE 754: 2^0 and 2^1
+        [0, 15360, 16384]
+    """
+    halves = np.clip(np.asarray(light), 0.0, HALF_MAX).astype(np.float16)
+    return np.asarray(halves.view(np.uint16))
+
+
+def decode_half(signal: NDArray[Any]) -> Float32Array:
+    """Light of a signal, 0..1 of 16 bits, that holds `encode_half`'s levels."""
+    levels = np.rint(np.asarray(signal, np.float64) * UINT16_MAX)
+    highest = encode_half(np.array(HALF_MAX))  # what is above it is no number
+    bits = np.minimum(levels, highest).astype(np.uint16)
+    return bits.view(np.float16).astype(np.float32)
+
+
 DECODERS: Mapping[str, tuple[Callable[[NDArray[Any]], Float32Array], float]] = {
+    "half": (decode_half, 1.0),
     "srgb": (decode_srgb, 1.0),
     "pq": (decode_pq, 203.0),
     "hlg": (decode_hlg, float(decode_hlg(np.array(0.75)))),

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
 from av.video.reformatter import ColorRange
 
-from texvent.capture.linear_light import CODING, VIDEO_CODINGS
+from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
 from texvent.video import PixelArray
 
 QUARTER_TURN = 90
@@ -31,8 +33,19 @@ def decoded_pixels(frame: VideoFrame) -> PixelArray:
     return np.ascontiguousarray(np.rot90(pixels, turns)) if turns else pixels
 
 
-def coding_facts(frame: VideoFrame) -> dict[str, str]:
-    """How a decoded frame is coded, for a source's metadata: nothing where it is gamma-coded."""
+def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:
+    """How a decoded frame is coded, for a source's metadata: nothing where it is gamma-coded.
+
+    Args:
+        frame: it says its transfer characteristic.
+        comment: of the file; texvent writes facts there as JSON, and light as half floats.
+    """
+    try:
+        facts = json.loads(comment)
+    except (ValueError, RecursionError):
+        facts = None
+    if isinstance(facts, dict) and (facts.get("transfer"), facts.get(CODING)) == (LINEAR, HALF):
+        return {CODING: HALF}
     coding = VIDEO_CODINGS.get(int(frame.color_trc))
     return {} if coding is None else {CODING: coding}
 

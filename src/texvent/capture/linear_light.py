@@ -19,7 +19,7 @@ from texvent.transfer import DECODERS, WHITE, Transfer
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray
 
 UINT16_FULL = WHITE * UINT16_PER_LEVEL
-AUTO, GAMMA, LINEAR = "auto", "gamma", "linear"
+AUTO, GAMMA, LINEAR, HALF = "auto", "gamma", "linear", "half"
 CODING = "coding"
 """Key in a source's metadata; absent where pixels are gamma-coded."""
 FULL_SCALE = "full_scale"

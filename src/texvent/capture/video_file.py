@@ -51,7 +51,8 @@ class VideoFile(FrameSource):
         self._path = path
         self._times = times
         with _opened(path) as (container, stream):
-            if container.metadata.get("comment") == PREVIEW_MARK:
+            comment = container.metadata.get("comment", "")
+            if comment == PREVIEW_MARK:
                 warn(
                     f"{path} is a preview that texvent drew of events, not what a camera saw; give "
                     "the video that the events were made of"
@@ -71,7 +72,7 @@ class VideoFile(FrameSource):
                 "pixel_format": first.format.name,
                 "rotation": int(first.rotation),
                 "duplicate_times_dropped": 0,
-                **coding_facts(first),
+                **coding_facts(first, comment),
             }
             size = checked_size(pixels.shape[1], pixels.shape[0])
             fps = times.fps if times else self._rate

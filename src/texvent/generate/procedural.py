@@ -8,7 +8,7 @@ comes with exact ground truth.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -25,6 +25,7 @@ from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.options.values import plain
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
+from texvent.transfer import Transfer, encode_srgb, linear_levels
 from texvent.video import (
     MICROSECONDS,
     Frame,
@@ -66,6 +67,9 @@ class ProceduralConfig:
     assets: Path | None = None
     """Folder of models (GLB, OBJ, PLY), which prompts call by their file names; they take the place
     of embedded ones of the same name. See docs/assets.md."""
+    hdr: bool = False
+    """Render linear light, with lamps, fire and sun as bright as they are; without it frames are
+    gamma-coded, and highlights are compressed below white."""
     strict: bool = False
     """Refuse a prompt with a word that is not shown as it says; without it a warning names the
     word."""
@@ -104,6 +108,8 @@ class ProceduralVideo(NotebookFrames):
     """Whether frames carry exact motion vectors and depth."""
     has_moving_light: bool = False
     """Whether light moves that belongs to no surface: beams, the glow of lamps, smoke."""
+    transfer: Transfer = Transfer.GAMMA
+    """Whether frames are gamma-coded or linear."""
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -132,12 +138,14 @@ class ProceduralVideo(NotebookFrames):
         memory = self._make_memory()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            frame = Frame(memory.render(t_us / MICROSECONDS), t_us, is_source=True)
-            yield replace(frame, motion=self._motion(index)) if self.has_motion else frame
+            pixels = memory.render(t_us / MICROSECONDS)
+            motion = self._motion(index) if self.has_motion else None
+            yield Frame(pixels, t_us, motion=motion, transfer=self.transfer)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        return Frame(self._memory.render(t_us / MICROSECONDS), t_us, is_source=False)
+        pixels = self._memory.render(t_us / MICROSECONDS)
+        return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
@@ -172,7 +180,7 @@ class ProceduralVideo(NotebookFrames):
         from texvent.scenes.raycast.render import render_pixels
 
         config = self.config
-        pixels = render_pixels(
+        light = render_pixels(
             self.scene,
             t_us / MICROSECONDS,
             self.size,
@@ -180,7 +188,7 @@ class ProceduralVideo(NotebookFrames):
             samples=config.samples,
             shadows=config.shadows,
         )
-        return np.asarray(luma_bt601(pixels), dtype=np.float32)
+        return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
 
     def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""
@@ -203,7 +211,23 @@ class ProceduralVideo(NotebookFrames):
         from texvent.scenes.raycast.reuse.memory import FrameMemory
 
         config = self.config
-        return FrameMemory(self.scene, self.size, samples=config.samples, shadows=config.shadows)
+        return FrameMemory(
+            self.scene,
+            self.size,
+            samples=config.samples,
+            shadows=config.shadows,
+            code=self._code,
+        )
+
+    def gamma_coded(self) -> ProceduralVideo:
+        """The same scene in gamma-coded frames, which go above white where it has highlights."""
+        facts = {name: one for name, one in self.metadata.items() if name != "transfer"}
+        return replace(self, transfer=Transfer.GAMMA, metadata=facts)
+
+    @property
+    def _code(self) -> Callable[[NDArray[np.float64]], NDArray[np.float32]]:
+        """Light (1 is white) → levels of a frame."""
+        return linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
 
 
 class ProceduralGenerator:
@@ -251,6 +275,9 @@ class ProceduralGenerator:
         }
         if files:
             metadata["files"] = files
+        transfer = Transfer.LINEAR if self.config.hdr else Transfer.GAMMA
+        if self.config.hdr:
+            metadata["transfer"] = transfer.value
         return ProceduralVideo(
             scene,
             self.size,
@@ -258,6 +285,7 @@ class ProceduralGenerator:
             metadata,
             flicker_hz=scene.flicker_hz,
             has_moving_light=scene.has_moving_light,
+            transfer=transfer,
         )
 
     def report(self, prompt: str, *, is_staged: bool = True) -> PromptReport:
@@ -295,6 +323,7 @@ class ProceduralGenerator:
             duration_s=self.config.duration,
             nouns=self._shown_nouns(description),
         )
+        scene = replace(scene, has_highlights=self.config.hdr)
         evidence = find_evidence(scene, description, self.size, self.config.duration)
         report = self._accepted(report_on(description, evidence))
         return scene, report, list_files(description, self._nouns)

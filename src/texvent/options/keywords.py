@@ -157,6 +157,7 @@ class GeneratorOptions(TypedDict, total=False):
     samples: int | None
     shadows: bool | None
     assets: str | Path | None
+    hdr: bool | None
     strict: bool | None
     fit: Literal["cover", "contain", "stretch"] | None
     reuse_video: bool | None

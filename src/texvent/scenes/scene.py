@@ -232,6 +232,8 @@ class Environment:
     """[k, 19] translucent ellipsoids of smoke, steam, mist or flame; see `PUFF_COLUMNS`."""
     wall_colour: Colour = (0.75, 0.69, 0.61)
     """Linear RGB of a room's walls."""
+    has_highlights: bool = False
+    """Whether light above white is kept; else it is compressed, so that none is brighter."""
 
 
 class Scene(Protocol):

@@ -10,8 +10,16 @@ from hypothesis import strategies as st
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, OutputError
-from texvent.generate.videos.stored_video import open_stored, to_16_bits, write_video
+from texvent.generate.videos.stored_video import (
+    open_stored,
+    reopen,
+    to_16_bits,
+    write_stream,
+    write_video,
+)
 from texvent.generate.videos.video_cache import VideoCache, content_key, made_folder
+from texvent.transfer import Transfer
+from texvent.video import transfer_of
 from texvent.video_check.measurer import measure_video
 
 FPS = Fraction(30_000, 1001)
@@ -146,3 +154,44 @@ def test_the_measures_of_the_filter_are_taken_while_writing_and_kept(cache):
     cache.store("abc", noise(), FPS, {})
     found = cache.find("abc", FPS)
     assert found.metadata["measures"] == measure_video(found)
+
+
+def linear_clip():
+    """Three frames of light from 1/1000 of white to 2000 times white."""
+    rng = np.random.default_rng(4)
+    return [np.exp(rng.uniform(-7, 7.6, (6, 8, 3))).astype(np.float32) for _ in range(3)]
+
+
+def test_light_above_white_is_kept_as_half_floats(tmp_path):
+    frames, facts = linear_clip(), {"transfer": "linear", "prompt": "a lamp"}
+    path = tmp_path / "v.avi"
+    written = write_video(frames, path, Fraction(24), facts, overwrite=False)
+    reopened = reopen(path)
+    ordinary = open_frames(path, CaptureConfig())
+    for stream in (written, reopened, ordinary):
+        assert transfer_of(stream) is Transfer.LINEAR
+        for frame, light in zip(stream, frames, strict=True):
+            assert np.array_equal(frame.pixels, light.astype(np.float16).astype(np.float32) * 255)
+            assert frame.transfer is Transfer.LINEAR
+    again = write_stream(ordinary, tmp_path / "w.avi", overwrite=False)
+    for frame, light in zip(again, frames, strict=True):
+        assert frame.pixels == pytest.approx(255 * light, rel=1 / 1024)
+
+
+def test_half_floats_end_at_their_highest_and_at_0(tmp_path):
+    path, light = tmp_path / "v.avi", np.full((2, 2, 3), -1.0, np.float32)
+    light[0] = 1e9
+    facts = {"transfer": "linear"}
+    stored = write_video([light, light], path, Fraction(24), facts, overwrite=False)
+    assert np.unique(next(iter(stored)).pixels).tolist() == [0, 255 * 65504]
+    with pytest.raises(InputError, match="NaN"):
+        write_video([light * np.nan], path, Fraction(24), facts, overwrite=True)
+
+
+def test_the_cache_keeps_light_above_white(cache):
+    stored = cache.store("b" * 64, linear_clip(), Fraction(24), {"transfer": "linear"})
+    found = cache.find("b" * 64, Fraction(24))
+    assert found is not None
+    assert transfer_of(found) is Transfer.LINEAR
+    assert max(frame.pixels.max() for frame in found) > 255 * 100
+    assert np.isfinite(list(stored.metadata["measures"].values())).all()

@@ -4,6 +4,10 @@ A diffusion model's decoder gives floats. They are kept at 16 bits per component
 lossless codec, in an AVI file: that is 256 times finer than 8-bit video and finer than the
 half-precision floats the models compute with. AVI is used because it counts frames exactly;
 Matroska rounds frame times to whole milliseconds. Common players show these files.
+
+Linear frames, which go above white, are kept as half floats, the numbers of OpenEXR: their 16 bits
+are the levels of the file (`transfer.encode_half`), which then looks flat in a player. The file's
+note says `"transfer": "linear"` and `"coding": "half"`.
 """
 
 from __future__ import annotations
@@ -24,6 +28,7 @@ from av.video.stream import VideoStream
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
 from texvent.sensor import SensorSize
+from texvent.transfer import WHITE, Transfer, encode_half
 from texvent.video import (
     UINT16_PER_LEVEL,
     Frame,
@@ -32,6 +37,7 @@ from texvent.video import (
     PixelArray,
     describe_stream,
     frame_time_us,
+    transfer_of,
 )
 
 EXTENSION = ".avi"
@@ -69,11 +75,13 @@ class StoredVideo(NotebookFrames):
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, [H, W, 3] RGB: uint16 (65535 is white), uint8 for 8-bit files.
 
+        Linear ones are float32, 255 is white.
+
         Raises:
             FileFormatError: the file is damaged.
         """
         for index, pixels in enumerate(_decode(self.path)):
-            yield Frame(pixels, frame_time_us(index, self.fps))
+            yield _frame(pixels, frame_time_us(index, self.fps), transfer_of(self))
 
 
 def open_stored(path: Path, fps: Fraction, metadata: Mapping[str, Any]) -> StoredVideo:
@@ -118,7 +126,7 @@ def write_stream(video: FrameStream, path: Path, *, overwrite: bool) -> StoredVi
     """
     if video.fps is None:
         raise InputError("the video has no frame rate, so it cannot be written; give --fps")
-    frames = (_full_scale(frame.pixels) for frame in video)
+    frames = (_full_scale(frame) for frame in video)
     return write_video(frames, path, video.fps, video.metadata, overwrite=overwrite)
 
 
@@ -134,7 +142,8 @@ def write_video(
     """Write frames losslessly, one at a time; nothing is left behind if that fails.
 
     Args:
-        frames: [H, W, 3] RGB each: float from 0 to 1, or uint16 at full scale.
+        frames: [H, W, 3] RGB each: float from 0 to 1, or uint16 at full scale; light where the
+            metadata say that `transfer` is linear: float, 1 is white.
         path: file to write; its name ends in .avi.
         fps: frame rate.
         metadata: what made the video, stored in the file as JSON.
@@ -146,11 +155,14 @@ def write_video(
         InputError: there are no frames.
     """
     count, size = 0, SensorSize(0, 0)
+    transfer = Transfer(metadata.get("transfer", Transfer.GAMMA))
+    if transfer is Transfer.LINEAR:
+        metadata = {**metadata, "coding": "half"}
     with atomic_file(path, overwrite=overwrite) as part, av.open(str(part), "w") as container:
         stream: VideoStream | None = None
         container.metadata["comment"] = json.dumps(dict(metadata), ensure_ascii=False)
         for pixels in frames:
-            deep = to_16_bits(pixels)
+            deep = to_16_bits(pixels, transfer)
             if stream is None:
                 size = SensorSize(deep.shape[1], deep.shape[0])
                 stream = container.add_stream("ffv1", rate=fps, options=_CODEC_OPTIONS)
@@ -160,7 +172,7 @@ def write_video(
             video_frame.pts, video_frame.time_base = count, 1 / fps
             container.mux(stream.encode(video_frame))
             if on_frame is not None:
-                on_frame(Frame(deep, frame_time_us(count, fps)))
+                on_frame(_frame(deep, frame_time_us(count, fps), transfer))
             count += 1
         if stream is None:
             raise InputError("the generator made no frame")
@@ -168,8 +180,18 @@ def write_video(
     return StoredVideo(path, fps, size, count, metadata)
 
 
-def to_16_bits(pixels: PixelArray) -> PixelArray:
+def _frame(pixels: PixelArray, t_us: int, transfer: Transfer) -> Frame:
+    """A frame of the levels that are stored."""
+    if transfer is Transfer.GAMMA:
+        return Frame(pixels, t_us)
+    light = pixels.view(np.float16).astype(np.float32) * np.float32(WHITE)
+    return Frame(light, t_us, transfer=transfer)
+
+
+def to_16_bits(pixels: PixelArray, transfer: Transfer = Transfer.GAMMA) -> PixelArray:
     """Floats from 0 to 1 as uint16 at full scale, rounded to nearest; uint16 as it is.
+
+    Light is stored as half floats.
 
     Raises:
         InputError: a value is NaN or infinite.
@@ -181,16 +203,22 @@ def to_16_bits(pixels: PixelArray) -> PixelArray:
             "the generator made a frame with NaN or infinite values; try --dtype float32 or "
             "another seed"
         )
+    if transfer is Transfer.LINEAR:
+        return np.ascontiguousarray(encode_half(pixels))
     scaled = np.clip(pixels.astype(np.float32), 0.0, 1.0) * np.float32(FULL_SCALE)
     return np.ascontiguousarray(np.rint(scaled).astype(np.uint16))
 
 
-def _full_scale(pixels: PixelArray) -> PixelArray:
+def _full_scale(frame: Frame) -> PixelArray:
     """RGB of a frame on any scale as `write_video` takes it; 8-bit values stay exact."""
+    pixels = frame.pixels
     rgb = pixels if pixels.ndim == 3 else np.repeat(pixels[..., None], 3, axis=2)
+    if frame.transfer is Transfer.LINEAR:
+        full = WHITE * (UINT16_PER_LEVEL if rgb.dtype == np.uint16 else 1.0)
+        return rgb / np.float32(full)
     if rgb.dtype == np.uint8:
         return rgb.astype(np.uint16) * np.uint16(UINT16_PER_LEVEL)
-    return rgb if rgb.dtype == np.uint16 else rgb / np.float32(255.0)
+    return rgb if rgb.dtype == np.uint16 else rgb / np.float32(WHITE)
 
 
 def _decode(path: Path) -> Iterator[PixelArray]:

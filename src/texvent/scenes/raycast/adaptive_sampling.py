@@ -69,6 +69,8 @@ def _soft_clip(light: float) -> float:
 @jit(error_model="numpy", inner=True)
 def _expose(world: World, light: Colour) -> Colour:
     red, green, blue = scaled(light, world.instant[0].exposure)
+    if world.instant[0].highlights == 1:
+        return max(red, 0.0), max(green, 0.0), max(blue, 0.0)
     return _soft_clip(red), _soft_clip(green), _soft_clip(blue)
 
 
@@ -347,7 +349,7 @@ def render_rows(
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         wanted: [H, W] which pixels to fill.
-        image: [H, W, 3] linear light, 0..1; these rows are written.
+        image: [H, W, 3] linear light, 1 is white; these rows are written.
     """
     world = uncounted_world(owner)
     width = image.shape[1]

@@ -87,6 +87,7 @@ INSTANT_RECORD = np.dtype(
         ("fog", "f8"),  # 1 / fog distance, per metre; 0 = clear
         ("fog_colour", "f8", 3),
         ("exposure", "f8"),
+        ("highlights", "i8"),  # 1 = light above white is kept
         ("room", "f8"),  # half the side of the room, metres
         ("time", "f8"),
         # Addresses of the arrays of `OwnedWorld`.
@@ -366,6 +367,7 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
     ):
         instant[name] = getattr(environment, name)
     instant["exposure"] = environment.exposure
+    instant["highlights"] = int(environment.has_highlights)
 
 
 def describe_materials(

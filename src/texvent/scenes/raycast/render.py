@@ -77,8 +77,8 @@ def render_pixels(
     *,
     samples: int = 2,
     shadows: bool = True,
-) -> Float32Array:
-    """Some pixels of what `render` draws.
+) -> Float64Array:
+    """Some pixels of what `render_light` gives.
 
     Args:
         scene: what to draw.
@@ -89,11 +89,11 @@ def render_pixels(
         shadows: as for `render`.
 
     Returns:
-        [k, 3] RGB of the wanted pixels, row by row.
+        [k, 3] linear RGB of the wanted pixels, row by row.
     """
     world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
     light = light_of_rows(world, (0, size.height), size, samples=samples, wanted=wanted)
-    return encode_srgb(light[wanted])
+    return light[wanted]
 
 
 def render_light(
@@ -114,7 +114,8 @@ def render_light(
         shadows: as for `render`.
 
     Returns:
-        [H, W, 3] linear RGB, 0..1, float64: 1 is the brightest that a frame can show.
+        [H, W, 3] linear RGB, float64; 1 is white, and the brightest where the scene has no
+        highlights.
 
     Raises:
         InputError: samples is below 1.

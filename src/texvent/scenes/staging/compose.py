@@ -76,6 +76,8 @@ class ComposedScene:
     """Noun of each shape of `still`."""
     object_of: Mapping[int, int] = field(default_factory=dict)
     """Instance id → index of the description's object that it is a copy of."""
+    has_highlights: bool = False
+    """Whether light above white is kept; see `scene.Environment`."""
 
     def list_scenery(self) -> list[str]:
         """Noun of each shape of the scene that is scenery, "" for those of actors before it."""
@@ -111,7 +113,12 @@ class ComposedScene:
         puffs = [np.zeros((0, PUFF_COLUMNS)), *self.lamps.puffs(time_s)]
         puffs += [effect.puffs(time_s) for effect in effects]
         surroundings = self.animated_environment.at(time_s)
-        return replace(surroundings, lamps=lamps, puffs=np.concatenate(puffs))
+        return replace(
+            surroundings,
+            lamps=lamps,
+            puffs=np.concatenate(puffs),
+            has_highlights=self.has_highlights,
+        )
 
     @property
     def not_shown(self) -> tuple[str, ...]:

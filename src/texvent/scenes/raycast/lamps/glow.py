@@ -183,7 +183,7 @@ def _glow_at(glow: Record, u: float, v: float) -> Colour:
 
 @jit(error_model="numpy", inner=True)
 def add_glows(world: World, x: float, y: float, light: Colour) -> Colour:
-    """A pixel's exposed light, 0..1, with all glows: each fills what is left to white."""
+    """A pixel's exposed light with all glows: each fills what is left to white, or is added."""
     u, v = plane_point(world.instant[0], x, y)
     if math.isnan(u):
         return light
@@ -192,6 +192,8 @@ def add_glows(world: World, x: float, y: float, light: Colour) -> Colour:
     for index in range(instant.glow_count):
         glow = _glow_at(glow_at(instant.glow_table, index), u, v)
         red, green, blue = red + glow[0], green + glow[1], blue + glow[2]
+    if instant.highlights == 1:
+        return light[0] + red, light[1] + green, light[2] + blue
     return (
         1.0 - (1.0 - light[0]) * math.exp(-red),
         1.0 - (1.0 - light[1]) * math.exp(-green),
