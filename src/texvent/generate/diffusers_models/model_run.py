@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.errors import InputError
+from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.adapter_loading import check_adapters, describe_few_steps
 from texvent.generate.diffusers_models.decoder_input import (
     SINGLE_DECODE_PIPELINES,
@@ -58,9 +58,12 @@ from texvent.generate.video_models.known_models import VideoModel
 from texvent.generate.video_models.weight_files import fingerprint, read_pipeline_index
 from texvent.generate.videos.video_cache import content_key
 from texvent.runtime.progress import Progress
+from texvent.transfer import Transfer
 from texvent.video import PixelArray
 
 EXTRA = "generate"
+LINEAR_PIPELINES = ("LTX2HDRPipeline",)
+"""Their frames are linear light, 1 is white and more is brighter: diffusers undoes LogC3 itself."""
 PACKAGES = ("diffusers", "transformers", "torch")
 """What decides the pixels beside the weights; their versions go into the metadata."""
 
@@ -99,10 +102,18 @@ class ModelRun:
         return needs_guardrail(self._index)
 
     def frames(self, prompt: str, seed: int) -> Iterator[PixelArray]:
-        """Frames [H, W, 3] float32 in 0..1.
+        """Frames [H, W, 3] float32 in 0..1; those of `LINEAR_PIPELINES` go on above 1.
 
         Denoised before this returns, decoded step by step where the decoder can be.
+
+        Raises:
+            ConfigError: a tiny decoder would have to decode what is no ordinary video.
         """
+        if self._tiny is not None and self._class_name in LINEAR_PIPELINES:
+            raise ConfigError(
+                f"decoder is set, but {self._class_name} codes light in its own way, which tiny "
+                "decoders do not undo; leave it out"
+            )
         pipe, arguments = self._prepare(prompt)
         if self._tiny is not None:
             with capture_decoder_input(pipe) as taken:
@@ -153,6 +164,8 @@ class ModelRun:
         }
         if self.has_guardrail:
             facts["guardrail"] = guardrail_version()
+        if self._class_name in LINEAR_PIPELINES:
+            facts["transfer"] = Transfer.LINEAR.value
         return {name: value for name, value in facts.items() if value is not None}
 
     def _read_tiny_decoder(self) -> TinyDecoder | None:
