@@ -6,6 +6,7 @@ option `transfer` overrides it.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
@@ -112,9 +113,21 @@ def to_light(
         # What filters leave below 0 counts as 0.
         light = np.maximum(np.asarray(pixels, np.float32), np.float32(0))
         return light * np.float32(WHITE / (white_level or full))
-    decode, own_white = DECODERS[coding]
-    gain = np.float32(WHITE / (white_level or own_white))
     if pixels.dtype.kind == "f":
-        return decode(pixels / full) * gain
-    levels = np.arange(np.iinfo(pixels.dtype).max + 1)
-    return (decode(levels / full) * gain)[pixels]
+        return _decoded(pixels / full, coding, white_level)
+    return _table(int(np.iinfo(pixels.dtype).max), full, coding, white_level)[pixels]
+
+
+@functools.lru_cache(maxsize=4)
+def _table(
+    highest: int, full: float, coding: str, white_level: float | None
+) -> NDArray[np.float32]:
+    """Linear light of all whole levels: frames are looked up."""
+    return _decoded(np.arange(highest + 1) / full, coding, white_level)
+
+
+def _decoded(
+    signal: NDArray[np.floating], coding: str, white_level: float | None
+) -> NDArray[np.float32]:
+    decode, own_white = DECODERS[coding]
+    return decode(signal) * np.float32(WHITE / (white_level or own_white))
