@@ -131,6 +131,7 @@ CHILDREN = {
         "training-classification",
         "training-reconstruction",
         "training-depth-flow",
+        "latents",
         "training-results",
     ],
     "notebooks": ["notebooks/your-video", "notebooks/train-a-network"],

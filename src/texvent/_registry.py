@@ -273,6 +273,7 @@ TASKS = Registry(
         "classification": "texvent.train.classification.config:ClassificationConfig",
         "depth": "texvent.train.depth.config:DepthConfig",
         "flow": "texvent.train.flow.config:FlowConfig",
+        "latents": "texvent.train.latents.config:LatentsConfig",
         "reconstruction": "texvent.train.reconstruction.config:ReconstructionConfig",
     },
 )
