@@ -83,7 +83,8 @@ def adjusted(
         progress: receives every denoising step.
         guidance: scale for its guider, where it has one; None leaves it.
         sigmas: noise levels, where the call takes none; None leaves its own.
-        generator: source of the noise that the schedule adds.
+        generator: source of the noise that the schedule adds, where the pipeline gives it none;
+            None leaves it.
     """
     with contextlib.ExitStack() as stack:
         _replace(stack, pipe, "progress_bar", functools.partial(StepReporter, progress))
@@ -94,9 +95,9 @@ def adjusted(
             scheduler = pipe.scheduler
             timed = functools.partial(scheduler.set_timesteps, sigmas=list(sigmas))
             _replace(stack, scheduler, "set_timesteps", timed)
-            if "generator" in inspect.signature(scheduler.step).parameters:
-                seeded = functools.partial(scheduler.step, generator=generator)
-                _replace(stack, scheduler, "step", seeded)
+        if generator is not None:
+            seeded = functools.partial(pipe.scheduler.step, generator=generator)
+            _replace(stack, pipe.scheduler, "step", seeded)
         yield
 
 

@@ -86,8 +86,10 @@ def call_pipeline(
     if "image" in accepted:
         arguments.update(_image(config, accepted))
     arguments |= {"output_type": output_type, "generator": generator}
+    # A schedule of another class than the pipeline's may add noise that the pipeline seeds not.
+    noise = generator if "class" in model.scheduler else None
     with adjusted(
-        pipe, accepted, progress, guidance=config.guidance, sigmas=sigmas, generator=generator
+        pipe, accepted, progress, guidance=config.guidance, sigmas=sigmas, generator=noise
     ):
         output = _run(pipe, arguments)
     is_batch = output_type != "latent" and output.ndim > FRAME_DIMENSIONS
