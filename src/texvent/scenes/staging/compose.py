@@ -24,7 +24,7 @@ from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitives
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
-from texvent.scenes.staging.camera.journey import plan_travel
+from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
 from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.relations import list_not_shown
 from texvent.scenes.staging.claims.shots import list_moves_not_shown
@@ -174,15 +174,7 @@ def compose_scene(
     )
     actors = with_headroom(description, placer.place_all())
     ground = PLACES[place].ground
-    camera_path = place_camera(
-        description, actors, place, seed=seed, aspect=size.height / size.width,
-        duration_s=duration_s, travel=travel,
-    )  # fmt: skip
-    if travel is None and ground is not Ground.NONE:
-        actors = move_into_view(
-            description, actors, camera_path,
-            aspect=size.height / size.width, duration_s=duration_s,
-        )  # fmt: skip
+    actors, camera_path = _set_camera(description, actors, place, (seed, size, duration_s), travel)
     view = _describe_view(place, camera_path, actors, duration_s, description.surroundings.road)
     if travel is not None:
         view = replace(view, road=travel.road, travel=travel)
@@ -216,6 +208,27 @@ def compose_scene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
     )  # fmt: skip
+
+
+def _set_camera(
+    description: SceneDescription,
+    actors: list[Actor],
+    place: str,
+    how: tuple[int, SensorSize, float],
+    travel: TravelPlan | None,
+) -> tuple[list[Actor], CameraPath]:
+    """The camera, and the actors with those in view that it would leave out for no reason.
+
+    `how` are the seed, the image's size, and the length of the clip, s.
+    """
+    seed, size, duration_s = how
+    aspect = size.height / size.width
+    path = place_camera(
+        description, actors, place, seed=seed, aspect=aspect, duration_s=duration_s, travel=travel
+    )
+    if travel is None and PLACES[place].ground is not Ground.NONE:
+        actors = move_into_view(description, actors, path, aspect=aspect, duration_s=duration_s)
+    return actors, path
 
 
 def _name_shapes(
