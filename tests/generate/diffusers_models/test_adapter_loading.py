@@ -25,6 +25,7 @@ from texvent.errors import (  # noqa: E402
     MissingDependencyError,
 )
 
+from .. import tiny_pipelines  # noqa: E402
 from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 from .test_tiny_decoding import Quiet  # noqa: E402
 
@@ -136,6 +137,31 @@ def test_weight_0_is_without_and_weight_1_is_not(models, tmp_path):
     usual = video(models("wan"))
     assert np.array_equal(video(models("wan"), lora=(f"{path}:0",)), usual)
     assert not np.array_equal(video(models("wan"), lora=(str(path),)), usual)
+
+
+@pytest.mark.parametrize("naming", ["diffusers", "former", "kohya"])
+def test_an_image_model_with_a_motion_adapter_takes_adapters_of_its_unet(naming, models, tmp_path):
+    place = "down_blocks.0.attentions.0.transformer_blocks.0.attn1.to_q"
+    model = models("stable-diffusion")
+    generator = torch.Generator().manual_seed(0)
+    first, second = (torch.randn(*shape, generator=generator) * 2 for shape in ((2, 8), (8, 2)))
+    names = {
+        "diffusers": [f"unet.{place}.lora_A.weight", f"unet.{place}.lora_B.weight"],
+        "former": [f"unet.{place}.lora.down.weight", f"unet.{place}.lora.up.weight"],
+        "kohya": [
+            f"lora_unet_{place.replace('.', '_')}.lora_{one}.weight" for one in ("down", "up")
+        ],
+    }[naming]
+    tensors = dict(zip(names, (first, second), strict=True))
+    if naming == "kohya":
+        tensors[names[0].replace("lora_down.weight", "alpha")] = torch.tensor(2.0)
+    save_file(tensors, tmp_path / "unet.safetensors", {"format": "pt"})
+    merged = merge(model, tmp_path / "merged", {place: (first, second)}, 0.5, "unet")
+    motion = {"motion_adapter": tiny_pipelines.save_motion_adapter(tmp_path / "motion")}
+    expected = video(merged, **motion)
+    assert np.abs(expected - video(model, **motion)).max() > 100
+    made = video(model, **motion, lora=(f"{tmp_path / 'unet.safetensors'}:0.5",))
+    assert np.abs(made - expected).max() <= 20
 
 
 def test_several_adapters_add_up_and_a_folder_names_its_only_one(models, tmp_path):
