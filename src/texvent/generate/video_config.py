@@ -62,6 +62,8 @@ class DiffusersConfig(GeneratedVideoConfig):
     """What not to show."""
     image: Path | None = None
     """Image to start from, where the model can."""
+    reference_video: Path | None = None
+    """Video to follow frame by frame, for models that make one of another (ltx2.3-hdr)."""
     lora: tuple[str, ...] = ()
     """Adapter (LoRA): FILE, FOLDER or hub:org/name[/file], each with :WEIGHT if it is not 1, and
     with :high or :low where a model has two transformers. May be repeated."""

@@ -177,6 +177,7 @@ class GeneratorOptions(TypedDict, total=False):
     height: int | None
     negative_prompt: str | None
     image: str | Path | None
+    reference_video: str | Path | None
     lora: Sequence[str] | None
     dtype: Literal["auto", "float32", "bfloat16", "float16"] | None
     quantize: Literal["auto", "none", "8bit", "4bit"] | None

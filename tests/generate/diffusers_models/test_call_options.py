@@ -19,9 +19,13 @@ from PIL import Image  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
 from texvent.errors import ConfigError  # noqa: E402
-from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
+from texvent.generate.diffusers_models.pipeline_call import (  # noqa: E402
+    REFERENCE_CLASSES,
+    call_pipeline,
+)
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 from texvent.generate.video_models.known_models import MODELS, VideoModel  # noqa: E402
+from texvent.generate.videos.stored_video import write_video  # noqa: E402
 from texvent.runtime.progress import NoProgress  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
@@ -43,6 +47,7 @@ def stand_in(name):
 
     called.__signature__ = inspect.signature(real.__call__)
     members = {"__call__": called, "maybe_free_model_hooks": lambda self: None}
+    members["vae_temporal_compression_ratio"] = 8
     kind = type(name, (), {**members, "__signature__": inspect.signature(real)})
     pipe = kind()
     if "guider" in inspect.signature(real).parameters:
@@ -70,11 +75,20 @@ def start(tmp_path):
     return path
 
 
+@pytest.fixture
+def clip(tmp_path):
+    path = tmp_path / "clip.avi"
+    write_video(np.zeros((2, 8, 8, 3), np.float32), path, Fraction(24), {}, overwrite=False)
+    return path
+
+
 @pytest.mark.parametrize("name", PIPELINES)
-def test_steps_and_guidance_reach_the_call_of_every_pipeline(name, start):
+def test_steps_and_guidance_reach_the_call_of_every_pipeline(name, start, clip):
     pipe, calls = stand_in(name)
     accepted = inspect.signature(type(pipe).__call__).parameters
     image = {"image": start} if "image" in accepted else {}
+    if name in REFERENCE_CLASSES:
+        image = {"reference_video": clip, "frames": 2}
     call(pipe, guidance=1.5, **image)
     arguments, guider = calls[0]
     assert arguments.get("guidance_scale", getattr(guider, "guidance_scale", None)) == 1.5

@@ -32,7 +32,7 @@ from ..tiny_families import FAMILIES  # noqa: E402
 from ..tiny_models import PROMPT, build, pixels  # noqa: E402
 
 ELSEWHERE = {"CosmosTextToWorldPipeline", "Cosmos2_5_PredictBasePipeline", "CogVideoXPipeline"}
-ELSEWHERE |= {"WanPipeline", "LTXPipeline", "AnimateDiffPipeline"}
+ELSEWHERE |= {"WanPipeline", "LTXPipeline", "AnimateDiffPipeline", "LTX2HDRPipeline"}
 """Pipelines that the other tests of this folder run."""
 QUICK = [name for name in FAMILIES if name != "allegro"]
 

@@ -1,5 +1,6 @@
 """The table, as `texvent generators --json` prints it, against the pinned diffusers."""
 
+import importlib
 import inspect
 import json
 
@@ -10,7 +11,7 @@ pytest.importorskip("torch")
 diffusers = pytest.importorskip("diffusers")
 
 from texvent.cli.app import main  # noqa: E402
-from texvent.generate.diffusers_models.pipeline_call import ARGUMENTS  # noqa: E402
+from texvent.generate.diffusers_models.pipeline_call import ARGUMENTS, REFERENCE_CLASSES  # noqa: E402
 from texvent.generate.video_models.known_models import MODELS  # noqa: E402
 
 COMPARED = ("frames", "width", "height", "steps", "guidance")
@@ -65,6 +66,14 @@ def test_pipelines_that_start_from_an_image_take_one(rows):
         if row["image_pipeline"]:
             assert "image" in call_of(row["image_pipeline"]), row["name"]
             assert row["image_pipeline"] != row["pipeline"], row["name"]
+
+
+def test_the_pipelines_that_follow_a_video_are_known(rows):
+    for row in rows:
+        assert row["needs_reference"] == ("reference_conditions" in call_of(row["pipeline"]))
+        assert row["needs_reference"] == (row["pipeline"] in REFERENCE_CLASSES)
+    for module, name in REFERENCE_CLASSES.values():
+        assert hasattr(importlib.import_module(module), name)
 
 
 def test_the_arguments_and_schedules_of_rows_are_known_to_diffusers(rows):

@@ -154,11 +154,13 @@ def _grouped(lines: Iterable[tuple[str, str]]) -> list[str]:
 def _notes() -> list[str]:
     models = MODELS.values()
     images = ", ".join(model.name for model in models if model.needs_image)
+    references = ", ".join(model.name for model in models if model.needs_reference)
     notes = [
         "",
         "GPU GB, as reported: every part on the GPU / with --offload model. time s: one video of",
         "that many frames, as its publisher says. These start from an image (--image):",
         f"  {images}",
+        f"These follow a video (--reference-video): {references}",
         "None was run here with its published weights. Every pipeline runs in texvent's tests with",
         "tiny random ones (* not yet). Times were read in:",
         *_grouped((model.name, model.time_source) for model in models if model.time_s),

@@ -9,6 +9,7 @@ into a lossless 16-bit file, a few at a time where the decoder allows it, and ar
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from collections.abc import Iterator
 from fractions import Fraction
@@ -19,12 +20,13 @@ from texvent._version import __version__
 from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.generate.diffusers_models.model_run import ModelRun
-from texvent.generate.diffusers_models.pipeline_call import read_image
+from texvent.generate.diffusers_models.pipeline_call import check_reference, read_image
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.adapters import Adapter, find_local
 from texvent.generate.video_models.download import find_downloaded
 from texvent.generate.video_models.known_models import VideoModel
 from texvent.generate.video_models.weight_files import CONFIG, check_part, fingerprint
+from texvent.generate.videos.reference_video import check_reference_file, warn_of_rate
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import VideoCache, content_key
@@ -37,7 +39,7 @@ PIXEL_OPTIONS = (
     *("frames", "width", "height", "steps", "guidance"),
     *("negative_prompt", "dtype", "quantize"),
 )
-"""Options that decide the pixels, beside model, prompt, seed and image."""
+"""Options that decide the pixels, beside model, prompt, seed and files."""
 PIXEL_FACTS = ("call", "sigmas", "scheduler")
 """What of a model's row decides the pixels too."""
 NETWORK_OPTIONS = ("decoder", "motion_adapter")
@@ -48,7 +50,7 @@ class DiffusersGenerator:
     """A learned text-to-video model, run through diffusers.
 
     Args:
-        config: options; None values are the pipeline's own defaults.
+        config: options; None values are the pipeline's own defaults, no `lora` the row's.
         model: where the weights are, and what they were made for.
         seed: seed of the first noise.
     """
@@ -58,7 +60,7 @@ class DiffusersGenerator:
     default_sensor: ClassVar[str | None] = None
 
     def __init__(self, config: DiffusersConfig, *, model: VideoModel, seed: int = 0) -> None:
-        self.config = config
+        self.config = config if config.lora else dataclasses.replace(config, lora=model.lora)
         self.model = model
         self.seed = seed
         self._run: ModelRun | None = None
@@ -79,6 +81,8 @@ class DiffusersGenerator:
             MissingDependencyError: a package is not installed.
         """
         self._check(prompt)
+        if self.config.reference_video is not None:
+            warn_of_rate(self.config.reference_video, self.fps)
         return generate_checked(
             functools.partial(self._find_or_make, prompt),
             self.config,
@@ -138,6 +142,10 @@ class DiffusersGenerator:
             read_image(self.config.image)
         elif self.model.needs_image:
             raise InputError(f"{self.model.name} starts from an image; give --image PATH")
+        if self.model.pipeline is not None:
+            check_reference(self.model.pipeline, self.config)
+        if self.config.reference_video is not None:
+            check_reference_file(self.config.reference_video, self.config.frames or 1)
         for option in NETWORK_OPTIONS:
             folder = getattr(self.config, option)
             if folder is None or (option == "decoder" and folder.is_file()):
@@ -188,7 +196,7 @@ class DiffusersGenerator:
         facts |= {name: value for name in PIXEL_FACTS if (value := getattr(model, name))}
         if not model.ignores_fps:
             facts["fps"] = self.fps
-        for name in (*NETWORK_OPTIONS, "image"):
+        for name in (*NETWORK_OPTIONS, "image", "reference_video"):
             if getattr(config, name) is not None:
                 facts[name] = _digest(getattr(config, name))
         if config.lora:
@@ -204,7 +212,8 @@ class DiffusersGenerator:
     def _files(self) -> list[dict[str, str]]:
         """The single files that decide the frames, by path and sha256; `replay` compares them."""
         config = self.config
-        paths = [config.image, config.decoder, *map(find_local, config.adapters)]
+        paths = [config.image, config.reference_video, config.decoder]
+        paths += map(find_local, config.adapters)
         return [
             {"file": str(path), "sha256": _digest(path)}
             for path in paths

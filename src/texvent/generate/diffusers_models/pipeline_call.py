@@ -14,6 +14,7 @@ from texvent.generate.diffusers_models.call_adjustments import SIGMAS, adjusted,
 from texvent.generate.diffusers_models.pipeline_loading import TILED_ONLY
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import VideoModel
+from texvent.generate.videos.reference_video import read_reference
 from texvent.runtime.progress import Progress
 
 EXTRA = "generate"
@@ -33,6 +34,13 @@ SOUND = "sample_audio"
 """Switch of pipelines that can make sound as well, which no event shows."""
 DISTILLED = "true_cfg_scale"
 """Argument of pipelines that make one pass, and follow no negative prompt, unless it is set."""
+REFERENCE_CLASSES: Mapping[str, tuple[str, str]] = {
+    "LTX2HDRPipeline": (
+        "diffusers.pipelines.ltx2.pipeline_ltx2_hdr_lora",
+        "LTX2HDRReferenceCondition",
+    ),
+}
+"""Pipelines that follow a video → module and class that hand it over."""
 FRAME_DIMENSIONS = 4
 """Of one video, [F, H, W, 3]; most pipelines return a batch of them."""
 
@@ -85,6 +93,8 @@ def call_pipeline(
         arguments[SOUND] = False
     if "image" in accepted:
         arguments.update(_image(config, accepted))
+    if config.reference_video is not None:
+        arguments["reference_conditions"] = [_reference(pipe, config.reference_video, arguments)]
     arguments |= {"output_type": output_type, "generator": generator}
     # A schedule of another class than the pipeline's may add noise that the pipeline seeds not.
     noise = generator if "class" in model.scheduler else None
@@ -122,7 +132,25 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
     image = accepted.get("image")
     if image is not None and image.default is inspect.Parameter.empty and config.image is None:
         raise ConfigError(f"{name} starts from an image; give --image PATH")
+    check_reference(name, config)
     return accepted
+
+
+def check_reference(pipeline: str, config: DiffusersConfig) -> None:
+    """Refuse a reference video that a pipeline cannot follow, or that it lacks.
+
+    Args:
+        pipeline: name of the diffusers class.
+        config: its `reference_video` is looked at; the file is not.
+
+    Raises:
+        ConfigError: see above.
+    """
+    follows = pipeline in REFERENCE_CLASSES
+    if config.reference_video is not None and not follows:
+        raise ConfigError(f"reference_video is set, but {pipeline} follows none")
+    if config.reference_video is None and follows:
+        raise ConfigError(f"{pipeline} follows a video; give --reference-video FILE")
 
 
 def _check_tiles(pipe: Any, config: DiffusersConfig) -> None:
@@ -202,6 +230,25 @@ def _image(config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]) -
     if all(isinstance(side, int) for side in size):
         image = require("PIL.ImageOps", extra=EXTRA).fit(image, tuple(size))
     return {"image": image}
+
+
+def _reference(pipe: Any, path: Path, arguments: Mapping[str, Any]) -> Any:
+    """The frames to follow, each with its middle cut to the video's shape and resized to its size.
+
+    As many as the pipeline makes of the frames that it is asked for.
+    """
+    images, operations = (require(f"PIL.{name}", extra=EXTRA) for name in ("Image", "ImageOps"))
+    defaults = inspect.signature(type(pipe).__call__).parameters
+    frames, *size = (
+        arguments.get(name, defaults[name].default) for name in ("num_frames", "width", "height")
+    )
+    stride = pipe.vae_temporal_compression_ratio
+    fitted = [
+        operations.fit(images.fromarray(pixels), tuple(size))
+        for pixels in read_reference(path, (frames - 1) // stride * stride + 1)
+    ]
+    module, name = REFERENCE_CLASSES[type(pipe).__name__]
+    return getattr(require(module, extra=EXTRA), name)(frames=fitted, strength=1.0)
 
 
 def read_image(path: Path) -> Any:

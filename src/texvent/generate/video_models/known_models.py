@@ -38,6 +38,8 @@ class VideoModel:
     """diffusers class that starts from an image with the same weights, if there is one."""
     needs_image: bool = False
     """Whether it makes videos from an image and a prompt only."""
+    needs_reference: bool = False
+    """Whether it makes videos of another video only, which it follows frame by frame."""
     fps: Fraction | None = None
     """Frame rate the model was trained for; it is nowhere in the weights."""
     frames: int | None = None
@@ -55,6 +57,9 @@ class VideoModel:
     scheduler: Mapping[str, Any] = field(default_factory=dict, hash=False)
     """Settings of the noise schedule that the publisher asks for; "class": another diffusers
     class."""
+    lora: tuple[str, ...] = ()
+    """Adapters that it runs with, as `--lora` writes them; those that the option names replace
+    them."""
     motion_adapter: str | None = None
     """Repository of an AnimateDiff network, `org/name`: makes an image model one of videos."""
     licence: str = "not known to texvent; read the model's page"
@@ -149,6 +154,13 @@ _LTX_2_DISTILLED: dict[str, Any] = _LTX_2 | {
         "audio_modality_scale": 1.0,
         "spatio_temporal_guidance_blocks": None,
     },
+}
+# The example in LTX2HDRPipeline, whose call has no guidance but the scale by default.
+_LTX_2_HDR: dict[str, Any] = _LTX_2_DISTILLED | {
+    "image_pipeline": None,
+    "needs_reference": True,
+    "call": {},
+    "lora": ("hub:Lightricks/LTX-2.3-22b-IC-LoRA-HDR/ltx-2.3-22b-ic-lora-hdr-0.9.safetensors",),
 }
 _HUNYUAN: dict[str, Any] = _TINY | {
     "licence_terms": "not in the EU, UK, South Korea; 100 M monthly users: ask; output may not "
@@ -249,6 +261,8 @@ _ROWS = (
     _row("ltx2.3-distilled", "diffusers/LTX-2.3-Distilled-Diffusers", "LTX2Pipeline",
          (121, 512, 768), 24, 8, "LTX-2 Community License (2026-01-05)", **_LTX_2_DISTILLED,
          differs="the publisher's eight noise levels without guidance"),
+    _row("ltx2.3-hdr", "diffusers/LTX-2.3-Distilled-Diffusers", "LTX2HDRPipeline",
+         (121, 512, 768), 24, 8, "LTX-2 Community License (2026-01-05)", **_LTX_2_HDR),
     _row("ltx2.5", "Lightricks/LTX-2.5-Diffusers", "LTX2Pipeline",
          (121, 512, 768), 24, 8, "LTX-2.x Community License (2026-08-11)",
          **_LTX_2_DISTILLED | {"licence_source": "github.com/Lightricks/LTX-2: LICENSE"},
