@@ -60,9 +60,10 @@ def read_reference(path: Path, frames: int) -> Iterator[PixelArray]:
         raise FileFormatError(
             f"the reference video {path} cannot be read ({error.strerror}); name a video file"
         ) from error
+    fewer = f", or --frames {count}" if count > 1 else ""
     raise InputError(
         f"the reference video {path} has {count} frames, and {frames} are to be made; give a "
-        f"longer one, or --frames {count}"
+        f"longer one{fewer}"
     )
 
 
