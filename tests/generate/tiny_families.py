@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import diffusers
+import torch
 import transformers
 from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
 
@@ -64,7 +65,7 @@ class Family:
     patches: dict[str, Any] = field(default_factory=dict)
     """Names in diffusers, and what stands in for them."""
     named: str = ""
-    """Last part of the repository of the row whose facts the run takes."""
+    """The row whose facts the run takes, or the last part of its repository."""
 
 
 def umt5():
@@ -161,7 +162,7 @@ def ltx():
     return tiny_pipelines.ltx(None)
 
 
-def ltx2():
+def ltx2(pipeline=diffusers.LTX2Pipeline, patch_size=1, **transformer):
     tokenizer = gemma_tokenizer()
     text = SMALL_TEXT | {"head_dim": 8, "num_key_value_heads": 2, "vocab_size": len(tokenizer)}
     vision = SMALL_TEXT | {"image_size": 14, "patch_size": 14}
@@ -175,7 +176,7 @@ def ltx2():
         for kind in ("video", "audio")
         for name, value in CONNECTOR.items()
     }
-    return diffusers.LTX2Pipeline(
+    return pipeline(
         tokenizer=tokenizer,
         text_encoder=transformers.Gemma3ForConditionalGeneration(gemma).eval(),
         vae=diffusers.AutoencoderKLLTX2Video(
@@ -191,7 +192,7 @@ def ltx2():
             upsample_type=("spatiotemporal",),
             upsample_residual=(False,),
             upsample_factor=(1,),
-            patch_size=1,
+            patch_size=patch_size,
             patch_size_t=1,
             decoder_causal=False,
         ),
@@ -229,8 +230,21 @@ def ltx2():
             caption_channels=16,
             rope_double_precision=False,
             rope_type="split",
+            **transformer,
         ),
     )
+
+
+def ltx2_keyframes():
+    """LTX-2.5's: the transformer knows keyframes by a mark, which training makes; zero at first."""
+    pipe = ltx2(
+        diffusers.LTX2DFRPipeline,
+        patch_size=4,  # few tokens: the rounds run the transformer 32 times
+        use_keyframes_abs_pos_embedding=True,
+        vae_scale_factors=(2, 8, 8),
+    )
+    torch.nn.init.normal_(pipe.transformer.keyframes_abs_pos_embedding, std=0.1)
+    return pipe
 
 
 def fast_wan():
@@ -678,6 +692,13 @@ FAMILIES = {
         {"steps": 8, "guidance": 1.0},
         steps=8,
         named="LTX-2.3-Distilled-Diffusers",
+    ),
+    "ltx2-keyframes": Family(
+        ltx2_keyframes,
+        "LTX2DFRPipeline",
+        {"steps": None, "guidance": None},
+        steps=8,
+        named="ltx2.5-dfr",
     ),
     "ltx2-image": Family(ltx2, "LTX2ImageToVideoPipeline", takes_image=True, named="LTX-2"),
 }

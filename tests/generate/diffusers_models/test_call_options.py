@@ -33,6 +33,7 @@ from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 
 PIPELINES = sorted(
     {name for row in MODELS.values() for name in (row.pipeline, row.image_pipeline) if name}
+    - {"LTX2DFRPipeline"}  # its noise levels are fixed, it has no guidance
 )
 
 
@@ -62,7 +63,7 @@ def call(pipe, **options):
         DiffusersConfig(**options),
         model=VideoModel(name="someone's"),
         fps=Fraction(24),
-        seed=0,
+        generator=torch.Generator("cpu").manual_seed(0),
         output_type="np",
         progress=NoProgress(),
     )
@@ -100,6 +101,15 @@ def test_steps_and_guidance_reach_the_call_of_every_pipeline(name, start, clip):
         assert calls[1][0]["num_inference_steps"] == 7
     else:
         assert calls[1][0]["pyramid_num_inference_steps_list"] == [3, 3, 3]
+
+
+def test_steps_and_guidance_are_refused_where_the_noise_levels_are_fixed():
+    pipe, calls = stand_in("LTX2DFRPipeline")
+    for option in ("steps", "guidance"):
+        with pytest.raises(ConfigError, match=f"{option} is set, but LTX2DFRPipeline does not"):
+            call(pipe, **{option: 7})
+    call(pipe)
+    assert len(calls) == 1
 
 
 def test_a_negative_prompt_that_would_be_left_out_is_refused():

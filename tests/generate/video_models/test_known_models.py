@@ -80,7 +80,8 @@ def test_the_page_of_generators_has_the_facts_of_every_row():
     for model in MODELS.values():
         size = "image's" if model.width is None else f"{model.width}x{model.height}"
         rate = f"{model.fps} low" if model.is_low_fps else f"{model.fps}"
-        facts = (f"`{model.name}`", model.repo, rate, model.frames, size, model.steps)
+        steps = model.steps or "fixed"
+        facts = (f"`{model.name}`", model.repo, rate, model.frames, size, steps)
         assert f"| {' | '.join(map(str, facts))} | {model.pipeline} |" in page
 
 
@@ -171,3 +172,8 @@ def test_the_repositories_of_the_table_are_names_that_the_hub_allows():
         found = GENERATORS.load(f"hub:{model.repo}").model
         assert found.repo == model.repo
         assert found.pipeline in {row.pipeline for row in MODELS.values() if row.repo == found.repo}
+
+
+def test_a_folder_named_like_a_row_takes_its_facts_also_where_rows_share_a_repository():
+    assert GENERATORS.load("./models/ltx2.5-dfr").model.pipeline == "LTX2DFRPipeline"
+    assert GENERATORS.load("./models/LTX-2.5-Diffusers").model.pipeline == "LTX2Pipeline"

@@ -126,7 +126,7 @@ def _describe_model(model: VideoModel) -> tuple[str, ...]:
         rate,
         str(model.frames),
         size,
-        str(model.steps),
+        "fixed" if model.steps is None else str(model.steps),
         memory,
         "-" if model.time_s is None else f"{model.time_s:g}",
         model.licence + marks,

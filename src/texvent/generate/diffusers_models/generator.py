@@ -21,6 +21,11 @@ from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.generate.diffusers_models.model_run import ModelRun
 from texvent.generate.diffusers_models.pipeline_call import check_reference, read_image
+from texvent.generate.diffusers_models.temporal_refinement import (
+    check_refinable,
+    check_upsampler,
+    refined_count,
+)
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.adapters import Adapter, find_local
 from texvent.generate.video_models.download import find_downloaded
@@ -42,7 +47,7 @@ PIXEL_OPTIONS = (
 """Options that decide the pixels, beside model, prompt, seed and files."""
 PIXEL_FACTS = ("call", "sigmas", "scheduler")
 """What of a model's row decides the pixels too."""
-NETWORK_OPTIONS = ("decoder", "motion_adapter")
+NETWORK_OPTIONS = ("decoder", "motion_adapter", "temporal_upsampler")
 """Options that name a network."""
 
 
@@ -109,7 +114,12 @@ class DiffusersGenerator:
         """What making the video would take, or None if it was made before. Touches no network."""
         self._check(prompt)
         key = content_key(self._pixel_facts(prompt, self.seed))
-        if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
+        if (
+            VideoCache(is_kept=self.config.reuse_video).find(
+                key, self.fps * self.config.rate_factor
+            )
+            is not None
+        ):
             return None
         config, folder = self.config, self.model.folder or find_downloaded(self.model)
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
@@ -122,7 +132,7 @@ class DiffusersGenerator:
 
     @property
     def fps(self) -> Fraction:
-        """Frame rate of the video.
+        """Frame rate that the model is given or was made for; refinement multiplies it.
 
         Raises:
             ConfigError: neither the option nor the model's row says it.
@@ -146,6 +156,13 @@ class DiffusersGenerator:
             check_reference(self.model.pipeline, self.config)
         if self.config.reference_video is not None:
             check_reference_file(self.config.reference_video, self.config.frames or 1)
+        self._check_networks()
+        for adapter in self.config.adapters:
+            find_local(adapter)
+        self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
+
+    def _check_networks(self) -> None:
+        """Refuse the folders of networks that are missing, damaged or of no use to the model."""
         for option in NETWORK_OPTIONS:
             folder = getattr(self.config, option)
             if folder is None or (option == "decoder" and folder.is_file()):
@@ -153,9 +170,10 @@ class DiffusersGenerator:
             if not (folder / CONFIG).is_file():
                 raise InputError(f"there is no {option} in {folder} (no {CONFIG})")
             check_part(folder)
-        for adapter in self.config.adapters:
-            find_local(adapter)
-        self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
+        if self.config.temporal_upsampler is not None:
+            check_upsampler(self.config.temporal_upsampler)
+            if self.model.pipeline is not None:  # of others, the model's files say it
+                check_refinable(self.model.pipeline)
 
     def _loaded(self, progress: Progress) -> ModelRun:
         if self._run is None:
@@ -166,7 +184,7 @@ class DiffusersGenerator:
     def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> StoredVideo:
         cache = VideoCache(is_kept=self.config.reuse_video)
         key = content_key(self._pixel_facts(prompt, seed))
-        found = cache.find(key, self.fps)
+        found = cache.find(key, self.fps * self.config.rate_factor)
         if found is not None:
             progress.announce(f"this video was generated before: {found.path}")
             return found
@@ -181,11 +199,12 @@ class DiffusersGenerator:
             **({"files": files} if (files := self._files()) else {}),
             **run.provenance(),
         }
-        video = cache.store(key, frames, self.fps, facts)
-        if self.config.frames not in (None, video.frame_count):
+        video = cache.store(key, frames, self.fps * self.config.rate_factor, facts)
+        asked = self.config.frames and refined_count(self.config.frames, self.config.rate_factor)
+        if asked not in (None, video.frame_count):
             progress.announce(
-                f"the model made {video.frame_count} frames, not {self.config.frames}: it can "
-                "make certain numbers only"
+                f"the model made {video.frame_count} frames, not {asked}: it can make certain "
+                "numbers only"
             )
         return video
 
@@ -194,6 +213,8 @@ class DiffusersGenerator:
         model, config = self.model, self.config
         facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
         facts |= {name: value for name in PIXEL_FACTS if (value := getattr(model, name))}
+        if config.refine is not None:
+            facts["refine"] = config.refine
         if not model.ignores_fps:
             facts["fps"] = self.fps
         for name in (*NETWORK_OPTIONS, "image", "reference_video"):

@@ -49,6 +49,11 @@ from texvent.generate.diffusers_models.prompt_embeddings import (
     find_embeddings,
 )
 from texvent.generate.diffusers_models.streamed_decoding import COGVIDEOX, can_stream
+from texvent.generate.diffusers_models.temporal_refinement import (
+    check_refinable,
+    load_refiner,
+    refine,
+)
 from texvent.generate.tiny_decoder.fitting import check_model, check_pipeline, tiny_input
 from texvent.generate.tiny_decoder.network import TinyDecoder, read_tiny_decoder
 from texvent.generate.video_config import DiffusersConfig
@@ -91,7 +96,10 @@ class ModelRun:
         """Receives loading and denoising; may be replaced between prompts."""
         self._files: ModelFiles = find_files(model, progress.announce)
         self._index = read_pipeline_index(self._files.folder)
+        if config.refine is not None:
+            check_refinable(self._class_name)
         self._pipe: Pipeline | None = None
+        self._refiner: Pipeline | None = None
         self._adapters: tuple[AdapterFile, ...] = ()
         self._tiny = self._read_tiny_decoder()
         self._adapters = self._find_adapters()
@@ -115,6 +123,8 @@ class ModelRun:
                 "decoders do not undo; leave it out"
             )
         pipe, arguments = self._prepare(prompt)
+        if self._config.temporal_upsampler is not None:
+            return iter(self._refined(self._config.temporal_upsampler, pipe, arguments, seed))
         if self._tiny is not None:
             with capture_decoder_input(pipe) as taken:
                 self._call(pipe, arguments, seed, "np")
@@ -164,6 +174,8 @@ class ModelRun:
         }
         if self.has_guardrail:
             facts["guardrail"] = guardrail_version()
+        if self._config.temporal_upsampler is not None:
+            facts["temporal_upsampler"] = fingerprint(self._config.temporal_upsampler)
         if self._class_name in LINEAR_PIPELINES:
             facts["transfer"] = Transfer.LINEAR.value
         return {name: value for name, value in facts.items() if value is not None}
@@ -303,14 +315,43 @@ class ModelRun:
         output = self._call(pipe, arguments, seed, "latent")
         return read_latents(pipe, output, self._config.frames, self._fps)
 
+    def _refined(
+        self, upsampler: Path, pipe: Pipeline, arguments: dict[str, Any], seed: int
+    ) -> Any:
+        """Frames of a first pass and rounds of refinement, [F, H, W, 3] in 0..1."""
+        if self._refiner is None:
+            self._refiner = load_refiner(pipe, upsampler, self._placement)
+        noise = _noise(seed)
+        return refine(
+            self._refiner,
+            self._call_whole(pipe, arguments, noise, "latent"),
+            arguments,
+            factor=self._config.rate_factor,
+            frames=self._config.frames,
+            fps=self._fps,
+            generator=noise,
+            progress=self.progress,
+        )
+
     def _call(self, pipe: Pipeline, arguments: dict[str, Any], seed: int, kind: str) -> Any:
+        """Frames or latents."""
+        return self._call_whole(pipe, arguments, _noise(seed), kind)[0]
+
+    def _call_whole(
+        self, pipe: Pipeline, arguments: dict[str, Any], noise: Any, kind: str
+    ) -> tuple[Any, ...]:
         return call_pipeline(
             pipe,
             arguments,
             self._config,
             model=self._model,
             fps=self._fps,
-            seed=seed,
+            generator=noise,
             output_type=kind,
             progress=self.progress,
         )
+
+
+def _noise(seed: int) -> Any:
+    """A source of noise that gives the same on every device."""
+    return require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed)

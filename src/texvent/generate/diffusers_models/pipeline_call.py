@@ -52,10 +52,10 @@ def call_pipeline(
     *,
     model: VideoModel,
     fps: Fraction,
-    seed: int,
+    generator: Any,
     output_type: str,
     progress: Progress,
-) -> Any:
+) -> tuple[Any, ...]:
     """Run a pipeline once.
 
     Args:
@@ -64,12 +64,13 @@ def call_pipeline(
         config: options; those that are None are not passed.
         model: its row, with what the call needs beside them.
         fps: passed where the model takes the rate as an input (it changes the pixels).
-        seed: of a CPU generator, which gives the same noise on every device.
+        generator: torch's, of the CPU, which gives the same noise on every device.
         output_type: "np" for frames [F, H, W, 3] float32 in 0..1, "latent" for latents.
         progress: receives every denoising step.
 
     Returns:
-        The first result of the batch of one: frames, or the latent tensor with its batch axis.
+        All results; the first is the frames of the batch of one, or the latent tensor with its
+        batch axis.
 
     Raises:
         ConfigError: the pipeline does not take an option, or refuses its value.
@@ -77,8 +78,6 @@ def call_pipeline(
     """
     accepted = check_options(type(pipe), config)
     _check_tiles(pipe, config)
-    torch = require("torch", extra=EXTRA)
-    generator = torch.Generator("cpu").manual_seed(seed)
     # Other step counts have no levels of their own: the pipeline's schedule gives them.
     sigmas = model.sigmas if config.steps in (None, len(model.sigmas or ())) else None
     arguments = {**model.call, **_options(config, accepted), **prompt}
@@ -101,9 +100,9 @@ def call_pipeline(
     with adjusted(
         pipe, accepted, progress, guidance=config.guidance, sigmas=sigmas, generator=noise
     ):
-        output = _run(pipe, arguments)
-    is_batch = output_type != "latent" and output.ndim > FRAME_DIMENSIONS
-    return output[0] if is_batch else output
+        first, *others = run_pipeline(pipe, arguments)
+    is_batch = output_type != "latent" and first.ndim > FRAME_DIMENSIONS
+    return first[0] if is_batch else first, *others
 
 
 def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str, inspect.Parameter]:
@@ -172,11 +171,16 @@ def _check_tiles(pipe: Any, config: DiffusersConfig) -> None:
             )
 
 
-def _run(pipe: Any, arguments: Mapping[str, Any]) -> Any:
-    """The first result of a call."""
+def run_pipeline(pipe: Any, arguments: Mapping[str, Any]) -> tuple[Any, ...]:
+    """The results of a call.
+
+    Raises:
+        ConfigError: the pipeline refuses an argument.
+        TexventError: the GPU's memory is too small.
+    """
     torch = require("torch", extra=EXTRA)
     try:
-        return pipe(**arguments, return_dict=False)[0]
+        return tuple(pipe(**arguments, return_dict=False))
     except ValueError as error:
         raise ConfigError(
             f"{type(pipe).__name__} refuses the options: {one_line(error)}"

@@ -267,6 +267,12 @@ _ROWS = (
          (121, 512, 768), 24, 8, "LTX-2.x Community License (2026-08-11)",
          **_LTX_2_DISTILLED | {"licence_source": "github.com/Lightricks/LTX-2: LICENSE"},
          differs="the publisher's eight noise levels without guidance"),
+    # The call's own noise levels are the publisher's eight; it takes no other step count.
+    _row("ltx2.5-dfr", "Lightricks/LTX-2.5-Diffusers", "LTX2DFRPipeline",
+         (121, 704, 1216), 24, None, "LTX-2.x Community License (2026-08-11)", **_TINY,
+         licence_source="github.com/Lightricks/LTX-2: LICENSE",
+         licence_terms=_LTX_2["licence_terms"],
+         differs="the call leaves the frame count open; 121 without a head that chooses it"),
     _row("hunyuan", "hunyuanvideo-community/HunyuanVideo", "HunyuanVideoPipeline",
          (129, 720, 1280), 24, 50, "Tencent Hunyuan Community License", **_HUNYUAN,
          licence_source="github.com/Tencent-Hunyuan/HunyuanVideo: LICENSE.txt", gpu_gb=60,

@@ -108,7 +108,9 @@ def warn_low_fps(name: str) -> None:
 
 
 def _row_like(last_name: str) -> VideoModel:
-    """The row whose repository ends in that name, or one that leaves everything open."""
+    """The row of that name, or whose repository ends in it, or one that leaves everything open."""
+    if last_name in MODELS:
+        return MODELS[last_name]
     for row in MODELS.values():
         if row.repo.rpartition("/")[2] == last_name:
             return row

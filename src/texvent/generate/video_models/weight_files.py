@@ -43,7 +43,7 @@ def read_pipeline_index(folder: Path) -> dict[str, Any]:
             f"{folder} holds no {INDEX}, so it is no saved diffusers pipeline; put the model's "
             "files there, subfolders included"
         )
-    index = _read_json(path)
+    index = read_json(path)
     if not isinstance(index.get("_class_name"), str):
         raise FileFormatError(f"{path} names no pipeline class; it is not of a diffusers pipeline")
     return index
@@ -78,7 +78,7 @@ def check_part(folder: Path, class_name: str = "a network") -> None:
         )
     weights = sorted(folder.glob("*.safetensors"))
     for index_path in sorted(folder.glob("*.safetensors.index*.json")):
-        for name in sorted(set(_read_json(index_path).get("weight_map", {}).values())):
+        for name in sorted(set(read_json(index_path).get("weight_map", {}).values())):
             if not (folder / name).is_file():
                 raise InputError(
                     f"the model lacks the weights {folder / name}, which {index_path.name} "
@@ -152,7 +152,12 @@ def check_safetensors(path: Path) -> None:
         )
 
 
-def _read_json(path: Path) -> dict[str, Any]:
+def read_json(path: Path) -> dict[str, Any]:
+    """What a JSON file of a model says, by name.
+
+    Raises:
+        FileFormatError: it is damaged.
+    """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
