@@ -41,7 +41,7 @@ def matching_levels(levels: PixelArray, transfer: Transfer) -> PixelArray:
     Example:
         >>> light = np.array([2.55, 255.0, 2550.0])
         >>> matching_levels(light, Transfer.LINEAR).round().tolist()
-        [25.0, 255.0, 512.0]
+        [25.0, 255.0, 508.0]
     """
     if transfer is Transfer.LINEAR:
         levels = encode_srgb(levels / np.float32(WHITE))
