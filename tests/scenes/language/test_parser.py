@@ -61,6 +61,7 @@ THINGS: list[tuple[str, list[str]]] = [
     ("an airplane takes off", ["1 airplane rise"]),
     ("a well-made balloon floats upwards", ["1 balloon hover up"]),
     ("the kid on the left jumps", ["1 child <left jump"]),
+    ("a car at night drives left", ["1 car drive left"]),
     ("on the right, a house", ["1 house <right stand"]),
     ("a fish does not move", ["1 fish stand"]),
     ("a person stands still", ["1 person stand"]),

@@ -197,6 +197,25 @@ def test_directions_are_as_the_viewer_sees_them(direction: str, axis: int, sign:
         assert sign * (end[0] - start[0]) > 0.3
 
 
+@pytest.mark.parametrize("duration_s", [1.0, 2.0, 4.0])
+@pytest.mark.parametrize(
+    ("prompt", "sign"),
+    [
+        ("a car drives toward the camera", -1),
+        ("a dog runs toward the camera", -1),
+        ("a bus drives away from the camera", 1),
+    ],
+)
+def test_what_comes_or_goes_is_not_followed(prompt: str, sign: int, duration_s: float) -> None:
+    scene = staged(prompt, duration_s=duration_s)
+    assert not scene.unmet
+    start, end = (
+        np.linalg.norm(scene.actors[0].middle(t) - scene.camera(t).position)
+        for t in (0.0, duration_s)
+    )
+    assert sign * (end - start) > 0.25 * start
+
+
 @pytest.mark.parametrize(
     ("prompt", "check"),
     [

@@ -17,6 +17,8 @@ _NOMINAL = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER})
 _OPENS_CLAUSE = frozenset({Pos.SUBORDINATOR, Pos.RELATIVE, Pos.SIGN})
 _ONLY_OPENS = frozenset({Pos.DETERMINER, Pos.PRONOUN})
 """Before these a noun cannot end: "the headlights of a lorry blind the driver"."""
+_PASSED_OVER = (Role.SIDE, Role.LIGHT)
+"""Adjuncts that stand between a subject and its verb: "a car at night drives left"."""
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
 
 
@@ -108,7 +110,7 @@ class _Tagger:
             is_not = meaning.pos is Pos.NEGATION and number > 0
             if is_not and self._chosen[number - 1].pos is Pos.AUXILIARY:
                 continue
-            if meaning.pos is Pos.ADJUNCT and number > 0 and meaning.role is Role.SIDE:
+            if meaning.pos is Pos.ADJUNCT and number > 0 and meaning.role in _PASSED_OVER:
                 continue
             is_opener = meaning.pos is Pos.SUBORDINATOR and meaning.value in SENTENCE_OPENERS
             if is_opener and number > 0 and self._chosen[number - 1].pos is Pos.PRONOUN:

@@ -92,7 +92,7 @@ def _frame(
     """The camera from which the subject is large enough; followed where it is small or creeps."""
     duration_s = how[2]
     is_said = bool(description.shot.moves) or description.shot.framing == "wide"
-    is_said |= _has_landmark(description, main)
+    is_said |= _has_landmark(description, main) or _goes_in_depth(description, main)
     path = _fit_path(description, actors, main, moves, place, how)
     if is_said or not main.is_mover:
         return path
@@ -152,6 +152,12 @@ def _fit_path(
 
 
 _LANDMARKS = TOGETHER | {"through", "past", "from", "towards", "away from"}
+
+
+def _goes_in_depth(description: SceneDescription, main: Actor) -> bool:
+    """Whether the prompt says that it comes towards the camera or goes away from it."""
+    motion = description.objects[main.object_index].motion
+    return motion is not None and motion.direction in ("towards", "away")
 
 
 def _has_landmark(
@@ -331,7 +337,7 @@ def _plan_moves(
     span = max(main.model.length, main.model.height)
     start, end = main.middle(0.0), main.middle(duration_s)
     travel = float(np.hypot(*(end - start)[:2]))
-    if _has_landmark(description, main, TOGETHER):
+    if _has_landmark(description, main, TOGETHER) or _goes_in_depth(description, main):
         return ()
     if main.is_mover and travel > TRACKING_LENGTHS * span:
         return (CameraMove("follow", "side"),)
