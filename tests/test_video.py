@@ -90,3 +90,9 @@ def test_empty_videos_and_miscounted_times_are_refused():
         Video(np.zeros((3, 2, 2), np.uint8), [0, 1])
     with pytest.raises(InputError, match=r"\[N, H, W\]"):
         Video(np.zeros((2, 2), np.uint8), [0, 1])
+
+
+def test_metadata_that_name_an_unknown_transfer_are_refused():
+    pixels = np.zeros((2, 4, 5), np.uint8)
+    with pytest.raises(InputError, match="say transfer 'srgb'; allowed: gamma, linear"):
+        Video(pixels, [0, 1000], metadata={"transfer": "srgb"})

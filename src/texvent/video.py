@@ -230,8 +230,18 @@ class FlickeringStream(RenderableStream, Protocol):
 
 
 def transfer_of(stream: FrameStream) -> Transfer:
-    """What the frames of a stream are, known before the first of them: its metadata say it."""
-    return Transfer(stream.metadata.get("transfer", Transfer.GAMMA))
+    """What the frames of a stream are, known before the first of them: its metadata say it.
+
+    Raises:
+        InputError: they say neither gamma nor linear.
+    """
+    said = stream.metadata.get("transfer", Transfer.GAMMA)
+    try:
+        return Transfer(said)
+    except ValueError:
+        raise InputError(
+            f"the metadata of the frames say transfer {said!r}; allowed: gamma, linear"
+        ) from None
 
 
 def describe_stream(stream: FrameStream) -> str:

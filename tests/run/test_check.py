@@ -50,6 +50,16 @@ def test_the_rate_is_that_of_the_whole_clip(images, found):
     assert 0 < measures["rate_error_hz"] < 0.2 * whole
 
 
+def test_the_rate_of_linear_light_is_that_of_the_whole_clip(images):
+    light = 255 * (images / 255.0) ** 2.2
+    options = {"noise": "none", "transfer": "linear", "progress": False}
+    events = texvent.simulate(light, fps=25, **options)
+    whole = len(events) / (59 / 25) / images[0].size
+    measures = check_source(light, fps=25, **options).report.measures
+    assert measures["rate_hz"] == pytest.approx(whole, rel=0.1)
+    assert "dark_end" not in measures
+
+
 def test_the_rate_follows_the_options(images, found):
     less = check_source(
         video_of(images), noise="none", contrast_threshold=0.4, progress=False

@@ -28,6 +28,8 @@ def shown(images, times):
         ([2], 2, 1, 24, "12"),
         ([3, 2], 5, 3, 60, "24"),
         ([1] * 23 + [2], 25, 1, 25, "24"),
+        ([4], 4, 3, 24, "6"),
+        ([5], 5, 4, 25, "5"),
     ],
 )
 def test_the_true_rate_of_repeated_frames(times, period, repeats, fps, true_fps):
@@ -39,6 +41,7 @@ def test_the_true_rate_of_repeated_frames(times, period, repeats, fps, true_fps)
     (finding,) = [one for one in report.findings if one.check.name == "repeated frames"]
     assert finding.is_found
     assert finding.value.endswith(f"{repeats} of {period}: true rate {true_fps} fps")
+    assert "frozen" not in report.problems
 
 
 def test_repeats_are_found_after_compression(tmp_path):

@@ -13,6 +13,8 @@ from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
 from texvent.video import PixelArray
 
 QUARTER_TURN = 90
+UNSPECIFIED = 2
+"""libav's number of an unknown transfer characteristic."""
 
 
 def decoded_pixels(frame: VideoFrame) -> PixelArray:
@@ -46,7 +48,8 @@ def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:
         facts = None
     if isinstance(facts, dict) and (facts.get("transfer"), facts.get(CODING)) == (LINEAR, HALF):
         return {CODING: HALF}
-    coding = VIDEO_CODINGS.get(int(frame.color_trc))
+    # PyAV 16 and older do not tell.
+    coding = VIDEO_CODINGS.get(int(getattr(frame, "color_trc", UNSPECIFIED)))
     return {} if coding is None else {CODING: coding}
 
 

@@ -263,7 +263,8 @@ def _follow(before: _View, after: _View, sights: Mapping[int, _Sight]) -> None:
 
     A mesh that deforms, a lamp and a surface that change are motion too.
     """
-    seen = np.unique(after.number[after.number >= 0])
+    either = np.concatenate([before.number, after.number])
+    seen = np.unique(either[either >= 0])
     first, last = before.shapes, after.shapes
     owner = after.owner
     seen = seen[owner[seen] > 0]

@@ -21,7 +21,7 @@ from texvent.interpolate.dis_flow.estimator import DisFlow
 from texvent.options.keywords import SimulateOptions
 from texvent.pairs.instants import matching_luma
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.pipeline import Simulation
+from texvent.pipeline import Simulation, video_to_events
 from texvent.run.settings import Settings, resolve
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.sensor import SensorSize
@@ -154,9 +154,8 @@ class _Windows:
         fitted = list(window)
         middle = len(fitted) // 2
         self._look_at(fitted[middle - 1], fitted[middle])
-        events, seconds = _count_events(
-            Simulation(video=_Window(window, fitted), settings=self._settings)
-        )
+        run = video_to_events(_Window(window, fitted), self._settings)
+        events, seconds = _count_events(run)
         self._events.append(events)
         self._seconds.append(seconds)
 

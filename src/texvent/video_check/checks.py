@@ -97,7 +97,8 @@ CHECKS = (
         name="frozen",
         needs="still_share",
         is_failure=True,
-        is_found=lambda one: one["still_share"] > FROZEN_SHARE,
+        # Frames that repeat in a pattern are another finding: the clip moves.
+        is_found=lambda one: one["still_share"] > FROZEN_SHARE and not one.get("pattern_period"),
         value=lambda one: f"{one['still_share']:.0%} of pairs still",
         limit=f"{FROZEN_SHARE:.0%}",
         effect="noise alone while it stands still",

@@ -53,7 +53,10 @@ class Repeats:
             `pattern_repeats`: length of the pattern that they form, and repeats in it; 0 if none.
         """
         change = np.array(self._change or [0.0])
-        repeats = find_repeats(change, np.array(self._exact or [False]))
+        exact = np.array(self._exact or [False])
+        repeats = find_repeats(change, exact)
+        if find_pattern(exact)[0]:
+            repeats |= exact  # 5 frames per second stored as 25: most pairs are equal
         period, repeated = find_pattern(repeats)
         return {
             "still_share": float((change < STILL_LEVELS).mean()),

@@ -50,7 +50,8 @@ def read_reference(path: Path, frames: int) -> Iterator[PixelArray]:
             stream = container.streams.video[0]
             stream.thread_type = "AUTO"
             for decoded in container.decode(stream):
-                if (coding := LIGHT.get(int(decoded.color_trc))) is not None:
+                # PyAV 16 and older do not tell.
+                if (coding := LIGHT.get(int(getattr(decoded, "color_trc", 0)))) is not None:
                     raise _refuse_light(path, coding)
                 yield _upright(decoded)
                 count += 1

@@ -13,8 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.simulated_clips import SimulatedClips
+from texvent.errors import InputError
 from texvent.io.atomic import atomic_file
 from texvent.latents.change import BrightnessChange, measure_change
+from texvent.transfer import WHITE, Transfer
+from texvent.video import transfer_of
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -48,7 +51,8 @@ class LatentScenes:
             Frames, [n, H, W, 3] float32 RGB, 0..255, and the changes between them.
 
         Raises:
-            InputError: it cannot be rendered between its frames, or is too short.
+            InputError: it cannot be rendered between its frames, is too short, or is brighter than
+                white.
         """
 
         def render() -> Arrays:
@@ -57,6 +61,11 @@ class LatentScenes:
                 video, self.bins, frames_per_latent=self.frames_per_latent, balance=self.balance
             )
             frames = np.stack([frame.pixels for frame in video]).astype(np.float32)
+            if transfer_of(video) is Transfer.LINEAR or frames.max() > WHITE:
+                raise InputError(
+                    "the scenes are brighter than white, and autoencoders take ordinary frames; "
+                    "leave hdr out of the specification"
+                )
             fps = np.array([change.fps.numerator, change.fps.denominator])
             return {"frames": frames, "change": change.voxels, "fps": fps}
 
