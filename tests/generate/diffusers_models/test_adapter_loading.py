@@ -24,8 +24,16 @@ from texvent.errors import (  # noqa: E402
     InputError,
     MissingDependencyError,
 )
+from texvent.generate.diffusers_models.adapter_loading import (  # noqa: E402
+    describe_few_steps,
+    load_adapters,
+)
+from texvent.generate.video_config import DiffusersConfig  # noqa: E402
+from texvent.generate.video_models.adapters import Adapter, AdapterFile  # noqa: E402
+from texvent.scenes.assets.provenance import check_files  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
+from ..tiny_families import ltx2  # noqa: E402
 from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 from .test_tiny_decoding import Quiet  # noqa: E402
 
@@ -113,6 +121,20 @@ def merge(model, folder, pairs, weight, part="transformer"):
     return folder
 
 
+def random_ltx2():
+    with tiny_pipelines.random_weights():
+        return ltx2()
+
+
+def ltx2_pair(layer, names):
+    """A and B of a layer, by the names given."""
+    draw = torch.Generator().manual_seed(1)
+    shapes = (RANK, layer.in_features), (layer.out_features, RANK)
+    return {
+        name: torch.randn(*shape, generator=draw) for name, shape in zip(names, shapes, strict=True)
+    }
+
+
 def weights_of(model, part="transformer"):
     return load_file(next((model / part).glob("*.safetensors")))
 
@@ -164,6 +186,20 @@ def test_an_image_model_with_a_motion_adapter_takes_adapters_of_its_unet(naming,
     assert np.abs(made - expected).max() <= 20
 
 
+def test_a_changed_scale_of_peft_makes_another_video_and_is_refused_by_replay(models, tmp_path):
+    path, _ = save_adapter(tmp_path / "a", factors(weights_of(models("wan"))), "peft")
+    config = path.with_name("adapter_config.json")
+    first = build(models("wan"), lora=(str(path),)).generate(PROMPT)
+    check_files(first.metadata["files"])
+    assert [one["file"] for one in first.metadata["files"]] == [str(path), str(config)]
+    config.write_text(json.dumps({"lora_alpha": 10 * ALPHA}))
+    with pytest.raises(FileFormatError, match=r"adapter_config\.json was changed since"):
+        check_files(first.metadata["files"])
+    second = build(models("wan"), lora=(str(path),)).generate(PROMPT)
+    assert second.metadata["lora"][0]["sha256"] != first.metadata["lora"][0]["sha256"]
+    assert not np.array_equal(pixels(first), pixels(second))
+
+
 def test_several_adapters_add_up_and_a_folder_names_its_only_one(models, tmp_path):
     weights = weights_of(models("wan"))
     both = [factors(weights, seed) for seed in (1, 2)]
@@ -212,6 +248,10 @@ def test_the_adapter_is_part_of_what_a_video_is_kept_under_and_says(models, tmp_
     assert build(models("wan")).plan(PROMPT) is not None
     moved = shutil.copy(path, tmp_path / "moved.safetensors")
     assert build(models("wan"), lora=(f"{moved}:0.5",)).plan(PROMPT) is None
+    found = build(models("wan"), lora=(f"{moved}:0.5",)).generate(PROMPT)
+    assert found.path == made.path
+    assert found.metadata["options"]["lora"] == [f"{moved}:0.5"]
+    assert found.metadata["files"] == [{"file": str(moved), "sha256": facts[0]["sha256"]}]
     save_adapter(tmp_path / "b", factors(weights_of(models("wan")), seed=9), "diffusers")
     shutil.copy(tmp_path / "b" / path.name, path)
     assert build(models("wan"), lora=(f"{path}:0.5",)).plan(PROMPT) is not None
@@ -268,6 +308,34 @@ def test_differences_of_norms_that_diffusers_leaves_out_are_told(models, tmp_pat
     assert any("diffusers leaves 1 of 61 tensors out" in line for line in heard.lines)
 
 
+def test_one_left_out_difference_does_not_hide_other_missing_tensors(tmp_path):
+    """Of LTX-2's own names, diffusers drops the tensors that it does not know."""
+    pipe = random_ltx2()
+    names = [f"diffusion_model.transformer_blocks.0.attn1.to_q.lora_{one}.weight" for one in "AB"]
+    tensors = ltx2_pair(pipe.transformer.transformer_blocks[0].attn1.to_q, names)
+    path = tmp_path / "own.safetensors"
+    save_file({**tensors, "other.norm.diff": torch.ones(2)}, path)
+    (note,) = load_adapters(pipe, [AdapterFile(path, "", Adapter(str(path)))])
+    assert "leaves 1 of 3 tensors out" in note
+    save_file({**tensors, "other.norm.diff": torch.ones(2), "other.a": torch.ones(2)}, path)
+    with pytest.raises(FileFormatError, match="2 of its 4 tensors fit nothing"):
+        load_adapters(random_ltx2(), [AdapterFile(path, "", Adapter(str(path)))])
+
+
+def test_adapters_of_the_connectors_of_ltx_2_are_loaded_with_their_weight(tmp_path):
+    pipe = random_ltx2()
+    names = [f"connectors.text_proj_in.lora_{one}.weight" for one in "AB"]
+    path = tmp_path / "connectors.safetensors"
+    tensors = ltx2_pair(pipe.connectors.text_proj_in, names)
+    save_file(tensors, path)
+    values = torch.ones(1, pipe.connectors.text_proj_in.in_features)
+    before = pipe.connectors.text_proj_in(values)
+    assert load_adapters(pipe, [AdapterFile(path, "", Adapter(str(path), 0.5))]) == []
+    first, second = (tensors[name] for name in names)
+    change = pipe.connectors.text_proj_in(values) - before
+    torch.testing.assert_close(change, 0.5 * values @ first.T @ second.T)
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [
@@ -301,6 +369,21 @@ def test_pipelines_without_adapters_and_a_missing_package_say_so(models, tmp_pat
     monkeypatch.setitem(sys.modules, "peft", None)
     with pytest.raises(MissingDependencyError, match=r"texvent\[generate\]"):
         build(models("wan"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+
+
+@pytest.mark.parametrize(
+    ("source", "is_named"),
+    [
+        ("/data/8_steps.safetensors", True),
+        ("hub:turbo/name", True),
+        ("/home/turbo/style.safetensors", False),
+        ("style_2000_steps.safetensors", False),
+        ("style-1500steps.safetensors", False),
+    ],
+)
+def test_names_that_speak_of_few_steps(source, is_named):
+    hint = describe_few_steps([Adapter(source)], diffusers.WanPipeline, DiffusersConfig())
+    assert (hint is not None) == is_named
 
 
 def test_an_adapter_named_for_few_steps_gives_a_hint(models, tmp_path):

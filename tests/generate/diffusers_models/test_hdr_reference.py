@@ -34,6 +34,7 @@ from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 
 ROW = "ltx2.3-hdr"
 MODEL = ("--simulator", "esim", "--backend", "reference", "--interpolate", "none")
+MODELS_AS_SHIPPED = dict(MODELS)
 MATRIX = "transformer_blocks.0.attn1.to_q"
 
 
@@ -74,20 +75,24 @@ def clip(tmp_path):
 
 @pytest.fixture
 def hdr(weights, adapter, monkeypatch):
-    """Build the row's generator on the tiny weights."""
-    monkeypatch.setitem(MODELS, ROW, dataclasses.replace(MODELS[ROW], folder=weights))
-    few = {"guidance": 1.0, "lora": (str(adapter),)}
+    """Build the row's generator on the tiny weights and adapter."""
+    row = dataclasses.replace(MODELS[ROW], folder=weights, lora=(str(adapter),))
+    monkeypatch.setitem(MODELS, ROW, row)
 
     def make(**options):
-        return build(ROW, **{**few, **options})
+        return build(ROW, **{"guidance": 1.0, **options})
 
     return make
 
 
-def test_the_row_names_the_adapter_and_the_options_replace_it(adapter, hdr):
-    (own,) = hdr(lora=()).config.adapters
-    assert own.source.startswith("hub:Lightricks/LTX-2.3-22b-IC-LoRA-HDR/")
-    assert [one.source for one in hdr().config.adapters] == [str(adapter)]
+def test_the_row_names_the_adapter_and_the_options_add_others(adapter, hdr):
+    (own,) = MODELS_AS_SHIPPED[ROW].lora
+    assert own.startswith("hub:Lightricks/LTX-2.3-22b-IC-LoRA-HDR/")
+    assert hdr().config.lora == (str(adapter),)
+    assert hdr(lora=("style.safetensors:0.5",)).config.lora == (
+        str(adapter),
+        "style.safetensors:0.5",
+    )
 
 
 def test_a_reference_becomes_light_above_white_and_stays_so_in_the_cache(hdr, clip):
@@ -106,12 +111,11 @@ def test_a_reference_becomes_light_above_white_and_stays_so_in_the_cache(hdr, cl
     assert np.array_equal(pixels(again.generate(PROMPT)), frames)
 
 
-def test_seed_reference_and_adapter_decide_the_frames(hdr, clip, tmp_path):
+def test_seed_reference_and_adapter_decide_the_frames(hdr, adapter, clip, tmp_path):
     first = pixels(hdr(reference_video=clip, reuse_video=False).generate(PROMPT))
     same = pixels(hdr(reference_video=clip, reuse_video=False).generate(PROMPT))
     assert np.array_equal(first, same)
     other_clip = write_clip(tmp_path / "other.avi", 5, seed=1)
-    adapter = hdr().config.lora[0]
     for options in (
         {"reference_video": other_clip},
         {"reference_video": clip, "seed": 4},
@@ -166,7 +170,7 @@ def test_what_cannot_be_followed_is_refused_before_anything_is_loaded(hdr, model
 
 def test_events_of_light_are_made_and_replayed_by_the_command(hdr, clip, tmp_path, capsys):
     out = tmp_path / "events.h5"
-    options = {**OPTIONS, "guidance": 1.0, "lora": hdr().config.lora[0], "seed": 3}
+    options = {**OPTIONS, "guidance": 1.0, "seed": 3}
     options |= {"generator": ROW, "reference_video": clip, "out": out}
     flags = [(f"--{name.replace('_', '-')}", str(value)) for name, value in options.items()]
     assert main(["generate", PROMPT, *MODEL, *sum(flags, ())]) == 0

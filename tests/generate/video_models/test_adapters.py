@@ -9,6 +9,8 @@ from texvent.errors import ConfigError, FileFormatError, InputError, TexventErro
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.adapters import (
     Adapter,
+    digest_adapter,
+    files_of,
     find_adapter,
     find_local,
     parse_adapter,
@@ -27,6 +29,8 @@ EMPTY = (2).to_bytes(8, "little") + b"{}"
         ("fast.safetensors:-1e-1", "fast.safetensors", -0.1, None),
         ("fast.safetensors:0:low", "fast.safetensors", 0.0, "low"),
         ("folder:high", "folder", 1.0, "high"),
+        ("fast.safetensors:high:0.5", "fast.safetensors", 0.5, "high"),
+        ("fast.safetensors:HIGH", "fast.safetensors", 1.0, "high"),
         ("hub:org/name", "hub:org/name", 1.0, None),
         ("hub:org/name@v1.0/a/b.safetensors:2", "hub:org/name@v1.0/a/b.safetensors", 2.0, None),
         ("C:model.safetensors", "C:model.safetensors", 1.0, None),
@@ -46,6 +50,7 @@ def test_source_weight_and_transformer_are_told_apart(text, source, weight, nois
         ("a.safetensors:inf", "write FILE or FILE:WEIGHT"),
         ("hub:name", "names no repository"),
         ("hub:org/na--me", "names no repository"),
+        ("hub:org/name/a.safetensors:fast", "names no repository or file"),
         ("old.pt:0.5", "is a pickle"),
         ("hub:org/name/old.bin", "is a pickle"),
     ],
@@ -133,3 +138,74 @@ def test_a_repository_of_the_cache_is_used_and_another_is_told(tmp_path, monkeyp
     assert lines[0].startswith("fetching the adapter hub:org/other/a.safetensors")
     with pytest.raises(TexventError, match=r"org/third is not on this machine"):
         find_adapter(Adapter("hub:org/third"), lines.append)
+
+
+@pytest.fixture
+def hub(tmp_path, monkeypatch):
+    """The hub's cache in an empty folder, and a repository that the hub would list."""
+    hub = pytest.importorskip("huggingface_hub")
+    from huggingface_hub import constants
+
+    monkeypatch.setattr(constants, "HF_HUB_CACHE", str(tmp_path))
+    snapshot = tmp_path / "models--org--name" / "snapshots" / ("1" * 40)
+    listed, fetched = [], []
+
+    def fetch(repo, file, revision=None):
+        assert repo == "org/name"
+        fetched.append((file, revision))
+        path = snapshot / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(EMPTY)
+        return str(path)
+
+    monkeypatch.setattr(hub, "hf_hub_download", fetch)
+    monkeypatch.setattr(hub.HfApi, "list_repo_files", lambda self, repo, revision: listed)
+    return snapshot, listed, fetched
+
+
+@pytest.mark.torch
+def test_the_scale_that_peft_saved_is_fetched_from_the_same_folder_and_commit(hub):
+    snapshot, _, fetched = hub
+    found = find_adapter(Adapter("hub:org/name/sub/adapter_model.safetensors"), lambda line: None)
+    config = "sub/adapter_config.json"
+    assert fetched == [("sub/adapter_model.safetensors", None), (config, "1" * 40)]
+    assert found.path == snapshot / "sub" / "adapter_model.safetensors"
+
+
+@pytest.mark.torch
+def test_a_partial_copy_does_not_decide_what_a_repository_means(hub):
+    snapshot, listed, _ = hub
+    (snapshot / "old.safetensors").parent.mkdir(parents=True)
+    (snapshot / "old.safetensors").write_bytes(EMPTY)
+    refs = snapshot.parents[1] / "refs"
+    refs.mkdir()
+    (refs / "main").write_text(snapshot.name)
+    listed += ["new.safetensors", "old.safetensors", "note.txt"]
+    with pytest.raises(
+        InputError, match=r"which adapter: new\.safetensors, old\.safetensors; name"
+    ):
+        find_adapter(Adapter("hub:org/name"), lambda line: None)
+
+
+@pytest.mark.torch
+def test_no_network_is_one_line(hub, monkeypatch):
+    import huggingface_hub
+    from huggingface_hub import errors
+
+    def fail(self, repo, revision):
+        raise errors.HTTPError("no route to host")
+
+    monkeypatch.setattr(huggingface_hub.HfApi, "list_repo_files", fail)
+    with pytest.raises(TexventError, match=r"org/name is not on this machine .*no route to host"):
+        find_adapter(Adapter("hub:org/name"), lambda line: None)
+
+
+def test_the_digest_covers_the_scale_that_peft_saved(tmp_path):
+    path, config = tmp_path / "adapter_model.safetensors", tmp_path / "adapter_config.json"
+    path.write_bytes(EMPTY)
+    digests = [digest_adapter(path)]
+    for text in ('{"lora_alpha": 2}', '{"lora_alpha": 32}'):
+        config.write_text(text)
+        assert files_of(path) == [path, config]
+        digests.append(digest_adapter(path))
+    assert len(set(digests)) == 3

@@ -18,19 +18,20 @@ from typing import Any
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generate.video_config import DiffusersConfig
-from texvent.generate.video_models.adapters import Adapter, AdapterFile
+from texvent.generate.video_models.adapters import PEFT_CONFIG, Adapter, AdapterFile
+from texvent.generate.video_models.hub_names import HUB
 from texvent.generate.video_models.loading import loading
 from texvent.networks.weight_files import Tensor
 
 EXTRA = "generate"
-PARTS = ("transformer", "transformer_2", "unet", "text_encoder")
+PARTS = ("transformer", "transformer_2", "unet", "text_encoder", "connectors")
 """Parts of a pipeline that adapters may change."""
 PEFT_PREFIX = "base_model.model."
-PEFT_CONFIG = "adapter_config.json"
 LEFT_OUT = (".diff", ".diff_b")
 """Differences of norms and biases beside the matrices; diffusers leaves some of them out."""
 FEW_STEPS = re.compile(
-    r"(?i)\d+[ _-]?steps?|lightning|lightx2v|distill|turbo|causvid|accvid|(?<![a-z])(?:lcm|dmd)"
+    r"(?i)(?<!\d)\d{1,2}[ _-]?steps?"
+    r"|lightning|lightx2v|distill|turbo|causvid|accvid|(?<![a-z])(?:lcm|dmd)"
 )
 """Words in the names of adapters that make a model need few steps."""
 MANY_STEPS = 10
@@ -104,7 +105,9 @@ def describe_few_steps(
     adapters: Iterable[Adapter], pipeline_class: Any, config: DiffusersConfig
 ) -> str | None:
     """A hint where an adapter's name says few steps and the call will make many, or None."""
-    names = [Path(one.source).name for one in adapters if FEW_STEPS.search(one.source)]
+    names = [one.source for one in adapters]
+    names = [name if name.startswith(HUB) else Path(name).name for name in names]
+    names = [name for name in names if FEW_STEPS.search(name)]
     accepted = inspect.signature(pipeline_class.__call__).parameters
     used = {"steps": config.steps, "guidance": config.guidance}
     for option, argument in (("steps", "num_inference_steps"), ("guidance", "guidance_scale")):
@@ -138,7 +141,7 @@ def _load(pipe: Any, path: Path, name: str, options: Mapping[str, Any]) -> list[
     _check_placed(pipe, path, known, name, is_second=bool(options))
     lost = [key for key in tensors if key.endswith(LEFT_OUT)]
     missing = sum(not key.endswith(".alpha") for key in tensors) - len(known)
-    if missing > 0 and not lost:
+    if missing > len(lost):
         raise FileFormatError(f"{path}: {missing} of its {len(tensors)} tensors fit nothing")
     if missing <= 0:
         return []

@@ -16,20 +16,32 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, ClassVar
 
+from texvent._require import require
 from texvent._version import __version__
 from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.generate.diffusers_models.model_run import ModelRun
-from texvent.generate.diffusers_models.pipeline_call import check_reference, read_image
+from texvent.generate.diffusers_models.pipeline_call import (
+    check_options,
+    check_reference,
+    read_image,
+)
 from texvent.generate.diffusers_models.temporal_refinement import (
     check_refinable,
     check_upsampler,
     refined_count,
 )
+from texvent.generate.tiny_decoder.network import read_tiny_decoder
 from texvent.generate.video_config import DiffusersConfig
-from texvent.generate.video_models.adapters import Adapter, find_local
+from texvent.generate.video_models.adapters import (
+    Adapter,
+    digest_adapter,
+    files_of,
+    find_local,
+)
 from texvent.generate.video_models.download import find_downloaded
 from texvent.generate.video_models.known_models import VideoModel
+from texvent.generate.video_models.loading import quiet_libraries
 from texvent.generate.video_models.weight_files import CONFIG, check_part, fingerprint
 from texvent.generate.videos.reference_video import check_reference_file, warn_of_rate
 from texvent.generate.videos.retries import generate_checked
@@ -40,6 +52,7 @@ from texvent.options.values import plain
 from texvent.runtime.progress import NoProgress, Progress
 from texvent.video import PixelArray
 
+EXTRA = "generate"
 PIXEL_OPTIONS = (
     *("frames", "width", "height", "steps", "guidance"),
     *("negative_prompt", "dtype", "quantize"),
@@ -55,7 +68,8 @@ class DiffusersGenerator:
     """A learned text-to-video model, run through diffusers.
 
     Args:
-        config: options; None values are the pipeline's own defaults, no `lora` the row's.
+        config: options; None values are the pipeline's own defaults, no `lora` the row's. A model
+            that follows a video keeps the row's beside others.
         model: where the weights are, and what they were made for.
         seed: seed of the first noise.
     """
@@ -65,7 +79,8 @@ class DiffusersGenerator:
     default_sensor: ClassVar[str | None] = None
 
     def __init__(self, config: DiffusersConfig, *, model: VideoModel, seed: int = 0) -> None:
-        self.config = config if config.lora else dataclasses.replace(config, lora=model.lora)
+        own = model.lora if model.needs_reference or not config.lora else ()
+        self.config = dataclasses.replace(config, lora=(*own, *config.lora))
         self.model = model
         self.seed = seed
         self._run: ModelRun | None = None
@@ -175,8 +190,26 @@ class DiffusersGenerator:
             if self.model.pipeline is not None:  # of others, the model's files say it
                 check_refinable(self.model.pipeline)
 
+    def _check_before_loading(self) -> None:
+        """Refuse what shows without the model's files, which may have to be fetched first."""
+        model, config = self.model, self.config
+        if config.lora:
+            require("peft", extra=EXTRA)
+        if config.decoder is not None and config.decoder.is_file():
+            read_tiny_decoder(config.decoder)
+        name = None if config.motion_adapter is not None else model.pipeline
+        if config.image is not None:
+            name = model.image_pipeline or name
+        if name is None:
+            return
+        with quiet_libraries():
+            pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+        if pipeline_class is not None:  # else the installed one is too old, which loading says
+            check_options(pipeline_class, config)
+
     def _loaded(self, progress: Progress) -> ModelRun:
         if self._run is None:
+            self._check_before_loading()
             self._run = ModelRun(self.model, self.config, fps=self.fps, progress=progress)
         self._run.progress = progress
         return self._run
@@ -187,7 +220,7 @@ class DiffusersGenerator:
         found = cache.find(key, self.fps * self.config.rate_factor)
         if found is not None:
             progress.announce(f"this video was generated before: {found.path}")
-            return found
+            return found.with_metadata(**self._request_facts())
         run = self._loaded(progress)
         frames = run.frames(prompt, seed)
         facts = {
@@ -195,8 +228,7 @@ class DiffusersGenerator:
             "version": __version__,
             "prompt": prompt,
             "seed": seed,
-            "options": plain(self.config),
-            **({"files": files} if (files := self._files()) else {}),
+            **self._request_facts(),
             **run.provenance(),
         }
         video = cache.store(key, frames, self.fps * self.config.rate_factor, facts)
@@ -230,13 +262,19 @@ class DiffusersGenerator:
             facts["folder"] = fingerprint(model.folder) if model.folder.is_dir() else ""
         return {**facts, "prompt": prompt, "seed": seed}
 
+    def _request_facts(self) -> dict[str, Any]:
+        """Options and files of this run; a video found again may have been made with others."""
+        files = self._files()
+        return {"options": plain(self.config), **({"files": files} if files else {})}
+
     def _files(self) -> list[dict[str, str]]:
         """The single files that decide the frames, by path and sha256; `replay` compares them."""
         config = self.config
         paths = [config.image, config.reference_video, config.decoder]
-        paths += map(find_local, config.adapters)
+        for path in map(find_local, config.adapters):
+            paths += [] if path is None else files_of(path)
         return [
-            {"file": str(path), "sha256": _digest(path)}
+            {"file": str(path.absolute()), "sha256": _digest(path)}
             for path in paths
             if path is not None and path.is_file()
         ]
@@ -248,6 +286,6 @@ def _digest(path: Path) -> str:
 
 
 def _adapter_content(adapter: Adapter) -> str:
-    """Digest of its file, or its name on the hub: looking for a video fetches nothing."""
+    """Digest of its files, or its name on the hub: looking for a video fetches nothing."""
     path = find_local(adapter)
-    return adapter.source if path is None else _digest(path)
+    return adapter.source if path is None else digest_adapter(path)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 from texvent._require import require
 from texvent.errors import InputError
 from texvent.generate.tiny_decoder.layout import TinyLayout
+from texvent.generate.video_models.weight_files import CONFIG, read_json
 
 EXTRA = "generate"
 WAN = "AutoencoderKLWan"
@@ -41,6 +41,7 @@ def check_model(layout: TinyLayout, path: Path, folder: Path, index: Mapping[str
 
     Raises:
         InputError: see above.
+        FileFormatError: the config of the model's own decoder is damaged.
     """
     entry = index.get("vae")
     network = str(entry[1]) if isinstance(entry, list) and len(entry) == 2 else "none"
@@ -56,7 +57,7 @@ def check_model(layout: TinyLayout, path: Path, folder: Path, index: Mapping[str
             f"{path} is made for other latents: this model's own decoder is {network}, its tiny "
             f"one is called {' or '.join(PUBLISHED[network])}"
         )
-    config = json.loads((folder / "vae" / "config.json").read_text(encoding="utf-8"))
+    config = read_json(folder / "vae" / CONFIG)
     channels = next((config[name] for name in CHANNELS if name in config), None)
     if channels not in (None, layout.latent_channels):
         raise InputError(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 import math
 import re
 from collections.abc import Callable
@@ -19,9 +21,13 @@ EXTRA = "generate"
 Noise = Literal["high", "low"]
 """Of two video transformers: the one for the noisy beginning, or the one for the rest."""
 NOISES: dict[str, Noise] = {"high": "high", "low": "low"}
-SAVED_NAMES = ("pytorch_lora_weights.safetensors", "adapter_model.safetensors")
+PEFT_NAME = "adapter_model.safetensors"
+SAVED_NAMES = ("pytorch_lora_weights.safetensors", PEFT_NAME)
 """What diffusers and PEFT call the weights of an adapter in a folder."""
-_HUB_NAME = re.compile(rf"{HUB}({REPOSITORY})(?:@([^/]+))?(?:/(.+))?")
+PEFT_CONFIG = "adapter_config.json"
+"""File beside the weights in which PEFT keeps their scale."""
+_HUB_NAME = re.compile(rf"{HUB}({REPOSITORY})(?:@([^/:]+))?(?:/([^:]+))?")
+_WEIGHT = re.compile(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?|[-+]?(?:inf|nan)")
 _NOISE = re.compile(r"(?i:(high|low)[ _-]?noise)|(?<![A-Za-z])(HIGH|LOW)(?![A-Za-z])")
 """How files say which transformer they are for: high_noise_model, ..._HIGH_fp16."""
 
@@ -50,6 +56,7 @@ class AdapterFile:
 
     path: Path
     sha256: str
+    """See `digest_adapter`."""
     adapter: Adapter
 
     @property
@@ -61,7 +68,7 @@ class AdapterFile:
 
 
 def parse_adapter(text: str) -> Adapter:
-    """What `--lora` says: `SOURCE[:WEIGHT][:high|:low]`.
+    """What `--lora` says: `SOURCE[:WEIGHT][:high|:low]`, the last two in any order.
 
     Raises:
         ConfigError: it is empty, of a wrong form, or names a pickle.
@@ -72,25 +79,26 @@ def parse_adapter(text: str) -> Adapter:
         >>> parse_adapter("hub:org/name/high_noise_model.safetensors").noise_or_name
         'high'
     """
-    source, weight = text, 1.0
+    source = text
+    weight: float | None = None
     noise: Noise | None = None
-    head, _, tail = source.rpartition(":")
-    if head and tail in NOISES:
-        source, noise = head, NOISES[tail]
+    for _ in range(2):
         head, _, tail = source.rpartition(":")
-    if head and re.fullmatch(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?|[-+]?(?:inf|nan)", tail):
-        try:
-            source, weight = head, float(tail)
-        except ValueError:
-            weight = math.nan
+        if head and noise is None and tail.lower() in NOISES:
+            source, noise = head, NOISES[tail.lower()]
+        elif head and weight is None and _WEIGHT.fullmatch(tail):
+            source, weight = head, math.nan
+            with contextlib.suppress(ValueError):
+                weight = float(tail)
+    weight = 1.0 if weight is None else weight
     if not source or source[0] == ":" or not math.isfinite(weight):
         raise ConfigError(
             f"lora is {shown(text)}; write FILE or FILE:WEIGHT, such as fast.safetensors:0.8"
         )
     if source.startswith(HUB) and not _HUB_NAME.fullmatch(source):
         raise ConfigError(
-            f"lora {shown(source)} names no repository; write {HUB}organisation/name or "
-            f"{HUB}organisation/name/file.safetensors"
+            f"lora {shown(source)} names no repository or file; write {HUB}organisation/name or "
+            f"{HUB}organisation/name/file.safetensors, then :WEIGHT"
         )
     if PurePosixPath(source).suffix in PICKLES:
         raise ConfigError(
@@ -132,7 +140,21 @@ def find_adapter(adapter: Adapter, announce: Callable[[str], None]) -> AdapterFi
         MissingDependencyError: huggingface-hub is not installed.
     """
     path = find_local(adapter) or _find_on_hub(adapter, announce)
-    return AdapterFile(path, describe_file(path)["sha256"], adapter)
+    return AdapterFile(path, digest_adapter(path), adapter)
+
+
+def files_of(path: Path) -> list[Path]:
+    """The files that decide what an adapter adds: its weights, and PEFT's scale beside them."""
+    config = path.with_name(PEFT_CONFIG)
+    return [path, config] if config.is_file() else [path]
+
+
+def digest_adapter(path: Path) -> str:
+    """sha256 of the weights; where PEFT's scale is beside them, of the digests of both."""
+    digests = [describe_file(one)["sha256"] for one in files_of(path)]
+    return (
+        digests[0] if len(digests) == 1 else hashlib.sha256("".join(digests).encode()).hexdigest()
+    )
 
 
 def _find_on_hub(adapter: Adapter, announce: Callable[[str], None]) -> Path:
@@ -151,6 +173,10 @@ def _find_on_hub(adapter: Adapter, announce: Callable[[str], None]) -> Path:
                 f"fetching the adapter {adapter.source} from the model hub; licence: read its page"
             )
             cached = hub.hf_hub_download(repo, file, revision=revision)
+        if PurePosixPath(file).name == PEFT_NAME:
+            _fetch_scale(repo, file, Path(cached))
+    except InputError:  # of `_choose`; it is a ValueError too
+        raise
     except (
         errors.RepositoryNotFoundError,
         errors.RevisionNotFoundError,
@@ -159,7 +185,7 @@ def _find_on_hub(adapter: Adapter, announce: Callable[[str], None]) -> Path:
         raise InputError(
             f"the model hub has no adapter {shown(adapter.source)}, or it is gated or private"
         ) from error
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, errors.HTTPError) as error:
         raise TexventError(
             f"the adapter {adapter.source} is not on this machine and the model hub cannot be "
             f"reached: {one_line(error)}. Fetch it elsewhere (hf download {repo}) and name its file"
@@ -169,18 +195,33 @@ def _find_on_hub(adapter: Adapter, announce: Callable[[str], None]) -> Path:
     return path
 
 
+def _fetch_scale(repo: str, file: str, weights: Path) -> None:
+    """Bring PEFT's scale to the weights it is beside, unless the repository has none."""
+    hub = require("huggingface_hub", extra=EXTRA)
+    errors = require("huggingface_hub.errors", extra=EXTRA)
+    name = PurePosixPath(file)
+    commit = weights.parents[len(name.parts) - 1].name
+    config = str(name.with_name(PEFT_CONFIG))
+    if hub.try_to_load_from_cache(repo, config, revision=commit) is None:
+        with contextlib.suppress(errors.RemoteEntryNotFoundError):
+            hub.hf_hub_download(repo, config, revision=commit)
+
+
 def _list_files(repo: str, revision: str | None) -> list[str]:
-    """Weights in a repository: of the copy on this machine, else as the hub lists them."""
+    """Weights in a repository as the hub lists them; without a network, of the copy here."""
     hub = require("huggingface_hub", extra=EXTRA)
     errors = require("huggingface_hub.errors", extra=EXTRA)
     try:
-        folder = Path(hub.snapshot_download(repo, revision=revision, local_files_only=True))
-        here = [str(path.relative_to(folder)) for path in folder.rglob(f"*{SAFETENSORS}")]
-        if here:
-            return here
-    except errors.LocalEntryNotFoundError:
-        pass
-    names = hub.HfApi().list_repo_files(repo, revision=revision)
+        names = hub.HfApi().list_repo_files(repo, revision=revision)
+    except (errors.RepositoryNotFoundError, errors.RevisionNotFoundError):
+        raise
+    except (OSError, errors.HTTPError):
+        with contextlib.suppress(errors.LocalEntryNotFoundError):
+            folder = Path(hub.snapshot_download(repo, revision=revision, local_files_only=True))
+            here = [path.relative_to(folder) for path in folder.rglob(f"*{SAFETENSORS}")]
+            if here:
+                return [path.as_posix() for path in here]
+        raise
     return [name for name in names if name.endswith(SAFETENSORS)]
 
 

@@ -58,8 +58,8 @@ class VideoModel:
     """Settings of the noise schedule that the publisher asks for; "class": another diffusers
     class."""
     lora: tuple[str, ...] = ()
-    """Adapters that it runs with, as `--lora` writes them; those that the option names replace
-    them."""
+    """Adapters that it runs with, as `--lora` writes them; those that the option names
+    replace them, except where the model follows a video: there they are added."""
     motion_adapter: str | None = None
     """Repository of an AnimateDiff network, `org/name`: makes an image model one of videos."""
     licence: str = "not known to texvent; read the model's page"
