@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 diffusers = pytest.importorskip("diffusers")
 peft = pytest.importorskip("peft")
 
+from PIL import Image  # noqa: E402
 from safetensors.torch import load_file, save_file  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
@@ -28,8 +30,10 @@ from texvent.generate.diffusers_models.adapter_loading import (  # noqa: E402
     describe_few_steps,
     load_adapters,
 )
+from texvent.generate.diffusers_models.generator import DiffusersGenerator  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 from texvent.generate.video_models.adapters import Adapter, AdapterFile  # noqa: E402
+from texvent.generate.video_models.known_models import VideoModel  # noqa: E402
 from texvent.scenes.assets.provenance import check_files  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
@@ -369,6 +373,22 @@ def test_pipelines_without_adapters_and_a_missing_package_say_so(models, tmp_pat
     monkeypatch.setitem(sys.modules, "peft", None)
     with pytest.raises(MissingDependencyError, match=r"texvent\[generate\]"):
         build(models("wan"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+
+
+def test_what_shows_without_the_model_is_refused_before_it_is_fetched(tmp_path, monkeypatch):
+    model = VideoModel(name="text", repo="org/absent", pipeline="LTXPipeline", fps=Fraction(16))
+    image, decoder = tmp_path / "image.png", tmp_path / "taeltx.safetensors"
+    Image.new("RGB", (8, 8)).save(image)
+    save_file({"other": torch.zeros(2)}, decoder)
+    monkeypatch.setitem(sys.modules, "peft", None)
+    for options, kind, message in (
+        ({"image": image}, ConfigError, "LTXPipeline starts from text alone"),
+        ({"decoder": decoder}, FileFormatError, "holds no tiny video decoder"),
+        ({"lora": ("hub:org/name/a.safetensors",)}, MissingDependencyError, "peft"),
+    ):
+        generator = DiffusersGenerator(DiffusersConfig(**options), model=model)
+        with pytest.raises(kind, match=message):
+            generator.generate(PROMPT, progress=Quiet())
 
 
 @pytest.mark.parametrize(

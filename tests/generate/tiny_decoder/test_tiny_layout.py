@@ -4,6 +4,8 @@ import dataclasses
 
 import pytest
 
+from texvent.errors import FileFormatError
+from texvent.generate.tiny_decoder.fitting import check_model
 from texvent.generate.tiny_decoder.layout import TinyLayout, read_layout
 
 from .tiny_files import LAYOUTS
@@ -49,3 +51,12 @@ def test_a_layout_is_read_from_its_shapes(layout):
 def test_other_networks_have_no_layout():
     assert read_layout({}) is None
     assert read_layout({"decoder.1.weight": (4,)}) is None
+
+
+def test_a_damaged_config_of_the_models_own_decoder_is_named(tmp_path):
+    config = tmp_path / "vae" / "config.json"
+    config.parent.mkdir()
+    config.write_text("{")
+    index = {"vae": ["diffusers", "AutoencoderKLWan"]}
+    with pytest.raises(FileFormatError, match=r"config\.json is damaged"):
+        check_model(WAN, tmp_path / "taew2_1.pth", tmp_path, index)
