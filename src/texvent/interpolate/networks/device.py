@@ -49,8 +49,9 @@ def place(config: InterpolateConfig) -> Placement:
 def image_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
     """Both frames of a pair as a network expects them.
 
-    Grey frames are repeated in all three channels. A pair that is brighter than white is
-    scaled down together, so that it stays in the range the network knows.
+    Grey frames are repeated in all three channels. Levels above white are compressed
+    (`pairs.instants.matching_levels`) and both frames are scaled together, so that they stay in
+    the range the network knows.
 
     Returns:
         Two tensors [1, 3, H, W] float32, 0..1, on the CPU.
