@@ -54,7 +54,7 @@ def test_noise_is_bounded_and_continuous(x: float, y: float, z: float) -> None:
         (noise_2d(x, y, 3), noise_2d(x + 1e-4, y - 1e-4, 3)),
         (noise_3d(x, y, z), noise_3d(x + 1e-4, y - 1e-4, z + 1e-4)),
     ):
-        assert -1.0 <= value <= 1.0
+        assert abs(value) <= 1.0 + 1e-12  # -1.0000000000000004 at (0, -2.9e-6)
         assert abs(value - near) < 2e-3
 
 
