@@ -203,3 +203,28 @@ def test_a_camera_over_a_linear_image(tmp_path):
     coded = encode_srgb(spot(16))
     same = texvent.simulate(coded, camera="pan", duration=0.1, noise="none")
     assert len(events) == len(same) > 0
+
+
+@pytest.mark.parametrize(
+    ("transfer", "advice"),
+    [
+        ("linear", "Give white_level=1"),
+        ("srgb", "multiply it by 255"),
+        ("pq", "multiply it by 255"),
+    ],
+)
+def test_floats_up_to_1_are_refused_where_their_scale_is_not_known(transfer, advice):
+    def images():
+        yield np.zeros((4, 6), np.float32)  # black tells nothing
+        yield np.full((4, 6), 0.5, np.float32)
+
+    stream = open_frames(images(), CaptureConfig(transfer=transfer, fps=Fraction(25)))
+    with pytest.raises(InputError, match=r"never exceed 0\.5") as refused:
+        list(stream)
+    assert advice in str(refused.value)
+
+
+def test_a_stated_white_level_makes_floats_up_to_1_light():
+    images = iter(np.full((2, 4, 6), 0.5, np.float32))
+    config = CaptureConfig(transfer="linear", white_level=1, fps=Fraction(25))
+    assert {float(one.pixels.max()) for one in open_frames(images, config)} == {127.5}

@@ -1,5 +1,7 @@
 """Every way into a run: what is impossible is refused before any work, and options are honoured."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from texvent.cli.app import main
 from texvent.dataset.samples import SimulatedSamples
 from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.generate.procedural import ProceduralGenerator
+from texvent.generate.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import resolve
 from texvent.runtime.progress import CallbackProgress
@@ -113,6 +116,20 @@ def test_a_prompt_a_source_and_a_video_make_the_same_run():
     assert all(one.equals(first) for one in others)
     assert [run.prompt for run in runs] == [PROMPT] * 3
     assert simulate_video(video, settings, None).equals(first)
+
+
+@pytest.mark.parametrize("options", [{}, {"white_level": 4.0}, {"transfer": "linear"}])
+def test_a_prompt_changes_no_level_of_a_stored_video(tmp_path, options):
+    light = np.random.default_rng(1).uniform(0, 8, (4, 12, 16, 3)).astype(np.float32)
+    facts = {"transfer": "linear", "prompt": PROMPT}
+    path = tmp_path / "light.avi"
+    write_video(light, path, Fraction(25), facts, overwrite=False)
+    settings = resolve("simulate", {"simulator": "esim", **options})
+    named, unnamed = (
+        prepare_source(path, settings, prompt=prompt).packets.collect() for prompt in (PROMPT, None)
+    )
+    assert len(unnamed) > 0
+    assert named.equals(unnamed)
 
 
 def test_samples_of_videos_honour_the_target_rate():

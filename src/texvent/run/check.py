@@ -102,16 +102,20 @@ def check_frames(video: FrameStream, settings: Settings, progress: Progress) -> 
             progress.advance("check", index, video.frame_count)
             yield frame
 
-    frames = watched()
+    # A camera does not wait for a simulation.
+    frames, later = watched(), list[list[Frame]]()
+    look = later.append if video.is_live else windows.add
     for gap in _gaps(video.frame_count):
         window = list(itertools.islice(frames, WINDOW_FRAMES))
-        windows.add(window)
+        look(window)
         if len(window) < WINDOW_FRAMES:
             break
         for _ in itertools.islice(frames, gap):
             pass
     for _ in frames:
         pass
+    for window in later:
+        windows.add(window)
     measures = {**measurer.measures(), **windows.measures()}
     return WholeCheck(
         judge_measures(measures),

@@ -132,8 +132,8 @@ def prepare_source(
     from texvent.capture.open import open_frames  # brings readers that a prompt does not need
 
     check_run(settings)
-    is_plain = motion is None and t_us is None and _is_of_frames(settings.source)
-    if prompt is not None and is_plain and settings.source.fps is None:
+    is_plain = motion is None and t_us is None and _is_as_stored(settings.source)
+    if prompt is not None and is_plain:
         source = _stored_video(source) or source
     video = open_frames(
         source,
@@ -160,9 +160,11 @@ def prepare_video(
     return reach_target_rate(simulation, progress=progress)
 
 
-def _is_of_frames(capture: Any) -> bool:
-    """Whether frames are all that is read: no motion vectors, no camera over an image."""
-    return getattr(capture, "motion", None) is None and getattr(capture, "camera", None) is None
+def _is_as_stored(capture: Any) -> bool:
+    """Whether frames are all that is read, at their own rate and in their own light."""
+    others = ("motion", "camera", "fps", "white_level")
+    is_own_light = getattr(capture, "transfer", "auto") == "auto"
+    return is_own_light and all(getattr(capture, name, None) is None for name in others)
 
 
 def _stored_video(source: Any) -> FrameStream | None:

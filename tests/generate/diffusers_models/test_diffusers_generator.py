@@ -142,7 +142,7 @@ def test_a_prompt_asked_again_needs_no_text_encoder(models):
     assert again._run._pipe.text_encoder is None
     whole = pixels(build(models("wan"), seed=8, reuse_video=False).generate(PROMPT))
     assert np.array_equal(from_embeddings, whole)
-    # The same loaded model is then asked for a prompt that nobody encoded before.
+    # The same loaded model is then asked for a prompt without stored embeddings.
     assert again.generate("a blue dog").frame_count == 5
 
 

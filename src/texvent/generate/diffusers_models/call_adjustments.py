@@ -14,7 +14,6 @@ import contextlib
 import functools
 import inspect
 from collections.abc import Iterable, Iterator, Mapping
-from types import TracebackType
 from typing import Any
 
 from texvent.runtime.progress import Progress
@@ -43,13 +42,8 @@ class StepReporter:
     def __enter__(self) -> StepReporter:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        del kind, error, trace
+    def __exit__(self, *error: object) -> None:
+        self.close()
 
     def __iter__(self) -> Iterator[Any]:
         for item in self._items or ():

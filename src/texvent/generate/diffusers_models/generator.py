@@ -129,12 +129,7 @@ class DiffusersGenerator:
         """What making the video would take, or None if it was made before. Touches no network."""
         self._check(prompt)
         key = content_key(self._pixel_facts(prompt, self.seed))
-        if (
-            VideoCache(is_kept=self.config.reuse_video).find(
-                key, self.fps * self.config.rate_factor
-            )
-            is not None
-        ):
+        if VideoCache(is_kept=self.config.reuse_video).find(key, self._video_fps) is not None:
             return None
         config, folder = self.config, self.model.folder or find_downloaded(self.model)
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
@@ -159,6 +154,11 @@ class DiffusersGenerator:
                 "weights; say it, for example --fps 16"
             )
         return Fraction(rate)
+
+    @property
+    def _video_fps(self) -> Fraction:
+        """Frame rate of the video that comes out."""
+        return self.fps * self.config.rate_factor
 
     def _check(self, prompt: str) -> None:
         if not prompt.strip():
@@ -217,7 +217,7 @@ class DiffusersGenerator:
     def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> StoredVideo:
         cache = VideoCache(is_kept=self.config.reuse_video)
         key = content_key(self._pixel_facts(prompt, seed))
-        found = cache.find(key, self.fps * self.config.rate_factor)
+        found = cache.find(key, self._video_fps)
         if found is not None:
             progress.announce(f"this video was generated before: {found.path}")
             return found.with_metadata(**self._request_facts())
@@ -231,7 +231,7 @@ class DiffusersGenerator:
             **self._request_facts(),
             **run.provenance(),
         }
-        video = cache.store(key, frames, self.fps * self.config.rate_factor, facts)
+        video = cache.store(key, frames, self._video_fps, facts)
         asked = self.config.frames and refined_count(self.config.frames, self.config.rate_factor)
         if asked not in (None, video.frame_count):
             progress.announce(
