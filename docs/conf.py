@@ -116,7 +116,7 @@ html_theme_options = {
 CHILDREN = {
     "simulators": [
         f"simulators/{name}"
-        for name in ("texvent", "esim", "v2e", "physical", "voltmeter", "senpi", "v2ce")
+        for name in ("texvent", "esim", "v2e", "physical", "cameras", "voltmeter", "senpi", "v2ce")
     ],
     "benchmark": ["results/fidelity", "results/fidelity-full"],
     "real-data": ["results/real-slider_depth", "results/real-davis346"],

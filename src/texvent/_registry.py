@@ -234,6 +234,8 @@ FILTERS = Registry(
             "texvent.transform.filters.background_activity:BackgroundActivityFilter"
         ),
         "refractory": "texvent.transform.filters.refractory:RefractoryFilter",
+        "event-trail": "texvent.transform.filters.event_trail:EventTrailFilter",
+        "anti-flicker": "texvent.transform.filters.anti_flicker:AntiFlickerFilter",
         "hot-pixels": "texvent.transform.filters.hot_pixels:HotPixelFilter",
         "mask": "texvent.transform.filters.pixel_mask:MaskFilter",
         "rate-limit": "texvent.transform.filters.rate_limit:RateLimitFilter",

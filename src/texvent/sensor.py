@@ -51,8 +51,36 @@ SENSORS: dict[str, Sensor] = {
         Sensor(
             "evk4", SensorSize(1280, 720), "Prophesee EVK4 (Sony IMX636)", "Prophesee data sheet"
         ),
+        Sensor("genx320", SensorSize(320, 320), "Prophesee GenX320", "Prophesee product page"),
+        Sensor(
+            "gen3.1", SensorSize(640, 480), "Prophesee Gen3.1 VGA (PPS3MVCD)", "Prophesee manual"
+        ),
+        Sensor(
+            "dvxplorer",
+            SensorSize(640, 480),
+            "iniVation DVXplorer (Samsung S5K231Y)",
+            "iniVation specifications",
+        ),
     )
 }
+ALIASES: dict[str, str] = {
+    **dict.fromkeys(("imx636", "evk4-hd", "gen4", "gen4.1", "silkyevcam-hd"), "evk4"),
+    **dict.fromkeys(("gen3", "gen31", "pps3mvcd", "silkyevcam-vga"), "gen3.1"),
+    "davis240": "davis240c",
+    "davis346b": "davis346",
+}
+"""Other names of sensors, of the chip or of cameras with it → the name in `SENSORS`."""
+
+
+def find_sensor(name: str) -> Sensor | None:
+    """The sensor with a name or another name, upper or lower case; None if there is none.
+
+    Example:
+        >>> find_sensor("IMX636").name
+        'evk4'
+    """
+    name = name.strip().lower()
+    return SENSORS.get(ALIASES.get(name, name))
 
 
 def parse_sensor(text: str) -> SensorSize:
@@ -70,11 +98,10 @@ def parse_sensor(text: str) -> SensorSize:
     match = re.fullmatch(r"(\d{1,9})[xX×](\d{1,9})", text.strip())
     if match:
         return checked_size(int(match[1]), int(match[2]))
-    sensor = SENSORS.get(text.strip().lower())
+    sensor = find_sensor(text)
     if sensor is None:
-        raise ConfigError(
-            f"unknown sensor {shown(text)}; {suggest(text.lower(), (*SENSORS, 'WIDTHxHEIGHT'))}"
-        )
+        names = (*SENSORS, "WIDTHxHEIGHT")
+        raise ConfigError(f"unknown sensor {shown(text)}; {suggest(text.lower(), names)}")
     return sensor.size
 
 

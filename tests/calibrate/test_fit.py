@@ -2,14 +2,19 @@ import dataclasses
 
 import pytest
 
+from texvent.calibrate.estimates import describe_estimates
 from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.preset import describe_fit, write_preset
+from texvent.calibrate.recording import Recording
+from texvent.config import InterpolateConfig
 from texvent.errors import OutputError
+from texvent.events import EventStream
 from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.config import PRESETS
+from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.simulator import PhysicalSimulator
 
-from .conftest import TRUTH
+from .conftest import TRUTH, moving_blobs
 
 START = dataclasses.replace(TRUTH, contrast_threshold=0.2, on_off_ratio=1.0, balance=10.0)
 
@@ -39,14 +44,52 @@ def test_the_fit_is_better_where_it_was_not_fitted(fit):
 
 
 def test_every_step_is_reported(fit, lines):
-    assert not fit.has_noise
+    assert fit.noise is None
     assert lines[0] == "too few still pixels to measure noise"
     assert any(line.startswith("balance 20: distance") for line in lines)
     assert any(line.startswith("cutoff_hz") for line in lines)
 
 
+def test_every_fitted_option_has_an_interval_that_holds_it(fit):
+    found = {one.name: one for one in fit.found}
+    assert set(found) == {"contrast_threshold", "on_off_ratio", "balance", "cutoff_hz"}
+    for name, one in found.items():
+        assert one.low <= one.value <= one.high
+        assert one.value == getattr(fit.config, name)
+        # The true value, or what the steps of the search leave of it.
+        assert one.low / 1.2 <= getattr(TRUTH, name) <= one.high * 1.2, name
+    kept = {one.name for one in fit.kept}
+    assert {"noise_curve", "leak_rate_hz", "threshold_sigma", "refractory_period_us"} <= kept
+
+
+def test_a_third_of_a_second_is_fitted_and_says_what_it_does_not_tell():
+    frames = moving_blobs(19)
+    sensor = PhysicalSimulator(TRUTH, seed=77)
+    events = EventStream.concat([sensor.step(frame) for frame in frames])
+    short = Recording(frames, events, InterpolateConfig(interpolate="none"))
+    fit = fit_sensor(short, start=START)
+    assert fit.config.contrast_threshold == pytest.approx(TRUTH.contrast_threshold, rel=0.15)
+    assert fit.distances["fitted"][1].total < 0.5 * fit.distances["start"][1].total
+    assert all(getattr(fit.config, one.name) == one.value for one in fit.kept)
+    assert {one.name for one in (*fit.found, *fit.kept)} >= {"balance", "cutoff_hz", "noise_curve"}
+
+
+def test_too_few_events_keep_every_option_of_the_circuit(recording):
+    few = dataclasses.replace(recording, events=recording.events[::400])
+    fit = fit_sensor(few, start=START, seconds=0.2)
+    assert fit.config == START
+    assert not fit.found
+    reason = {one.name: one.reason for one in fit.kept}["contrast_threshold"]
+    assert reason.endswith("OFF events; 100 of each are needed")
+
+
+def write(fit, path, **options):
+    lines = [*describe_fit(fit, "a test"), *describe_estimates(fit.found, fit.kept)]
+    return write_preset(fit.config, lines, path, size=SensorSize(32, 24), **options), lines
+
+
 def test_a_preset_is_a_config_file_of_a_run(fit, tmp_path):
-    path = write_preset(fit, tmp_path / "my.toml", size=SensorSize(32, 24), source="a test")
+    path, lines = write(fit, tmp_path / "my.toml")
     settings = resolve("simulate", {}, config=path)
     assert settings.run.simulator == "physical"
     assert settings.size == (32, 24)
@@ -54,14 +97,15 @@ def test_a_preset_is_a_config_file_of_a_run(fit, tmp_path):
     assert settings.simulate == dataclasses.replace(fit.config, gamma=PRESETS["default"].gamma)
     text = path.read_text()
     assert text.startswith("# Fitted to a test by texvent")
-    assert all(f"# {line}\n" in text for line in describe_fit(fit, "a test"))
+    assert all(f"# {line}\n" in text for line in lines)
+    assert "# found balance 20 (95 %: " in text
 
 
 def test_an_existing_preset_is_kept(fit, tmp_path):
     path = tmp_path / "my.toml"
     path.write_text("mine")
     with pytest.raises(OutputError, match="exists"):
-        write_preset(fit, path, size=SensorSize(32, 24), source="a test")
+        write(fit, path)
     assert path.read_text() == "mine"
-    write_preset(fit, path, size=SensorSize(32, 24), source="a test", overwrite=True)
+    write(fit, path, overwrite=True)
     assert path.read_text() != "mine"

@@ -46,6 +46,10 @@ def test_on_events_without_off_events_are_leak():
     noise = measure_noise(recording, SPAN, gamma=1.0)
     assert noise.leak_rate_hz == pytest.approx(3.0, rel=0.1)
     assert (noise.curve.rates_hz < 0.01).all()
+    *rates, leak = noise.estimates()
+    # No OFF event in 1,560 pixel-seconds of each stripe and more: 3 would be seen 95 times of 100.
+    assert all(one.low == 0 and 1e-3 < one.high < 0.01 for one in rates)
+    assert 2.5 < leak.low < leak.value < leak.high < 3.5
 
 
 def test_a_textured_scene_at_rest_is_measured_pixel_by_pixel():

@@ -57,6 +57,15 @@ def test_clocks_that_do_not_meet_are_refused(recording):
         Recording(frames, EventStream.empty(frames.size), InterpolateConfig()).halves()
 
 
-def test_too_few_events_are_refused(recording):
-    with pytest.raises(InputError, match="needs 1000 of each"):
-        recording.recorded(TimeSpan(100_000, 101_000))
+def test_recordings_from_a_third_of_a_second_on_have_halves(recording):
+    events = recording.events
+    for count, is_enough in ((19, True), (14, False)):
+        frames = moving_blobs(count)
+        short = Recording(frames, events, recording.interpolate)
+        if is_enough:
+            first, second = short.halves()
+            assert first.seconds == pytest.approx(0.1, abs=1e-3)
+            assert second.seconds == pytest.approx(0.1, abs=1e-3)
+        else:
+            with pytest.raises(InputError, match=r"0\.117 s after the first 0\.1 s.*needs 0\.15 s"):
+                short.halves()

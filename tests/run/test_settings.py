@@ -62,11 +62,42 @@ def test_what_is_no_sensor_is_refused(sensor):
 
 
 def test_a_sensor_without_measured_constants_is_said_to_have_none():
-    with_constants = resolve("simulate", {"simulator": "physical", "sensor": "davis346"})
+    with_constants = resolve("simulate", {"simulator": "voltmeter", "sensor": "davis346"})
     assert unmeasured_sensor(with_constants.run) is None
-    without = resolve("simulate", {"simulator": "physical", "sensor": "evk4"})
-    assert "evk4 sets the size only" in unmeasured_sensor(without.run)
-    assert unmeasured_sensor(resolve("simulate", {"sensor": "evk4"}).run) is None
+    with_some = resolve("simulate", {"simulator": "physical", "sensor": "IMX636"})
+    assert "of evk4, contrast_threshold, " in unmeasured_sensor(with_some.run)
+    without_them = {"simulator": "physical", "sensor": "evk4", "preset": "default"}
+    assert unmeasured_sensor(resolve("simulate", without_them).run) is None
+    without = resolve("simulate", {"simulator": "physical", "sensor": "gen4-hd"})
+    assert "gen4-hd sets the size only" in unmeasured_sensor(without.run)
+    assert unmeasured_sensor(resolve("simulate", {"sensor": "gen4-hd"}).run) is None
+
+
+@pytest.mark.parametrize(
+    ("sensor", "size", "preset"),
+    [
+        ("evk4", (1280, 720), "evk4"),
+        ("IMX636", (1280, 720), "evk4"),
+        ("genx320", (320, 320), "genx320"),
+        ("gen3", (640, 480), "gen3.1"),
+        ("dvxplorer", (640, 480), "dvxplorer"),
+        ("davis240", (240, 180), "davis240c"),
+    ],
+)
+def test_a_camera_chooses_size_and_preset_by_any_of_its_names(sensor, size, preset):
+    settings = resolve("simulate", {"simulator": "physical", "sensor": sensor})
+    assert settings.size == size
+    assert settings.run.preset == preset
+
+
+def test_biases_are_those_of_the_camera():
+    settings = resolve(
+        "simulate", {"simulator": "physical", "sensor": "gen3.1", "bias": "diff_on=469"}
+    )
+    usual = settings.simulate.contrast_threshold
+    assert settings.simulate.contrast_threshold_on == pytest.approx(2 * usual)
+    with pytest.raises(ConfigError, match="biases belong to a camera"):
+        resolve("simulate", {"simulator": "physical", "bias": "diff_on=469"})
 
 
 def test_a_fitted_sensor_file_sets_simulator_size_and_constants(tmp_path):

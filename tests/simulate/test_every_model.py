@@ -25,7 +25,11 @@ V2E_SHARE = 1 - 0.75 * (DARK + 20) / 275
 """v2e's noise at this level, as a share of that in the dark."""
 NOISY: dict[str, dict[str, Any]] = {
     "texvent": {"noise_rate_hz": RATE_HZ},
-    "physical": {"noise_curve": f"0:{RATE_HZ} 255:{RATE_HZ}", "leak_rate_hz": 0.0},
+    "physical": {
+        "noise_scale": 1.0,
+        "noise_curve": f"0:{RATE_HZ} 255:{RATE_HZ}",
+        "leak_rate_hz": 0.0,
+    },
     "v2e": {"shot_noise_rate_hz": RATE_HZ / V2E_SHARE, "leak_rate_hz": 0.0, "threshold_sigma": 0.0},
     "senpi": {"noise_rate_hz": RATE_HZ, "refractory_period_us": 0},
     "voltmeter": {"k4": RATE_HZ * 1e-6, "k5": 0.0},

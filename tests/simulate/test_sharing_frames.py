@@ -6,7 +6,8 @@ import importlib
 import numpy as np
 import pytest
 
-from texvent.simulate.physical.config import PRESETS, PhysicalConfig
+from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator
 from texvent.simulate.v2e.config import V2eConfig

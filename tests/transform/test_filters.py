@@ -28,6 +28,8 @@ FILTERS = (
     "rate-limit:rate_hz=2e6,window_us=2",
     "rate-limit:rate_hz=1e6,window_us=7",
     "hot-pixels:factor=1.5,least_events=2",
+    "event-trail:threshold_us=4",
+    "event-trail:mode=trail,threshold_us=4",
 )
 
 

@@ -2,44 +2,28 @@
 
 The noise curve is measured directly. For any balance and cutoff, the two thresholds follow from
 the counts of ON and OFF events; balance and cutoff are those with the least distance, searched
-one at a time with steps that shrink.
+one at a time with steps that shrink. What the recording does not tell stays as it was.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from texvent.calibrate.distance import Distance, measure_distance
-from texvent.calibrate.noise import MeasuredNoise, measure_noise
+from texvent.calibrate.estimates import Estimate, Kept
+from texvent.calibrate.noise import LEAST_EXPOSURE_S, MeasuredNoise, measure_noise
 from texvent.calibrate.recording import Recording, TimeSpan, simulate_span
+from texvent.calibrate.search import COORDINATES, Report, Search
+from texvent.calibrate.uncertainty import Judgement, judge_fit
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
-from texvent.video import Frame
 
-OFFSETS_US = (-10_000, -5_000, 0, 2_500, 5_000, 10_000, 15_000)
-"""Offsets of the frame times that are tried, µs: their stamps are the start of the exposure, and
-half of it or more may be missing."""
-COORDINATES: Mapping[str, tuple[float, float]] = {
-    "balance": (1.0, 200.0),
-    "cutoff_hz": (10.0, 3000.0),
-}
-"""Options that are searched, with their limits."""
-STEPS = (2.0, math.sqrt(2.0))
-"""Factors by which they are changed, one round each."""
-COUNT_ROUNDS = 5
-"""Simulations that may be spent on the thresholds of one candidate."""
-COUNT_TOLERANCE = 0.01
-"""Logarithm of a count ratio at which thresholds are good enough."""
-COUNT_GAIN = 0.7
-"""Step of the logarithm of a threshold per logarithm of a count ratio: counts fall with its power
--1 to -1.5, so this neither creeps nor overshoots."""
-THRESHOLD_LIMITS = (0.02, 2.0)
-"""Smallest and largest threshold that is tried, log units."""
-
-Report = Callable[[str], None]
+LEAST_EVENTS = 100
+"""Fewer recorded events than this of either polarity fit no threshold."""
+NOT_FITTED = ("threshold_sigma", "refractory_period_us", "noise_decades", "leak_rate_decades")
+"""Options that frames and events of a moving scene do not tell."""
 
 
 class Fit(NamedTuple):
@@ -49,19 +33,20 @@ class Fit(NamedTuple):
     """The fitted model."""
     offset_us: int
     """What was added to the frame times, µs; it belongs to the recording, not to the sensor."""
-    has_noise: bool
-    """Whether noise and leak were measured (else they are those the fit started with)."""
+    noise: MeasuredNoise | None
+    """Noise and leak of still pixels; None if they are those the fit started with."""
     span: TimeSpan
     """The part that was fitted."""
     held_out: TimeSpan
     """The part that was not."""
     distances: Mapping[str, tuple[Distance, Distance]]
     """"start" and "fitted" → distance on the fitted and on the held-out part."""
-
-
-class _Candidate(NamedTuple):
-    config: PhysicalConfig
-    distance: Distance
+    found: tuple[Estimate, ...]
+    """Measured constants with their intervals."""
+    kept: tuple[Kept, ...]
+    """Constants that the recording does not tell."""
+    compared: tuple[EventStream, EventStream]
+    """Recorded and simulated events of the held-out part."""
 
 
 def fit_sensor(
@@ -80,35 +65,59 @@ def fit_sensor(
         report: told of every step in one line.
 
     Raises:
-        InputError: the recording is too short or has too few events.
+        InputError: the recording is too short.
     """
     halves = recording.halves()
     span, held_out = (half.first(seconds) for half in halves)
-    truth = {part: recording.recorded(part) for part in (span, held_out)}
+    truth = {part: recording.events.cut(*part) for part in (span, held_out)}
     noise = measure_noise(recording, halves[0], gamma=start.gamma)
     first = start if noise is None else _with_noise(start, noise)
     report("too few still pixels to measure noise" if noise is None else f"noise {noise.curve}")
     dense = {part: recording.dense_frames(part, start) for part in truth}
-    search = _Search(dense[span], truth[span], span, report)
-    search.find_offset(search.match_counts(first).config)
-    best = search.run(search.match_counts(first))
-    distances = {
-        name: tuple(
-            measure_distance(
-                simulate_span(dense[part], part, config, offset_us=search.offset_us), truth[part]
-            )
-            for part in (span, held_out)
-        )
-        for name, config in (("start", start), ("fitted", best.config))
+    search = Search(dense[span], truth[span], span, report)
+    fitted = _fit_circuit(search, truth[span], span, first, start)
+    events = {
+        (name, part): simulate_span(dense[part], part, config, offset_us=search.offset_us)
+        for name, config in (("start", start), ("fitted", fitted.config))
+        for part in (span, held_out)
     }
+    of_noise = _noise_constants(noise, start)
     return Fit(
-        config=best.config,
+        config=fitted.config,
         offset_us=search.offset_us,
-        has_noise=noise is not None,
+        noise=noise,
         span=span,
         held_out=held_out,
-        distances={name: (fitted, held) for name, (fitted, held) in distances.items()},
+        distances={
+            name: (
+                measure_distance(events[name, span], truth[span]),
+                measure_distance(events[name, held_out], truth[held_out]),
+            )
+            for name in ("start", "fitted")
+        },
+        found=(*fitted.found, *of_noise.found),
+        kept=(*fitted.kept, *of_noise.kept),
+        compared=(truth[held_out], events["fitted", held_out]),
     )
+
+
+def _fit_circuit(
+    search: Search,
+    truth: EventStream,
+    span: TimeSpan,
+    first: PhysicalConfig,
+    start: PhysicalConfig,
+) -> Judgement:
+    """Thresholds, balance and cutoff, if there are events enough."""
+    on = int(truth.p.sum())
+    off = len(truth) - on
+    if min(on, off) < LEAST_EVENTS:
+        names = ("contrast_threshold", "on_off_ratio", *COORDINATES)
+        reason = f"{on} ON and {off} OFF events; {LEAST_EVENTS} of each are needed"
+        return Judgement(first, (), tuple(Kept(n, getattr(start, n), reason) for n in names))
+    search.find_offset(search.match_counts(first).config)
+    best = search.run(search.match_counts(first))
+    return judge_fit(search, truth, span, best.config, start)
 
 
 def _with_noise(config: PhysicalConfig, noise: MeasuredNoise) -> PhysicalConfig:
@@ -121,70 +130,11 @@ def _with_noise(config: PhysicalConfig, noise: MeasuredNoise) -> PhysicalConfig:
     )
 
 
-class _Search:
-    """The search on one part of a recording."""
-
-    def __init__(
-        self, frames: list[Frame], truth: EventStream, span: TimeSpan, report: Report
-    ) -> None:
-        self._frames = frames
-        self._truth = truth
-        self._span = span
-        self._report = report
-        self.offset_us = 0
-
-    def run(self, best: _Candidate) -> _Candidate:
-        """Change one option at a time, in both directions, as long as that helps."""
-        for step in STEPS:
-            for name, limits in COORDINATES.items():
-                for factor in (step, 1 / step):
-                    best = self._follow(best, name, factor, limits)
-        return best
-
-    def _follow(
-        self, best: _Candidate, name: str, factor: float, limits: tuple[float, float]
-    ) -> _Candidate:
-        """Multiply an option again and again while the distance falls."""
-        while True:
-            value = getattr(best.config, name) * factor
-            if not limits[0] <= value <= limits[1]:
-                return best
-            trial = self.match_counts(dataclasses.replace(best.config, **{name: value}))
-            self._report(f"{name} {value:.4g}: distance {trial.distance}")
-            if trial.distance.total >= best.distance.total:
-                return best
-            best = trial
-
-    def find_offset(self, config: PhysicalConfig) -> None:
-        """Choose the offset of the frame times with the largest overlap."""
-
-        def overlap(offset_us: int) -> float:
-            self.offset_us = offset_us
-            return self._measure(config).overlap
-
-        self.offset_us = min(OFFSETS_US, key=overlap)
-        self._report(f"frame times are moved by {self.offset_us} µs")
-
-    def match_counts(self, config: PhysicalConfig) -> _Candidate:
-        """Change both thresholds until the counts of ON and OFF events agree."""
-        tried: list[_Candidate] = []
-        for _ in range(COUNT_ROUNDS):
-            tried.append(_Candidate(config, self._measure(config)))
-            log_on, log_off = tried[-1].distance.log_on, tried[-1].distance.log_off
-            if max(abs(log_on), abs(log_off)) <= COUNT_TOLERANCE:
-                break
-            on = _limited(config.contrast_threshold_on * math.exp(COUNT_GAIN * log_on))
-            off = _limited(config.contrast_threshold_off * math.exp(COUNT_GAIN * log_off))
-            config = dataclasses.replace(
-                config, contrast_threshold=math.sqrt(on * off), on_off_ratio=on / off
-            )
-        return min(tried, key=lambda candidate: candidate.distance.total)
-
-    def _measure(self, config: PhysicalConfig) -> Distance:
-        events = simulate_span(self._frames, self._span, config, offset_us=self.offset_us)
-        return measure_distance(events, self._truth)
-
-
-def _limited(threshold: float) -> float:
-    low, high = THRESHOLD_LIMITS
-    return min(max(threshold, low), high)
+def _noise_constants(noise: MeasuredNoise | None, start: PhysicalConfig) -> Judgement:
+    """Noise and leak with their intervals, or why they stay."""
+    kept = [Kept(n, getattr(start, n), "needs a recording without frames") for n in NOT_FITTED]
+    if noise is None:
+        reason = f"no still pixels for {LEAST_EXPOSURE_S:g} pixel-seconds in two ranges of light"
+        kept += [Kept(n, getattr(start, n), reason) for n in ("noise_curve", "leak_rate_hz")]
+        return Judgement(start, (), tuple(kept))
+    return Judgement(start, noise.estimates(), tuple(kept))

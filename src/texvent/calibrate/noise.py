@@ -9,6 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.calibrate.bootstrap import Float64Array, bootstrap
+from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.recording import Recording, TimeSpan
 from texvent.represent.event_frame import count_events
 from texvent.simulate.physical.circuit import linearize
@@ -34,7 +36,6 @@ LEAST_RANGES = 2
 """Ranges that make a curve."""
 
 BoolArray = NDArray[np.bool_]
-Float64Array = NDArray[np.float64]
 
 
 class MeasuredNoise(NamedTuple):
@@ -44,6 +45,19 @@ class MeasuredNoise(NamedTuple):
     """Noise, ON and OFF together, by intensity."""
     leak_rate_hz: float
     """ON events per pixel and second that no OFF events match."""
+    ends: Float64Array
+    """[2, points + 1] lower and upper ends of the 95 % intervals of the rates and of the leak."""
+
+    def estimates(self) -> tuple[Estimate, ...]:
+        """The noise at each level and the leak, with their intervals."""
+        names = [f"noise at level {level:g}" for level in self.curve.levels]
+        values = [*self.curve.rates_hz.tolist(), self.leak_rate_hz]
+        return tuple(
+            Estimate(name, value, low, high, "1/(px s)")
+            for name, value, low, high in zip(
+                [*names, "leak_rate_hz"], values, *self.ends.tolist(), strict=True
+            )
+        )
 
 
 def measure_noise(recording: Recording, span: TimeSpan, *, gamma: float) -> MeasuredNoise | None:
@@ -61,25 +75,49 @@ def measure_noise(recording: Recording, span: TimeSpan, *, gamma: float) -> Meas
         The noise, or None if fewer than two ranges of intensity had still pixels for long enough.
     """
     edges = np.array(EDGES)
-    exposure = np.zeros(len(edges) - 1)
-    counts = np.zeros((2, len(edges) - 1))
+    size = len(edges) - 1
+    rows = []
     for now, (start_us, stop_us), still in _still_pixels(recording, span, gamma):
         group = np.digitize(now[still], edges) - 1
-        size = len(exposure)
-        exposure += (stop_us - start_us) / MICROSECONDS * np.bincount(group, minlength=size)
+        exposure = (stop_us - start_us) / MICROSECONDS * np.bincount(group, minlength=size)
         events = count_events(recording.events.cut(start_us, stop_us))
-        for p in (0, 1):
-            counts[p] += np.bincount(group, weights=events[p][still], minlength=size)
+        counts = [np.bincount(group, weights=events[p][still], minlength=size) for p in (0, 1)]
+        rows.append([exposure, *counts])
+    if not rows:
+        return None
+    parts = np.array(rows)
+    exposure = parts[:, 0].sum(axis=0)
     known = exposure >= LEAST_EXPOSURE_S
     if known.sum() < LEAST_RANGES:
         return None
-    rate_hz = 2 * _rates(counts[0][known], exposure[known])
-    middle = (edges[:-1] + edges[1:])[known] / 2
-    surplus_hz = (counts[1] - counts[0])[known] / exposure[known]
-    bright = surplus_hz[edges[:-1][known] >= LEAK_FROM]
+    parts, middle = parts[:, :, known], ((edges[:-1] + edges[1:]) / 2)[known]
+    bright = edges[:-1][known] >= LEAK_FROM
+
+    def estimate(weights: Float64Array) -> Float64Array:
+        exposure, off, on = np.einsum("f,fkr->kr", weights, parts)
+        return _rates_and_leak(exposure, off, on, bright)
+
+    values = estimate(np.ones(len(parts)))
+    ends = bootstrap(estimate, (len(parts),))
+    # Without an event, a rate of 3 per exposure would have shown one in 95 % of all cases.
+    least = np.append(2 * 3 / exposure[known], 0.0)
+    ends[1] = np.maximum(ends[1], least)
+    # What stands for no event in the value is no evidence of noise.
+    ends[0, :-1][parts[:, 1].sum(axis=0) == 0] = 0.0
+    return MeasuredNoise(
+        NoiseCurve(np.minimum(middle, 255.0), values[:-1]), float(values[-1]), ends
+    )
+
+
+def _rates_and_leak(
+    exposure: Float64Array, off: Float64Array, on: Float64Array, bright: BoolArray
+) -> Float64Array:
+    """Noise rates of all ranges, then the leak, [ranges + 1]."""
+    exposure = np.maximum(exposure, 1e-9)
+    surplus_hz = (on - off)[bright] / exposure[bright]
     # The median: one range in which something flickered or moved does not decide.
-    leak_hz = max(float(np.median(bright)), 0.0) if bright.size else 0.0
-    return MeasuredNoise(NoiseCurve(np.minimum(middle, 255.0), rate_hz), leak_hz)
+    leak_hz = max(float(np.median(surplus_hz)), 0.0) if bright.any() else 0.0
+    return np.append(2 * _rates(off, exposure), leak_hz)
 
 
 def _rates(counts: Float64Array, exposure: Float64Array) -> Float64Array:

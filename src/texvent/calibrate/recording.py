@@ -18,8 +18,8 @@ from texvent.video import MICROSECONDS, Frame, FrameStream
 
 WARM_UP_US = 100_000
 """Simulated before a span, so that pixels have left their initial phase, µs."""
-LEAST_EVENTS = 1000
-"""Fewer recorded events than this of either polarity fit nothing."""
+LEAST_SHARED_US = 150_000
+"""Time that frames and events must share after the warm-up, µs."""
 
 
 class TimeSpan(NamedTuple):
@@ -66,7 +66,7 @@ class Recording:
         """The two halves of what frames and events share.
 
         Raises:
-            InputError: they share less than a second.
+            InputError: they share less than 0.15 s after the first 0.1 s.
         """
         times = [frame.t_us for frame in self.frames]
         if not times or not len(self.events):
@@ -74,27 +74,13 @@ class Recording:
         start = max(times[0] + WARM_UP_US, int(self.events.t[0]))
         stop = min(times[-1], int(self.events.t[-1]))
         middle = (start + stop) // 2
-        if stop - start < MICROSECONDS:
+        if stop - start < LEAST_SHARED_US:
             raise InputError(
-                f"frames and events share {max(stop - start, 0) / MICROSECONDS:.3f} s; "
-                "calibration needs at least 1 s. Do they run on the same clock?"
+                f"frames and events share {max(stop - start, 0) / MICROSECONDS:.3f} s after the "
+                f"first {WARM_UP_US / MICROSECONDS:g} s; calibration needs "
+                f"{LEAST_SHARED_US / MICROSECONDS:g} s or more. Do they run on the same clock?"
             )
         return TimeSpan(start, middle), TimeSpan(middle, stop)
-
-    def recorded(self, span: TimeSpan) -> EventStream:
-        """The events of a span.
-
-        Raises:
-            InputError: there are too few of a polarity.
-        """
-        events = self.events.cut(*span)
-        on = int(events.p.sum())
-        if min(on, len(events) - on) < LEAST_EVENTS:
-            raise InputError(
-                f"{on} ON and {len(events) - on} OFF events from {span.start_us} to "
-                f"{span.stop_us} µs; calibration needs {LEAST_EVENTS} of each"
-            )
-        return events
 
     def dense_frames(self, span: TimeSpan, config: PhysicalConfig) -> list[Frame]:
         """Frames of a span and of the time before it that a simulation needs, in memory."""

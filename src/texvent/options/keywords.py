@@ -92,11 +92,18 @@ class SimulatorOptions(TypedDict, total=False):
     hot_pixel_fraction: float | None
     hot_pixel_rate_hz: float | None
     sensor_seed: int | None
+    arbiter: Literal["none", "rows", "scan"] | None
+    arbiter_row_ns: int | None
+    arbiter_event_ns: int | None
+    scan_period_ns: int | None
     readout_latency_us: int | None
     readout_jitter_us: int | None
     clock_step_us: int | None
     rate_limit_hz: float | None
     rate_limit_window_us: int | None
+    readout_filters: Sequence[str] | None
+    bias_camera: str | None
+    bias: str | None
     contrast_threshold_on: float | None
     contrast_threshold_off: float | None
     threshold_redraw: Literal["frame", "never"] | None

@@ -40,7 +40,7 @@ from texvent.errors import ConfigError, shown, warn
 from texvent.rig.description import NOISE_NAMES, Float64Array, ImuNoise, Rig, RigCamera
 from texvent.run.settings import read_document
 from texvent.scenes.lens import Distortion, Lens, lens_reach
-from texvent.sensor import SENSORS, SensorSize, checked_size
+from texvent.sensor import SENSORS, SensorSize, checked_size, find_sensor
 
 HALF_PIXEL = 0.5
 MOST_CAMERAS = 16
@@ -212,11 +212,12 @@ def _entry(value: Any, name: str, where: str) -> Mapping[str, Any]:
 def _resolution(entry: Mapping[str, Any], size: SensorSize, where: str) -> SensorSize:
     sensor = entry.get("sensor")
     if sensor is not None:
-        if not isinstance(sensor, str) or sensor not in SENSORS:
+        known = find_sensor(sensor) if isinstance(sensor, str) else None
+        if known is None:
             raise ConfigError(
                 f"{where}: no sensor {shown(sensor)}; {suggest(str(sensor), tuple(SENSORS))}"
             )
-        size = SENSORS[sensor].size
+        size = known.size
     if "resolution" not in entry:
         return size
     width, height = _numbers(entry["resolution"], 2, f"{where}: resolution")

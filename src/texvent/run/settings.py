@@ -20,7 +20,7 @@ from texvent.io.files import event_extensions, open_events
 from texvent.options.fields import option_names, with_current_names
 from texvent.options.values import plain, with_options
 from texvent.runtime.file_names import usable_path
-from texvent.sensor import SENSORS, Sensor, SensorSize, parse_sensor
+from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
 from texvent.simulate.thresholds import with_contrast_threshold
 
 Command = Literal["generate", "simulate"]
@@ -190,24 +190,39 @@ def sensor_preset(simulator: str | None, sensor: str | None) -> str | None:
     Example:
         >>> sensor_preset("physical", "davis346"), sensor_preset("texvent", "davis346")
         ('davis346', None)
+        >>> sensor_preset("physical", "imx636")
+        'evk4'
     """
     if not isinstance(sensor, str):
         return None
     presets = SIMULATORS.load(simulator or RunConfig.simulator).presets
+    known = find_sensor(sensor)
+    name = known.name if known else sensor.lower()
     # A model may have constants for a family: voltmeter's "davis240" is for "davis240c".
-    return next((name for name in presets if sensor.lower().startswith(name)), None)
+    return next((preset for preset in presets if name.startswith(preset)), None)
 
 
 def unmeasured_sensor(run: RunConfig) -> str | None:
-    """Say so if the simulator has measured constants of some sensors but not of the chosen one."""
-    presets = SIMULATORS.load(run.simulator).presets
-    knows_some = any(sensor_preset(run.simulator, name) for name in SENSORS)
-    if run.sensor not in SENSORS or not knows_some or sensor_preset(run.simulator, run.sensor):
+    """Say which constants of the chosen sensor the simulator knows, if it knows some of sensors."""
+    simulator = SIMULATORS.load(run.simulator)
+    sensor = None if run.sensor is None else find_sensor(run.sensor)
+    if sensor is None or not any(sensor_preset(run.simulator, name) for name in SENSORS):
         return None
-    measured = [name for name in presets if any(one.startswith(name) for one in SENSORS)]
+    preset = sensor_preset(run.simulator, sensor.name)
+    if preset is None:
+        measured = [
+            name for name in simulator.presets if any(one.startswith(name) for one in SENSORS)
+        ]
+        return (
+            f"{sensor.name} sets the size only: {run.simulator} has measured constants of "
+            f"{', '.join(measured)}; those of preset {shown(run.preset)} stand in"
+        )
+    known: Mapping[str, tuple[str, ...]] = getattr(simulator, "known_constants", {})
+    if preset != run.preset or preset not in known:
+        return None
     return (
-        f"{run.sensor} sets the size only: {run.simulator} has measured constants of "
-        f"{', '.join(measured)}; those of preset {shown(run.preset)} stand in"
+        f"of {sensor.name}, {', '.join(known[preset])} are published or measured; all other "
+        f"constants are defaults of {run.simulator}"
     )
 
 

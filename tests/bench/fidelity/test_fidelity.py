@@ -1,5 +1,6 @@
 """The oracle benchmark: fitting, scoring, its document and its tables."""
 
+import dataclasses
 import json
 import math
 
@@ -172,10 +173,10 @@ def test_default_entries_are_every_simulator_by_every_interpolation():
     assert {entry.track for entry in entries} == {"frames", "true frames"}
 
 
-def test_the_full_plan_covers_ten_scenes_two_kinds_of_pixels_and_five_seeds():
+def test_the_full_plan_covers_ten_scenes_two_kinds_of_pixels_and_eight_seeds():
     assert len(FULL.scenes) == 10
     assert set(FULL.targets) == {"noisy", "ideal"}
-    assert len({*FULL.fit_seeds, *FULL.score_seeds}) == 5
+    assert len({*FULL.fit_seeds, *FULL.score_seeds}) == 8
     assert not set(FULL.fit_seeds) & set(FULL.score_seeds)
 
 
@@ -237,3 +238,85 @@ def test_without_true_events_the_threshold_is_kept_and_nothing_is_searched():
     assert math.isnan(match.ratio)
     assert math.isnan(ratio)
     assert not counted
+
+
+def six_textures(**entries):
+    """A report of one scene with six textures: entry → STPP on each."""
+    report = synthetic_report()
+    (reference,) = report.references
+    bounds = {"floor": {"stpp": [0.9] * 6}, "null": {"stpp": [0.2] * 6}}
+    scores = [
+        dataclasses.replace(report.scores[0], entry=name, values={"stpp": values}, **changes)
+        for name, (values, changes) in entries.items()
+    ]
+    return dataclasses.replace(
+        report,
+        references=[dataclasses.replace(reference, **bounds)],
+        scores=scores,
+        score_seeds=[1, 2, 3, 4, 5, 6],
+    )
+
+
+STEADY = [0.60, 0.61, 0.62, 0.63, 0.64, 0.65]
+TRACKS = {
+    "steady": (STEADY, {}),
+    "twin": ([0.61, 0.60, 0.63, 0.62, 0.64, 0.64], {}),
+    "behind": ([one - 0.1 for one in STEADY], {}),
+    "true frames": ([0.8] * 6, {"track": "true frames"}),
+    "half": ([0.7] * 6, {"track": "recorded"}),
+    "lost": ([math.nan] * 6, {}),
+}
+
+
+def test_tables_say_how_far_an_entry_is_behind_the_best_that_gets_the_same_frames():
+    table = fidelity_tables(six_textures(**TRACKS), baseline="twin")
+    cells = {row.split(" | ")[0].strip("| "): row for row in table.splitlines() if "|" in row}
+    assert cells["entry"].endswith("| STPP − twin | behind the best |")
+    assert cells["steady"].endswith("| best |")
+    assert cells["true frames"].endswith("| best |")
+    assert cells["behind"].endswith("| 0.100 [0.100, 0.100] |")
+    assert cells["twin"].endswith("] ≈ |")
+    assert "| +0.002 [" in cells["steady"]
+    assert cells["half"].endswith("|  |")
+    assert cells["lost"].endswith("| undefined | undefined |")
+    assert "95 % interval over 6 textures" in table
+
+
+def test_the_document_says_how_far_each_entry_is_behind():
+    document = six_textures(**TRACKS).document()
+    behind = {score["entry"]: score["behind_best"] for score in document["scores"]}
+    assert behind["steady"] is behind["half"] is behind["true frames"] is None
+    assert (behind["behind"]["best"], behind["behind"]["is_told"]) == ("steady", True)
+    assert behind["behind"]["p"] == pytest.approx(2 / 64)
+    assert behind["twin"]["is_told"] is False
+    assert behind["lost"]["p"] is None
+
+
+def test_few_textures_and_few_scenes_are_said_to_be_too_few():
+    table = fidelity_tables(synthetic_report())
+    assert "2 textures are too few to tell entries apart; 6 and more are needed." in table
+    assert "scenes are too few" not in table  # one scene has no mean over scenes
+    assert "behind the best" not in table
+
+
+def test_kinds_of_pixels_of_one_scene_count_as_one_window_over_scenes():
+    report = six_textures(steady=(STEADY, {}), other=([one - 0.1 for one in STEADY], {}))
+    places = [(f"scene {number}", kind) for number in range(6) for kind in ("noisy", "ideal")]
+    report = dataclasses.replace(
+        report,
+        references=[
+            dataclasses.replace(report.references[0], scene=scene, target=kind)
+            for scene, kind in places
+        ],
+        scores=[
+            dataclasses.replace(score, scene=scene, target=kind)
+            for score in report.scores
+            for scene, kind in places
+        ],
+    )
+    overall = report.overall_comparison()
+    assert overall.windows == 6
+    assert overall.behind_best["other"].difference.mean == pytest.approx(0.1 / 0.7)
+    overview = fidelity_tables(report).partition("###")[0]
+    assert "| 0.143 [0.143, 0.143] |" in overview
+    assert "over 6 scenes" in overview

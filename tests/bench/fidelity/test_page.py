@@ -21,8 +21,8 @@ RESULTS = Path(__file__).parents[3] / "docs" / "results"
     [
         ("fidelity.json.gz", BASELINE, True),
         ("fidelity-full.json.gz", BASELINE, False),
-        ("real-davis346.json.gz", "texvent, flow", True),
-        ("real-slider_depth.json.gz", "texvent, flow", True),
+        ("real-davis346.json.gz", "texvent accurate, flow", True),
+        ("real-slider_depth.json.gz", "texvent accurate, flow", True),
     ],
 )
 def test_published_pages_and_charts_are_those_of_the_published_results(

@@ -206,3 +206,20 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
         accuracy_figures(
             tmp_path / "empty", tmp_path / "weights.tar", classes=None, progress=silent
         )
+
+
+def test_ablations_with_windows_enough_have_intervals():
+    report = synthetic_report()
+    steps = [0.50, 0.52, 0.51, 0.53, 0.50, 0.52]
+    values = {"Texvent": steps, "E12": [one + 0.1 for one in steps]}
+    bounds = {"floor": {"stpp": [0.9] * 6}, "null": {"stpp": [0.2] * 6}}
+    report = dataclasses.replace(
+        report,
+        references=[dataclasses.replace(report.references[0], **bounds)],
+        scores=[
+            dataclasses.replace(report.scores[0], entry=name, values={"stpp": one})
+            for name, one in values.items()
+        ],
+    )
+    figures = ablation_figures(5, report).figures
+    assert figures["− Texvent, mixed, noisy pixels"]["E12"] == "+0.100 [+0.100, +0.100]"

@@ -1,8 +1,10 @@
 """`texvent compare` and `texvent bench` as a user meets them."""
 
 import json
+import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from texvent.bench.selftest.controls import CONTROLS
@@ -105,7 +107,7 @@ def test_compare_cuts_to_the_span(pair, capsys):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["compare", "guess.npz"], "Event file with the truth"),
+        (["compare", "guess.npz"], "guess.npz is the only file; give one or several to judge"),
         (["compare", "nothing.npz", "truth.npz"], "no such file: nothing.npz"),
         (["compare", "guess.npz", "truth.npz", "--metrics", "spp"], "did you mean 'stpp'"),
         (["compare", "guess.npz", "truth.npz", "--start", "2", "--stop", "1"], "after start"),
@@ -156,3 +158,90 @@ def test_bench_fidelity_writes_tables_and_json(tmp_path, monkeypatch, capsys):
     assert document["scores"][0]["entry"] == "esim, none"
     # Nothing moves, so a model without noise has no event to place.
     assert document["scores"][0]["default_ratio"] == 0
+
+
+@pytest.fixture
+def candidates(tmp_path, monkeypatch):
+    """A truth of 1.2 s, a candidate that is 1 ms late, and one that is 4 ms late."""
+    monkeypatch.chdir(tmp_path)
+    rng = np.random.default_rng(0)
+    size = SensorSize(16, 12)
+    t = np.sort(rng.integers(0, 1_250_000, 6000))
+    t[0] = 0
+    x, y, p = rng.integers(0, 16, 6000), rng.integers(0, 12, 6000), rng.integers(0, 2, 6000)
+    for name, late_us in (("truth", 0), ("near", 1_000), ("far", 4_000)):
+        EventStream(x, y, t + late_us, p, size).save(f"{name}.npz")
+
+
+def test_several_candidates_are_compared_by_windows_and_told_apart_in_words(candidates, capsys):
+    words = ["compare", "near.npz", "far.npz", "truth.npz", "--metrics", "stpp,nearest"]
+    assert main(words) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "near.npz far.npz" in shown
+    assert "nearest: near.npz is closer than far.npz by" in shown
+    assert "12 windows of 0.1 s" in shown
+    assert main([*words, "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert [one["predicted"]["path"] for one in document["candidates"]] == ["near.npz", "far.npz"]
+    nearest = document["differences"][1]
+    assert (nearest["metric"], nearest["closer"], nearest["is_told"]) == (
+        "nearest",
+        "near.npz",
+        True,
+    )
+    values = [one["window_means"]["nearest"]["values"] for one in document["candidates"]]
+    assert nearest["mean"] == pytest.approx(np.mean(np.subtract(*values)))
+    assert nearest["high"] < 0
+    assert document["windows"]["starts_us"] == list(range(0, 1_200_000, 100_000))
+
+
+def test_a_copy_cannot_be_told_apart(candidates, capsys):
+    shutil.copy("near.npz", "copy.npz")
+    words = ["compare", "near.npz", "copy.npz", "truth.npz", "--metrics", "stpp,count_ratio"]
+    assert main(words) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert shown.count("near.npz and copy.npz cannot be told apart (difference 0.000") == 2
+
+
+def test_one_candidate_has_intervals_of_its_window_means(candidates, capsys):
+    words = ["compare", "near.npz", "truth.npz", "--metrics", "stpp,cadence"]
+    assert main(words) == 0
+    table = capsys.readouterr().out
+    assert "mean of windows" in table
+    # A window of 0.1 s has fewer than 4 frames, of which cadence is made.
+    assert "undefined" in table
+    assert main([*words, "--json", "--window", "0.2"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    stpp = document["window_means"]["stpp"]
+    assert stpp["windows"] == 6
+    assert stpp["mean"] == pytest.approx(np.mean(stpp["values"]))
+    assert stpp["low"] < stpp["mean"] < stpp["high"]
+    assert main([*words, "--no-intervals"]) == 0
+    assert "windows" not in capsys.readouterr().out
+
+
+def test_a_short_recording_has_too_few_windows(candidates, capsys):
+    words = ["compare", "near.npz", "far.npz", "truth.npz", "--metrics", "stpp", "--stop", "0.45"]
+    assert main(words) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "4 whole windows of 0.1 s are too few, 6 are needed" in shown
+    assert "too few windows to tell (n = 4; 6 are needed)" in shown
+    assert main([*words, "--window", "0.05"]) == 0
+    assert "near.npz is closer than far.npz" in " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["near.npz", "near.npz", "truth.npz"], "near.npz is given twice"),
+        (["near.npz", "far.npz", "truth.npz", "-o", "a.html"], "a page shows one file"),
+        (["near.npz", "truth.npz", "--window", "0.03"], "window is 0.03 s; it must be"),
+        (["near.npz", "truth.npz", "--window", "0.07"], "a multiple of 0.05 s"),
+        (["near.npz", "none.npz", "truth.npz"], "no such file: none.npz"),
+    ],
+)
+def test_mistakes_about_candidates_are_one_clear_line(candidates, capsys, words, message):
+    assert main(["compare", *words]) in (2, 3)
+    said = capsys.readouterr().err.strip()
+    assert message in said
+    assert "\n" not in said

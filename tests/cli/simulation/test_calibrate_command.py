@@ -1,9 +1,11 @@
 import numpy as np
 import pytest
 
+from texvent.calibrate.events_only.replay import replay_flicker, replay_static
 from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.run.settings import resolve
+from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Video
@@ -35,10 +37,11 @@ def words(folder, out, *more):
 
 
 def test_calibrate_writes_a_preset_and_says_how_good_it_is(recording, tmp_path, capsys):
-    out = tmp_path / "my.toml"
-    assert main(words(recording, out)) == 0
+    out, page = tmp_path / "my.toml", tmp_path / "my.html"
+    assert main(words(recording, out, "--report", str(page))) == 0
     said = capsys.readouterr()
-    assert said.out == f"{out}\n"
+    assert said.out == f"{out}\n{page}\n"
+    assert "Held out, not fitted" in page.read_text()
     assert "held out" in said.err
     found = resolve("simulate", {}, config=out).simulate
     assert found.contrast_threshold == pytest.approx(0.35, rel=0.25)
@@ -53,10 +56,66 @@ def test_calibrate_writes_a_preset_and_says_how_good_it_is(recording, tmp_path, 
         (("--seconds", "0"), "seconds"),
         (("--events", "nowhere.npz"), "no such file"),
         (("--frames-gamma", "-1"), "gamma"),
+        (("--scene", "static"), "leave out --frames"),
+        (("--flicker-hz", "5"), "are for --scene flicker"),
+        (("--start-preset", "nowhere.toml"), "nowhere.toml"),
     ],
 )
 def test_calibrate_refuses_in_one_line(recording, tmp_path, capsys, more, message):
     assert main(words(recording, tmp_path / "x.toml", *more)) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+    assert not (tmp_path / "x.toml").exists()
+
+
+SMALL = SensorSize(32, 24)
+
+
+@pytest.fixture(scope="module")
+def scenes(tmp_path_factory):
+    """A scene at rest and a flickering field of one sensor."""
+    folder = tmp_path_factory.mktemp("scenes")
+    sensor = PhysicalConfig(gamma=1.0, noise_curve="128:2", contrast_threshold=0.3)
+    replay_static(sensor, SMALL, 6.0, seed=1).save(folder / "rest.npz")
+    replay_flicker(sensor, SMALL, 5.0, ratio=6.0, number=6, seed=1).save(folder / "flicker.npz")
+    return folder
+
+
+def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, capsys):
+    rest, both, page = tmp_path / "rest.toml", tmp_path / "both.toml", tmp_path / "page.html"
+    first = ["calibrate", "--events", str(scenes / "rest.npz"), "--scene", "static"]
+    assert main([*first, "-o", str(rest), "--report", str(page)]) == 0
+    said = capsys.readouterr()
+    assert said.out == f"{rest}\n{page}\n"
+    assert "found noise_rate_hz" in said.err
+    text = page.read_text()
+    assert "<script" not in text
+    assert "http:" not in text
+    assert "noise_<wbr>on_<wbr>fraction" in text
+    second = ["calibrate", "--events", str(scenes / "flicker.npz"), "--scene", "flicker"]
+    light = ["--flicker-hz", "5", "--flicker-ratio", "6", "--start-preset", str(rest)]
+    report = ["--report", str(tmp_path / "flicker.html"), "-q"]
+    assert main([*second, *light, "-o", str(both), *report]) == 0
+    found = resolve("simulate", {}, config=both).simulate
+    assert found.contrast_threshold == pytest.approx(0.3, rel=0.1)
+    assert float(found.noise_curve.partition(":")[2]) == pytest.approx(2.0, rel=0.1)
+    assert "# found contrast_threshold" in both.read_text()
+    assert "Threshold over the mean" in (tmp_path / "flicker.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        ((), "a moving scene needs --frames"),
+        (("--scene", "flicker"), "needs --flicker-hz"),
+        (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker_ratio"),
+        (("--scene", "still"), "--scene"),
+    ],
+)
+def test_scenes_without_frames_are_refused_in_one_line(scenes, tmp_path, capsys, more, message):
+    words = ["calibrate", "--events", str(scenes / "rest.npz"), "-o", str(tmp_path / "x.toml")]
+    assert main([*words, *more]) == 2
     error = capsys.readouterr().err
     assert message in error
     assert error.count("\n") == 1

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.physical.config import PRESETS
+from texvent.simulate.physical.cameras.presets import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
@@ -116,7 +116,7 @@ def test_a_static_scene_at_the_default_preset_fires_at_the_sum_of_its_rates():
     config = dataclasses.replace(PRESETS["davis346"], gamma=1.0)
     frames = static(10.0, fps=24, seconds=3.0, shape=(100, 120))
     events = run(PhysicalSimulator(config, backend="cpu"), frames)
-    rate = math.exp(np.interp(10, [7.5, 15], np.log([0.30, 0.12])))
+    rate = config.noise_scale * math.exp(np.interp(10, [7.5, 15], np.log([0.30, 0.12])))
     mean = rate * 3 * 12_000
     # 2 %: the mean of 12,000 log-normal factors.
     assert len(events) == pytest.approx(mean, abs=poisson_interval(mean) + 0.02 * mean)

@@ -9,6 +9,7 @@ from typing import Any
 
 from texvent.bench.document import plain_values, restore_nan
 from texvent.bench.document_types import check_record
+from texvent.bench.fidelity.comparison import Comparison
 from texvent.bench.fidelity.details import Details
 from texvent.bench.markdown import MarkdownReport
 from texvent.bench.oracle.pixel import TARGETS
@@ -114,13 +115,41 @@ class FidelityReport(MarkdownReport):
         scores = [one for one in self.scores if (one.scene, one.target) == (scene, target)]
         return sorted(scores, key=_undefined_last)
 
+    def comparison(self, reference: Reference) -> Comparison:
+        """The entries on one scene by STPP, over its textures or spans of time."""
+        scores = self.ranked(reference.scene, reference.target)
+        values = {score.entry: score.values["stpp"] for score in scores}
+        return Comparison(values, self._tracks(), is_in_sequence=not self.score_seeds)
+
+    def overall_comparison(self) -> Comparison:
+        """The entries by S* of STPP over scenes, each the mean of its kinds of pixels.
+
+        Kinds of pixels share a scene, so they are no windows of their own. An entry that did not
+        run on a scene is undefined there.
+        """
+        found: dict[str, dict[str, list[float]]] = {score.entry: {} for score in self.scores}
+        for score in self.scores:
+            value = score.normalised("stpp", self.reference(score.scene, score.target))
+            found[score.entry].setdefault(score.scene, []).append(value)
+        scenes = dict.fromkeys(reference.scene for reference in self.references)
+        values = {
+            entry: [summarise(of.get(scene, [])).mean for scene in scenes]
+            for entry, of in found.items()
+        }
+        return Comparison(values, self._tracks(), is_in_sequence=False)
+
+    def _tracks(self) -> dict[str, str]:
+        return {one.entry: one.track for one in self.scores if one.track != "recorded"}
+
     def document(self) -> dict[str, Any]:
         """Plain values, ready for JSON; undefined ones are None."""
+        comparisons = {(one.scene, one.target): self.comparison(one) for one in self.references}
         scores = []
         for score in self.scores:
             reference = self.reference(score.scene, score.target)
             normalised = {metric: score.normalised(metric, reference) for metric in score.values}
-            scores.append({**asdict(score), "normalised": normalised})
+            behind = comparisons[score.scene, score.target].document(score.entry)
+            scores.append({**asdict(score), "normalised": normalised, "behind_best": behind})
         document = {
             "schema": SCHEMA,
             "environment": dict(self.environment),

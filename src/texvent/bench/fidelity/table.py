@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from texvent._registry import suggest
+from texvent.bench.fidelity.comparison import Comparison, comparison_note, difference_text
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.markdown import markdown_table
 from texvent.bench.oracle.pixel import TARGETS
@@ -23,6 +24,7 @@ COLUMNS = {
     "stpp": "STPP ↑",
 }
 """Metric → title; those that were not measured are left out."""
+BEHIND = "behind the best"
 
 MOTION = (("sharpness", "sharpness ↑", 3), ("flow_error", "flow error px/s", 0))
 """Field of the details, title, digits."""
@@ -96,25 +98,26 @@ def _place(part: Reference | Score) -> tuple[str, str]:
 
 
 def _overview(report: FidelityReport) -> str:
-    """S* of STPP per scene, and its mean: 0 is the null, 1 a second recording."""
+    """S* of STPP per scene, and its mean over scenes: 0 is the null, 1 a second recording."""
     titles = ["entry", *(f"{one.scene}, {one.target}" for one in report.references), "mean S*"]
-    ranked: list[tuple[float, str, list[float]]] = []
-    for entry in dict.fromkeys(score.entry for score in report.scores):
-        normalised = [
-            score.normalised("stpp", reference)
-            for reference in report.references
-            for score in report.ranked(reference.scene, reference.target)
-            if score.entry == entry
-        ]
-        ranked.append((summarise(normalised).mean, entry, normalised))
-    ranked.sort(key=lambda one: math.inf if math.isnan(one[0]) else -one[0])
-    return markdown_table(
-        titles,
-        [
-            [entry, *(_number(one, 2) for one in (*normalised, mean))]
-            for mean, entry, normalised in ranked
-        ],
-    )
+    comparison = report.overall_comparison()
+    normalised: dict[str, list[str]] = {}
+    for reference in report.references:
+        found = {one.entry: one for one in report.ranked(reference.scene, reference.target)}
+        for entry in dict.fromkeys(score.entry for score in report.scores):
+            score = found.get(entry)
+            value = None if score is None else score.normalised("stpp", reference)
+            normalised.setdefault(entry, []).append(_number(value, 2))
+    means = {entry: comparison.mean(entry) for entry in normalised}
+    ranked = sorted(means, key=lambda one: math.inf if math.isnan(means[one]) else -means[one])
+    rows = [[entry, *normalised[entry], _number(means[entry], 2)] for entry in ranked]
+    if comparison.windows < 2:
+        return markdown_table(titles, rows)
+    if comparison.is_enough:
+        titles.append(BEHIND)
+        rows = [[*row, comparison.behind_text(row[0])] for row in rows]
+    note = comparison_note(comparison.windows, "scenes")
+    return f"{markdown_table(titles, rows)}\n{note}"
 
 
 def _scene_heading(reference: Reference) -> str:
@@ -132,12 +135,19 @@ def _scene_table(report: FidelityReport, reference: Reference, baseline: str) ->
         *(_score_cells(score, reference, metrics) for score in scores),
         ["null: times shuffled", *_bound_cells(reference, metrics, is_floor=False)],
     ]
+    comparison = report.comparison(reference)
     compared = next((score for score in scores if score.entry == baseline), None)
     if compared is not None:
         titles.append(f"STPP − {baseline}")
-        differences = ["", *(_paired(score, compared) for score in scores), ""]
+        differences = ["", *_paired(scores, compared, comparison), ""]
         rows = [[*cells, last] for cells, last in zip(rows, differences, strict=True)]
-    return markdown_table(titles, rows)
+    if comparison.is_enough:
+        titles.append(BEHIND)
+        behind = ["", *(comparison.behind_text(score.entry) for score in scores), ""]
+        rows = [[*cells, last] for cells, last in zip(rows, behind, strict=True)]
+    kind = "textures" if report.score_seeds else "spans of time"
+    note = comparison_note(comparison.windows, kind)
+    return f"{markdown_table(titles, rows)}\n{note}"
 
 
 def _score_cells(score: Score, reference: Reference, metrics: Sequence[str]) -> list[str]:
@@ -161,12 +171,18 @@ def _bound_cells(reference: Reference, metrics: Sequence[str], *, is_floor: bool
     return ["", "", *cells, _number(bound, 2)]
 
 
-def _paired(score: Score, baseline: Score) -> str:
-    if score is baseline:
-        return "–"
-    difference = score.difference("stpp", baseline)
-    error = _number(difference.standard_error, 3)
-    return f"{difference.mean:+.3f} ± {error}" if difference.defined else "undefined"
+def _paired(scores: Sequence[Score], baseline: Score, comparison: Comparison) -> Iterator[str]:
+    """A cell per score: its difference to the baseline."""
+    against = comparison.differences(baseline.entry) if comparison.is_enough else None
+    for score in scores:
+        if score is baseline:
+            yield "–"
+        elif against is not None:
+            yield difference_text(against[score.entry], sign="+")
+        else:
+            difference = score.difference("stpp", baseline)
+            error = _number(difference.standard_error, 3)
+            yield f"{difference.mean:+.3f} ± {error}" if difference.defined else "undefined"
 
 
 def _mean_and_error(values: Sequence[float], digits: int = 3) -> str:

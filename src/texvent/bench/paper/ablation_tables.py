@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from texvent.bench.fidelity.comparison import difference_text
 from texvent.bench.fidelity.results import FidelityReport
 from texvent.bench.paper.config_entry import ConfigEntry
 from texvent.bench.paper.published_tables import TABLES, OurFigures
@@ -35,13 +36,19 @@ def ablation_figures(number: int, report: FidelityReport) -> OurFigures:
         baseline = scores.get(BASELINE)
         stpp: dict[str, str] = {}
         difference: dict[str, str] = {}
+        compared = report.comparison(reference)
+        against = compared.differences(BASELINE) if baseline and compared.is_enough else None
         for column in TABLES[number].columns:
             if column not in scores:
                 continue
             score = scores[column]
             lost = " (count not reached)" if score.threshold and not score.is_matched else ""
             stpp[column] = f"{score.summary('stpp').mean:.3f}{lost}"
-            if baseline is not None and column != BASELINE:
+            if baseline is None or column == BASELINE:
+                continue
+            if against is not None:
+                difference[column] = difference_text(against[column], sign="+")
+            else:
                 found = score.difference("stpp", baseline)
                 difference[column] = f"{found.mean:+.3f} ± {found.standard_error:.3f}"
         figures[f"STPP ↑, {reference.title}"] = stpp

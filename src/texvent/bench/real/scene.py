@@ -18,9 +18,9 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.video import MICROSECONDS, Frame, Video
 
-SEGMENT_US, EDGE_US = 200_000, 50_000
+SEGMENT_US, EDGE_US = 100_000, 50_000
 """Length of a scored span, and of what its start is a multiple of: windows of the metrics, µs."""
-MOST_SEGMENTS = 4
+MOST_SEGMENTS = 20
 FIT_SECONDS = 0.6
 DISPLAY_GAMMA, LINEAR_GAMMA = 2.2, 1.0
 WITH_FRAMES = ("slider_depth", "davis346")
@@ -33,8 +33,8 @@ class RecordingPart(NamedTuple):
     start_s: float = 0.0
     """Skipped at the start of the frames, s."""
     seconds: float = 4.0
-    """Longest part that is used, s: δ is fitted at the start of its first half, and the start of
-    its second half is scored."""
+    """Longest part that is used, s: δ is fitted at the start of its first half, and its second
+    half is scored, at most 2 s."""
     offset_us: int | None = None
     """Added to the times of the frames, µs; None: what the catalogue knows of the recording,
     else 0."""

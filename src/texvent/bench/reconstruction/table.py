@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from texvent.bench.document import plain_values
+from texvent.bench.fidelity.comparison import Comparison
 from texvent.bench.machine import describe_environment
 from texvent.bench.markdown import markdown_table, without_tags
 from texvent.bench.reconstruction.image_scores import ImageScores, pool_scores
@@ -18,6 +19,11 @@ SCHEMA = "texvent-reconstruction-1"
 COLUMNS = {"mse": "MSE ↓", "psnr": "PSNR, dB ↑", "ssim": "SSIM ↑", "lpips": "LPIPS ↓"}
 DIGITS = {"mse": 4, "psnr": 2, "ssim": 3, "lpips": 3}
 ALL = "all recordings"
+MARK_NOTE = (
+    "(best): of the simulated events, on average. (≈): cannot be told apart from it (p > .05, "
+    "adjusted for the column). (?): too few independent frames to tell. Neighbouring frames are "
+    "alike and count by blocks.\n"
+)
 
 
 def reconstruction_tables(report: ReconstructionReport, noise: Sequence[NoiseScore] = ()) -> str:
@@ -39,6 +45,8 @@ def reconstruction_tables(report: ReconstructionReport, noise: Sequence[NoiseSco
     for recording in dict.fromkeys(one.recording for one in noise):
         parts.append(f"### noise in the recorded events of {recording}, {report.network}\n")
         parts.append(_noise_table([one for one in noise if one.recording == recording]))
+    if len(report.sources()) > 2:
+        parts.append(MARK_NOTE)
     missing = {**report.absent, **report.skipped}
     parts += [f"not measured: {name}: {why}\n" for name, why in missing.items()]
     return without_tags("\n".join(parts))
@@ -49,6 +57,10 @@ def reconstruction_document(
 ) -> dict[str, Any]:
     """The result as plain values, ready for JSON; undefined and infinite ones are None."""
     plan = report.plan
+    comparisons = {
+        recording: _compare([row for row in report.rows if row.recording == recording])
+        for recording in dict.fromkeys(row.recording for row in report.rows)
+    }
     document = {
         "schema": SCHEMA,
         "environment": describe_environment(),
@@ -70,6 +82,10 @@ def reconstruction_document(
                 "threshold": row.threshold,
                 "seconds": round(row.seconds, 1),
                 **_score_values(row.scores),
+                "behind_best": {
+                    name: compared.document(row.source)
+                    for name, compared in comparisons[row.recording].items()
+                },
             }
             for row in report.rows
         ],
@@ -98,15 +114,45 @@ def _score_values(scores: ImageScores) -> dict[str, Any]:
     }
 
 
+def _compare(rows: Sequence[ReconstructionRow]) -> dict[str, Comparison]:
+    """Measure → simulated sources on the same frames, larger values closer.
+
+    A source that did not run on every recording has fewer frames and is not compared.
+    """
+    every = list(rows[0].scores.t_us)
+    simulated = [row for row in rows if row.source != RECORDED and list(row.scores.t_us) == every]
+    sources = {row.source: "simulated" for row in simulated}
+    return {
+        name: Comparison(
+            {row.source: _finite(row.scores.values[name], _sign(name)) for row in simulated},
+            sources,
+            is_in_sequence=True,
+        )
+        for name in rows[0].scores.values
+    }
+
+
+def _sign(measure: str) -> int:
+    return -1 if COLUMNS[measure].endswith("↓") else 1
+
+
+def _finite(values: Sequence[float], sign: int) -> list[float]:
+    """Values with NaN where they are infinite, as the PSNR of equal images is."""
+    return [sign * one if math.isfinite(one) else math.nan for one in values]
+
+
 def _table(rows: Sequence[ReconstructionRow]) -> str:
     measures = list(rows[0].scores.values)
     recorded = next(row.events for row in rows if row.source == RECORDED)
+    compared = _compare(rows)
     lines = []
     for row in rows:
         ratio = f"×{row.events / recorded:.2f}" if recorded else "–"
         number = f"{row.events:,}" if row.source == RECORDED else ratio
         threshold = "–" if row.threshold is None else f"{row.threshold:.3g}"
-        lines.append([row.source, number, threshold, *_means(row.scores)])
+        marks = [compared[name].mark(row.source) for name in measures]
+        means = [" ".join(cell).rstrip() for cell in zip(_means(row.scores), marks, strict=True)]
+        lines.append([row.source, number, threshold, *means])
     return markdown_table(["events", "number", "δ", *(COLUMNS[one] for one in measures)], lines)
 
 

@@ -18,7 +18,7 @@ class FidelityOptions:
     """What to run."""
 
     full: bool = False
-    """Every scene, ideal and noisy pixels, five seeds: an hour instead of minutes."""
+    """Every scene, ideal and noisy pixels, eight seeds: an hour instead of minutes."""
     scenes: str | None = None
     """Names of scenes, separated by commas: mixed, slow, fast, translate, static, flicker, hdr,
     prompt-car, prompt-dog, prompt-bird; default: mixed,translate,fast,slow."""

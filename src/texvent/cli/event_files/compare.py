@@ -1,18 +1,15 @@
-"""`texvent compare PREDICTED REFERENCE`: how close two event files are."""
+"""`texvent compare PREDICTED... REFERENCE`: how close event files are to a true one."""
 
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
-
-from rich.console import Console
-from rich.table import Table
+from typing import ClassVar, NamedTuple
 
 from texvent.bench.selftest.controls import CONTROLLED, run_controls
+from texvent.cli.event_files.comparison_output import Candidate, Findings, metric_rows, show
 from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
@@ -23,34 +20,38 @@ from texvent.io.files import load
 from texvent.metrics.compare import compare, describe_metrics, load_metric
 from texvent.metrics.protocol import Metric
 from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
-from texvent.metrics.scores import GOOD, score_text
-from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
+from texvent.metrics.stpp import Stpp
+from texvent.metrics.uncertainty.window_scores import check_window, score_windows
 from texvent.runtime.console_progress import ConsoleProgress
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.video import MICROSECONDS
-from texvent.view.page.comparison import MetricRow, write_comparison
+from texvent.view.page.comparison import write_comparison
 
-DESCRIPTION = """Compare two event files of one sensor: the one to judge, then the true one. Each
-metric says what it does not see; docs/metrics.md gives definitions and the self-test."""
+DESCRIPTION = """Compare event files of one sensor: one or several to judge, then the true one. Each
+metric says what it does not see, and how sure it is over windows of time; of several files, which
+is closer. docs/metrics.md gives definitions and the self-test."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class CompareOptions:
     """Which files, and by which metrics."""
 
-    positional: ClassVar[tuple[str, ...]] = ("predicted", "reference")
+    positional: ClassVar[tuple[str, ...]] = ("files",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
 
-    predicted: Path = REQUIRED
-    """Event file to judge."""
-    reference: Path = REQUIRED
-    """Event file with the truth, or another recording of the same scene."""
+    files: tuple[Path, ...] = REQUIRED
+    """Event files to judge, one or several; last, the one with the truth, or another recording of
+    the same scene."""
     metrics: str | None = None
     """Names of metrics, separated by commas; default: all whose weights are here."""
     start: float | None = None
     """Compare from this time on, in seconds."""
     stop: float | None = None
     """Compare up to this time, in seconds."""
+    window: float | None = None
+    """Windows of this length for intervals, in seconds; default: 0.1, longer above 50 windows."""
+    intervals: bool = True
+    """Score windows too; --no-intervals takes half of the time."""
     sensor: str | None = None
     """Sensor size, for event formats that do not store it."""
     rvt_weights: Path | None = None
@@ -65,8 +66,34 @@ class CompareOptions:
     """Replace the page if it exists already."""
 
     def __post_init__(self) -> None:
+        if self.files != REQUIRED and len(self.files) < 2:
+            raise ConfigError(
+                f"{self.files[0]} is the only file; give one or several to judge, and last the one "
+                "with the truth"
+            )
         if self.out is not None and self.out.suffix.lower() != ".html":
             raise ConfigError(f"the page of a comparison must end in .html; got {self.out}")
+        if self.out is not None and len(self.files) > 2:
+            raise ConfigError(
+                f"a page shows one file beside the true one; got {len(self.files) - 1} to judge: "
+                "leave out --out, or all but one"
+            )
+        check_window(self.window_us)
+
+    @property
+    def predicted(self) -> tuple[Path, ...]:
+        """The files to judge."""
+        return self.files[:-1]
+
+    @property
+    def reference(self) -> Path:
+        """The file with the truth."""
+        return self.files[-1]
+
+    @property
+    def window_us(self) -> int | None:
+        """Length of the windows, µs; None: as long as suits the recording."""
+        return None if self.window is None else round(self.window * MICROSECONDS)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -76,48 +103,89 @@ def run(arguments: Sequence[str]) -> int:
     )
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
-    metrics, left_out = _choose_metrics(options)
-    span_us = _span(options)
-    size = parse_sensor(options.sensor) if options.sensor else None
-    predicted, reference = (_load(path, size) for path in (options.predicted, options.reference))
-    whole = (predicted, reference)
-    if span_us is not None:
-        predicted, reference = (one.cut(*span_us) for one in whole)
-        _refuse_empty_span(options, (predicted, reference), whole)
-    with ConsoleProgress() as progress:
-        scores = compare(*whole, metrics, span_us=span_us, progress=progress)
-    findings = Findings(
-        scores,
-        {one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED},
-        Stpp().levels(predicted, reference).tolist() if options.levels else None,
-        left_out,
-    )
+    inputs = _prepare(options)
+    findings = _judge(options, inputs)
     if options.json:
-        events = {"predicted": len(predicted), "reference": len(reference)}
-        document = _document(options, events, span_us, findings)
-        write_out(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+        write_out(json.dumps(findings.document(), indent=2, ensure_ascii=False) + "\n")
     else:
-        _show(metrics, findings)
+        show(findings)
     if options.out is not None:
-        names = (options.predicted.name, f"{options.reference.name} (reference)")
-        pair = tuple(zip(names, (predicted, reference), strict=True))
-        write_comparison(options.out, pair, _rows(metrics, findings), overwrite=options.overwrite)
+        name = f"{options.reference.name} (reference)"
+        shown = (*inputs.predicted.items(), (name, inputs.reference))
+        rows = metric_rows(findings)
+        write_comparison(options.out, shown, rows, overwrite=options.overwrite)
         # Not among the JSON.
         (say if options.json else write_out)(f"{options.out}\n")
     return 0
 
 
-@dataclass(frozen=True)
-class Findings:
-    """Everything that is shown of a comparison."""
+class _Inputs(NamedTuple):
+    """What is compared."""
 
-    scores: Mapping[str, float]
-    controls: Mapping[str, Mapping[str, float]]
-    """Metric → control → value, of the metrics that are not shown without."""
-    levels: list[list[float]] | None
-    """Of STPP, [time cells, space cells]."""
-    left_out: Mapping[str, str]
+    predicted: dict[str, EventStream]
+    """Name → stream to judge."""
+    reference: EventStream
+    span_us: tuple[int, int] | None
+    """What all are cut to, µs."""
+    metrics: list[Metric]
+    left_out: dict[str, str]
     """Metric → what it lacks."""
+
+
+def _prepare(options: CompareOptions) -> _Inputs:
+    metrics, left_out = _choose_metrics(options)
+    span_us = _span(options)
+    names = _names(options.predicted)
+    size = parse_sensor(options.sensor) if options.sensor else None
+    whole = [_load(path, size) for path in options.files]
+    cut = whole
+    if span_us is not None:
+        cut = [one.cut(*span_us) for one in whole]
+        _refuse_empty_span(options, cut, whole)
+    predicted = dict(zip(names, cut[:-1], strict=True))
+    return _Inputs(predicted, cut[-1], span_us, metrics, left_out)
+
+
+def _judge(options: CompareOptions, inputs: _Inputs) -> Findings:
+    """All scores."""
+    reference, metrics = inputs.reference, inputs.metrics
+    windows = None
+    candidates = {}
+    with ConsoleProgress() as progress:
+        for (name, events), path in zip(inputs.predicted.items(), options.predicted, strict=True):
+            scores = compare(events, reference, metrics, progress=progress)
+            levels = Stpp().levels(events, reference).tolist() if options.levels else None
+            candidates[name] = Candidate(path, len(events), scores, levels)
+        if options.intervals:
+            windows = score_windows(
+                inputs.predicted, reference, metrics, window_us=options.window_us, progress=progress
+            )
+    controls = {one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED}
+    return Findings(
+        candidates=candidates,
+        reference=options.reference,
+        reference_events=len(reference),
+        span_us=inputs.span_us,
+        metrics=metrics,
+        controls=controls,
+        windows=windows,
+        left_out=inputs.left_out,
+    )
+
+
+def _names(paths: Sequence[Path]) -> list[str]:
+    """What tables call the files: their names, or paths where names are equal.
+
+    Raises:
+        ConfigError: a file is given twice.
+    """
+    names = [path.name for path in paths]
+    if len(set(names)) < len(names):
+        names = [str(path) for path in paths]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise ConfigError(f"{twice} is given twice; give each file to judge once")
+    return names
 
 
 def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, str]]:
@@ -140,44 +208,19 @@ def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, st
 
 
 def _refuse_empty_span(
-    options: CompareOptions, cut: tuple[EventStream, ...], whole: tuple[EventStream, ...]
+    options: CompareOptions, cut: Sequence[EventStream], whole: Sequence[EventStream]
 ) -> None:
     """Two streams without events would be alike: rather a wrong span than a perfect score."""
     if any(map(len, cut)):
         return
-    paths = (options.predicted, options.reference)
     clocks = [
         f"{path} from {one.t[0] / MICROSECONDS:.3f} to {one.t[-1] / MICROSECONDS:.3f} s"
-        for path, one in zip(paths, whole, strict=True)
+        for path, one in zip(options.files, whole, strict=True)
         if len(one)
     ]
     raise InputError(
-        "neither file has events between --start and --stop; "
-        f"{' and '.join(clocks) or 'both are empty'}"
+        f"no file has events between --start and --stop; {' and '.join(clocks) or 'all are empty'}"
     )
-
-
-def _document(
-    options: CompareOptions,
-    events: Mapping[str, int],
-    span_us: tuple[int, int] | None,
-    findings: Findings,
-) -> dict[str, Any]:
-    """What `--json` prints."""
-    document: dict[str, Any] = {
-        "predicted": {"path": str(options.predicted), "events": events["predicted"]},
-        "reference": {"path": str(options.reference), "events": events["reference"]},
-        "span_us": span_us,
-        "scores": {name: _plain(value) for name, value in findings.scores.items()},
-        "controls": {
-            metric: {name: _plain(value) for name, value in values.items()}
-            for metric, values in findings.controls.items()
-        },
-        "left_out": dict(findings.left_out),
-    }
-    if findings.levels is not None:
-        document["stpp_levels"] = findings.levels
-    return document
 
 
 def _load(path: Path, size: SensorSize | None) -> EventStream:
@@ -196,51 +239,3 @@ def _span(options: CompareOptions) -> tuple[int, int] | None:
             f"stop is {options.stop:g} s; it must come after start ({start / MICROSECONDS:g} s)"
         )
     return start, stop
-
-
-def _rows(metrics: Sequence[Metric], findings: Findings) -> list[MetricRow]:
-    return [
-        MetricRow(
-            name=metric.name,
-            value=score_text(findings.scores[metric.name]),
-            unit=metric.unit,
-            good=GOOD[metric.better],
-            blind_to=metric.blind_to,
-        )
-        for metric in metrics
-    ]
-
-
-def _show(metrics: Sequence[Metric], findings: Findings) -> None:
-    console = Console(highlight=False)
-    table = _table(("metric", "value", "unit", "good", "does not see"))
-    for row in _rows(metrics, findings):
-        table.add_row(row.name, row.value, row.unit, row.good, row.blind_to)
-    console.print(table)
-    for name, values in findings.controls.items():
-        console.print()
-        controls = _table(("of the reference", "value"), title=f"{name}, controls")
-        for control, value in values.items():
-            controls.add_row(control, score_text(value))
-        console.print(controls)
-    if findings.levels is not None:
-        console.print()
-        cells = ("cells in time \\ space", *map(str, SPACE_CELLS))
-        matrix = _table(cells, title="STPP levels")
-        for count, shares in zip(TIME_CELLS, findings.levels, strict=True):
-            matrix.add_row(str(count), *(f"{value:.3f}" for value in shares))
-        console.print(matrix)
-    for name, missing in findings.left_out.items():
-        console.print(f"\n{name} was left out: {missing}", style="dim", markup=False)
-
-
-def _table(titles: Sequence[str], *, title: str | None = None) -> Table:
-    """A table without lines; columns of numbers are flush right."""
-    table = Table(box=None, pad_edge=False, header_style="bold", title=title, title_justify="left")
-    for one in titles:
-        table.add_column(one, justify="right" if one == "value" or one.isdigit() else "left")
-    return table
-
-
-def _plain(value: float) -> float | None:
-    return value if math.isfinite(value) else None

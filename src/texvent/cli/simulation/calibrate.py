@@ -1,4 +1,4 @@
-"""`texvent calibrate --frames F --events E -o my.toml`: fit the physical model to a recording."""
+"""`texvent calibrate`: fit the physical model to a recording of a sensor."""
 
 from __future__ import annotations
 
@@ -6,77 +6,131 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from texvent._registry import suggest
+from texvent.calibrate.estimates import describe_estimates
+from texvent.calibrate.events_only.flicker import measure_flicker
+from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import fit_sensor
-from texvent.calibrate.preset import describe_fit, write_preset
+from texvent.calibrate.preset import describe_fit, describe_scene, write_preset
 from texvent.calibrate.recording import Recording
+from texvent.calibrate.report.contents import report_fit, report_flicker, report_static
+from texvent.calibrate.report.page import Report, write_report
 from texvent.capture.open import open_frames
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.config import CaptureConfig, InterpolateConfig, check_range
+from texvent.config import CaptureConfig, InterpolateConfig, check_choices, check_range
 from texvent.errors import ConfigError, InputError, shown
-from texvent.io.atomic import check_output
+from texvent.events import EventStream
+from texvent.io.atomic import check_outputs
 from texvent.io.files import load
+from texvent.run.settings import resolve
 from texvent.runtime.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
-from texvent.simulate.physical.config import PRESETS, PhysicalConfig
+from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.config import PhysicalConfig
 
-DESCRIPTION = """Fit the physical model to a sensor that recorded frames and events: thresholds,
-balance, bandwidth, noise and leak. The first half of the recording is fitted, the second tells how
-good the fit is. The result is a config file.
+DESCRIPTION = """Fit the physical model to a recording of your sensor. With frames of a moving
+scene: thresholds, balance, bandwidth, noise and leak. From events alone: a scene at rest gives
+noise, hot pixels and leak, a flickering field thresholds, bandwidth and refractory period. What a
+recording does not tell stays as in --start-preset. The result is a config file.
 
   texvent calibrate --frames slider_depth --events slider_depth/events.txt \\
       --sensor davis240c -o my.toml
+  texvent calibrate --events rest.raw --scene static -o my.toml
   texvent simulate video.mp4 --sensor my.toml"""
+FILES = (".toml", ".yaml", ".yml")
 
 
 @dataclass(frozen=True, kw_only=True)
 class CalibrateOptions:
     """Which recording, and where the result goes."""
 
-    input_texts: ClassVar[tuple[str, ...]] = ("frames",)
+    input_texts: ClassVar[tuple[str, ...]] = ("frames", "start_preset")
+    outputs: ClassVar[tuple[str, ...]] = ("out", "report")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
-        "frames", "events", "out", "sensor", "start_preset", "frames_gamma", "seconds", "start",
-        "stop", "interpolate", "overwrite",
+        "frames", "events", "scene", "flicker_hz", "flicker_ratio", "out", "report", "sensor",
+        "start_preset", "frames_gamma", "seconds", "overwrite",
     )  # fmt: skip
 
-    frames: str = REQUIRED
-    """Video file, image folder or AEDAT4 recording, on the clock of the events."""
+    frames: str | None = None
+    """Video file, image folder or AEDAT4 recording, on the clock of the events; for a moving
+    scene only."""
     events: Path = REQUIRED
     """Event file."""
+    scene: Literal["moving", "static", "flicker"] = "moving"
+    """What the sensor saw: anything that moves; nothing that does, under steady light; or a flat
+    field whose light switches between two brightnesses."""
+    flicker_hz: float | None = None
+    """Cycles of that light per second, within 2 %."""
+    flicker_ratio: float | None = None
+    """How many times as bright the bright half of a cycle is as the dark one. Without it,
+    thresholds are only compared with one another."""
     out: Path = REQUIRED
     """Config file to write, .toml."""
+    report: Path | None = None
+    """Page to write, .html: constants, and the model beside the recording."""
     sensor: str | None = None
     """Sensor size, for event formats that do not store it."""
     format: str | None = None
     """Event format, where the extension does not say."""
     start_preset: str = "default"
-    """Preset of the physical model that the search starts from, and is compared with."""
+    """Preset of the physical model, or a file of texvent calibrate, with what is known so far."""
     frames_gamma: float = 1.0
     """Exponent that makes the frames linear: 1 for those of a DAVIS, 2.2 for ordinary video."""
     seconds: float = 1.0
-    """How much of each half of the recording is simulated."""
+    """How much of each half of a recording with frames is simulated."""
     overwrite: bool = False
-    """Replace the file if it exists already."""
+    """Replace files that exist already."""
     quiet: bool = False
     """Do not tell what is tried."""
 
     def __post_init__(self) -> None:
+        check_choices(self)
         check_range("seconds", self.seconds, 0.1)
-        if self.start_preset not in PRESETS:
+        check_range("flicker_hz", self.flicker_hz, 0.01, 1000)
+        check_range("flicker_ratio", self.flicker_ratio, 1.1, 1e4)
+        self._check_scene()
+        if self.start_preset not in PRESETS and not self.start_preset.endswith(FILES):
             raise ConfigError(
                 f"unknown preset {shown(self.start_preset)}; "
                 f"{suggest(self.start_preset, tuple(PRESETS))}"
             )
 
+    def _check_scene(self) -> None:
+        if self.scene == "flicker" and self.flicker_hz is None and self.events is not REQUIRED:
+            raise ConfigError(
+                "--scene flicker needs --flicker-hz, the cycles of the light per second"
+            )
+        if self.scene != "flicker" and (self.flicker_hz or self.flicker_ratio):
+            raise ConfigError("--flicker-hz and --flicker-ratio are for --scene flicker")
+        if self.scene != "moving" and self.frames is not None:
+            raise ConfigError(
+                f"--scene {self.scene} is measured from events alone; leave out --frames"
+            )
+        if self.scene == "moving" and self.frames is None and self.events is not REQUIRED:
+            raise ConfigError(
+                "a moving scene needs --frames; events alone tell something of --scene static or "
+                "--scene flicker"
+            )
+
     @property
     def start_config(self) -> PhysicalConfig:
-        """Where the search starts."""
-        return dataclasses.replace(PRESETS[self.start_preset], gamma=self.frames_gamma)
+        """Where the search starts.
+
+        Raises:
+            ConfigError: the file is for another model.
+            InputError: it cannot be read.
+        """
+        config = PRESETS.get(self.start_preset)
+        if config is None:
+            config = resolve("simulate", {}, config=self.start_preset).simulate
+        if not isinstance(config, PhysicalConfig):
+            raise ConfigError(f"{self.start_preset} is not for the physical model")
+        return dataclasses.replace(config, gamma=self.frames_gamma)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -89,24 +143,56 @@ def run(arguments: Sequence[str]) -> int:
     options, capture, interpolate = parse_configs(
         arguments, groups, prog="texvent calibrate", description=DESCRIPTION
     )
-    check_output(options.out, overwrite=options.overwrite)
+    outputs = [options.out] if options.report is None else [options.out, options.report]
+    check_outputs(outputs, overwrite=options.overwrite)
+    start = options.start_config
     if not options.events.exists():
         raise InputError(f"no such file: {options.events}")
     size = parse_sensor(options.sensor) if options.sensor else None
     events = load(options.events, format=options.format, size=size)
-    recording = Recording(open_frames(options.frames, capture), events, interpolate)
     progress = ConsoleProgress(is_quiet=options.quiet)
-    fit = fit_sensor(
-        recording,
-        start=options.start_config,
-        seconds=options.seconds,
-        report=progress.announce,
-    )
-    source = " and ".join(dict.fromkeys((options.frames, str(options.events))))
-    for line in describe_fit(fit, source):
+    if options.scene == "moving":
+        frames = open_frames(options.frames, capture)
+        recording = Recording(frames, events, interpolate)
+        config, lines, report = _fit(recording, start, options, progress)
+    else:
+        config, lines, report = _measure(events, start, options)
+    for line in lines:
         progress.announce(line)
     written = write_preset(
-        fit, options.out, size=events.size, source=source, overwrite=options.overwrite
+        config, lines, options.out, size=events.size, overwrite=options.overwrite
     )
     write_out(f"{written}\n")
+    if options.report is not None:
+        page = write_report(report, options.report, overwrite=options.overwrite)
+        write_out(f"{page}\n")
     return 0
+
+
+def _fit(
+    recording: Recording,
+    start: PhysicalConfig,
+    options: CalibrateOptions,
+    progress: ConsoleProgress,
+) -> tuple[PhysicalConfig, list[str], Report]:
+    """Fit frames and events."""
+    fit = fit_sensor(recording, start=start, seconds=options.seconds, report=progress.announce)
+    source = " and ".join(dict.fromkeys((str(options.frames), str(options.events))))
+    lines = describe_fit(fit, source)
+    report = report_fit(fit, start, source, lines)
+    return fit.config, [*lines, *describe_estimates(fit.found, fit.kept)], report
+
+
+def _measure(
+    events: EventStream, start: PhysicalConfig, options: CalibrateOptions
+) -> tuple[PhysicalConfig, list[str], Report]:
+    """Measure a known scene from events alone."""
+    source, ratio = str(options.events), options.flicker_ratio
+    if options.flicker_hz is None:
+        static = measure_static_scene(events, start)
+        lines = describe_scene(static, source, "a scene at rest")
+        return static.config, lines, report_static(static, events, start, source)
+    flicker = measure_flicker(events, start, hz=options.flicker_hz, ratio=ratio)
+    what = f"a field that flickers at {flicker.cycles.hz:.5g} Hz"
+    lines = describe_scene(flicker, source, what)
+    return flicker.config, lines, report_flicker(flicker, events, start, source, ratio=ratio)

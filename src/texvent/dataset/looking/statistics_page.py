@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from texvent.dataset.contents.made_set import MadeSet
@@ -17,7 +16,7 @@ from texvent.dataset.contents.statistics import (
 from texvent.dataset.looking.charts import bars, histogram
 from texvent.io.atomic import atomic_file
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
-from texvent.view.page.html_parts import count_text
+from texvent.view.page.html_parts import count_text, table_html
 from texvent.view.page.template import fill_template
 
 
@@ -31,7 +30,7 @@ def write_statistics_page(
     """
     total = statistics.total
     body = [
-        _table(COUNTS, counts_rows(statistics)),
+        table_html(COUNTS, counts_rows(statistics)),
         "<h2>Samples</h2>",
         f'<div class="charts">{_charts(total)}</div>',
     ]
@@ -55,20 +54,6 @@ def write_statistics_page(
     with atomic_file(path, overwrite=overwrite) as part:
         part.write_text(page, encoding="utf-8")
     return path
-
-
-def _table(titles: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    head = "".join(f'<th scope="col">{html.escape(title)}</th>' for title in titles)
-    lines = [
-        f'<tr><th scope="row">{html.escape(first)}</th>'
-        + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)
-        + "</tr>"
-        for first, *cells in rows
-    ]
-    return (
-        '<div class="wide"><table class="facts numbers">'
-        f"<thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table></div>"
-    )
 
 
 def _charts(total: Statistics) -> str:

@@ -1,4 +1,4 @@
-"""What happens to events between the pixel and the file: delay, rate limit, coarse clock.
+"""What happens to events between the pixel and the file: delay, coarse clock, filters, rate limit.
 
 Events wait for the arbiter, so they may be read out after the frame interval in which they fired;
 `Readout` holds them until the interval that they belong to. Everything only moves events later.
@@ -11,8 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.sensor import SensorSize
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.physical.readout_filters import ReadoutFilters
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.video import MICROSECONDS
 
@@ -31,6 +33,8 @@ class ReadoutRules:
     """Events per second of the whole sensor above which events are dropped; 0 is never."""
     rate_limit_window_us: int = 1000
     """Window in which events are counted for the limit, µs."""
+    filters: tuple[str, ...] = ()
+    """Filters before the limit; see `readout_filters`."""
 
     @property
     def is_ideal(self) -> bool:
@@ -39,23 +43,25 @@ class ReadoutRules:
             self.latency_us == self.jitter_us == 0
             and self.clock_us == 1
             and self.rate_limit_hz == 0
+            and not self.filters
         )
 
 
 class Readout:
     """The way out of one sensor, from its first frame on."""
 
-    def __init__(self, rules: ReadoutRules, *, first_us: int, width: int) -> None:
+    def __init__(self, rules: ReadoutRules, *, first_us: int, size: SensorSize) -> None:
         """Start with nothing waiting.
 
         Args:
             rules: what is done to events.
             first_us: time of the first frame, µs: where the clock and the windows start.
-            width: of the sensor, to tell a pixel's row and column for its random draws.
+            size: of the sensor.
         """
         self._rules = rules
         self._first_us = first_us
-        self._width = width
+        self._width = size.width
+        self._filters = ReadoutFilters(rules.filters, size, first_us=first_us)
         self._waiting = UnsortedEvents.none()
         self._window, self._count_before, self._count = 0, 0, 0
 
@@ -70,7 +76,7 @@ class Readout:
         late = UnsortedEvents.concat((late, self._waiting))
         leaves = late.t < interval.stop_us
         self._waiting = late.take(~leaves)
-        return self._limit(_in_order(late.take(leaves)), interval)
+        return self._limit(self._filters.read(_in_order(late.take(leaves))), interval)
 
     def _delay(self, fired: UnsortedEvents, interval: FrameInterval) -> UnsortedEvents:
         """Latency, jitter and clock; draws by pixel and by its events in the interval."""

@@ -8,7 +8,8 @@ Per frame interval, for every pixel:
 3. the change since the last reset, leak included, fires where and when it crosses a threshold of
    the pixel; every event resets the pixel;
 4. noise events come at a rate that depends on intensity, and reset the pixel too;
-5. the readout delays events, limits their rate and rounds their times, if asked to.
+5. if asked to, an arbiter or a scan lets events wait, and the readout delays them, rounds their
+   times, filters them and limits their rate.
 
 Rates are per second and the low-pass is integrated exactly, so neither the frame rate nor the
 number of intermediate frames changes what is simulated.
@@ -24,10 +25,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.sensor import SensorSize
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.limits import check_event_number
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.physical.arbitration.arbiter import Arbiter
+from texvent.simulate.physical.cameras.constants import CAMERAS
+from texvent.simulate.physical.cameras.presets import PRESETS
 from texvent.simulate.physical.circuit import (
     ADVANCE_PIXELS,
     WHITE,
@@ -35,7 +40,7 @@ from texvent.simulate.physical.circuit import (
     PhotoreceptorInput,
     new_state,
 )
-from texvent.simulate.physical.config import PRESETS, PhysicalConfig
+from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.noise_curve import parse_noise_curve
 from texvent.simulate.physical.photoreceptor import InputFrames
 from texvent.simulate.physical.readout import Readout
@@ -74,6 +79,10 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
     takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 190
     presets: ClassVar[Mapping[str, PhysicalConfig]] = PRESETS
+    known_constants: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        name: tuple(one.option for one in camera.constants) for name, camera in CAMERAS.items()
+    }
+    """Preset of a camera → its options that have a source."""
 
     @property
     def contrast_threshold(self) -> float:
@@ -92,7 +101,11 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
     def _begin(self, intensity: IntensityArray) -> None:
         config, shape = self.config, intensity.shape
         self._draw_sensor(shape)
-        self._readout = Readout(config.readout, first_us=self._last_us, width=shape[1])
+        size = SensorSize(shape[1], shape[0])
+        self._arbiter = Arbiter(
+            config.arbitration, first_us=self._last_us, shape=shape, backend=self._backend
+        )
+        self._readout = Readout(config.readout, first_us=self._last_us, size=size)
         self._frames = InputFrames(
             intensity, gamma=config.gamma, balance=config.balance, cutoff_hz=config.cutoff_hz
         )
@@ -111,16 +124,16 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         check_event_number(self._leak_hz * interval.duration_s)
         light = self._frames.until(intensity)
         noise = self._draw_noise(light, interval)
-        rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
+        rules = ResetRules(self.config.refractory_us, self.config.noise_resets)
         fired = ADVANCE_PIXELS.load(self._backend, light.now.dtype)(
             light, self._mismatch, self._state, noise, rules, (interval.start_us, interval.stop_us)
         )
         self._decay_residual(interval)
-        if self.config.readout.is_ideal:
+        if self.config.arbiter == "none" and self.config.readout.is_ideal:
             return fired
         if not isinstance(fired, UnsortedEvents):
             fired = fired.unsorted(intensity.shape[1])
-        return self._readout.read(fired, interval)
+        return self._readout.read(self._arbiter.read(fired, interval.stop_us), interval)
 
     def _draw_sensor(self, shape: tuple[int, ...]) -> None:
         """Draw mismatch: thresholds, leak, noise factors, hot pixels."""

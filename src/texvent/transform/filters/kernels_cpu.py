@@ -6,7 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.transform.filters.reference import NEVER, Int64Array, UInt16Array
+from texvent.transform.filters.reference import (
+    BLOCK,
+    MOST_BURSTS,
+    NEVER,
+    FlickerLimits,
+    Int64Array,
+    UInt16Array,
+)
 
 
 @jit
@@ -49,3 +56,68 @@ def find_rested(
             rested[event] = True
             kept_us[y[event], x[event]] = t[event]
     return rested
+
+
+@jit
+def find_places_in_bursts(
+    x: UInt16Array,
+    y: UInt16Array,
+    t: Int64Array,
+    p: NDArray[np.uint8],
+    last_us: Int64Array,
+    burst: NDArray[np.uint8],
+    threshold_us: int,
+) -> NDArray[np.uint8]:
+    """As `reference.find_places_in_bursts`."""
+    places = np.zeros(len(t), np.uint8)
+    for event in range(len(t)):
+        row, column = y[event], x[event]
+        # NEVER is earlier than any time.
+        goes_on = (
+            burst[0, row, column] == p[event] and t[event] - last_us[row, column] < threshold_us
+        )
+        place = min(burst[1, row, column] + 1, 3) if goes_on else 1
+        burst[0, row, column] = p[event]
+        burst[1, row, column] = place
+        last_us[row, column] = t[event]
+        places[event] = place
+    return places
+
+
+@jit
+def find_flicker(
+    x: UInt16Array,
+    y: UInt16Array,
+    t: Int64Array,
+    p: NDArray[np.uint8],
+    start_us: Int64Array,
+    state: NDArray[np.uint8],
+    limits: FlickerLimits,
+) -> NDArray[np.bool_]:
+    """As `reference.find_flicker`."""
+    found = np.zeros(len(t), np.bool_)
+    for event in range(len(t)):
+        row, column = y[event] // BLOCK, x[event] // BLOCK
+        since = t[event] - start_us[row, column]
+        is_new = since > limits.longest_us
+        if is_new:
+            state[1, row, column] = 0
+            state[2, row, column] = 0
+        if p[event] == 1 and state[0, row, column] == 0:
+            if is_new:
+                start_us[row, column] = t[event]
+            elif since >= limits.hold_us:
+                count = int(state[1, row, column])
+                if since >= limits.shortest_us:
+                    count = min(count + 1, MOST_BURSTS)
+                else:
+                    count = max(count - 1, 0)
+                state[1, row, column] = count
+                if count >= limits.begin:
+                    state[2, row, column] = 1
+                elif count < limits.end:
+                    state[2, row, column] = 0
+                start_us[row, column] = t[event]
+        state[0, row, column] = p[event]
+        found[event] = state[2, row, column] == 1
+    return found

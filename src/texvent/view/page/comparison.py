@@ -35,6 +35,8 @@ class MetricRow:
     unit: str
     good: str
     blind_to: str
+    windows: str = ""
+    """Mean of windows and its interval; empty where there is none."""
 
 
 def write_comparison(
@@ -147,7 +149,7 @@ def _rates(events: EventStream, start_us: int, bin_us: float) -> NDArray[np.int6
 
 
 def _row(row: MetricRow) -> str:
-    cells = (row.value, row.unit, row.good, row.blind_to)
+    cells = (row.value, row.windows, row.unit, row.good, row.blind_to)
     return (
         f'<tr><th scope="row">{html.escape(row.name)}</th>'
         + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)

@@ -16,6 +16,7 @@ from texvent.bench.digits.report.tables import (
     comparison_table,
     count_table,
     few_shot_table,
+    mark_note,
 )
 from texvent.bench.document import result_name
 from texvent.bench.markdown import without_tags
@@ -47,12 +48,15 @@ def page_files(report: DigitsReport, result: str, *, has_charts: bool = True) ->
         "## Accuracy on recordings",
         "Mean ± standard error over networks of different seeds. "
         + binomial_text(report, int(report.protocol["recordings"])),
+        mark_note(),
         *accuracy_sections(report),
         "## Thresholds and counts",
         count_table(report),
         *_few_shot_sections(report, f"{name}{FEW_SHOT}" if has_charts else None),
         "## Differences",
-        "McNemar's exact test on the votes of all networks of an arm.",
+        "McNemar's exact test on the votes of all networks of an arm, as it is and by Holm's "
+        "correction for the table; difference of the votes' accuracies with its 95 % interval by "
+        "Agresti and Min.",
         *_comparison_sections(report),
     ]
     page = without_tags("\n\n".join(part.rstrip() for part in parts) + "\n")

@@ -6,8 +6,11 @@ from collections.abc import Iterable, Sequence
 
 from texvent.bench.classification.classify import binomial_error
 from texvent.bench.digits.report.results import DigitsReport, SetScore
+from texvent.bench.digits.report.statistics import difference_interval
 from texvent.bench.markdown import markdown_table
 from texvent.metrics.summary import summarise
+from texvent.metrics.uncertainty.difference import SIGNIFICANCE
+from texvent.metrics.uncertainty.permutation import holm
 
 REPRESENTATION_TITLES = {
     "histogram": "Counts (histogram of three movements)",
@@ -18,13 +21,20 @@ WAY_TITLES = {
     "flow": "60 frames per second, interpolated",
     "frames": "60 frames per second alone",
 }
+BEST, ALIKE = "(best)", "(≈)"
+"""Marks of the best arm, and of those that cannot be told apart from it."""
 REFERENCES = ("texvent", "texvent accurate", "physical")
 """Arms that the others are compared with."""
 
 
 def accuracy_table(report: DigitsReport, representation: str) -> str:
-    """Accuracy on recordings of each arm, by the choice of its threshold; the best on top."""
+    """Accuracy on recordings of each arm, by the choice of its threshold; the best on top.
+
+    Marks say which arm is best of those with the same frames and choice of a threshold, and which
+    cannot be told apart from it (`best_marks`).
+    """
     scores = [one for one in report.scores if one.representation == representation]
+    marks = best_marks(report, representation)
     choices = list(dict.fromkeys(one.choice for one in scores))
     rows: dict[tuple[str, str], dict[str, SetScore]] = {}
     for one in scores:
@@ -32,7 +42,12 @@ def accuracy_table(report: DigitsReport, representation: str) -> str:
     ranked = sorted(rows.items(), key=lambda item: -_mean(next(iter(item[1].values()))))
     table = []
     for (arm, way), found in ranked:
-        cells = [_accuracy(found[choice]) if choice in found else "" for choice in choices]
+        cells = [
+            f"{_accuracy(found[choice])} {marks.get((arm, way, choice), '')}".rstrip()
+            if choice in found
+            else ""
+            for choice in choices
+        ]
         first = next(iter(found.values()))
         table.append(
             [arm, WAY_TITLES[way], *cells, mean_text(first.held_out), mean_text(first.judged)]
@@ -42,6 +57,43 @@ def accuracy_table(report: DigitsReport, representation: str) -> str:
     table.append(["recordings (folds)", "", mean_text(ceiling), *none, "", ""])
     titles = ["trained on", "frames", *(f"δ {choice}" for choice in choices)]
     return markdown_table([*titles, "on simulated", "judged by real-trained"], table)
+
+
+def best_marks(report: DigitsReport, representation: str) -> dict[tuple[str, str, str], str]:
+    """(arm, way, choice) → mark of the best of each way and choice, and of those like it.
+
+    Arms are alike where McNemar's test on the votes of their networks has p > .05 by Holm's
+    correction for all arms of that way and choice.
+    """
+    marks: dict[tuple[str, str, str], str] = {}
+    scores = [one for one in report.scores if one.representation == representation]
+    for way, choice in dict.fromkeys((one.way, one.choice) for one in scores):
+        group = [one for one in scores if (one.way, one.choice) == (way, choice)]
+        best = max(group, key=_mean).arm
+        against = {
+            ({one.first, one.second} - {best}).pop(): one.p
+            for one in report.comparisons
+            if (one.representation, one.way, one.choice) == (representation, way, choice)
+            and best in (one.first, one.second)
+        }
+        arms = [one.arm for one in group if one.arm in against]
+        if not arms:
+            continue
+        marks[best, way, choice] = BEST
+        p_values = holm([against[arm] for arm in arms])
+        for arm, p_value in zip(arms, p_values, strict=True):
+            if p_value > SIGNIFICANCE:
+                marks[arm, way, choice] = ALIKE
+    return marks
+
+
+def mark_note() -> str:
+    """What the marks of accuracy tables say."""
+    return (
+        f"{BEST}: the highest mean of those with the same frames and choice of δ. {ALIKE}: cannot "
+        "be told apart from it (McNemar's exact test on the votes of all networks of an arm, "
+        f"p > {SIGNIFICANCE:g} by Holm's correction)."
+    )
 
 
 def count_table(report: DigitsReport) -> str:
@@ -64,14 +116,30 @@ def count_table(report: DigitsReport) -> str:
 
 def comparison_table(report: DigitsReport, representation: str, way: str, choice: str) -> str:
     """McNemar's test of the reference arms against all others of the same kind."""
+    wanted = [
+        one
+        for one in report.comparisons
+        if (one.representation, one.way, one.choice) == (representation, way, choice)
+        and one.first in REFERENCES
+    ]
+    count = int(report.protocol["recordings"])
     rows = []
-    for one in report.comparisons:
-        is_wanted = (one.representation, one.way, one.choice) == (representation, way, choice)
-        if is_wanted and one.first in REFERENCES:
-            rows.append(
-                [one.first, one.second, str(one.only_first), str(one.only_second), f"{one.p:.2g}"]
-            )
-    return markdown_table(["first", "second", "only first right", "only second right", "p"], rows)
+    for one, adjusted in zip(wanted, holm([one.p for one in wanted]), strict=True):
+        low, high = difference_interval(one.only_first, one.only_second, count)
+        difference = (one.only_first - one.only_second) / count
+        rows.append(
+            [
+                one.first,
+                one.second,
+                str(one.only_first),
+                str(one.only_second),
+                f"{difference:+.3f} [{low:+.3f}, {high:+.3f}]",
+                f"{one.p:.2g}",
+                f"{adjusted:.2g}",
+            ]
+        )
+    right = ["only first right", "only second right"]
+    return markdown_table(["first", "second", *right, "difference", "p", "p (Holm)"], rows)
 
 
 def few_shot_table(report: DigitsReport) -> str:
@@ -89,6 +157,7 @@ def summary_text(report: DigitsReport) -> str:
     for representation in report.ceiling:
         parts.append(f"{REPRESENTATION_TITLES[representation]}: accuracy on recordings\n")
         parts.append(accuracy_table(report, representation))
+    parts.append(f"{mark_note()}\n")
     return "\n".join(parts)
 
 

@@ -1,0 +1,1 @@
+"""Constants of a sensor from recordings without frames, of scenes that are known."""

@@ -1,0 +1,177 @@
+"""How well a recording of frames and events determines what was fitted to it.
+
+The fitted part is cut into 20 blocks, fewer of 10 ms if it is short, and the bootstrap draws
+blocks. Thresholds follow from counts: an interval of the count ratio is one of the threshold, by
+the power with which the count falls. For balance and cutoff, the least distance lies at the vertex
+of a parabola through the distances at half, once and twice the value.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent.calibrate.bootstrap import Float64Array, bootstrap
+from texvent.calibrate.distance import measure_distance
+from texvent.calibrate.estimates import Estimate, Kept
+from texvent.calibrate.recording import TimeSpan
+from texvent.calibrate.search import COORDINATES, STEPS, Search
+from texvent.events import EventStream
+from texvent.simulate.physical.config import PhysicalConfig
+
+BLOCK_US = 10_000
+"""Shortest block."""
+MOST_BLOCKS = 20
+FACTOR = 2.0
+"""By which balance and cutoff are changed to see the distance rise."""
+FARTHEST = 1.5 * math.log(FACTOR)
+"""A vertex farther away, in the logarithm, is at no known place."""
+NEAREST = math.log(STEPS[-1]) / 2
+"""Half of the last step of the search, in the logarithm: no interval is shorter."""
+THRESHOLD_FACTOR = 1.1
+"""By which thresholds are changed to see how counts fall."""
+LEAST_POWER = 0.3
+"""The least power with which counts fall that is believed."""
+
+
+class Judgement(NamedTuple):
+    """What is known of the fitted options."""
+
+    config: PhysicalConfig
+    """The model; options that the recording does not tell have the value they started with."""
+    found: tuple[Estimate, ...]
+    kept: tuple[Kept, ...]
+
+
+def judge_fit(
+    search: Search, truth: EventStream, span: TimeSpan, best: PhysicalConfig, start: PhysicalConfig
+) -> Judgement:
+    """Intervals of thresholds, balance and cutoff.
+
+    Args:
+        search: which found `best`.
+        truth: the recorded events of the span.
+        span: the part that was fitted.
+        best: the fitted model.
+        start: where options come from that the recording does not tell.
+    """
+    blocks = cut_blocks(span)
+    found: list[Estimate] = []
+    kept: list[Kept] = []
+    for name in COORDINATES:
+        low, high = _interval(search, truth, blocks, best, name)
+        value = getattr(best, name)
+        if math.isinf(low) and math.isinf(high):
+            best = dataclasses.replace(best, **{name: getattr(start, name)})
+            reason = "half and twice the value fit as well"
+            kept.append(Kept(name, getattr(start, name), reason))
+        else:
+            unit = "Hz" if name.endswith("hz") else ""
+            found.append(Estimate(name, value, low, high, unit))
+    if kept:
+        best = search.match_counts(best).config
+    return Judgement(best, (*_thresholds(search, truth, blocks, best), *found), tuple(kept))
+
+
+def cut_blocks(span: TimeSpan) -> list[TimeSpan]:
+    """Equal blocks of a span, 10 ms or longer if the span is, at most 20.
+
+    Example:
+        >>> [block.start_us for block in cut_blocks(TimeSpan(0, 35_000))]
+        [0, 11666, 23333]
+    """
+    length = span.stop_us - span.start_us
+    number = min(max(length // BLOCK_US, 1), MOST_BLOCKS)
+    edges = [span.start_us + length * place // number for place in range(number + 1)]
+    return [TimeSpan(*edges[place : place + 2]) for place in range(number)]
+
+
+def _interval(
+    search: Search,
+    truth: EventStream,
+    blocks: list[TimeSpan],
+    best: PhysicalConfig,
+    name: str,
+) -> tuple[float, float]:
+    """The 95 % interval of an option; infinite where the distance does not rise."""
+    value = getattr(best, name)
+    if value == 0:  # unlimited
+        return -math.inf, math.inf
+    distances = np.empty((3, len(blocks)))
+    for row, factor in enumerate((1 / FACTOR, 1.0, FACTOR)):
+        config = dataclasses.replace(best, **{name: value * factor})
+        if factor != 1.0:
+            config = search.match_counts(config).config
+        distances[row] = _block_distances(search.simulate(config), truth, blocks)
+    shifts = bootstrap(lambda weights: np.array([vertex(distances @ weights)]), (len(blocks),))[
+        :, 0
+    ]
+    low = -math.inf if shifts[0] <= -FARTHEST else value * math.exp(min(shifts[0], -NEAREST))
+    high = math.inf if shifts[1] >= FARTHEST else value * math.exp(max(shifts[1], NEAREST))
+    return low, high
+
+
+def vertex(distances: Float64Array) -> float:
+    """Where a parabola through distances at −ln 2, 0 and ln 2 is least.
+
+    Args:
+        distances: [3].
+
+    Returns:
+        The place, at most `FARTHEST` from 0; there, too, without a minimum.
+
+    Example:
+        >>> round(vertex(np.array([4.0, 1.0, 0.0])), 3)  # y = (x / ln 2 - 1)²
+        0.693
+    """
+    left, middle, right = map(float, distances)
+    bend = left - 2 * middle + right
+    if bend <= 0:
+        return math.copysign(FARTHEST, left - right)
+    shift = 0.5 * math.log(FACTOR) * (left - right) / bend
+    return min(max(shift, -FARTHEST), FARTHEST)
+
+
+def _block_distances(
+    simulated: EventStream, truth: EventStream, blocks: list[TimeSpan]
+) -> Float64Array:
+    """Overlap and intervals, by block; the counts are matched as a whole."""
+    parts = [measure_distance(simulated.cut(*block), truth.cut(*block)) for block in blocks]
+    return np.array([one.overlap + one.intervals for one in parts])
+
+
+def _thresholds(
+    search: Search, truth: EventStream, blocks: list[TimeSpan], best: PhysicalConfig
+) -> list[Estimate]:
+    """Threshold and ratio of ON and OFF, from counts by block; balance and cutoff held fast."""
+    wider = dataclasses.replace(best, contrast_threshold=best.contrast_threshold * THRESHOLD_FACTOR)
+    streams = search.simulate(best), search.simulate(wider), truth
+    counts = np.array([[_counts(one.cut(*block)) for block in blocks] for one in streams])
+    powers = np.log(counts[0].sum(0) / counts[1].sum(0)) / math.log(THRESHOLD_FACTOR)
+    powers = np.maximum(powers, LEAST_POWER)
+
+    def estimate(weights: Float64Array) -> Float64Array:
+        simulated, _, recorded = np.maximum(np.einsum("b,sbp->sp", weights, counts), 0.5)
+        off, on = np.log(simulated / recorded) / powers
+        return np.array([(on + off) / 2, on - off])
+
+    shifts = bootstrap(estimate, (len(blocks),)) - estimate(np.ones(len(blocks)))
+    return [
+        Estimate(name, value, value * math.exp(low), value * math.exp(high), unit)
+        for name, unit, value, (low, high) in zip(
+            ("contrast_threshold", "on_off_ratio"),
+            ("ln", ""),
+            (best.contrast_threshold, best.on_off_ratio),
+            shifts.T.tolist(),
+            strict=True,
+        )
+    ]
+
+
+def _counts(events: EventStream) -> tuple[int, int]:
+    """OFF and ON events."""
+    on = int(events.p.sum())
+    return len(events) - on, on

@@ -1,0 +1,1 @@
+"""How sure a mean of windows and a difference between two candidates are."""

@@ -1,0 +1,1 @@
+"""Cameras that people have: their constants with sources, and their biases."""

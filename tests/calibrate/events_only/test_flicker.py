@@ -1,0 +1,106 @@
+"""Constants of a sensor before a flickering field are found again."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from texvent.calibrate.events_only.flicker import NAMES, measure_flicker
+from texvent.calibrate.events_only.flicker_cycles import find_bursts, find_cycles
+from texvent.calibrate.events_only.pixel_trains import PixelTrains
+from texvent.calibrate.events_only.replay import replay_flicker
+from texvent.errors import InputError
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.simulate.physical.config import PhysicalConfig
+
+SIZE = SensorSize(28, 20)
+START = PhysicalConfig(gamma=1.0)
+TRUTH = dataclasses.replace(
+    START,
+    contrast_threshold=0.26,
+    on_off_ratio=1.3,
+    threshold_sigma=0.04,
+    cutoff_hz=120.0,
+    refractory_period_us=500,
+    noise_curve="128:0.2",
+)
+
+
+@pytest.fixture(scope="module")
+def recording():
+    return replay_flicker(TRUTH, SIZE, 5.0, ratio=6.0, number=14, seed=4)
+
+
+@pytest.fixture(scope="module")
+def flicker(recording):
+    return measure_flicker(recording, START, hz=5.04, ratio=6.0)
+
+
+def test_every_constant_of_the_circuit_is_found_within_a_tenth(flicker):
+    found = {one.name: one.value for one in flicker.found}
+    for name in NAMES:
+        assert found[name] == pytest.approx(getattr(TRUTH, name), rel=0.1), name
+        assert getattr(flicker.config, name) == pytest.approx(found[name], abs=0.5)
+    assert flicker.cycles.hz == pytest.approx(5.0, rel=1e-4)
+    assert all(one.low <= one.value <= one.high for one in flicker.found)
+
+
+def test_pixels_with_high_thresholds_are_bright_in_the_map(flicker):
+    known = flicker.threshold_map[np.isfinite(flicker.threshold_map)]
+    assert known.size > 0.9 * flicker.threshold_map.size
+    assert known.mean() == pytest.approx(1.0, abs=0.02)
+    # Mean of two thresholds that spread by 0.04 around 0.297 and 0.228.
+    relative = math.hypot(0.04 / 0.297, 0.04 / 0.228) / 2
+    assert known.std() == pytest.approx(relative, rel=0.2)
+
+
+def test_without_the_ratio_thresholds_are_relative(recording):
+    flicker = measure_flicker(recording, START, hz=5.0, ratio=None)
+    kept = {one.name: one.reason for one in flicker.kept}
+    assert kept["contrast_threshold"] == "--flicker-ratio is not given"
+    assert flicker.config.contrast_threshold == START.contrast_threshold
+    assert flicker.config.threshold_sigma / 0.2 == pytest.approx(0.04 / 0.26, rel=0.15)
+    assert flicker.config.on_off_ratio == pytest.approx(1.3, rel=0.15)
+
+
+def test_what_is_no_flicker_is_refused(recording):
+    with pytest.raises(InputError, match="do not alternate at 9 Hz"):
+        measure_flicker(recording, START, hz=9.0, ratio=6.0)
+    with pytest.raises(InputError, match="needs 3"):
+        measure_flicker(recording.cut(0, 700_000), START, hz=5.0, ratio=6.0)
+    weak = replay_flicker(TRUTH, SIZE, 5.0, ratio=1.6, number=5)
+    with pytest.raises(InputError, match="brighter against the dark"):
+        measure_flicker(weak, START, hz=5.0, ratio=1.6)
+
+
+def test_a_refractory_period_that_hides_the_burst_keeps_the_old_values():
+    hidden = dataclasses.replace(
+        TRUTH, cutoff_hz=1000.0, contrast_threshold=0.15, refractory_period_us=300
+    )
+    events = replay_flicker(hidden, SensorSize(12, 10), 5.0, ratio=10.0, number=8)
+    flicker = measure_flicker(events, START, hz=5.0, ratio=10.0)
+    assert not flicker.found
+    assert "use less light" in flicker.kept[0].reason
+    assert flicker.config == START
+
+
+def test_cycles_and_bursts_of_a_pixel_by_hand():
+    # 10 Hz: bright from 0, dark from 50 ms; two ON events each, then one OFF event.
+    t = [start + after for start in range(0, 500_000, 100_000) for after in (1000, 3000, 52_000)]
+    events = EventStream([0] * 15, [0] * 15, t, [1, 1, 0] * 5, SensorSize(1, 1))
+    cycles = find_cycles(events, 10.0)
+    assert cycles.hz == pytest.approx(10.0, rel=1e-6)
+    trains = PixelTrains.of(events)
+    on, off = find_bursts(trains, cycles, 1), find_bursts(trains, cycles, 0)
+    assert on.follows.tolist() == [False, True] * (len(on.pixel) // 2)
+    assert np.diff(on.since_us)[::2] == pytest.approx(2000, abs=1)
+    assert not off.follows.any()
+
+
+def test_a_region_of_a_few_pixels_gives_the_thresholds_of_the_circuit():
+    events = replay_flicker(TRUTH, SensorSize(3, 2), 5.0, ratio=6.0, number=40)
+    found = {one.name: one for one in measure_flicker(events, START, hz=5.0, ratio=6.0).found}
+    assert found["cutoff_hz"].value == pytest.approx(120, rel=0.1)
+    assert found["contrast_threshold"].value == pytest.approx(0.26, rel=0.25)

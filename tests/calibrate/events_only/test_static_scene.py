@@ -1,0 +1,123 @@
+"""Constants of a sensor at rest are found again in events that it is known to have made."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from texvent.calibrate.events_only.replay import replay_static
+from texvent.calibrate.events_only.static_scene import find_hot_pixels, measure_static_scene
+from texvent.errors import InputError
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.simulate.physical.config import PhysicalConfig
+
+SIZE = SensorSize(96, 64)
+START = PhysicalConfig(gamma=1.0)
+TRUTH = dataclasses.replace(
+    START,
+    noise_curve="128:3",
+    noise_on_fraction=0.4,
+    noise_decades=0.2,
+    leak_rate_hz=1.0,
+    hot_pixel_fraction=0.006,
+    hot_pixel_rate_hz=150.0,
+    refractory_period_us=800,
+)
+
+
+def record(config, seconds=8.0, seed=11, size=SIZE) -> EventStream:
+    """After two seconds, in which pixels forget the phase that they began with."""
+    events = replay_static(config, size, seconds + 2.0, seed=seed)
+    return events.cut(2_000_000, round((seconds + 2) * 1e6))
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return measure_static_scene(record(TRUTH), START)
+
+
+def test_every_constant_of_a_sensor_at_rest_is_found_within_a_tenth(scene):
+    found = {one.name: one.value for one in scene.found}
+    assert found["noise_rate_hz"] == pytest.approx(3.0, rel=0.1)
+    for name in (
+        "noise_on_fraction",
+        "noise_decades",
+        "leak_rate_hz",
+        "hot_pixel_rate_hz",
+        "refractory_period_us",
+    ):
+        assert found[name] == pytest.approx(getattr(TRUTH, name), rel=0.1), name
+    # Which pixels are hot is a matter of chance; their number is found again, not the probability.
+    assert scene.is_hot.sum() == pytest.approx(0.006 * 96 * 64, abs=3 * 6)
+
+
+def test_intervals_hold_what_was_found_and_are_narrow(scene):
+    for one in scene.found:
+        assert one.low <= one.value <= one.high, one
+    noise = next(one for one in scene.found if one.name == "noise_rate_hz")
+    assert noise.high - noise.low < 0.1 * noise.value
+
+
+def test_what_a_scene_at_rest_does_not_tell_stays(scene):
+    kept = {one.name for one in scene.kept}
+    assert {"contrast_threshold", "on_off_ratio", "threshold_sigma", "cutoff_hz"} <= kept
+    assert scene.config.contrast_threshold == START.contrast_threshold
+    assert scene.config.noise_curve.startswith("128:")
+    assert scene.config.refractory_period_us == pytest.approx(800, rel=0.1)
+
+
+def test_the_spread_of_the_leak_is_that_of_the_regular_intervals():
+    truth = dataclasses.replace(TRUTH, leak_rate_hz=4.0, leak_rate_decades=0.12, noise_scale=0.02)
+    found = {one.name: one.value for one in measure_static_scene(record(truth), START).found}
+    assert found["leak_rate_decades"] == pytest.approx(0.12, rel=0.1)
+    assert found["leak_rate_hz"] == pytest.approx(4.0, rel=0.1)
+
+
+def test_a_third_of_a_second_keeps_what_it_cannot_tell():
+    quiet = dataclasses.replace(START, noise_curve="128:0.02", leak_rate_hz=0.0)
+    scene = measure_static_scene(record(quiet, seconds=0.3), START)
+    kept = {one.name: one.reason for one in scene.kept}
+    assert {"noise_on_fraction", "noise_decades", "leak_rate_hz", "refractory_period_us"} <= {*kept}
+    assert scene.config.noise_decades == START.noise_decades
+    assert "50 are needed" in kept["refractory_period_us"]
+
+
+def test_a_sensor_that_never_fires_has_an_upper_end_only():
+    silent = EventStream([0, 0], [0, 1], [0, 10_000_000], [1, 0], SIZE)
+    scene = measure_static_scene(silent, START)
+    noise = next(one for one in scene.found if one.name == "noise_rate_hz")
+    # 6144 pixels for 10 s, one OFF event: 3 per exposure is the least upper end.
+    assert noise.value < 1e-4
+    assert noise.high >= 3 / 61_440
+
+
+def test_too_little_rest_is_refused():
+    with pytest.raises(InputError, match=r"pixel-seconds of this recording are at rest"):
+        measure_static_scene(EventStream.empty(SIZE), START)
+    random = np.random.default_rng(0)
+    # A bar that sweeps once over the sensor: 200 events per column, each column at its own time.
+    column = np.repeat(np.arange(96), 200)
+    rows = random.integers(0, 64, column.size)
+    t = column * 100_000 + random.integers(0, 5_000, column.size)
+    order = np.argsort(t)
+    p = random.integers(0, 2, t.size)
+    swept = EventStream(column[order], rows[order], t[order], p, SIZE)
+    with pytest.raises(InputError, match="at rest"):
+        measure_static_scene(swept, START)
+
+
+def test_hot_pixels_stand_out_of_the_spread_of_the_others():
+    counts = np.random.default_rng(3).poisson(20, 4000)
+    everywhere = np.ones(4000, np.bool_)
+    assert find_hot_pixels(counts, everywhere).sum() <= 1
+    counts[[5, 70]] = 400
+    assert np.flatnonzero(find_hot_pixels(counts, everywhere)).tolist() == [5, 70]
+
+
+def test_a_region_of_a_few_pixels_is_measured_too():
+    few = SensorSize(3, 2)
+    scene = measure_static_scene(record(TRUTH, seconds=30.0, size=few), START)
+    noise = next(one for one in scene.found if one.name == "noise_rate_hz")
+    # Six pixels differ by 0.2 decades: this specimen's mean, not that of all sensors, is found.
+    assert 1.0 < noise.low < noise.value < noise.high < 9.0
