@@ -42,7 +42,7 @@ def test_the_noise_of_a_still_recording_is_found_again():
 
 
 def test_on_events_without_off_events_are_leak():
-    recording = still_recording(leak_rate_hz=3.0)
+    recording = still_recording(leak_rate_hz=3.0, initial_phase="random")
     noise = measure_noise(recording, SPAN, gamma=1.0)
     assert noise.leak_rate_hz == pytest.approx(3.0, rel=0.1)
     assert (noise.curve.rates_hz < 0.01).all()
@@ -66,7 +66,7 @@ def test_a_textured_scene_at_rest_is_measured_pixel_by_pixel():
 
 
 def test_a_short_exposure_without_events_does_not_pass_for_noise():
-    still = still_recording(leak_rate_hz=3.0)
+    still = still_recording(leak_rate_hz=3.0, initial_phase="random")
     # No OFF event in 4,680 pixel-seconds, a third of them in each range: half an event in one range
     # alone would be 6e-4 per second.
     rates_hz = measure_noise(still, SPAN, gamma=1.0).curve.rates_hz
@@ -87,7 +87,7 @@ def test_a_recording_without_still_pixels_says_so(recording):
 
 
 def test_noise_of_the_frames_themselves_does_not_count_as_motion():
-    still = still_recording(leak_rate_hz=3.0)
+    still = still_recording(leak_rate_hz=3.0, initial_phase="random")
     grain = np.random.default_rng(0).normal(0, 1.0, still.frames.pixels.shape)
     grainy = np.maximum(still.frames.pixels + grain, 0).astype(np.float32)
     recording = dataclasses.replace(still, frames=Video(grainy, still.frames.times_us))

@@ -25,6 +25,7 @@ TRUTH = dataclasses.replace(
     cutoff_hz=120.0,
     refractory_period_us=500,
     noise_curve="128:0.2",
+    noise_scale=1.0,
 )
 
 
@@ -61,7 +62,7 @@ def test_without_the_ratio_thresholds_are_relative(recording):
     kept = {one.name: one.reason for one in flicker.kept}
     assert kept["contrast_threshold"] == "--flicker-ratio is not given"
     assert flicker.config.contrast_threshold == START.contrast_threshold
-    assert flicker.config.threshold_sigma / 0.2 == pytest.approx(0.04 / 0.26, rel=0.15)
+    assert flicker.config.threshold_sigma / START.contrast_threshold == pytest.approx(0.04 / 0.26, rel=0.15)
     assert flicker.config.on_off_ratio == pytest.approx(1.3, rel=0.15)
 
 

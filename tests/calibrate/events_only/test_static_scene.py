@@ -17,6 +17,8 @@ START = PhysicalConfig(gamma=1.0)
 TRUTH = dataclasses.replace(
     START,
     noise_curve="128:3",
+    noise_scale=1.0,
+    initial_phase="random",
     noise_on_fraction=0.4,
     noise_decades=0.2,
     leak_rate_hz=1.0,
@@ -75,7 +77,7 @@ def test_the_spread_of_the_leak_is_that_of_the_regular_intervals():
 
 
 def test_a_third_of_a_second_keeps_what_it_cannot_tell():
-    quiet = dataclasses.replace(START, noise_curve="128:0.02", leak_rate_hz=0.0)
+    quiet = dataclasses.replace(START, noise_curve="128:0.02", noise_scale=1.0, leak_rate_hz=0.0)
     scene = measure_static_scene(record(quiet, seconds=0.3), START)
     kept = {one.name: one.reason for one in scene.kept}
     assert {"noise_on_fraction", "noise_decades", "leak_rate_hz", "refractory_period_us"} <= {*kept}

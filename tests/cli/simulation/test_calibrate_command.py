@@ -76,7 +76,8 @@ SMALL = SensorSize(32, 24)
 def scenes(tmp_path_factory):
     """A scene at rest and a flickering field of one sensor."""
     folder = tmp_path_factory.mktemp("scenes")
-    sensor = PhysicalConfig(gamma=1.0, noise_curve="128:2", contrast_threshold=0.3)
+    noise = {"noise_curve": "128:2", "noise_scale": 1.0}
+    sensor = PhysicalConfig(gamma=1.0, contrast_threshold=0.3, **noise)
     replay_static(sensor, SMALL, 6.0, seed=1).save(folder / "rest.npz")
     replay_flicker(sensor, SMALL, 5.0, ratio=6.0, number=6, seed=1).save(folder / "flicker.npz")
     return folder

@@ -40,7 +40,7 @@ def compare_values(recorded: Float64Array, simulated: Float64Array) -> Distribut
 
     Example:
         >>> found = compare_values(np.array([1.0, 1.0, 100.0]), np.array([100.0]))
-        >>> found.recorded.sum(), found.simulated[-1]
+        >>> float(found.recorded.sum()), float(found.simulated[-1])
         (1.0, 1.0)
     """
     if not recorded.size or not simulated.size:
