@@ -123,7 +123,7 @@ def _arguments() -> argparse.Namespace:
     for command in (running, bounding):
         command.add_argument("-o", "--out", type=Path, required=True, help="kept between runs")
         command.add_argument("--scenes", type=int, help="scored; default: all of the test split")
-    running.add_argument("--steps", type=int, default=4000, help="of the autoencoder's training")
+    running.add_argument("--steps", type=int, default=12_000, help="of the autoencoder's training")
     for command in (running, bounding, counting):
         command.add_argument("--json", type=Path, help="keep the result")
     parser.add_argument("--threads", type=int, default=1, help="of torch")

@@ -32,9 +32,9 @@ LAYOUT = {
     "decoder_causal": True,
 }
 SCALE = ("latents_mean", "latents_std")
-WINDOW, CROP, BATCH = 9, 32, 2
-"""Frames of a training window, five latent frames; its side, px; windows of
-a step."""
+WINDOW, BATCH = 9, 2
+"""Frames of a training window, five latent frames; windows of a step. Windows are whole frames: most
+of a crop of 32 px is within the reach of its own border."""
 PEAK_RATE = 3e-3
 REPORT = 100
 """Steps between two lines about the loss."""
@@ -137,16 +137,11 @@ def _fit(
 
 
 def _draw_window(frames: Any, chance: np.random.Generator) -> Any:
-    """A window of a random clip, [3, `WINDOW`, `CROP`, `CROP`], maybe reversed and mirrored."""
+    """A window of a random clip, [3, `WINDOW`, H, W], maybe reversed and mirrored."""
     clip = frames[int(chance.integers(len(frames)))]
-    sizes = (WINDOW, CROP, CROP)
-    starts = [
-        int(chance.integers(whole - size + 1))
-        for whole, size in zip(clip.shape[1:], sizes, strict=True)
-    ]
-    for axis, (start, size) in enumerate(zip(starts, sizes, strict=True), start=1):
-        clip = clip.narrow(axis, start, size)
-    return clip.float().flip([axis for axis in (1, 3) if chance.random() < 0.5])
+    start = int(chance.integers(clip.shape[1] - WINDOW + 1))
+    window = clip.narrow(1, start, WINDOW).float()
+    return window.flip([axis for axis in (1, 3) if chance.random() < 0.5])
 
 
 def _set_scale(vae: Any, frames: Any) -> None:

@@ -68,7 +68,9 @@ def test_a_third_of_a_second_is_fitted_and_says_what_it_does_not_tell():
     events = EventStream.concat([sensor.step(frame) for frame in frames])
     short = Recording(frames, events, InterpolateConfig(interpolate="none"))
     fit = fit_sensor(short, start=START)
-    assert fit.config.contrast_threshold == pytest.approx(TRUTH.contrast_threshold, rel=0.15)
+    # Balance and threshold can stand in for each other in so little time: the interval says so.
+    threshold = next(one for one in fit.found if one.name == "contrast_threshold")
+    assert threshold.low < TRUTH.contrast_threshold < threshold.high < 3 * threshold.low
     assert fit.distances["fitted"][1].total < 0.5 * fit.distances["start"][1].total
     assert all(getattr(fit.config, one.name) == one.value for one in fit.kept)
     assert {one.name for one in (*fit.found, *fit.kept)} >= {"balance", "cutoff_hz", "noise_curve"}

@@ -3,7 +3,8 @@
 The fitted part is cut into 20 blocks, fewer of 10 ms if it is short, and the bootstrap draws
 blocks. Thresholds follow from counts: an interval of the count ratio is one of the threshold, by
 the power with which the count falls. For balance and cutoff, the least distance lies at the vertex
-of a parabola through the distances at half, once and twice the value.
+of a parabola through the distances at half, once and twice the value. Thresholds change with both:
+how far they would, from end to end of those intervals, adds to their own in quadrature.
 """
 
 from __future__ import annotations
@@ -46,6 +47,28 @@ class Judgement(NamedTuple):
     kept: tuple[Kept, ...]
 
 
+class Uncertain(NamedTuple):
+    """How well the distance determines an option, in the logarithm."""
+
+    low: float
+    """Lower end of the 95 % interval from the value, 0 or less; −∞ where the distance does not
+    rise."""
+    high: float
+    slopes: Float64Array
+    """[2] change of the logarithms of threshold and ON/OFF ratio with that of the option, counts
+    matched."""
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether the distance rises to neither side."""
+        return math.isinf(self.low) and math.isinf(self.high)
+
+    def threshold_ends(self) -> Float64Array:
+        """[2 ends, 2] how much lower and higher the thresholds may be because of this option."""
+        ends = np.clip([self.low, self.high], -FARTHEST, FARTHEST)[:, None] * self.slopes
+        return np.array([np.minimum(ends.min(0), 0.0), np.maximum(ends.max(0), 0.0)])
+
+
 def judge_fit(
     search: Search, truth: EventStream, span: TimeSpan, best: PhysicalConfig, start: PhysicalConfig
 ) -> Judgement:
@@ -61,19 +84,23 @@ def judge_fit(
     blocks = cut_blocks(span)
     found: list[Estimate] = []
     kept: list[Kept] = []
+    others = np.zeros((2, 2))
     for name in COORDINATES:
-        low, high = _interval(search, truth, blocks, best, name)
+        option = _judge_option(search, truth, blocks, best, name)
+        others += option.threshold_ends() ** 2
         value = getattr(best, name)
-        if math.isinf(low) and math.isinf(high):
+        if option.is_unknown:
             best = dataclasses.replace(best, **{name: getattr(start, name)})
             reason = "half and twice the value fit as well"
             kept.append(Kept(name, getattr(start, name), reason))
         else:
             unit = "Hz" if name.endswith("hz") else ""
-            found.append(Estimate(name, value, low, high, unit))
+            ends = (value * math.exp(end) for end in (option.low, option.high))
+            found.append(Estimate(name, value, *ends, unit))
     if kept:
         best = search.match_counts(best).config
-    return Judgement(best, (*_thresholds(search, truth, blocks, best), *found), tuple(kept))
+    thresholds = _thresholds(search, truth, blocks, best, others)
+    return Judgement(best, (*thresholds, *found), tuple(kept))
 
 
 def cut_blocks(span: TimeSpan) -> list[TimeSpan]:
@@ -89,29 +116,32 @@ def cut_blocks(span: TimeSpan) -> list[TimeSpan]:
     return [TimeSpan(*edges[place : place + 2]) for place in range(number)]
 
 
-def _interval(
+def _judge_option(
     search: Search,
     truth: EventStream,
     blocks: list[TimeSpan],
     best: PhysicalConfig,
     name: str,
-) -> tuple[float, float]:
-    """The 95 % interval of an option; infinite where the distance does not rise."""
+) -> Uncertain:
+    """The 95 % interval of an option, and what thresholds do along it."""
     value = getattr(best, name)
     if value == 0:  # unlimited
-        return -math.inf, math.inf
-    distances = np.empty((3, len(blocks)))
+        return Uncertain(-math.inf, math.inf, np.zeros(2))
+    distances, thresholds = np.empty((3, len(blocks))), []
     for row, factor in enumerate((1 / FACTOR, 1.0, FACTOR)):
         config = dataclasses.replace(best, **{name: value * factor})
         if factor != 1.0:
             config = search.match_counts(config).config
         distances[row] = _block_distances(search.simulate(config), truth, blocks)
-    shifts = bootstrap(lambda weights: np.array([vertex(distances @ weights)]), (len(blocks),))[
-        :, 0
-    ]
-    low = -math.inf if shifts[0] <= -FARTHEST else value * math.exp(min(shifts[0], -NEAREST))
-    high = math.inf if shifts[1] >= FARTHEST else value * math.exp(max(shifts[1], NEAREST))
-    return low, high
+        thresholds.append(np.log([config.contrast_threshold, config.on_off_ratio]))
+    slopes = (thresholds[2] - thresholds[0]) / (2 * math.log(FACTOR))
+    shifts = bootstrap(lambda weights: np.array([vertex(distances @ weights)]), (len(blocks),))
+    low, high = shifts[:, 0].tolist()
+    return Uncertain(
+        -math.inf if low <= -FARTHEST else min(low, -NEAREST),
+        math.inf if high >= FARTHEST else max(high, NEAREST),
+        slopes,
+    )
 
 
 def vertex(distances: Float64Array) -> float:
@@ -144,9 +174,16 @@ def _block_distances(
 
 
 def _thresholds(
-    search: Search, truth: EventStream, blocks: list[TimeSpan], best: PhysicalConfig
+    search: Search,
+    truth: EventStream,
+    blocks: list[TimeSpan],
+    best: PhysicalConfig,
+    others: Float64Array,
 ) -> list[Estimate]:
-    """Threshold and ratio of ON and OFF, from counts by block; balance and cutoff held fast."""
+    """Threshold and ratio of ON and OFF, from counts by block.
+
+    `others`: [2 ends, 2] squared shifts of both that follow from the intervals of other options.
+    """
     wider = dataclasses.replace(best, contrast_threshold=best.contrast_threshold * THRESHOLD_FACTOR)
     streams = search.simulate(best), search.simulate(wider), truth
     counts = np.array([[_counts(one.cut(*block)) for block in blocks] for one in streams])
@@ -158,7 +195,8 @@ def _thresholds(
         off, on = np.log(simulated / recorded) / powers
         return np.array([(on + off) / 2, on - off])
 
-    shifts = bootstrap(estimate, (len(blocks),)) - estimate(np.ones(len(blocks)))
+    own = bootstrap(estimate, (len(blocks),)) - estimate(np.ones(len(blocks)))
+    shifts = np.sign([[-1], [1]]) * np.sqrt(own**2 + others)
     return [
         Estimate(name, value, value * math.exp(low), value * math.exp(high), unit)
         for name, unit, value, (low, high) in zip(
