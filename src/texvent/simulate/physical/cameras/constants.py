@@ -44,9 +44,6 @@ EVT_CLOCK = Constant(
     "clock_step_us", 1, "data sheet", "Prophesee, encoding formats: EVT times are in µs"
 )
 VOLTMETER = "Lin et al., DVS-Voltmeter, ECCV 2022, fitted to recordings: "
-CURVE_HAS_LEAK = Constant(
-    "leak_rate_hz", 0.0, "measured here", "the measured noise curve contains the leak"
-)
 MICROSECOND_CLOCK = Constant(
     "clock_step_us", 1, "data sheet", "iniVation, specifications of the DAVIS346: 1 µs"
 )
@@ -147,7 +144,6 @@ CAMERAS: Mapping[str, Camera] = {
                 "paper",
                 "Brandli et al., JSSC 2014: 3.5 % contrast matching between pixels",
             ),
-            CURVE_HAS_LEAK,
         ),
     ),
 }
