@@ -18,7 +18,6 @@ TRUTH = dataclasses.replace(
     START,
     noise_curve="128:3",
     noise_scale=1.0,
-    initial_phase="random",
     noise_on_fraction=0.4,
     noise_decades=0.2,
     leak_rate_hz=1.0,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from texvent.events import EventStream
@@ -21,7 +23,7 @@ SWITCH_US = 10
 def replay_static(
     config: PhysicalConfig, size: SensorSize, seconds: float, *, seed: int = 0
 ) -> EventStream:
-    """Events of a scene at rest.
+    """Events of a scene at rest, by a sensor that has run before: pixels have any phase.
 
     Args:
         config: the model; its gamma is taken for 1.
@@ -29,6 +31,7 @@ def replay_static(
         seconds: how long.
         seed: of everything random.
     """
+    config = dataclasses.replace(config, initial_phase="random")
     stop_us = round(seconds * MICROSECONDS)
     times = [*range(0, stop_us, STATIC_STEP_US), stop_us]
     level = np.full((size.height, size.width), STATIC_LEVEL, np.float32)

@@ -43,7 +43,7 @@ class PhysicalConfig:
     """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
     initial_phase: Literal["random", "zero"] = "zero"
     """How far each pixel is from its next event at the first frame: anywhere between its
-    thresholds (random), or just reset (zero)."""
+    thresholds (random), or just reset (zero); leak then begins to fire after 1 / leak_rate_hz."""
     residual_decay_hz: float = 0.0
     """Rate at which a pixel forgets change that has not fired yet, per second; 0 is never, 2.5
     does what a cache leak of 0.1 per frame does at 24 frames per second."""
