@@ -33,8 +33,8 @@ LAYOUT = {
 }
 SCALE = ("latents_mean", "latents_std")
 WINDOW, BATCH = 9, 2
-"""Frames of a training window, five latent frames; windows of a step. Windows are whole frames: most
-of a crop of 32 px is within the reach of its own border."""
+"""Frames of a training window, five latent frames; windows of a step. Windows are whole frames:
+most of a crop of 32 px is within the reach of its own border."""
 PEAK_RATE = 3e-3
 REPORT = 100
 """Steps between two lines about the loss."""

@@ -95,8 +95,8 @@ def judge_fit(
             kept.append(Kept(name, getattr(start, name), reason))
         else:
             unit = "Hz" if name.endswith("hz") else ""
-            ends = (value * math.exp(end) for end in (option.low, option.high))
-            found.append(Estimate(name, value, *ends, unit))
+            low, high = value * math.exp(option.low), value * math.exp(option.high)
+            found.append(Estimate(name, value, low, high, unit))
     if kept:
         best = search.match_counts(best).config
     thresholds = _thresholds(search, truth, blocks, best, others)

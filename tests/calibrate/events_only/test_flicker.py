@@ -62,7 +62,8 @@ def test_without_the_ratio_thresholds_are_relative(recording):
     kept = {one.name: one.reason for one in flicker.kept}
     assert kept["contrast_threshold"] == "--flicker-ratio is not given"
     assert flicker.config.contrast_threshold == START.contrast_threshold
-    assert flicker.config.threshold_sigma / START.contrast_threshold == pytest.approx(0.04 / 0.26, rel=0.15)
+    relative = flicker.config.threshold_sigma / START.contrast_threshold
+    assert relative == pytest.approx(0.04 / 0.26, rel=0.15)
     assert flicker.config.on_off_ratio == pytest.approx(1.3, rel=0.15)
 
 

@@ -23,8 +23,8 @@ WHERE_FROM = "texvent train latents writes it as weights.pt"
 class LatentsTask:
     """Mean squared error of the changes, bin by bin and summed up from the interval's start.
 
-    Most voxels do not change. The least absolute error is then at no change at all, the least squared
-    one at the mean of what may happen.
+    Most voxels do not change. The least absolute error is then at no change at all, the least
+    squared one at the mean of what may happen.
     """
 
     score: ClassVar[Score] = Score("relative error", is_higher_better=False)
