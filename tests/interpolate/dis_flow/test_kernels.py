@@ -134,6 +134,11 @@ def test_compiled_parts_equal_their_definitions(shape, spread, is_coarsest, seed
     np.testing.assert_array_equal(flow_cpu.double(flow, twice), flow_reference.double(flow, twice))
     patches = flow_reference.search(*wanted, flow, is_coarsest)
     np.testing.assert_array_equal(flow_cpu.search(*wanted, flow, is_coarsest), patches)
+    shifts = rng.normal(0, 1 + shape[0] / 4, (2, 2)).astype(np.float32)
+    patches = flow_reference.try_shifts(*wanted, patches, shifts)
+    np.testing.assert_array_equal(
+        flow_cpu.try_shifts(*wanted, flow_cpu.search(*wanted, flow, is_coarsest), shifts), patches
+    )
     joined = flow_reference.join(*wanted, patches)
     np.testing.assert_array_equal(flow_cpu.join(*wanted, patches), joined)
     np.testing.assert_array_equal(
@@ -146,7 +151,7 @@ def test_the_whole_way_is_equal_too_and_finds_a_far_shift():
     flows = []
     for kernels in (flow_reference, flow_cpu):
         start, stop = (make_pyramid(one, 0, 1, kernels) for one in images)
-        flows.append(coarse_to_fine(start, stop, kernels))
+        flows.append(coarse_to_fine(start, stop, kernels=kernels))
     np.testing.assert_array_equal(*flows)
     assert np.median(np.abs(flows[0][0, 12:-12, 12:-12] - 5.0)) < 0.05
 

@@ -7,6 +7,9 @@ level of an image pyramid, from the coarsest to half size:
    steps on their mean-free difference. A patch starts from the coarser level's flow or from a
    neighbour's (first those to the left and above; in a second pass those to the right and below).
    On the coarsest level it first tries the whole pixels around.
+   Where the whole frame is shifted by more than that (`shifts.find_shifts`), every patch of every
+   level then tries the shift. A patch that the shift takes out of the view follows it if it was
+   not found elsewhere.
 2. *Join.* The flow of a pixel is the weighted mean over the patches that contain it; those that
    fit the pixel better count more.
 3. *Refine.* One linearisation of brightness constancy with an edge-preserving smoothness term,
@@ -22,6 +25,8 @@ before y, px):
 * `double(flow, shape)`: the flow of an image of twice the size, or a row or column less.
 * `search(start, stop, flow, is_coarsest)`: the flow of each patch, from an initial flow:
   [rows, columns, 3], x, y and cost.
+* `try_shifts(start, stop, patches, shifts)`: the patches, with a shift where it fits better;
+  shifts are [n, 2], px.
 * `join(start, stop, patches)`: the flow of each pixel.
 * `refine(start, stop, flow)`: the refined flow.
 
@@ -65,6 +70,9 @@ SEARCH_COST = 8.0
 LEAST_DIFFERENCE = 1.0
 """Patches that differ by less at a pixel have equal weights there, levels."""
 
+UNEXPLAINED, NOISE_COST = 0.25, 64.0
+"""A patch whose cost exceeds this share of its spread, plus this, was not found, squared levels."""
+
 SWEEPS = 3
 RELAXATION = 1.6
 SMOOTHNESS, DATA = 10.0, 2.5
@@ -73,6 +81,8 @@ LEAST_SLOPE2 = 0.01
 """Added to the squared slope of the image, levels²/px²."""
 LEAST2 = 1e-6
 """Added under square roots."""
+
+NO_SHIFTS: Floats = np.empty((0, 2), np.float32)
 
 
 def count_levels(shape: tuple[int, int]) -> int:
@@ -99,12 +109,15 @@ def make_pyramid(image: Floats, finest: int, coarsest: int, kernels: ModuleType)
     return [kernels.make_level(one) for one in images[finest:]]
 
 
-def coarse_to_fine(start: list[Floats], stop: list[Floats], kernels: ModuleType) -> Floats:
+def coarse_to_fine(
+    start: list[Floats], stop: list[Floats], shifts: Floats = NO_SHIFTS, *, kernels: ModuleType
+) -> Floats:
     """Flow from one image to another.
 
     Args:
         start: pyramid of the one.
         stop: pyramid of the other.
+        shifts: [n, 2] of the whole image, which patches try too, px of the finest level.
         kernels: `flow_reference` or `flow_cpu`.
 
     Returns:
@@ -115,17 +128,37 @@ def coarse_to_fine(start: list[Floats], stop: list[Floats], kernels: ModuleType)
         one, other, is_coarsest = start[number], stop[number], number == len(start) - 1
         if not is_coarsest:
             flow = kernels.double(flow, size_of(one))
-        flow = match_level(one, other, flow, is_coarsest, kernels=kernels)
+        scaled = shifts * np.float32(0.5**number)
+        flow = match_level(one, other, flow, is_coarsest, shifts=scaled, kernels=kernels)
     return flow
 
 
 def match_level(
-    start: Floats, stop: Floats, flow: Floats, is_coarsest: bool, *, kernels: ModuleType
+    start: Floats,
+    stop: Floats,
+    flow: Floats,
+    is_coarsest: bool,
+    *,
+    kernels: ModuleType,
+    shifts: Floats = NO_SHIFTS,
 ) -> Floats:
     """The flow from one level to another, from an initial flow: search, join, refine."""
     patches = kernels.search(start, stop, flow, is_coarsest)
-    matched: Floats = kernels.refine(start, stop, kernels.join(start, stop, patches))
-    return matched
+    if len(shifts):
+        patches = kernels.try_shifts(start, stop, patches, shifts)
+    joined = kernels.join(start, stop, patches)
+    refined: Floats = kernels.refine(start, stop, joined)
+    # Outside the view, brightness tells nothing.
+    return np.where(leads_outside(joined), joined, refined) if len(shifts) else refined
+
+
+def leads_outside(flow: Floats) -> NDArray[np.bool_]:
+    """Whether each pixel's flow leads out of the image, [H, W]."""
+    _, height, width = flow.shape
+    y, x = np.ogrid[:height, :width]
+    to_x, to_y = x + flow[0], y + flow[1]
+    outside: NDArray[np.bool_] = (to_x < 0) | (to_y < 0) | (to_x > width - 1) | (to_y > height - 1)
+    return outside
 
 
 def size_of(level: Floats) -> tuple[int, int]:

@@ -15,6 +15,7 @@ from texvent.interpolate.dis_flow.definitions import (
     count_levels,
     make_pyramid,
 )
+from texvent.interpolate.dis_flow.shifts import find_shifts
 from texvent.runtime.allocator import keep_freed_memory
 from texvent.runtime.background_jit import is_ready, wait_until_ready
 
@@ -65,18 +66,18 @@ class DisFlow:
         finest = 0 if min(shape) < SMALL_SIDE_PX else 1
         levels = max(finest, count_levels(images[0].shape))
         earlier, later = (make_pyramid(one, finest, levels, flow_cpu) for one in images)
-        full = images[0].shape
+        shifts, full = find_shifts(earlier, later), images[0].shape
 
-        def follow(start: list[FlowArray], stop: list[FlowArray]) -> FlowArray:
-            planes = coarse_to_fine(start, stop, flow_cpu)
+        def follow(start: list[FlowArray], stop: list[FlowArray], shifts: FlowArray) -> FlowArray:
+            planes = coarse_to_fine(start, stop, shifts, kernels=flow_cpu)
             if finest:
                 planes = flow_cpu.double(planes, full)
             return np.stack([plane[: shape[0], : shape[1]] for plane in planes], axis=-1)
 
         if self._helper is None:
-            return follow(earlier, later), follow(later, earlier)
-        back = self._helper.submit(follow, later, earlier)
-        return follow(earlier, later), back.result()
+            return follow(earlier, later, shifts), follow(later, earlier, -shifts)
+        back = self._helper.submit(follow, later, earlier, -shifts)
+        return follow(earlier, later, shifts), back.result()
 
 
 def stretch(

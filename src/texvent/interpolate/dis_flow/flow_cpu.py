@@ -9,9 +9,10 @@ import numpy as np
 from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, coarse_to_fine, make_pyramid
 from texvent.interpolate.dis_flow.refine_cpu import refine
 from texvent.interpolate.dis_flow.search_cpu import join, search
+from texvent.interpolate.dis_flow.shifts_cpu import try_shifts
 from texvent.runtime.jit import jit
 
-__all__ = ["double", "halve", "join", "make_level", "refine", "search", "warm_up"]
+__all__ = ["double", "halve", "join", "make_level", "refine", "search", "try_shifts", "warm_up"]
 
 # As float32: Numba computes with float64 where a constant is one.
 _2 = np.float32(2.0)
@@ -23,8 +24,8 @@ _QUARTER = np.float32(0.25)
 def warm_up() -> None:
     """Compile, or load what was compiled before."""
     image, kernels = np.zeros((64, 64), np.float32), sys.modules[__name__]
-    pyramid = make_pyramid(image, 1, 2, kernels)
-    double(coarse_to_fine(pyramid, pyramid, kernels), image.shape)
+    pyramid, shifts = make_pyramid(image, 1, 2, kernels), np.zeros((1, 2), np.float32)
+    double(coarse_to_fine(pyramid, pyramid, shifts, kernels=kernels), image.shape)
 
 
 @jit

@@ -13,6 +13,7 @@ from texvent.interpolate.dis_flow.definitions import (
     MARGIN,
     MOST_DRIFT,
     MOST_STEPS,
+    NOISE_COST,
     PATCH,
     RELAXATION,
     SAME_FLOW,
@@ -22,6 +23,7 @@ from texvent.interpolate.dis_flow.definitions import (
     SMOOTHNESS,
     STEP,
     SWEEPS,
+    UNEXPLAINED,
     Floats,
     size_of,
 )
@@ -191,6 +193,29 @@ def _total(patch: Floats) -> np.float32:
     columns = columns[:4] + columns[4:]
     columns = columns[:2] + columns[2:]
     return np.float32(columns[0] + columns[1])
+
+
+def try_shifts(start: Floats, stop: Floats, patches: Floats, shifts: Floats) -> Floats:
+    """The patches, each with the shift that fits it better than its own flow, if one does."""
+    found, (height, width) = patches.copy(), size_of(start)
+    for i, j in np.ndindex(found.shape[:2]):
+        here, own, is_better = (i * STEP, j * STEP), found[i, j], False
+        for shift in shifts:
+            if np.abs(shift - own[:2]).sum() < np.float32(SAME_FLOW):
+                continue
+            x, y = np.float32(here[1]) + shift[0], np.float32(here[0]) + shift[1]
+            if not (0 <= x <= width - PATCH and 0 <= y <= height - PATCH):
+                patch = _patch(start[0], here)
+                spread = _cost((_total(patch), _total(patch * patch)))
+                if own[2] > np.float32(UNEXPLAINED) * spread + np.float32(NOISE_COST):
+                    own[:], is_better = (*shift, 0), False
+                continue
+            cost = _cost(_compare(start, stop, here, shift)[0])
+            if cost < own[2]:
+                own[:], is_better = (*shift, cost), True
+        if is_better:
+            _gauss_newton(start, stop, found, (i, j), own[:2].copy())
+    return found
 
 
 def join(start: Floats, stop: Floats, patches: Floats) -> Floats:

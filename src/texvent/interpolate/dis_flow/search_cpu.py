@@ -55,21 +55,21 @@ def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floa
             )
             if is_coarsest:
                 own = _search_integer(level, target, shape, here)
-            _sum_slopes(level, target, shape, here, slopes[row, column])
+            sum_slopes(level, target, shape, here, slopes[row, column])
             found[row, column, 0], found[row, column, 1] = own
-            _, found[row, column, 2], _, _ = _compare(level, target, shape, here, own)
+            _, found[row, column, 2], _, _ = compare(level, target, shape, here, own)
             _propagate(level, target, shape, found, (row, column, -1))
-            _gauss_newton(level, target, shape, own, slopes, found, (row, column))
+            gauss_newton(level, target, shape, own, slopes, found, (row, column))
     for row in range(down - 1, -1, -1):
         for column in range(across - 1, -1, -1):
             own = found[row, column, 0], found[row, column, 1]
             if _propagate(level, target, shape, found, (row, column, 1)):
-                _gauss_newton(level, target, shape, own, slopes, found, (row, column))
+                gauss_newton(level, target, shape, own, slopes, found, (row, column))
     return found
 
 
 @jit(error_model="numpy", inner=True)
-def _compare(
+def compare(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int], flow: Vector
 ) -> Sums:
     """The sums of `compare_patch` for a patch and its place; the second one mean-free."""
@@ -94,7 +94,7 @@ def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, S
 
 
 @jit(error_model="numpy", inner=True)
-def _sum_slopes(
+def sum_slopes(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int], sums: Floats
 ) -> None:
     """Fill in the sums over slopes that Gauss-Newton steps need: xx, xy, yy, x, y, determinant."""
@@ -122,7 +122,7 @@ def _search_integer(
     for down in range(-SEARCH_RADIUS, SEARCH_RADIUS + 1):
         for right in range(-SEARCH_RADIUS, SEARCH_RADIUS + 1):
             flow = np.float32(right), np.float32(down)
-            _, cost, _, _ = _compare(level, target, shape, here, flow)
+            _, cost, _, _ = compare(level, target, shape, here, flow)
             cost += _SEARCH_COST * np.float32(right * right + down * down)
             if cost < least:
                 least, best = cost, flow
@@ -159,7 +159,7 @@ def _propagate(
         u, v = found[i, j, 0], found[i, j, 1]
         if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
             continue
-        _, cost, _, _ = _compare(level, target, shape, here, (u, v))
+        _, cost, _, _ = compare(level, target, shape, here, (u, v))
         if cost < own[2]:
             own[0], own[1], own[2] = u, v, cost
             is_better = True
@@ -167,7 +167,7 @@ def _propagate(
 
 
 @jit(error_model="numpy", inner=True)
-def _gauss_newton(
+def gauss_newton(
     level: Floats,
     target: Floats,
     shape: tuple[int, int],
@@ -183,7 +183,7 @@ def _gauss_newton(
         target: the other image, flat.
         shape: of both, with margins.
         begin: initial flow; the result stays within `MOST_DRIFT` of it.
-        slopes: from `_sum_slopes`, of all patches.
+        slopes: from `sum_slopes`, of all patches.
         found: of all patches.
         patch: row and column.
     """
@@ -192,7 +192,7 @@ def _gauss_newton(
     xx, xy, yy, x, y, determinant = known[0], known[1], known[2], known[3], known[4], known[5]
     if not determinant > _LEAST_DETERMINANT:
         return
-    mean, _, sum_x, sum_y = _compare(level, target, shape, here, (own[0], own[1]))
+    mean, _, sum_x, sum_y = compare(level, target, shape, here, (own[0], own[1]))
     for _ in range(MOST_STEPS):
         sum_x, sum_y = sum_x - mean * x / _AREA, sum_y - mean * y / _AREA
         du = (yy * sum_x - xy * sum_y) / determinant
@@ -200,7 +200,7 @@ def _gauss_newton(
         u, v = own[0] - du, own[1] - dv
         if abs(u - begin[0]) > _MOST_DRIFT or abs(v - begin[1]) > _MOST_DRIFT:
             return
-        mean, cost, sum_x, sum_y = _compare(level, target, shape, here, (u, v))
+        mean, cost, sum_x, sum_y = compare(level, target, shape, here, (u, v))
         if not cost < own[2]:
             return
         own[0], own[1], own[2] = u, v, cost

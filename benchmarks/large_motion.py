@@ -1,0 +1,207 @@
+"""Interpolators on motion that is large, turns, or is of small things: PSNR, and events.
+
+    python -m benchmarks.large_motion
+    python -m benchmarks.large_motion --rife rife.safetensors --rife rife-4.6.safetensors
+
+*dB* is the PSNR of the frame in the middle of two that are given. *1 - STPP* compares the events of
+ESIM (noise-free) from five frames with those it makes when it gets the scene itself at every
+instant.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.interpolation import between, interpolators, psnr
+from benchmarks.interpolation_scenes import FloatArray, value_noise
+from texvent.bench.fidelity.entries import simulate_video
+from texvent.events import EventStream
+from texvent.interpolate.protocol import Interpolator
+from texvent.metrics.compare import compare
+from texvent.run.settings import resolve
+from texvent.sensor import SensorSize
+from texvent.video import MICROSECONDS, Frame, Video, frame_time_us
+
+WIDTH, HEIGHT = 192, 144
+SIZE = SensorSize(WIDTH, HEIGHT)
+SAMPLES = 3
+"""Samples per pixel along each side."""
+FRAMES, FPS = 5, Fraction(24)
+SEEDS = (1, 2)
+
+Scene = Callable[[FloatArray, FloatArray, float, int], FloatArray]
+"""Places x and y from the centre, px, time in frames, seed → levels 0..255."""
+
+
+def pan(x: FloatArray, y: FloatArray, t: float, seed: int, share: float) -> FloatArray:
+    """A texture that moves by a share of the width per frame."""
+    return value_noise(x - share * WIDTH * t, y - 0.2 * share * WIDTH * t, seed, "sharp")
+
+
+def pan_behind(x: FloatArray, y: FloatArray, t: float, seed: int, share: float) -> FloatArray:
+    """The same behind a disc that rests."""
+    disc = np.hypot(x, y) < HEIGHT / 5
+    return np.where(disc, value_noise(x, y, seed + 20, "sharp"), pan(x, y, t, seed, share))
+
+
+def turn(x: FloatArray, y: FloatArray, t: float, seed: int, degrees: float) -> FloatArray:
+    """A texture that turns about the centre, degrees per frame."""
+    cos, sin = math.cos(math.radians(degrees) * t), math.sin(math.radians(degrees) * t)
+    return value_noise(cos * x + sin * y, cos * y - sin * x, seed, "sharp")
+
+
+def zoom(x: FloatArray, y: FloatArray, t: float, seed: int, factor: float) -> FloatArray:
+    """A texture that grows by a factor per frame."""
+    return value_noise(x / factor**t, y / factor**t, seed, "sharp")
+
+
+def ball(x: FloatArray, y: FloatArray, t: float, seed: int, size: float, step: float) -> FloatArray:
+    """A bright ball before a texture at rest; size px wide, step px per frame."""
+    there = np.hypot(x + 2 * step - step * t, y + 10 + 0.3 * step * t) < size / 2
+    return np.where(there, 230.0, 0.6 * value_noise(x, y, seed, "sharp"))
+
+
+def spokes(x: FloatArray, y: FloatArray, t: float, seed: int, degrees: float) -> FloatArray:
+    """A wheel of six spokes, 3 px wide, before a texture at rest."""
+    ground = 0.6 * value_noise(x, y, seed, "sharp")
+    turned = np.arctan2(y, x) - math.radians(degrees) * t
+    away = (turned + math.pi / 6) % (math.pi / 3) - math.pi / 6
+    radius = np.hypot(x, y)
+    spoke = (np.abs(np.sin(away)) * radius < 1.5) & (radius < 55)
+    return np.where(spoke, 230.0, ground)
+
+
+def stripes(x: FloatArray, y: FloatArray, t: float, seed: int, step: float) -> FloatArray:
+    """Stripes of 16 px that move by more than half of that: nothing tells which way."""
+    del y, seed
+    return 127.5 + 100.0 * np.sin(2 * np.pi * (x - step * t) / 16.0)
+
+
+SCENES: Mapping[str, Scene] = {
+    **{
+        f"pan, {share:.0%} of the width": partial(pan, share=share)
+        for share in (0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4)
+    },
+    **{
+        f"pan, {share:.0%}, behind a disc": partial(pan_behind, share=share)
+        for share in (0.05, 0.2)
+    },
+    **{f"turn, {angle}°": partial(turn, degrees=angle) for angle in (3, 6, 10, 15)},
+    **{f"zoom, {factor}": partial(zoom, factor=factor) for factor in (1.05, 1.1, 1.2, 1.3)},
+    "ball, 8 px, 12 px": partial(ball, size=8.0, step=12.0),
+    "ball, 14 px, 25 px": partial(ball, size=14.0, step=25.0),
+    "spokes, 6°": partial(spokes, degrees=6.0),
+    "spokes, 12°": partial(spokes, degrees=12.0),
+    "stripes of 16 px, 12 px": partial(stripes, step=12.0),
+    "stripes of 16 px, 40 px": partial(stripes, step=40.0),
+}
+
+
+def render(scene: Scene, t: float, seed: int) -> FloatArray:
+    """The scene at a time, in frames."""
+    total = np.zeros((HEIGHT, WIDTH))
+    rows, columns = np.mgrid[:HEIGHT, :WIDTH].astype(np.float64)
+    for k in range(SAMPLES**2):
+        x = columns - WIDTH / 2 + (k % SAMPLES + 0.5) / SAMPLES
+        y = rows - HEIGHT / 2 + (k // SAMPLES + 0.5) / SAMPLES
+        total += scene(x, y, t, seed)
+    return total / SAMPLES**2
+
+
+@dataclass(frozen=True, eq=False)
+class SceneVideo:
+    """The scene at 24 frames per second, and at any instant."""
+
+    scene: Scene
+    seed: int
+    size: SensorSize = SIZE
+    fps: Fraction = FPS
+    frame_count: int = FRAMES
+    is_live: bool = False
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """Nothing."""
+        return {}
+
+    def __iter__(self) -> Iterator[Frame]:
+        for index in range(FRAMES):
+            t_us = frame_time_us(index, FPS)
+            yield Frame(self.at(t_us).pixels, t_us)
+
+    def at(self, t_us: int) -> Frame:
+        """The frame at any instant."""
+        t = t_us / MICROSECONDS * float(FPS)
+        return Frame(render(self.scene, t, self.seed).astype(np.float32), t_us, is_source=False)
+
+
+def main() -> None:
+    """Print one table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--rife", type=Path, action="append", default=[], help="RIFE weights")
+    parser.add_argument("--scenes", default="", help="only those whose name contains this")
+    parser.add_argument("--no-events", action="store_true", help="PSNR alone")
+    options = parser.parse_args()
+    chosen = {
+        name: one
+        for name, one in interpolators(options.rife).items()
+        if name in ("blend", "flow") or "shared" in name
+    }
+    names = [f"{name}, dB" for name in chosen]
+    if not options.no_events:
+        names += [f"{name}, 1 - STPP" for name in chosen]
+    print("| scene | " + " | ".join(names) + " |\n|" + "---|" * (len(names) + 1))
+    for name, scene in SCENES.items():
+        if options.scenes not in name:
+            continue
+        row = [f"{measure(scene, one):.1f}" for one in chosen.values()]
+        if not options.no_events:
+            row += [f"{value:.3f}" for value in measure_events(scene, options.rife)]
+        print(f"| {name} | " + " | ".join(row) + " |", flush=True)
+
+
+def measure(scene: Scene, interpolator: Interpolator | None) -> float:
+    """PSNR of the middle frame, mean over the textures, dB."""
+    found = []
+    for seed in SEEDS:
+        first, truth, last = (render(scene, t, seed) for t in (1.0, 1.5, 2.0))
+        found.append(psnr(between(interpolator, first, last, 1)[0], truth))
+    return float(np.mean(found))
+
+
+def measure_events(scene: Scene, rife: list[Path]) -> list[float]:
+    """1 - STPP of each interpolator to the scene itself, mean over the textures."""
+    kinds: list[dict[str, Any]] = [{"interpolate": "blend"}, {"interpolate": "flow"}]
+    kinds += [{"interpolate": "rife", "interpolator_weights": path} for path in rife]
+    totals = np.zeros(len(kinds))
+    for seed in SEEDS:
+        video = SceneVideo(scene, seed)
+        truth = simulate(video, {"interpolate": "exact"})
+        frames = list(video)
+        recorded = Video(
+            np.stack([np.rint(one.pixels).astype(np.uint8) for one in frames]),
+            [one.t_us for one in frames],
+            FPS,
+        )
+        for k, kind in enumerate(kinds):
+            totals[k] += 1.0 - compare(simulate(recorded, kind), truth, ("stpp",))["stpp"]
+    return list(totals / len(SEEDS))
+
+
+def simulate(video: Any, interpolation: dict[str, Any]) -> EventStream:
+    """Events of ESIM."""
+    options = {"simulator": "esim", "motion_floor": True, **interpolation}
+    return simulate_video(video, resolve("simulate", options), None)
+
+
+if __name__ == "__main__":
+    main()

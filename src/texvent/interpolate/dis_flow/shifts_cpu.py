@@ -1,0 +1,64 @@
+"""Shifts of the whole frame tried for every patch, compiled by Numba."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from texvent.interpolate.dis_flow.definitions import (
+    MARGIN,
+    NOISE_COST,
+    PATCH,
+    SAME_FLOW,
+    STEP,
+    UNEXPLAINED,
+    Floats,
+)
+from texvent.interpolate.dis_flow.patches_cpu import compare_patch
+from texvent.interpolate.dis_flow.search_cpu import compare, gauss_newton, sum_slopes
+from texvent.runtime.jit import jit
+
+# As float32: Numba computes with float64 where a constant is one.
+_0 = np.float32(0.0)
+_AREA = np.float32(PATCH * PATCH)
+_SIDE = np.float32(PATCH)
+_SAME_FLOW = np.float32(SAME_FLOW)
+_UNEXPLAINED, _NOISE_COST = np.float32(UNEXPLAINED), np.float32(NOISE_COST)
+
+
+@jit(error_model="numpy")
+def try_shifts(start: Floats, stop: Floats, patches: Floats, shifts: Floats) -> Floats:
+    """The patches, each with the shift that fits it better than its own flow, if one does."""
+    found = patches.copy()
+    slopes = np.empty((found.shape[0], found.shape[1], 6), np.float32)
+    level, target, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
+    height, width = np.float32(shape[0] - 2 * MARGIN), np.float32(shape[1] - 2 * MARGIN)
+    for row in range(found.shape[0]):
+        for column in range(found.shape[1]):
+            here, own = (row * STEP, column * STEP), found[row, column]
+            is_better = False
+            for k in range(len(shifts)):
+                u, v = shifts[k, 0], shifts[k, 1]
+                if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
+                    continue
+                x, y = np.float32(here[1]) + u, np.float32(here[0]) + v
+                if x < _0 or y < _0 or x > width - _SIDE or y > height - _SIDE:
+                    if own[2] > _UNEXPLAINED * _spread(level, shape, here) + _NOISE_COST:
+                        own[0], own[1], own[2], is_better = u, v, _0, False
+                    continue
+                _, cost, _, _ = compare(level, target, shape, here, (u, v))
+                if cost < own[2]:
+                    own[0], own[1], own[2], is_better = u, v, cost, True
+            if is_better:
+                begin = own[0], own[1]
+                sum_slopes(level, target, shape, here, slopes[row, column])
+                gauss_newton(level, target, shape, begin, slopes, found, (row, column))
+    return found
+
+
+@jit(error_model="numpy", inner=True)
+def _spread(level: Floats, shape: tuple[int, int], here: tuple[int, int]) -> np.float32:
+    """Mean-free squares of a patch, summed."""
+    place = (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
+    layout = shape[0] * shape[1], place, place, shape[1]
+    total, squares, _, _ = compare_patch(level, level, layout, (_0, _0, _0, _0))
+    return np.float32(squares - total * total / _AREA)

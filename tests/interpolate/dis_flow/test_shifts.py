@@ -1,0 +1,115 @@
+"""Shifts of the whole frame that are larger than the search of patches."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.interpolate.dis_flow import flow_cpu, flow_reference
+from texvent.interpolate.dis_flow.definitions import leads_outside, make_pyramid
+from texvent.interpolate.dis_flow.estimator import DisFlow
+from texvent.interpolate.dis_flow.shifts import find_shifts
+
+WIDTH, HEIGHT = 96, 72
+
+
+def texture(seed, cell=4, side=200):
+    """Random levels in cells, joined by a few means, [side, side]."""
+    rng = np.random.default_rng(seed)
+    image = np.kron(rng.uniform(0, 255, (side // cell, side // cell)), np.ones((cell, cell)))
+    for _ in range(2):
+        image = (image + np.roll(image, 1, 0) + np.roll(image, 1, 1) + np.roll(image, (1, 1))) / 4
+    return image.astype(np.float32)
+
+
+def view(image, x, y, width=WIDTH, height=HEIGHT):
+    """What a camera sees after everything has moved by (x, y) px."""
+    return image[60 - y : 60 - y + height, 60 - x : 60 - x + width]
+
+
+def shifts_between(first, second):
+    return find_shifts(*(make_pyramid(one, 0, 2, flow_cpu) for one in (first, second)))
+
+
+@pytest.mark.parametrize(("x", "y"), [(20, -6), (-32, 0), (0, 24), (30, 18)])
+def test_the_shift_of_the_frame_is_found_within_a_cell(x, y):
+    image = texture(1)
+    found = shifts_between(view(image, 0, 0), view(image, x, y))
+    assert found.shape == (1, 2)
+    np.testing.assert_allclose(found[0], (x, y), atol=2)
+
+
+def test_motion_that_patches_find_themselves_is_left_to_them():
+    image = texture(2)
+    assert len(shifts_between(view(image, 0, 0), view(image, 0, 0))) == 0
+    assert len(shifts_between(view(image, 0, 0), view(image, 7, 3))) == 0
+
+
+def test_unrelated_and_flat_frames_are_not_shifted():
+    first, second = (view(texture(seed), 0, 0) for seed in (3, 4))
+    assert len(shifts_between(first, second)) == 0
+    flat = np.full((HEIGHT, WIDTH), 80, np.float32)
+    assert len(shifts_between(flat, flat + 9)) == 0
+
+
+@pytest.mark.parametrize("x", [10, 20, 30])
+def test_stripes_that_repeat_move_by_less_than_a_period(x):
+    along = np.arange(200)
+    image = np.tile(128 + 100 * np.sin(2 * np.pi * along / 16), (200, 1)).astype(np.float32)
+    assert len(shifts_between(view(image, 0, 0), view(image, x, 0))) == 0
+
+
+def test_the_shorter_of_two_shifts_that_agree_alike_counts():
+    # Repeats after 40 px: 28 px to the right or 12 to the left. Only 12 px explain both ways alike.
+    image = np.tile(texture(5, side=40), (5, 5))
+    found = shifts_between(view(image, 0, 0), view(image, 28, 0))
+    np.testing.assert_allclose(found, [[-12, 0]], atol=2)
+
+
+@settings(max_examples=12, deadline=None)
+@given(st.integers(-32, 32), st.integers(-24, 24), st.integers(0, 99))
+def test_flow_of_a_shift_of_up_to_a_third_of_the_frame_is_that_shift(x, y, seed):
+    image = texture(seed)
+    flows = DisFlow().both_ways(view(image, 0, 0), view(image, x, y))
+    shift = np.broadcast_to(np.float32([x, y]), (HEIGHT, WIDTH, 2))
+    for flow, sign in zip(flows, (1, -1), strict=True):
+        error = np.abs(flow - sign * shift).max(axis=-1)
+        assert np.median(error) < 0.2
+        # Small steps are found by patches alone, which guess what leaves the view.
+        assert np.mean(error[~leads_outside(np.moveaxis(sign * shift, -1, 0))] < 1.0) > 0.93
+
+
+def test_what_leaves_the_view_moves_as_the_frame_does():
+    image = texture(6)
+    forward, backward = DisFlow().both_ways(view(image, 0, 0), view(image, 30, 0))
+    np.testing.assert_allclose(np.median(forward[:, -20:], axis=(0, 1)), (30, 0), atol=0.5)
+    np.testing.assert_allclose(np.median(backward[:, :20], axis=(0, 1)), (-30, 0), atol=0.5)
+
+
+def test_what_rests_before_a_moving_ground_keeps_its_own_flow():
+    image, sign = texture(7), texture(8)[:32, :32]
+    first, second = (view(image, x, 0).copy() for x in (0, 24))
+    for frame in (first, second):
+        frame[20:52, 30:62] = sign
+    forward, _ = DisFlow().both_ways(first, second)
+    np.testing.assert_allclose(np.median(forward[28:44, 38:54], axis=(0, 1)), 0, atol=0.3)
+    np.testing.assert_allclose(np.median(forward[:12], axis=(0, 1)), (24, 0), atol=0.3)
+
+
+@pytest.mark.parametrize("kernels", [flow_reference, flow_cpu], ids=["reference", "cpu"])
+def test_a_patch_takes_the_shift_that_fits_it_or_leads_it_out_of_the_view(kernels):
+    image = texture(9, side=200)
+    start, stop = (kernels.make_level(view(image, x, 0, 32, 8)) for x in (0, 12))
+    patches = np.zeros((1, 9, 3), np.float32)
+    patches[..., 2] = 1e9  # found nowhere
+    found = kernels.try_shifts(start, stop, patches, np.float32([[12, 0]]))
+    np.testing.assert_allclose(found[0, :, :2], [[12, 0]] * 9, atol=1e-3)
+    # Patches begin three apart: five stay within the 32 columns, and the middles of three leave.
+    assert (found[0, :5, 2] < 1e-3).all()
+    assert not found[0, 6:, 2].any()
+    patches[..., 2] = 0  # found where they are
+    np.testing.assert_array_equal(
+        kernels.try_shifts(start, stop, patches, np.float32([[12, 0]])), patches
+    )
