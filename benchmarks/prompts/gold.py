@@ -9,13 +9,15 @@ A file of JSON, a list of:
      "relations": [["car", "past", "tree"]],
      "place": null, "light_weather": null, "camera": null, "negated": []}
 
-`object` of an action is what is kicked or held; `order` says which comes first. A text, a list of
-texts or null may stand for place, light_weather, camera and negated.
+`object` of an action is what is kicked or held; `order` says which comes first. `"implied": true`
+marks what the sentence does not name. A text, a list of texts or null may stand for place,
+light_weather, camera and negated.
 """
 
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,6 +33,8 @@ class GoldThing:
     noun: str
     count: int | str | None = None
     attributes: tuple[str, ...] = ()
+    is_implied: bool = False
+    """Whether a person adds it: the racket of a tennis serve."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,7 @@ class GoldAction:
     subject: str
     object: str | None = None
     order: int | None = None
+    is_implied: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,16 +90,25 @@ def read_gold(path: Path) -> list[GoldSentence]:
 def _sentence(entry: Mapping[str, Any]) -> GoldSentence:
     actions = (
         GoldAction(
-            str(one["verb"]), str(one["subject"]), _text(one.get("object")), one.get("order")
+            str(one["verb"]),
+            _plain(one["subject"]),
+            _text(one.get("object")),
+            one.get("order"),
+            bool(one.get("implied")),
         )
         for one in entry.get("actions") or ()
         if one.get("subject")
     )
     things = (
-        GoldThing(str(one["noun"]), one.get("count"), _texts(one.get("attributes")))
+        GoldThing(
+            _plain(one["noun"]),
+            one.get("count"),
+            _texts(one.get("attributes")),
+            bool(one.get("implied")),
+        )
         for one in entry.get("things") or ()
     )
-    relations = ((str(a), str(b), str(c)) for a, b, c in entry.get("relations") or ())
+    relations = ((_plain(a), str(b), _plain(c)) for a, b, c in entry.get("relations") or ())
     return GoldSentence(
         id=str(entry["id"]),
         prompt=str(entry["prompt"]),
@@ -106,6 +120,11 @@ def _sentence(entry: Mapping[str, Any]) -> GoldSentence:
         camera=_texts(entry.get("camera")),
         negated=_texts(entry.get("negated")),
     )
+
+
+def _plain(noun: Any) -> str:
+    """A noun without its gloss: "crane" for "crane (machine)"."""
+    return re.sub(r"\s*\(.*\)", "", str(noun))
 
 
 def _text(value: Any) -> str | None:

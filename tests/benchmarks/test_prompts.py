@@ -9,7 +9,7 @@ from pathlib import Path
 
 import cv2
 import pytest
-from benchmarks.prompts import coverage, score, structure
+from benchmarks.prompts import coverage, judging, known, score, structure
 from benchmarks.prompts.__main__ import main
 from benchmarks.prompts.gold import GoldAction, read_gold
 from benchmarks.prompts.rates import Share
@@ -97,6 +97,43 @@ def test_a_verb_of_another_subject_is_silent():
     assert findings.silent[0]["what"] == "man roll"
 
 
+def judge(prompt, **said):
+    """(kind, what) → state of everything that an annotated sentence asks."""
+    sentence = read_gold_entry({"id": "x", "prompt": prompt, **said})
+    return {(kind, what): state for kind, what, state in judging.Reading.of(sentence).judge()}
+
+
+def test_a_ground_counts_as_one_but_a_wrong_number_is_silent():
+    things = [{"noun": "dog", "count": 2}, {"noun": "lawn", "count": 1}]
+    states = judge("a dog runs on a lawn", things=things)
+    assert states["counts", "1 lawn"] == "right"
+    assert states["counts", "2 dog"] == "silent"
+
+
+def test_what_a_person_adds_is_not_asked():
+    things = [{"noun": "racket", "count": 1, "implied": True}, {"noun": "ball", "count": 1}]
+    action = {"verb": "play", "subject": "person"}
+    assert judge("a person stands", things=things, actions=[action]) == {}
+
+
+def test_a_refused_sentence_reports_all_of_it():
+    states = judge("ein Hund läuft über die Wiese", things=[{"noun": "dog", "count": 1}])
+    assert set(states.values()) == {"reported"}
+
+
+def test_a_camera_that_travels_is_right_and_one_that_stands_is_silent():
+    said = {"camera": ["ego-motion"], "actions": [{"verb": "drive", "subject": "camera"}]}
+    assert set(judge("driving through a tunnel", **said).values()) == {"right"}
+    assert judge("a car drives", camera=["ego-motion"])["camera", "ego-motion"] == "silent"
+
+
+def test_a_relation_is_not_excused_by_a_lost_word_beside_it():
+    states = judge("a red ball on a wuggish table", relations=[("ball", "under", "table")])
+    assert states["relations", "ball under table"] == "reported"  # "wuggish" for "under"
+    states = judge("a red ball on a wuggish table", relations=[("table", "on", "ball")])
+    assert states["relations", "table on ball"] == "silent"
+
+
 def read_gold_entry(entry):
     from benchmarks.prompts import gold
 
@@ -104,8 +141,8 @@ def read_gold_entry(entry):
 
 
 def test_a_verb_stands_for_the_kind_of_motion_that_one_clause_gives():
-    assert "drive" in {kind + "e" for kind in structure.action_kinds(GoldAction("drive", "car"))}
-    assert structure.action_kinds(GoldAction("zorble", "car")) == {"zorbl"}
+    assert "drive" in {kind + "e" for kind in known.action_kinds(GoldAction("drive", "car"))}
+    assert known.action_kinds(GoldAction("zorble", "car")) == {"zorbl"}
 
 
 def test_views_count_what_is_named_by_what_is_seen_of_it(tmp_path, monkeypatch, capsys):
