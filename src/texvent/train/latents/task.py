@@ -78,22 +78,23 @@ class LatentsTask:
         """Scores of what changes summed up from the interval's start.
 
         Returns:
-            `relative error`: mean absolute error over the mean absolute change; a head that sees
-            nothing move has 1. `relative change`: what is predicted over what is true, 1 is right.
+            `relative error`: mean squared error over the mean squared change; a head that sees
+            nothing move has 1. `relative change`: mean absolute change, predicted over true.
         """
-        total = dict.fromkeys(("error", "true", "found"), 0.0)
+        total = dict.fromkeys(("error", "change", "found", "true"), 0.0)
         make = self._validation
         count = self._config.schedule.batch_size
         batches = Batches(make, len(make), count, seed=0, shuffle=False, workers=workers)
         for batch in batches.epoch(0):
             found = network(batch[LATENTS].to(device)).float().cpu().cumsum(2)
             true = batch[CHANGE].cumsum(2)
-            for name, one in (("error", found - true), ("true", true), ("found", found)):
-                total[name] += float(one.abs().sum())
-        scale = total["true"] or float("nan")
+            total["error"] += float((found - true).square().sum())
+            total["change"] += float(true.square().sum())
+            total["found"] += float(found.abs().sum())
+            total["true"] += float(true.abs().sum())
         return {
-            "relative error": total["error"] / scale,
-            "relative change": total["found"] / scale,
+            "relative error": total["error"] / (total["change"] or float("nan")),
+            "relative change": total["found"] / (total["true"] or float("nan")),
         }
 
     def published(self, network: Any) -> Mapping[str, Any]:
