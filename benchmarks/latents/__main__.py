@@ -1,15 +1,13 @@
 """Events from a video's latents: by a full decoder, a tiny one, and a head without frames.
 
     python -m benchmarks.latents run -o FOLDER [--json FILE]
-    python -m benchmarks.latents bounds -o FOLDER [--json FILE]
     python -m benchmarks.latents cost [--json FILE]
     python -m benchmarks.latents show FILE
 
 run trains an autoencoder, a tiny decoder and a head on the training scenes of
 configs/training/latent-scenes.toml, and scores events of the test scenes; what is in FOLDER is not
-trained again. bounds scores what needs no latents: the video's own frames, and a head that makes no
-mistake. cost counts operations at 720p. FILE keeps what the other commands wrote. It needs torch:
-pip install 'texvent[generate,train]'.
+trained again. cost counts operations at 720p. FILE keeps what the other commands wrote. It needs
+torch: pip install 'texvent[generate,train]'.
 """
 
 from __future__ import annotations
@@ -31,15 +29,12 @@ from texvent.runtime.progress import Progress
 from texvent.train.checkpoint import WEIGHTS_FILE
 from texvent.train.latents.config import LatentsConfig
 from texvent.train.latents.pairs import LatentPairs
-from texvent.train.latents.scenes import LatentScenes
 from texvent.train.loop import train
 from texvent.train.reading import read_training
 from texvent.train.schedule import Hardware
 
 TRAINING = Path("configs/training/latent-head.toml")
 SCHEMA = "texvent-latents-1"
-FRAMES_PER_LATENT = 2
-"""Of the autoencoder that is trained here; only a grouping of the bins where none is used."""
 CPU = Hardware(device="cpu")
 
 
@@ -51,18 +46,15 @@ def main() -> None:
         found = json.loads(options.file.read_text("utf-8"))
     else:
         with ConsoleProgress() as progress:
-            if options.command == "cost":
-                made: Any = cost.count_all()
-            else:
-                made = (run if options.command == "run" else bound)(options, progress)
+            made = cost.count_all() if options.command == "cost" else run(options, progress)
         found = {options.command: made}
         if options.json:
             known = json.loads(options.json.read_text("utf-8")) if options.json.exists() else {}
             environment = {**describe_environment(), "full_version": full_version()}
             document = {**known, "schema": SCHEMA, "environment": environment, **found}
             options.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    for command in found.keys() & {"run", "bounds"}:
-        print(score.table(found[command]["summary"]))
+    if "run" in found:
+        print(score.table(found["run"]["summary"]))
     if "cost" in found:
         print(cost.table(found["cost"]))
 
@@ -102,29 +94,15 @@ def run(options: argparse.Namespace, progress: Progress) -> dict[str, Any]:
     }
 
 
-def bound(options: argparse.Namespace, progress: Progress) -> dict[str, Any]:
-    """Score what needs no latents."""
-    config = read_training(TRAINING, LatentsConfig())
-    folder: Path = options.out / "scenes"
-    folder.mkdir(parents=True, exist_ok=True)
-    network = config.network
-    scenes = LatentScenes(
-        config.data.specification, "test", folder, network.bins, FRAMES_PER_LATENT, network.balance
-    )
-    rows = score.score(score.run_bounds, scenes, options.scenes or len(scenes), progress)
-    return {"bins": network.bins, "summary": score.summarise(rows), "rows": rows}
-
-
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
-    running, bounding, counting = map(commands.add_parser, ("run", "bounds", "cost"))
+    running, counting = map(commands.add_parser, ("run", "cost"))
     commands.add_parser("show").add_argument("file", type=Path)
-    for command in (running, bounding):
-        command.add_argument("-o", "--out", type=Path, required=True, help="kept between runs")
-        command.add_argument("--scenes", type=int, help="scored; default: all of the test split")
+    running.add_argument("-o", "--out", type=Path, required=True, help="kept between runs")
+    running.add_argument("--scenes", type=int, help="scored; default: all of the test split")
     running.add_argument("--steps", type=int, default=12_000, help="of the autoencoder's training")
-    for command in (running, bounding, counting):
+    for command in (running, counting):
         command.add_argument("--json", type=Path, help="keep the result")
     parser.add_argument("--threads", type=int, default=1, help="of torch")
     return parser.parse_args()
