@@ -19,7 +19,7 @@ PREPOSITIONS = {
     "beneath": "under", "underneath": "under", "over": "above", "to": "towards",
     "toward": "towards", "out of": "from", "away from": "away from", "after": "follow",
     "surrounded by": "surround", "amid": "among", "to the left of": "left of",
-    "to the right of": "right of", "along with": "with", "onto": "on",
+    "to the right of": "right of", "along with": "with", "onto": "on", "at": "beside",
 }  # fmt: skip
 ALIKE = (
     {"beside", "with", "left of", "right of"}, {"in", "on"}, {"around", "surround", "among"},
@@ -162,7 +162,7 @@ class Reading:
             return "right"
         if not found:
             is_right = self._is_scenery(thing.noun) and wanted in (None, 1)
-        elif wanted is None or (" of " in thing.noun and thing.noun.endswith("s")):
+        elif wanted is None or self._is_group(thing.noun):
             is_right = sum(found) > 1 or thing.count == "mass"
         else:
             is_right = wanted in (*found, sum(found))
@@ -170,6 +170,11 @@ class Reading:
             return "right" if is_right else self._missing(thing.noun)
         words = stems([thing.noun, str(thing.count), *_NUMBERS[wanted or 0 :][:1]])
         return "reported" if share(words, self.reported) else "silent"
+
+    @staticmethod
+    def _is_group(noun: str) -> bool:
+        """As in "flock of birds", not "blade of grass"."""
+        return " of " in noun and noun.endswith("s") and not noun.endswith("ss")
 
     def _attribute(self, thing: GoldThing, attribute: str) -> str:
         indices = self._indices(thing.noun)
@@ -302,9 +307,9 @@ class Reading:
             [at for at, word in enumerate(words) if stem(word) == head(noun)]
             for noun in (subject, target)
         ]
-        return any(
-            set(words[min(a, b) + 1 : max(a, b)]) & self.lost for a in places[0] for b in places[1]
-        )
+        named = self.reported | self.swapped
+        spans = (words[min(a, b) + 1 : max(a, b)] for a in places[0] for b in places[1])
+        return any(stems(span) & named for span in spans)
 
     def _words(self, text: str, known: tuple[str, ...]) -> str:
         words = stems([text])

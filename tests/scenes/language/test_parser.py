@@ -166,7 +166,7 @@ def test_camera(prompt: str, moves: list[tuple[str, str | None]], view: str | No
         ("cars in a city street by moonlight", "city", "moonlight", None),
         ("sharks in the ocean", "underwater", None, None),
         ("a boat at sea at dawn", "sea", "dawn", None),
-        ("a house by the sea", "sand", None, None),
+        ("a house by the sea", "lake", None, None),
         ("a man walks in a dark street", "city", "night", None),
         ("a child plays ball on a sunny beach", "sand", "sunny", None),
         ("a fox in the snow", "snow", None, None),
@@ -232,7 +232,7 @@ def test_excluded_things_are_not_added() -> None:
     ("prompt", "first", "words"),
     [
         ("a white vintage SUV drives left", "1 suv, white, drives left", ("vintage",)),
-        ("three shiny happy red cars stop", "3 cars, red, stand still", ("shiny", "happy")),
+        ("three shiny happy red cars stop", "3 cars, red, drive, then stand still", ("shiny", "happy")),
         ("a red wug, a blue car", "1 car, blue, drives", ("red", "wug")),
     ],
 )

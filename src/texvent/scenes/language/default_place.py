@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import SceneDescription, Substitution
+from texvent.scenes.inflection import list_plurals
+from texvent.scenes.language.vocabulary.scene import PLACES
 from texvent.scenes.models.protocol import Noun
 
 _FAST_FLYER_M_S = 4.0
 """What flies faster than this is shown in the sky, far from the ground."""
 _AFLOAT_MOTIONS = ("sail", "paddle")
 
+_IN_WATER = ("swim", "surf")
+"""What people and animals of the land do in water only."""
+SHORE = "lake"
+"""Where what stands on land is beside the sea: water with land before it."""
 _PLACE_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 """How a camera travels → where it does so."""
 _USUAL_PLACES: dict[str, tuple[str, ...]] = {
@@ -42,7 +49,7 @@ _INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", 
 def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
     """The place of the scene: as stated, or the usual one for its objects.
 
-    Fish "in the sea" are shown under water, and a house "by the sea" on the beach.
+    Fish "in the sea" are shown under water, and a house "by the sea" beside a lake.
     """
     said = description.surroundings
     carried = {
@@ -56,6 +63,9 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         for index, scene_object in enumerate(description.objects)
         if index not in carried
     ]
+    is_in_water = any(
+        one.motion is not None and one.motion.kind in _IN_WATER for one in description.objects
+    )
     habitats = {noun.habitat for noun in members}
     is_submerged = bool(members) and all(
         noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in members
@@ -63,13 +73,16 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
     if said.place == "sea":
         if is_submerged:
             return "underwater"
-        return "sand" if members and habitats <= {"ground", "fixed"} else "sea"
+        is_beside = bool(members) and habitats <= {"ground", "fixed"} and not is_in_water
+        return SHORE if is_beside else "sea"
     if said.place in ("lake", "river") and is_submerged:
         return "underwater"
     if said.place is not None:
         return said.place
     if is_submerged:
         return "underwater"
+    if is_in_water:
+        return "sea"
     for move in description.shot.moves:
         if move.kind == "travel" and move.means in _PLACE_OF_TRAVEL:
             return _PLACE_OF_TRAVEL[move.means]
@@ -82,6 +95,20 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         for one in description.objects
     )
     return _choose_usual(members, rests=rests, is_wet=said.weather in ("rain", "snow"))
+
+
+def report_place(description: SceneDescription, place: str) -> SceneDescription:
+    """The description where the sea that the prompt names is shown as a lake, and says so."""
+    if description.surroundings.place != "sea" or place != SHORE:
+        return description
+    said = (word for word in PLACES["sea"] if "water" not in word)
+    known = {form for word in said for form in (word, *list_plurals(word))}
+    words = [word for word in description.shown if word in known]
+    return replace(
+        description,
+        shown=tuple(word for word in description.shown if word not in words),
+        substituted=(*description.substituted, *(Substitution(word, SHORE) for word in words)),
+    )
 
 
 def _choose_usual(members: Sequence[Noun], *, rests: bool, is_wet: bool) -> str:

@@ -13,7 +13,7 @@ from texvent.scenes.description import (
     SceneObject,
 )
 from texvent.scenes.inflection import pluralise
-from texvent.scenes.language.default_place import choose_place
+from texvent.scenes.language.default_place import choose_place, report_place
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
 from texvent.scenes.models.protocol import Noun
@@ -38,7 +38,9 @@ def complete_description(
     )
     description = _move_followed(replace(description, objects=objects), nouns)
     objects = description.objects
-    said = replace(description.surroundings, place=choose_place(description, nouns))
+    place = choose_place(description, nouns)
+    description = report_place(description, place)
+    said = replace(description.surroundings, place=place)
     description = _give_usual_work(replace(description, surroundings=said))
     is_active = any(relation.kind in ACTIVE for relation in description.relations)
     if (
@@ -219,6 +221,9 @@ def _rest_in_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
                 objects[relation.subject] = replace(subject, motion=ObjectMotion("sit"))
             elif subject.motion is None and (relation.kind == "in" or target.motion is None):
                 objects[relation.subject] = replace(subject, motion=STANDING)
+        elif relation.kind in ("hold", "carry"):
+            if target.motion is None and nouns[target.noun].motion in ("sail", "paddle"):
+                objects[relation.targets[0]] = replace(target, motion=STANDING)
         elif relation.kind in _KEEPS_PLACE:
             for index in (relation.subject, *relation.targets):
                 each = objects[index]

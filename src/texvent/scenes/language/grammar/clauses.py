@@ -237,6 +237,7 @@ class _ClauseReader(GroupAttachment):
         elif self._is_joined and not (is_participle and not clause.is_participle):
             is_finite_after_participle = clause.is_participle and not is_participle
             outer = self._find_finite() if is_finite_after_participle else None
+            outer = outer or (self._find_main() if clause.opener is not None else None)
             subjects = list((outer or clause).subjects)
             self._close()
             self._clause.subjects = subjects
@@ -248,6 +249,16 @@ class _ClauseReader(GroupAttachment):
         self._clause.negation = self._clause.negation or self._take_negation()
         self._is_joined, self._phrase = "", None
         self._at += 1
+
+    def _find_main(self) -> Clause | None:
+        """As in "curls up when a fox comes, and stays still": the clause before "when"."""
+        at = self._at - 1
+        while at > 0 and self._words[at].pos in (Pos.CONJUNCTION, Pos.ADVERB):
+            at -= 1
+        if self._words[at].text != "," or self._clause.is_relative:
+            return None
+        before = self._clauses[self._sentence :]
+        return next((one for one in reversed(before) if one.verb and one.opener is None), None)
 
     def _is_small_clause(self) -> bool:
         """As in "A boat with dolphins jumping": the dolphins jump."""

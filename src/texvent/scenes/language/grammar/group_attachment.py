@@ -115,7 +115,12 @@ class GroupAttachment(ClauseState):
             self._open_clause_with(group)
         elif group.head is None:
             clause.complements.append(group)
-        elif joined and self._phrase is not None and not self._opens_after_comma(joined):
+        elif (
+            joined
+            and self._phrase is not None
+            and not self._opens_after_comma(joined)
+            and not self._is_after_colour(group)
+        ):
             self._phrase.groups.append(group)
         else:
             clause.objects.append(group)
@@ -160,6 +165,7 @@ class GroupAttachment(ClauseState):
             joined
             and not is_intro
             and self._phrase is not None
+            and not self._is_after_colour(group)
             and (not self._verb_follows(self._at) or self._needs_second())
         ):
             self._phrase.groups.append(group)
@@ -169,6 +175,11 @@ class GroupAttachment(ClauseState):
         else:
             self._close()
             self._clause.subjects.append(group)
+
+    def _is_after_colour(self, group: NounGroup) -> bool:
+        """As in "a man in red and a woman": the woman is no colour."""
+        before = self._phrase.groups[-1] if self._phrase is not None else group
+        return before.head is None and group.head is not None
 
     def _open_clause_with(self, group: NounGroup) -> None:
         order = self._next_order

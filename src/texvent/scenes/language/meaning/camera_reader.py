@@ -93,12 +93,19 @@ class CameraReader:
         for group in clause.complements:
             for word in group.words:
                 self.read_word(word)
+        is_lost = clause.verb is not None and self._is_lost(clause.verb)
         for word in clause.adverbs:
-            self._read_adverb(word)
+            if not (is_lost and word.role in (Role.DIRECTION, Role.PACE)):
+                self._read_adverb(word)
         for phrase, referent in phrases:
             self._read_phrase(phrase, referent)
         for referent in objects:
             self.aim(referent)
+
+    @staticmethod
+    def _is_lost(verb: Word) -> bool:
+        """As in "dodging the trunks left and right": no camera goes left and right for that."""
+        return verb.role in (Role.UNKNOWN, Role.SIMILAR, Role.ACTIVITY) and not verb.is_used
 
     def _read_verb(
         self, clause: Clause, word: Word, phrases: Sequence[tuple[PrepPhrase, Referent]]

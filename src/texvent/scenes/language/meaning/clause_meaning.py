@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from texvent.scenes.description import ObjectMotion, SceneDescription
-from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
-from texvent.scenes.language.meaning.activities import find_activity, name_activity
-from texvent.scenes.language.meaning.acts import ActReader
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup
+from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
+from texvent.scenes.language.meaning.acts.doers import find_doing
+from texvent.scenes.language.meaning.acts.fitting import is_plain_past
+from texvent.scenes.language.meaning.acts.reader import ActReader
+from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
-from texvent.scenes.language.meaning.capabilities import is_living
-from texvent.scenes.language.meaning.circumstances import CircumstanceReader
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
-from texvent.scenes.language.meaning.fitting import is_plain_past
 from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
 from texvent.scenes.language.meaning.scene_clauses import SceneClauses
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
@@ -37,9 +39,10 @@ class ClauseMeaning:
         self._camera = CameraReader()
         self._surroundings = SurroundingsReader()
         self._acts = ActReader(self._draft)
-        self._around = CircumstanceReader(
-            self._draft, self._referents, self._surroundings, self._acts
-        )
+        self._around = CircumstanceReader(self._draft, self._referents, self._surroundings)
+        self._sentence = -1
+        """The sentence that said last what "it" means."""
+        self._shots = CameraClauses(self._camera, self._referents, self._around)
         self._scenes = SceneClauses(self._referents, self._surroundings, self._around)
 
     @property
@@ -59,6 +62,7 @@ class ClauseMeaning:
     def build(self, prompt: str) -> SceneDescription:
         """The description, before defaults are filled in."""
         draft = self._draft
+        self._add_doings()
         surroundings, light = self._surroundings.build()
         return SceneDescription(
             prompt=prompt,
@@ -71,6 +75,16 @@ class ClauseMeaning:
             absent=tuple(draft.absent),
             notes=tuple(draft.notes),
         )
+
+    def _add_doings(self) -> None:
+        """A swimmer swims, unless the prompt says what else it does or rides."""
+        riders = {one.subject for one in self._draft.relations if one.kind == "ride"}
+        for index, item in enumerate(self._draft.objects):
+            doing = find_doing(item.said or "")
+            is_idle = not item.motions and not item.is_verb_lost and index not in riders
+            if doing is not None and is_idle and is_person(self._draft.noun(index)):
+                item.motions.append(ObjectMotion(doing))
+                self._draft.note(f"the {item.said} does what the word says: {doing}")
 
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
@@ -88,7 +102,7 @@ class ClauseMeaning:
         self._referents.verb = clause.verb.lemma if clause.verb is not None else ""
         subjects = [self._referents.resolve(group) for group in clause.subjects]
         self._referents.verb = ""
-        if self._is_about_camera(clause, subjects):
+        if self._shots.is_about(clause, subjects):
             self._read_camera(clause, subjects)
         elif subjects and all(one.kind in OF_SCENE for one in subjects):
             self._scenes.read(clause, subjects)
@@ -124,60 +138,12 @@ class ClauseMeaning:
             if word.role is Role.VIEW and word.text in _FROM:
                 word.meaning = Meaning(Role.DIRECTION, word.pos, _FROM[word.text])
 
-    def _is_about_camera(self, clause: Clause, subjects: Sequence[Referent]) -> bool:
-        if any(one.kind in ("camera", "function") for one in subjects):
-            return True
-        if clause.verb is None:
-            return False
-        if clause.verb.role is Role.CAMERA_MOVE:
-            is_order = clause.verb.meaning.form is VerbForm.BASE and not clause.objects
-            return is_order or not any(self._does_it(one, clause) for one in subjects)
-        is_move = clause.verb.read_as(Role.CAMERA_MOVE) is not None
-        return is_move and not subjects and self._camera.has_moves
-
-    @staticmethod
-    def _does_it(subject: Referent, clause: Clause) -> bool:
-        """As in "a baker pulls out two loaves": no camera does."""
-        is_other = subject.kind == "unknown" and bool(clause.objects)
-        return is_other or subject.kind in ("things", "part", "effect")
-
-    def _read_camera(self, clause: Clause, subjects: Sequence[Referent]) -> None:
-        others = [one for one in subjects if one.kind not in ("camera", "function")]
-        for one in subjects:
-            if one in others:
-                continue
-            if one.group.head is not None:
-                one.group.head.is_used = True
-            self._camera.read_attributes(one.attributes)
-            scope = Scope([], [], is_lost=one.kind == "camera", has_verb=False)
-            self._around.read_phrases(one.group.phrases, scope)
-        phrases = self._resolve_phrases(clause.phrases)
-        objects = [self._referents.resolve(group) for group in clause.objects]
-        self._camera.read_clause(clause, objects, phrases)
-        for phrase, one in phrases:
-            if not one.is_things:
-                near = self._referents.recall(phrase.near)
-                things = near.things if near is not None else []
-                self._around.read_phrase(phrase, Scope(things, [], has_verb=False))
-            self._around.read_group_phrases(one, Scope([], []))
-        for one in (*objects, *self._split_scene(others)):
-            self._around.read_extra(one)
-        named = [*objects, *(one for _, one in phrases)]
-        self._keep_subjects([index for one in named if one.is_things for index in one.things][:1])
-        if clause.verb is not None and clause.verb.text in ("taken", "filmed", "shot", "seen"):
-            clause.verb.is_used = True
-
-    def _resolve_phrases(self, phrases: Sequence[PrepPhrase]) -> list[tuple[PrepPhrase, Referent]]:
-        found = []
-        for phrase in phrases:
-            for group in phrase.groups:
-                group.negation = phrase.negation or group.negation
-                found.append((phrase, self._referents.resolve(group, phrase.preposition.text)))
-        return found
-
     def _read_subjectless(self, clause: Clause) -> None:
         """As in "Driving through a tunnel", "juggling three oranges"."""
         word = clause.verb_word
+        if word.text in FILMED:
+            self._read_camera(clause, [])
+            return
         is_gerund = word.meaning.form is VerbForm.ING
         is_viewer = self._camera.is_first_person or not clause.objects
         if is_gerund and word.lemma in TRAVEL_MEANS and is_viewer:
@@ -255,7 +221,10 @@ class ClauseMeaning:
         self._around.read_adverbs(clause.adverbs, scope)
         self._around.read_phrases(clause.phrases, scope)
         self._referents.has_body, self._referents.doers = False, []
-        self._keep_subjects(things)
+        is_aside = clause.is_participle or clause.is_relative
+        if not (is_aside and self._sentence == clause.sentence):
+            self._keep_subjects(things)
+            self._sentence = clause.sentence
 
     @staticmethod
     def _take_in_hand(clause: Clause) -> None:
@@ -327,7 +296,7 @@ class ClauseMeaning:
 
     def _read_object(self, one: Referent, clause: Clause, scope: Scope) -> None:
         if one.kind == "unit":
-            self._around.read_quantity(one, scope)
+            self._around.quantities.read(one, scope)
         elif one.kind in OF_SCENE and one.group.text != "water":
             self._surroundings.read_referent(one, is_negated=False)
             self._cross(one, clause, scope)
@@ -341,6 +310,14 @@ class ClauseMeaning:
         if clause.verb is None or clause.verb.is_used or not scope.subjects:
             return
         scope.movers.extend(self._acts.read(clause, scope.subjects, []))
+
+    def _read_camera(self, clause: Clause, subjects: Sequence[Referent]) -> None:
+        others = [one for one in subjects if one.kind not in ("camera", "function")]
+        cameras = [one for one in subjects if one not in others]
+        objects, named = self._shots.read(clause, cameras)
+        for one in (*objects, *self._split_scene(others)):
+            self._around.read_extra(one)
+        self._keep_subjects([index for one in named if one.is_things for index in one.things][:1])
 
     def _split_scene(self, subjects: Sequence[Referent]) -> list[Referent]:
         """Read the places and lights in a list of subjects; return the rest."""

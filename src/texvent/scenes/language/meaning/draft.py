@@ -121,6 +121,11 @@ class Draft:
         """The model of an object."""
         return self.nouns[self.objects[index].noun]
 
+    def length_m(self, index: int) -> float:
+        """The largest extent of an object, m."""
+        model = self.noun(index).build(colour=None, scale=self.objects[index].scale, seed=0)
+        return float(max(model.length, model.width, model.height))
+
     def relate(self, kind: str, subjects: Iterable[int], targets: Sequence[int]) -> bool:
         """Relate every subject to the targets; whether there was anything to relate."""
         is_related = False

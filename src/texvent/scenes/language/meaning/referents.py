@@ -110,6 +110,10 @@ class Referents:
                 link(group.words, found.things)
         return found
 
+    def forget(self, group: NounGroup) -> None:
+        """A group names nothing of the scene."""
+        self._known[id(group)] = Referent("unknown", group)
+
     def recall(self, group: NounGroup | None) -> Referent | None:
         """What a group was found to mean; None if it was not asked before."""
         return self._known.get(id(group)) if group is not None else None
@@ -262,6 +266,9 @@ class Referents:
         said = name_kind(head) if meaning.is_substitute else None
         is_either = meaning.can_be_both and not attributes.is_many
         index = self._recall(group, noun, None if is_either else is_plural, attributes, said)
+        is_each = group.determiner is not None and group.determiner.text in ("each", "every")
+        if index is None and is_each and not is_plural:
+            index = self._add(noun, is_plural, attributes, self._count_last())
         if index is None:
             bare = SURROUND_COUNT if preposition in _AROUND else PLURAL_COUNT
             bare = meaning.count or (bare if is_plural else 1)
@@ -274,6 +281,11 @@ class Referents:
         is_other = meaning.is_substitute or (noun != meaning.value and not is_drinks)
         head.shown_as = noun if is_other else None
         return Referent("things", group, [index], attributes=attributes)
+
+    def _count_last(self) -> int:
+        """As in "five camels, each rider": one for each of those named last."""
+        counts = [self._draft.objects[index].count for index in self._named]
+        return next((count for count in reversed(counts) if count > 1), 1)
 
     def _recall(
         self,
@@ -290,6 +302,8 @@ class Referents:
         return self._draft.find(noun, is_plural, said)
 
     def _add(self, noun: str, is_plural: bool, attributes: Attributes, bare: int) -> int | None:
+        if noun in PAIRED and is_plural and bare == PLURAL_COUNT:
+            bare = 2
         count, note = attributes.decide_count(bare)
         if note is not None:
             self._draft.note(note)
@@ -326,6 +340,8 @@ def _find_head(group: NounGroup) -> Word:
     return group.head_word
 
 
+PAIRED = frozenset({"hand", "shoe", "ski", "glove", "sock"})
+"""Nouns of which a bare plural means two: "her boots"."""
 _OF_ONE_PERSON = ("he", "she", "him", "her")
 BODY_PARTS = frozenset({"hand", "finger", "fist", "arm", "head", "leg", "foot", "tail", "wing"})
 OWNERS = ("its", "their", "his", "her")

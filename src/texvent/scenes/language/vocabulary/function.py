@@ -56,7 +56,7 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
     Pos.NOUN: (
         "scene", "shot", "view", "video", "clip", "footage", "image", "photo", "photograph",
         "picture", "frame", "sight", "kind", "sort", "type", "sequence", "recording", "example",
-        "viewpoint", "perspective", "angle", "motion", "gesture",
+        "viewpoint", "perspective", "angle", "motion", "gesture", "hand gesture",
     ),
     Pos.ADJECTIVE: (
         "beautiful", "cinematic", "nice", "photorealistic", "pretty", "realistic", "visible",

@@ -6,19 +6,19 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion, Relation
+from texvent.scenes.description import ObjectMotion, Relation
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.activities import find_activity
+from texvent.scenes.language.meaning.acts.activities import find_activity
+from texvent.scenes.language.meaning.acts.devices import blink, give_effect, switch_signal
+from texvent.scenes.language.meaning.acts.fitting import choose_act, fit_verb, is_played
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.fitting import choose_act, fit_verb, is_played
 from texvent.scenes.language.meaning.referents import Referent
-from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB, OF_ONESELF
-from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ, Verb
-from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
+from texvent.scenes.language.vocabulary.acts import OF_ONESELF
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.word import Word, mark_used
-from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import WORKING
 
 STAND = ObjectMotion("stand")
@@ -57,12 +57,12 @@ class ActReader:
         movers = self._read_activity(clause, subjects, objects)
         if movers:
             return movers
-        if self._read_effect(clause, subjects):
+        if give_effect(self._draft, clause, subjects):
             return subjects
         verb = word.meaning.value
         if word.role is Role.FLICKER:
-            return self._blink(word, subjects)
-        if self._switch(clause, subjects):
+            return blink(self._draft, word, subjects)
+        if switch_signal(self._draft, clause, subjects):
             return subjects
         if not isinstance(verb, Verb):
             is_done_to = any(one.kind in ("things", "unknown", "part") for one in objects)
@@ -128,7 +128,7 @@ class ActReader:
         """A passive: the subjects undergo the verb."""
         word = clause.verb_word
         verb = word.meaning.value
-        if self._read_effect(clause, subjects):
+        if give_effect(self._draft, clause, subjects):
             return subjects
         if not isinstance(verb, Verb):
             return []
@@ -180,36 +180,6 @@ class ActReader:
         if not isinstance(clause.verb_word.meaning.value, Verb):
             return False
         return any(one.is_things for one in objects)
-
-    def _read_effect(self, clause: Clause, subjects: list[int]) -> bool:
-        """As in "a balloon bursts", "a chimney smokes"."""
-        kind = EFFECT_BY_VERB.get(clause.verb_word.lemma)
-        by_people = any(is_person(self._draft.noun(index)) for index in subjects)
-        if kind is None or not subjects or by_people or clause.objects:
-            return False
-        clause.verb_word.is_used = True
-        for index in subjects:
-            self._draft.effects.append(Effect(kind, source=index))
-        return True
-
-    def _switch(self, clause: Clause, subjects: list[int]) -> bool:
-        """As in "a traffic light turns from red to green", which it does by itself."""
-        names = {self._draft.objects[index].noun for index in subjects}
-        if names != {"traffic light"} or clause.verb_word.lemma not in _SWITCHES:
-            return False
-        clause.verb_word.is_used = True
-        self._draft.note("the traffic light goes through all its colours")
-        groups = [group for phrase in clause.phrases for group in phrase.groups]
-        for group in (*groups, *clause.complements, *clause.objects):
-            mark_used(word for word in group.words if word.text in _SIGNALS)
-        return True
-
-    def _blink(self, word: Word, subjects: list[int]) -> list[int]:
-        lamps = [index for index in subjects if self._draft.objects[index].noun in LAMPS]
-        for index in lamps:
-            self._draft.objects[index].blink_hz = DEFAULT_BLINK_HZ
-            word.is_used = True
-        return lamps
 
     def _do_to(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
@@ -321,6 +291,7 @@ class ActReader:
             fitting = fit_verb(verb, noun, clause)
             if fitting is None or not can_do(noun, fitting.kind):
                 continue
+            self._set_off(index, verb, clause)
             motion = ObjectMotion(fitting.kind, verb.direction, verb.pace, end_pace=verb.end_pace)
             if self._add_motion(index, self._fall_over(index, motion, clause), clause):
                 added.append(index)
@@ -328,6 +299,16 @@ class ActReader:
                     word.shown_as = noun.motion if fitting.kind == "move" else fitting.kind
         word.is_used = word.is_used or bool(added)
         return added
+
+    def _set_off(self, index: int, verb: Verb, clause: Clause) -> None:
+        """As in "a car stops at a kerb": what stops has moved before; not "a stopped car"."""
+        item, noun = self._draft.objects[index], self._draft.noun(index)
+        is_resting = clause.verb_word.meaning.form is VerbForm.PAST
+        if verb.base not in _STOPS or item.motions or is_resting or noun.is_working:
+            return
+        if noun.motion != "stand":
+            item.motions.append(self._name_kind(index, ObjectMotion("move")))
+            clause.order = "after"
 
     def _fall_over(self, index: int, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
         """As in "a person falls": over, unless it is said from where."""
@@ -371,22 +352,6 @@ class ActReader:
         usual = self._draft.noun(index).motion
         return replace(motion, kind=usual if usual != "stand" else "slide")
 
-    def set_rate(self, things: list[int], rate_hz: float) -> bool:
-        """Turns per second of what spins, or flashes per second of what blinks."""
-        is_used = False
-        for index in things:
-            item = self._draft.objects[index]
-            if item.blink_hz is not None:
-                item.blink_hz, is_used = rate_hz, True
-            elif item.motions and item.motions[-1].kind == "spin":
-                own_hz = WORK_RATES_HZ.get(item.noun)
-                if own_hz is None and self._draft.noun(index).is_working:
-                    continue
-                pace = rate_hz / (own_hz or SPIN_RATE_HZ)
-                item.motions[-1] = replace(item.motions[-1], pace=pace)
-                is_used = True
-        return is_used
-
 
 def _carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:
     """What moves on keeps its direction."""
@@ -394,6 +359,5 @@ def _carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:
     return replace(motion, direction=before.direction) if keeps else motion
 
 
+_STOPS = ("stop", "halt", "come to a stop", "come to rest")
 _FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")
-_SWITCHES = ("turn", "change", "switch", "go")
-_SIGNALS = ("red", "yellow", "amber", "green")

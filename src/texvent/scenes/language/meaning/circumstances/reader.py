@@ -7,12 +7,15 @@ from dataclasses import replace
 
 from texvent.scenes.description import Effect, ObjectMotion, Picture
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
-from texvent.scenes.language.meaning.acts import ActReader
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
+from texvent.scenes.language.meaning.circumstances.relations import (
+    WEAK_PREPOSITIONS,
+    RelationReader,
+)
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents, list_parts_shown
-from texvent.scenes.language.meaning.relations import WEAK_PREPOSITIONS, RelationReader
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE
@@ -44,12 +47,12 @@ class CircumstanceReader:
     """Reads what a clause says besides subject, verb and object."""
 
     def __init__(
-        self, draft: Draft, referents: Referents, surroundings: SurroundingsReader, acts: ActReader
+        self, draft: Draft, referents: Referents, surroundings: SurroundingsReader
     ) -> None:
         self._draft = draft
         self._referents = referents
         self._surroundings = surroundings
-        self._acts = acts
+        self.quantities = QuantityReader(draft, surroundings)
         self._relations = RelationReader(draft, referents)
 
     def read_adverbs(self, adverbs: Sequence[Word], scope: Scope) -> None:
@@ -176,7 +179,7 @@ class CircumstanceReader:
         if is_living(item):
             return
         head = owner.head
-        if item.name not in WEARABLE and head is not None and not self._is_known(head):
+        if item.name not in WEARABLE and head is not None and not self._is_known(owner, head):
             return
         found = self._referents.resolve(owner)
         if not found.is_things:
@@ -186,13 +189,19 @@ class CircumstanceReader:
         else:
             self._draft.relate("with", owned.things, found.things)
 
-    def _is_known(self, owner: Word) -> bool:
-        """Whether the owner is there: "the farmer's barn" shows no farmer."""
-        noun = owner.read_as(Role.NOUN)
-        return noun is None or any(item.noun == noun.value for item in self._draft.objects)
+    def _is_known(self, owner: NounGroup, head: Word) -> bool:
+        """Whether the owner is there: "the farmer's barn", "the red team's goal" show no people."""
+        noun = head.read_as(Role.NOUN)
+        if noun is None:
+            return True
+        is_there = self._draft.find(str(noun.value), None) is not None
+        return is_there and not read_attributes(owner.modifiers).is_new
 
     def _read_of(self, phrase: PrepPhrase, whole: Referent, scope: Scope) -> None:
-        """As in "A bowl of soup", "a set of buckets", "the side of the road"."""
+        """As in "A bowl of soup", "a set of buckets", "the side of the road".
+
+        What "the window of a train" belongs to is not in it, and its place is not shown.
+        """
         head = whole.group.head
         is_likeness = head is not None and head.lemma in LIKENESSES
         names_picture = any(
@@ -210,7 +219,11 @@ class CircumstanceReader:
         found = [self._referents.resolve(group, "of") for group in phrase.groups]
         for one in found:
             if one.is_things and whole.is_things:
-                self._draft.relate("in", one.things, whole.things)
+                is_whole = one.group.determiner is not None or one.group.owner is not None
+                if not is_whole:
+                    self._draft.relate("in", one.things, whole.things)
+                phrase.preposition.is_used = not is_whole
+                phrase.preposition.is_lost = is_whole
             elif one.kind == "picture":
                 self.show_on(one, whole.things)
             elif not one.is_things:
@@ -226,7 +239,7 @@ class CircumstanceReader:
         if one.kind == "absent":
             word.is_used = True
         elif one.kind == "unit":
-            word.is_used = self.read_quantity(one, scope, preposition=word.text)
+            word.is_used = self.quantities.read(one, scope, preposition=word.text)
         elif one.kind == "picture":
             word.is_used = self.show_on(one, scope.subjects)
         elif one.kind == "effect":
@@ -234,7 +247,7 @@ class CircumstanceReader:
         elif one.kind == "part":
             self._read_part(word, one, scope)
         elif one.kind == "unknown":
-            self._read_worn_colour(word, one, scope)
+            self._read_worn_colour(phrase, one, scope)
         elif one.kind in ("camera", "function"):
             self._read_camera_or_style(word, one, scope)
         elif one.kind != "things":
@@ -251,8 +264,18 @@ class CircumstanceReader:
         determiner = one.group.determiner
         is_owned = determiner is not None and determiner.text in OWNERS
         things = self._draft.subjects if is_owned and not scope.subjects else scope.subjects
-        if list_parts_shown(self._draft, things, str(one.value)):
-            word.is_used = True
+        wearers = [
+            one.subject
+            for one in self._draft.relations
+            if one.kind == "wear" and set(one.targets) & set(things)
+        ]
+        if is_owned and wearers and word.text == "on":
+            # As in "a hat on his head".
+            word.is_used = list_parts_shown(self._draft, wearers, str(one.value))
+            self._use_part(one, wearers if word.is_used else [])
+        elif list_parts_shown(self._draft, things, str(one.value)):
+            is_place = word.text in _ON_PARTS and not word.is_used
+            word.is_used, word.is_lost = not is_place, is_place
             self._use_part(one, things)
 
     def _read_surroundings(
@@ -264,18 +287,22 @@ class CircumstanceReader:
         if word.text not in names and one.kind in ("place", "light"):
             return
         is_read = self._surroundings.read_referent(one, is_negated=is_negated)
-        word.is_used = is_read
+        is_covered = word.text.startswith("covered") and one.kind != "weather"
+        is_unread = word.text == "facing" or (is_covered and bool(scope.subjects))
+        word.is_used, word.is_lost = is_read and not is_unread, is_unread
         direction = _MOTION_BY_PREPOSITION.get(word.text)
         for index in scope.movers if is_read and direction == "across" else ():
             motions = self._draft.objects[index].motions
             if motions and motions[-1].direction is None and motions[-1].is_moving:
                 motions[-1] = replace(motions[-1], direction="across")
 
-    def _read_worn_colour(self, word: Word, one: Referent, scope: Scope) -> None:
+    def _read_worn_colour(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
         """As in "A defender in white": the colour of the clothes."""
+        word = phrase.preposition
         if word.text != "in" or one.group.head is not None or not one.attributes.colours:
             return
-        for index in scope.subjects:
+        near = self._referents.recall(phrase.near)
+        for index in near.things if near is not None and near.is_things else scope.subjects:
             if is_person(self._draft.noun(index)):
                 one.attributes.colour(self._draft.objects[index])
                 link(one.group.modifiers, [index])
@@ -296,46 +323,6 @@ class CircumstanceReader:
             if motions:
                 motions[-1] = replace(motions[-1], direction=direction)
                 mark_used([word, *one.group.words])
-
-    def read_quantity(self, one: Referent, scope: Scope, preposition: str = "at") -> bool:
-        """Apply a speed, a rate or a time; return whether it had an effect."""
-        if not isinstance(one.value, tuple):
-            return False
-        quantity, factor = one.value
-        attributes = one.attributes
-        number = attributes.number if attributes.number is not None else attributes.count
-        if number is None:
-            return False
-        value = float(number) * factor
-        is_used = False
-        if quantity == "speed":
-            is_used = self._set_speed(value, scope)
-        elif quantity == "rate":
-            is_used = self._acts.set_rate(scope.movers or scope.subjects, value)
-            is_used = is_used or self._surroundings.read_hertz(value)
-        elif quantity == "time" and preposition in ("after", "at"):
-            is_used = self._set_start(value, scope)
-        if is_used:
-            mark_used([*one.group.words, *attributes.numbers])
-        return is_used
-
-    def _set_speed(self, speed: float, scope: Scope) -> bool:
-        is_used = False
-        for index in scope.movers or ([] if scope.has_verb else scope.subjects):
-            motions = self._draft.objects[index].motions
-            if not motions and self._draft.noun(index).motion != "stand":
-                motions.append(ObjectMotion("move"))
-            if motions and motions[-1].is_moving:
-                motions[-1] = replace(motions[-1], pace=1.0, speed_m_s=speed)
-                self._draft.objects[index].pace = 1.0
-                is_used = True
-        return is_used
-
-    def _set_start(self, start: float, scope: Scope) -> bool:
-        for index in scope.movers:
-            motions = self._draft.objects[index].motions
-            motions[-1] = replace(motions[-1], start_s=start)
-        return bool(scope.movers)
 
     def show_on(self, one: Referent, things: Sequence[int]) -> bool:
         """Put a picture on the first of the objects that has a face for it."""
@@ -393,5 +380,7 @@ class CircumstanceReader:
         return None
 
 
+_ON_PARTS = frozenset({"on", "over", "under", "above", "behind", "in front of", "around"})
+"""Prepositions that say where something is: "a board on his head" is carried in the hands."""
 _BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
               "from": "away", "at": "towards"}  # fmt: skip

@@ -13,6 +13,8 @@ from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.people.activities import ACTIVITIES
+from texvent.scenes.models.people.props import PROPS
 
 _HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
 _CARRIES = frozenset({"conveyor belt", "tray", "turntable"})
@@ -45,6 +47,10 @@ class RelationReader:
         elif kind == "above" and self._is_on_ground(scope.movers or scope.subjects):
             # As in "play badminton over a net": they stand at it, which "over" does not say.
             self._relate("beside", scope.subjects, things)
+        elif self._is_in_use(scope, things):
+            is_used = True
+        elif kind == "from" and self._stays(scope):
+            is_used = self._relate("beside", scope.subjects, things)
         elif kind is not None and not self._is_journey_of_none(kind, scope):
             subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
             is_used = self._relate(kind, subjects, things)
@@ -52,12 +58,20 @@ class RelationReader:
         word.relations = tuple(self._draft.relations[before:])
 
     def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
-        """As in "zebras with a giraffe behind them": the giraffe is behind them."""
+        """As in "zebras with a giraffe behind them": the giraffe is behind them.
+
+        As in "crawls towards a bear on a rug": the bear is on it.
+        """
         near = self._referents.recall(phrase.near)
         if near is None or not things:
             return scope
         is_acted_on = near.is_things and set(near.things) <= set(scope.acted_on)
-        if is_acted_on and phrase.preposition.text in _RESTING - {"with"}:
+        is_goal = near.is_things and any(
+            one.kind in _GOALS and one.subject in scope.subjects
+            and set(near.things) <= set(one.targets)
+            for one in self._draft.relations
+        )  # fmt: skip
+        if (is_acted_on or is_goal) and phrase.preposition.text in _RESTING - {"with"}:
             return Scope(near.things, [], has_verb=False)
         if set(things) != set(scope.subjects):
             return scope
@@ -79,6 +93,17 @@ class RelationReader:
             and not any(one.kind in _OFF_GROUND for one in self._draft.objects[index].motions)
             for index in subjects
         )
+
+    def _is_in_use(self, scope: Scope, things: Sequence[int]) -> bool:
+        """As in "talks on her phone": the activity shows where it is."""
+        motions = [one for index in scope.movers for one in self._draft.objects[index].motions[-1:]]
+        props = [prop for one in motions for prop in PROPS.get(one.kind, ())]
+        return any(self._draft.noun(things[0]).name in prop.nouns for prop in props)
+
+    def _stays(self, scope: Scope) -> bool:
+        """As in "waves from a window": who does it stays there."""
+        motions = [self._draft.objects[index].motions for index in scope.movers]
+        return bool(motions) and all(one and one[-1].kind in ACTIVITIES for one in motions)
 
     def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
         return kind in _JOURNEYS and scope.has_verb and not scope.movers
@@ -115,11 +140,10 @@ class RelationReader:
         return self._draft.relate("with", scope.subjects, things)
 
     def _is_small(self, index: int) -> bool:
-        noun = self._draft.noun(index)
-        model = noun.build(colour=None, scale=self._draft.objects[index].scale, seed=0)
-        return max(model.length, model.width, model.height) <= _HELD_AT_MOST_M
+        return self._draft.length_m(index) <= _HELD_AT_MOST_M
 
 
+_GOALS = ("towards", "past")
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})
 _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
 _OFF_GROUND = frozenset(

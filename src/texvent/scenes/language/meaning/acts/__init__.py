@@ -1,0 +1,1 @@
+"""What the objects of a clause do: motions, activities, acts on other objects."""

@@ -1,0 +1,97 @@
+"""Clauses about the camera: "the camera pans left", "filmed from a boat"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.language.grammar.syntax import Clause, PrepPhrase
+from texvent.scenes.language.meaning.camera_reader import CameraReader
+from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
+from texvent.scenes.language.meaning.referents import Referent, Referents
+from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.words.english import VerbForm
+from texvent.scenes.language.words.lexicon import Role
+
+FILMED = ("taken", "filmed", "shot", "seen")
+"""Participles that say how it is filmed."""
+_STANDPOINTS = ("from", "in", "on", "inside", "aboard")
+
+
+class CameraClauses:
+    """Reads clauses whose subject is the camera, the viewer or a shot."""
+
+    def __init__(
+        self, camera: CameraReader, referents: Referents, around: CircumstanceReader
+    ) -> None:
+        self._camera = camera
+        self._referents = referents
+        self._around = around
+
+    def is_about(self, clause: Clause, subjects: Sequence[Referent]) -> bool:
+        """Whether a clause is about the camera."""
+        if any(one.kind in ("camera", "function") for one in subjects):
+            return True
+        if clause.verb is None:
+            return False
+        if clause.verb.role is Role.CAMERA_MOVE:
+            is_order = clause.verb.meaning.form is VerbForm.BASE and not clause.objects
+            return is_order or not any(self._does_it(one, clause) for one in subjects)
+        is_move = clause.verb.read_as(Role.CAMERA_MOVE) is not None
+        return is_move and not subjects and self._camera.has_moves
+
+    @staticmethod
+    def _does_it(subject: Referent, clause: Clause) -> bool:
+        """As in "a baker pulls out two loaves": no camera does."""
+        is_other = subject.kind == "unknown" and bool(clause.objects)
+        return is_other or subject.kind in ("things", "part", "effect")
+
+    def read(
+        self, clause: Clause, subjects: Sequence[Referent]
+    ) -> tuple[list[Referent], list[Referent]]:
+        """Read a clause.
+
+        Args:
+            clause: the clause.
+            subjects: its cameras, shots and views.
+
+        Returns:
+            Its objects, and everything that it names.
+        """
+        for one in subjects:
+            if one.group.head is not None:
+                one.group.head.is_used = True
+            self._camera.read_attributes(one.attributes)
+            scope = Scope([], [], is_lost=one.kind == "camera", has_verb=False)
+            self._around.read_phrases(one.group.phrases, scope)
+        is_filmed = clause.verb is not None and clause.verb.text in FILMED
+        if is_filmed:
+            self._forget_standpoint(clause)
+        phrases = self._resolve_phrases(clause.phrases)
+        objects = [self._referents.resolve(group) for group in clause.objects]
+        self._camera.read_clause(clause, objects, phrases)
+        for phrase, one in phrases:
+            if not one.is_things:
+                near = self._referents.recall(phrase.near)
+                things = near.things if near is not None else []
+                self._around.read_phrase(phrase, Scope(things, [], has_verb=False))
+            self._around.read_group_phrases(one, Scope([], []))
+        if clause.verb is not None and is_filmed:
+            clause.verb.is_used = True
+        return objects, [*objects, *(one for _, one in phrases)]
+
+    def _forget_standpoint(self, clause: Clause) -> None:
+        """As in "filmed from a boat": the boat is not in the picture, and so reported."""
+        for phrase in clause.phrases:
+            for group in phrase.groups if phrase.preposition.text in _STANDPOINTS else ():
+                head = group.head
+                if head is not None and head.role is Role.NOUN:
+                    self._referents.forget(group)
+                    phrase.preposition.is_lost = True
+
+    def _resolve_phrases(self, phrases: Sequence[PrepPhrase]) -> list[tuple[PrepPhrase, Referent]]:
+        found = []
+        for phrase in phrases:
+            for group in phrase.groups:
+                group.negation = phrase.negation or group.negation
+                found.append((phrase, self._referents.resolve(group, phrase.preposition.text)))
+        return found

@@ -1,0 +1,172 @@
+"""What becomes of a sentence's words where several readings are possible."""
+
+from __future__ import annotations
+
+import pytest
+
+from texvent.scenes.description import Relation, SceneDescription
+from texvent.scenes.language.meaning.acts.doers import find_doing
+from texvent.scenes.language.parser import parse_prompt
+
+
+def kinds_of(description: SceneDescription, noun: str) -> list[str]:
+    """What the first object of a noun does, in order."""
+    one = next(each for each in description.objects if each.noun == noun)
+    return [motion.kind for motion in (one.motion, *one.then) if motion is not None]
+
+
+def count_of(prompt: str, noun: str) -> int:
+    return sum(one.count for one in parse_prompt(prompt).objects if one.noun == noun)
+
+
+def relations_of(prompt: str) -> set[tuple[str, str, str]]:
+    """(kind, subject, target) of all relations, by nouns."""
+    description = parse_prompt(prompt)
+    nouns = [one.noun for one in description.objects]
+    return {
+        (one.kind, nouns[one.subject], nouns[target])
+        for one in description.relations
+        for target in one.targets
+    }
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "count"),
+    [
+        ("a woman ties her shoes", "shoe", 2),
+        ("two hands and three shoes", "shoe", 3),
+        ("her skis slide down the hill", "ski", 2),
+        ("five camels walk, each rider in red", "person", 5),
+        ("a camel and each rider", "person", 1),
+    ],
+)
+def test_pairs_and_each_have_their_number(prompt: str, noun: str, count: int) -> None:
+    assert count_of(prompt, noun) == count
+
+
+def test_it_means_the_subject_not_the_thing_of_a_participle() -> None:
+    description = parse_prompt("A bird sitting on a wall painted red. It takes off.")
+    assert kinds_of(description, "bird")[-1] == "rise"
+    assert "rise" not in kinds_of(description, "wall")
+
+
+def test_after_a_comma_and_the_main_clause_goes_on() -> None:
+    description = parse_prompt("a dog runs when a cat jumps, and stops")
+    assert kinds_of(description, "dog") == ["run", "stand"]
+    assert kinds_of(description, "cat") == ["jump"]
+    description = parse_prompt("a dog runs when a cat jumps and stops")
+    assert kinds_of(description, "cat")[-1] == "stand"
+
+
+def test_a_lost_verb_keeps_its_directions_from_the_camera() -> None:
+    description = parse_prompt("The camera flies through a forest, dodging the trunks left.")
+    assert [move.direction for move in description.shot.moves] == ["forward"]
+    assert {"dodging", "left"} <= set(description.not_understood)
+
+
+def test_where_it_is_filmed_from_is_not_in_the_picture() -> None:
+    description = parse_prompt("A whale swims. Filmed from a boat that rocks gently.")
+    assert [one.noun for one in description.objects] == ["whale"]
+    assert {"from", "boat", "rocks"} <= set(description.not_understood)
+
+
+def test_owners_that_are_not_there_are_not_added() -> None:
+    description = parse_prompt("players kick a ball into the red team's goal")
+    assert not any(one.colour is not None for one in description.objects)
+    assert "team" in description.not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "is_there", "relation"),
+    [
+        ("a bowl of apples", True, ("in", "apple", "bowl")),
+        ("a window of a train", False, ("in", "train", "window")),
+        ("a tower of the castle", False, ("in", "castle", "tower")),
+        ("a baby crawls towards a bear on a rug", True, ("on", "bear", "rug")),
+        ("a man waves from a window", True, ("beside", "man", "window")),
+        ("a ball falls from a table", True, ("from", "ball", "table")),
+        ("a woman talks on her phone", False, ("on", "woman", "cell phone")),
+        ("a man in red and a woman walk", False, ("in", "man", "woman")),
+    ],
+)
+def test_prepositions_relate_what_they_say(
+    prompt: str, is_there: bool, relation: tuple[str, str, str]
+) -> None:
+    assert (relation in relations_of(prompt)) is is_there
+
+
+def test_a_whole_after_of_is_reported() -> None:
+    assert "of" in parse_prompt("a window of a train").not_understood
+
+
+def test_where_on_the_body_it_is_carried_is_reported_but_not_a_hat_on_a_head() -> None:
+    assert "on" in parse_prompt("a man carries a box on his head").not_understood
+    assert parse_prompt("a man with a hat on his head").not_understood == ()
+
+
+def test_the_colour_of_clothes_belongs_to_who_stands_before_it() -> None:
+    objects = parse_prompt("a man runs around a woman in white").objects
+    assert [one.colour.name if one.colour else None for one in objects] == [None, "white"]
+
+
+def test_what_faces_a_place_or_is_covered_by_snow_is_reported() -> None:
+    assert "facing" in parse_prompt("a man stands facing the road").not_understood
+    assert "covered" in parse_prompt("a table covered in snow").not_understood
+    assert "covered" not in parse_prompt("a valley covered in fog").not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "kinds"),
+    [
+        ("a car stops at a tree", "car", ["drive", "stand"]),
+        ("a man walks, then stops", "man", ["walk", "stand"]),
+        ("two stopped cars", "car", ["stand"]),
+        ("a parked car", "car", ["stand"]),
+        ("a wall stops", "wall", ["stand"]),
+    ],
+)
+def test_what_stops_has_moved_before(prompt: str, noun: str, kinds: list[str]) -> None:
+    assert kinds_of(parse_prompt(prompt), "parked car" if noun == "parked car" else noun) == kinds
+
+
+@pytest.mark.parametrize(
+    ("said", "kind"),
+    [("swimmer", "swim"), ("drummer", "play drums"), ("dancer", "dance"), ("waiter", None),
+     ("worker", None), ("driver", None), ("teacher", None), ("mother", None), ("child", None)],
+)  # fmt: skip
+def test_a_word_for_a_person_says_what_it_does(said: str, kind: str | None) -> None:
+    assert find_doing(said) == kind
+
+
+def test_a_swimmer_swims_unless_something_else_is_said() -> None:
+    assert kinds_of(parse_prompt("a swimmer"), "person") == ["swim"]
+    assert kinds_of(parse_prompt("a swimmer waves"), "person") == ["wave"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place", "words"),
+    [
+        ("a house by the sea", "lake", ["sea"]),
+        ("people stand facing the ocean", "lake", ["ocean"]),
+        ("a man swims in the sea", "sea", []),
+        ("a man swims", "sea", []),
+        ("a boat on the sea", "sea", []),
+        ("a fish in the sea", "underwater", []),
+    ],
+)
+def test_the_sea_is_shown_with_water(prompt: str, place: str, words: list[str]) -> None:
+    description = parse_prompt(prompt)
+    assert description.surroundings.place == place
+    assert [one.said for one in description.substituted if one.shown == "lake"] == words
+
+
+def test_a_hand_gesture_is_a_gesture_of_a_hand() -> None:
+    description = parse_prompt("hand gesture: thumbs up")
+    assert [one.noun for one in description.objects] == ["hand"]
+    assert description.not_understood == ()
+
+
+def test_what_is_carried_does_not_sail() -> None:
+    description = parse_prompt("a man carries a surfboard")
+    assert Relation("carry", 0, (1,)) in description.relations
+    assert kinds_of(description, "surfboard") == ["stand"]
