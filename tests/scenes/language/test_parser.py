@@ -232,7 +232,11 @@ def test_excluded_things_are_not_added() -> None:
     ("prompt", "first", "words"),
     [
         ("a white vintage SUV drives left", "1 suv, white, drives left", ("vintage",)),
-        ("three shiny happy red cars stop", "3 cars, red, drive, then stand still", ("shiny", "happy")),
+        (
+            "three shiny happy red cars stop",
+            "3 cars, red, drive, then stand still",
+            ("shiny", "happy"),
+        ),
         ("a red wug, a blue car", "1 car, blue, drives", ("red", "wug")),
     ],
 )

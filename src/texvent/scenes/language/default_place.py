@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription, Substitution
@@ -71,10 +71,7 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in members
     )
     if said.place == "sea":
-        if is_submerged:
-            return "underwater"
-        is_beside = bool(members) and habitats <= {"ground", "fixed"} and not is_in_water
-        return SHORE if is_beside else "sea"
+        return _choose_sea(habitats, is_submerged=is_submerged, is_in_water=is_in_water)
     if said.place in ("lake", "river") and is_submerged:
         return "underwater"
     if said.place is not None:
@@ -95,6 +92,13 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         for one in description.objects
     )
     return _choose_usual(members, rests=rests, is_wet=said.weather in ("rain", "snow"))
+
+
+def _choose_sea(habitats: Set[str], *, is_submerged: bool, is_in_water: bool) -> str:
+    if is_submerged:
+        return "underwater"
+    is_beside = bool(habitats) and habitats <= {"ground", "fixed"} and not is_in_water
+    return SHORE if is_beside else "sea"
 
 
 def report_place(description: SceneDescription, place: str) -> SceneDescription:
