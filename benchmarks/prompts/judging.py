@@ -23,7 +23,7 @@ PREPOSITIONS = {
 }  # fmt: skip
 ALIKE = (
     {"beside", "with", "left of", "right of"}, {"in", "on"}, {"around", "surround", "among"},
-    {"with", "hold", "carry"}, {"with", "wear"}, {"in", "wear"}, {"on", "ride"},
+    {"with", "hold", "carry"}, {"with", "wear"}, {"in", "wear"}, {"on", "ride"}, {"in", "ride"},
     {"across", "on"},
 )  # fmt: skip
 """Relations that may stand for each other."""
@@ -279,6 +279,9 @@ class Reading:
             is_there = bool(ends[0] & subjects and ends[1] & targets)
             is_turned = bool(ends[0] & targets and ends[1] & subjects)
             is_turned = is_turned and "beside" in kinds and relation.kind in ALIKE[0]
+            is_owned = bool(ends[0] & targets and ends[1] & subjects)
+            if preposition in ("of", "on") and relation.kind in ("wear", "with") and is_owned:
+                return "right"  # "a tourist's backpack", which the tourist wears
             if relation.kind in kinds and (is_there or is_turned):
                 return "right"
         is_lost = set(preposition.lower().split()) & self.lost

@@ -170,3 +170,69 @@ def test_what_is_carried_does_not_sail() -> None:
     description = parse_prompt("a man carries a surfboard")
     assert Relation("carry", 0, (1,)) in description.relations
     assert kinds_of(description, "surfboard") == ["stand"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("an industrial robot arm", ["robot arm"]),
+        ("a police car door", ["door"]),
+        ("an ice cream truck", ["van"]),
+        ("a tennis ball", ["tennis ball"]),
+    ],
+)
+def test_the_last_noun_of_a_compound_is_its_head(prompt: str, nouns: list[str]) -> None:
+    assert [one.noun for one in parse_prompt(prompt).objects] == nouns
+
+
+def test_who_is_watched_does_what_is_said() -> None:
+    description = parse_prompt("a cat watches a dog run through a field")
+    assert kinds_of(description, "dog") == ["run"]
+    assert kinds_of(description, "cat") == ["stand"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relation"),
+    [
+        ("a basket loaded with tulips", ("in", "tulip", "basket")),
+        ("a mechanic tightens a bolt with a wrench", ("hold", "person", "wrench")),
+        ("two camels walk, each rider wrapped in a coat", ("ride", "person", "camel")),
+        ("a horse and its rider", ("ride", "person", "horse")),
+    ],
+)
+def test_what_is_full_held_or_ridden_is_related(
+    prompt: str, relation: tuple[str, str, str]
+) -> None:
+    assert relation in relations_of(prompt)
+
+
+def test_a_harbour_full_of_boats_has_boats() -> None:
+    description = parse_prompt("a harbor full of sailboats")
+    assert [one.noun for one in description.objects] == ["sailboat"]
+    assert description.not_understood == ()
+
+
+def test_parts_of_all_people_are_shown() -> None:
+    assert parse_prompt("a worker waves with both hands").not_understood == ("both",)
+
+
+def test_an_animal_moves_its_own_parts() -> None:
+    description = parse_prompt("a cat wiggles its legs")
+    assert kinds_of(description, "cat") == ["sway"]
+    assert parse_prompt("a cat wiggles a toy").objects[0].motion != description.objects[0].motion
+
+
+def test_a_rider_does_not_walk_off_alone() -> None:
+    description = parse_prompt("a jockey on a horse")
+    assert kinds_of(description, "horse") == ["walk"]
+
+
+def test_slow_motion_may_stand_alone_and_bright_days_are_bright() -> None:
+    description = parse_prompt("A bird flies. Slow motion, bright day.")
+    assert description.objects[0].motion is not None
+    assert description.objects[0].motion.pace == pytest.approx(0.3)
+    assert description.not_understood == ()
+
+
+def test_a_boat_with_people_is_on_water() -> None:
+    assert parse_prompt("a boat full of people").surroundings.place == "lake"

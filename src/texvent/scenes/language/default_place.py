@@ -64,7 +64,10 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         if index not in carried
     ]
     is_in_water = any(
-        one.motion is not None and one.motion.kind in _IN_WATER for one in description.objects
+        one.motion is not None
+        and one.motion.kind in _IN_WATER
+        and nouns[one.noun].habitat == "ground"
+        for one in description.objects
     )
     habitats = {noun.habitat for noun in members}
     is_submerged = bool(members) and all(
@@ -120,6 +123,8 @@ def _choose_usual(members: Sequence[Noun], *, rests: bool, is_wet: bool) -> str:
         return "grass"
     if {noun.habitat for noun in members} == {"water"}:
         return "sea"
+    if any(noun.motion in _AFLOAT_MOTIONS for noun in members):
+        return SHORE
     is_seen_through = any(noun.name == "window" for noun in members)
     is_outdoors = (is_wet and not is_seen_through) or any(
         noun.name in _OUTDOORS for noun in members

@@ -263,9 +263,10 @@ def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """Let the first object that can move do so, or else the camera."""
+    riders = {relation.subject for relation in description.relations if relation.kind == "ride"}
     for index, scene_object in enumerate(description.objects):
         usual = nouns[scene_object.noun].motion
-        if scene_object.motion is None and usual != "stand":
+        if scene_object.motion is None and usual != "stand" and index not in riders:
             moved = replace(scene_object, motion=ObjectMotion(usual))
             objects = (*description.objects[:index], moved, *description.objects[index + 1 :])
             note = f"no motion is said of the {scene_object.noun}, so it does what it usually does"

@@ -61,6 +61,7 @@ class CameraClauses:
             if one.group.head is not None:
                 one.group.head.is_used = True
             self._camera.read_attributes(one.attributes)
+            self._around.read_style(one)
             scope = Scope([], [], is_lost=one.kind == "camera", has_verb=False)
             self._around.read_phrases(one.group.phrases, scope)
         is_filmed = clause.verb is not None and clause.verb.text in FILMED

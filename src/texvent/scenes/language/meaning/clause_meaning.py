@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
-from texvent.scenes.language.meaning.acts.doers import find_doing
+from texvent.scenes.language.meaning.acts.doers import add_doings, mount_riders
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
-from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
@@ -62,7 +62,8 @@ class ClauseMeaning:
     def build(self, prompt: str) -> SceneDescription:
         """The description, before defaults are filled in."""
         draft = self._draft
-        self._add_doings()
+        mount_riders(draft)
+        add_doings(draft)
         surroundings, light = self._surroundings.build()
         return SceneDescription(
             prompt=prompt,
@@ -75,16 +76,6 @@ class ClauseMeaning:
             absent=tuple(draft.absent),
             notes=tuple(draft.notes),
         )
-
-    def _add_doings(self) -> None:
-        """A swimmer swims, unless the prompt says what else it does or rides."""
-        riders = {one.subject for one in self._draft.relations if one.kind == "ride"}
-        for index, item in enumerate(self._draft.objects):
-            doing = find_doing(item.said or "")
-            is_idle = not item.motions and not item.is_verb_lost and index not in riders
-            if doing is not None and is_idle and is_person(self._draft.noun(index)):
-                item.motions.append(ObjectMotion(doing))
-                self._draft.note(f"the {item.said} does what the word says: {doing}")
 
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
@@ -315,6 +306,8 @@ class ClauseMeaning:
         others = [one for one in subjects if one.kind not in ("camera", "function")]
         cameras = [one for one in subjects if one not in others]
         objects, named = self._shots.read(clause, cameras)
+        of_scene = [word for word in clause.adverbs if word.role in _OF_SURROUNDINGS]
+        self._around.read_adverbs(of_scene, Scope([], [], has_verb=False))
         for one in (*objects, *self._split_scene(others)):
             self._around.read_extra(one)
         self._keep_subjects([index for one in named if one.is_things for index in one.things][:1])
@@ -362,6 +355,7 @@ class ClauseMeaning:
             self._draft.subjects = list(things)
 
 
+_OF_SURROUNDINGS = (Role.LIGHT, Role.WEATHER, Role.CLOUDS, Role.PLACE)
 _JUGGLE = "juggle"
 _BALLS_JUGGLED = 3
 _NOBODY = NounGroup()

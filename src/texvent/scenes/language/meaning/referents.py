@@ -355,6 +355,7 @@ def list_parts_shown(draft: Draft, things: Sequence[int], part: str) -> bool:
 def _shows(draft: Draft, index: int, part: str) -> bool:
     noun = draft.noun(index)
     for category, parts in vocabulary_scene.PARTS_SHOWN.items():
-        if category in (noun.motion, noun.name) and part in parts:
+        names = (noun.motion, noun.name, PERSON if is_person(noun) else "")
+        if category in names and part in parts:
             return True
     return False

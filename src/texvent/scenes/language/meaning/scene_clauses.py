@@ -111,3 +111,5 @@ class SceneClauses:
             for adverb in clause.adverbs:
                 adverb.is_used = adverb.is_used or adverb.text in ("up", "out", "down")
         self._around.read_adverbs(clause.adverbs, Scope(sources, []))
+        for group in clause.objects:
+            self._around.read_extra(self._referents.resolve(group))

@@ -11,6 +11,8 @@ from texvent.scenes.language.vocabulary import scene as vocabulary_scene
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 
+_BRIGHT = ("bright", "harsh", "brilliant", "strong", "clear")
+"""What the light of the day is anyway."""
 _BACKDROPS = ("mountain", "forest", "city")
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "lake", "river", "sand", "snow",
                 "mountain")  # fmt: skip
@@ -70,6 +72,8 @@ class SurroundingsReader:
         else:
             is_used = self.read(head, is_negated=is_negated, value=one.value)
         head.is_used = head.is_used or is_used
+        if is_used and one.kind == "light" and self._light in ("day", "sunny"):
+            mark_used(word for word in one.attributes.words if word.text in _BRIGHT)
         head.is_absent = is_used and is_negated
         if is_used and is_negated and one.group.negation is not None:
             one.group.negation.is_used = True

@@ -288,15 +288,13 @@ PARTS_SHOWN: dict[str, tuple[str, ...]] = {
     "swim": ("tail", "fin", "fins"),
     "fly": ("wing", "wings", "tail", "rotor", "rotors", "propeller", "propellers"),
     "sail": ("sail", "sails", "mast", "hull"),
-    "person": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
-    "man": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
-    "woman": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
-    "girl": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
-    "child": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
+    "person": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs", "neck"),
+    "excavator": ("arm", "boom", "bucket"),
     "tree": ("trunk", "branch", "branches", "leaves"),
     "house": ("door", "window", "windows", "roof", "wall", "walls"),
 }  # fmt: skip
-"""Usual motion or name of a noun → parts that its model shows in any case."""
+"""Usual motion or name of a noun, "person" for all people → parts that its model shows in any
+case."""
 PART_WORDS = tuple(sorted({part for parts in PARTS_SHOWN.values() for part in parts}))
 PART_COLOURS: dict[tuple[str, str], str] = {
     ("suv", "roof rack"): "black",

@@ -49,6 +49,7 @@ def cut_tokens(
         length, meanings = known.find([token.text for token in window])
         length = _stop_at_sign(window, length) if window[0].picture is None else 0
         length = _split_particle(window, length, known)
+        length = _leave_head(window, length, known)
         meanings = known.find([token.text for token in window[:length]])[1] if length else []
         joined = _count_joined(window, length, known)
         if joined:
@@ -85,6 +86,22 @@ def _count_joined(window: Sequence[Token], length: int, known: Lexicon) -> int:
 
 _KEPT = frozenset({Role.COLOUR, Role.SHADE, Role.PACE, Role.SIZE, Role.SNOW, Role.WEATHER})
 _ENDINGS = frozenset({"like", "free", "up", "off", "in", "old", "sized", "shaped", "legged"})
+
+
+def _leave_head(window: Sequence[Token], length: int, known: Lexicon) -> int:
+    """As in "industrial robot arm": "robot arm" is the head, not "industrial robot"."""
+    if length < 2 or not _is_noun(known.find([token.text for token in window[:length]])[1]):
+        return length
+    for first in range(1, length):
+        words = [token.text for token in window[first:]]
+        longer, meanings = known.find(words)
+        if longer > length - first and _is_noun(meanings) and window[first].picture is None:
+            return first
+    return length
+
+
+def _is_noun(meanings: Sequence[Meaning]) -> bool:
+    return bool(meanings) and all(one.role is Role.NOUN for one in meanings)
 
 
 def _split_particle(window: Sequence[Token], length: int, known: Lexicon) -> int:

@@ -19,6 +19,8 @@ _ONLY_OPENS = frozenset({Pos.DETERMINER, Pos.PRONOUN})
 """Before these a noun cannot end: "the headlights of a lorry blind the driver"."""
 _PASSED_OVER = (Role.SIDE, Role.LIGHT)
 """Adjuncts that stand between a subject and its verb: "a car at night drives left"."""
+_PERCEIVED = frozenset({"watch", "see", "hear", "let", "make", "help", "film"})
+"""Verbs before a noun and a verb in its base form: "watches a fish swim"."""
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
 
 
@@ -31,12 +33,13 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
     notes: list[str] = []
     tokens = [correct_token(token, known, notes) for token in tokens]
     spans = list(cut_tokens(tokens, known))
-    tagger = _Tagger([candidates for _, candidates in spans])
+    texts = [" ".join(token.text for token in span) for span, _ in spans]
+    tagger = _Tagger([candidates for _, candidates in spans], texts)
     words: list[Word] = []
     for index, (span, candidates) in enumerate(spans):
         chosen = tagger.choose(index)
         others = tuple(one for one in candidates if one is not chosen)
-        text = " ".join(token.text for token in span)
+        text = texts[index]
         lemma = next((one.lemma for one in list_readings(text) if one.pos is chosen.pos), text)
         words.append(Word(tuple(span), chosen, lemma, others=others))
     return words, notes
@@ -45,8 +48,9 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
 class _Tagger:
     """Chooses readings from left to right."""
 
-    def __init__(self, candidates: list[list[Meaning]]) -> None:
+    def __init__(self, candidates: list[list[Meaning]], texts: list[str]) -> None:
         self._candidates = candidates
+        self._texts = texts
         self._chosen: list[Meaning] = []
         self._has_verb = False
         """Whether the clause has a finite verb."""
@@ -236,6 +240,9 @@ class _Tagger:
         after = self._after(index)
         if verb.form is VerbForm.PAST:
             return Pos.VERB
+        is_known_base = verb.form is VerbForm.BASE and verb.role is not Role.UNKNOWN
+        if is_known_base and self._perceives():
+            return Pos.VERB
         if self._has_verb and not self._opens_clause():
             return None
         if after & {Pos.AUXILIARY} or (self._finite_follows(index) and not after & _NOMINAL):
@@ -251,6 +258,14 @@ class _Tagger:
         """Whether the next word can be a verb in the third person."""
         coming = self._candidates[index + 1] if index + 1 < len(self._candidates) else []
         return any(one.pos is Pos.VERB and one.form is VerbForm.THIRD for one in coming)
+
+    def _perceives(self) -> bool:
+        """As in "watches a fish swim": the last verb says that somebody sees or hears it."""
+        for number in range(len(self._chosen) - 1, -1, -1):
+            if self._chosen[number].pos is Pos.VERB:
+                text = self._texts[number]
+                return any(one.lemma in _PERCEIVED for one in list_readings(text))
+        return False
 
     def _opens_clause(self) -> bool:
         """Whether another finite verb may come: after a comma, "and", or a relative clause."""

@@ -2,13 +2,48 @@
 
 from __future__ import annotations
 
+import itertools
 from functools import lru_cache
 
+from texvent.scenes.description import ObjectMotion
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.vocabulary.motion import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.models.people.activities import ACTIVITIES
 
 _ENDINGS = ("er", "or")
+_RIDERS = ("rider", "jockey")
+
+
+def mount_riders(draft: Draft) -> None:
+    """As in "camels, each rider": a rider rides what is there to ride."""
+    taken = {i for one in draft.relations if one.kind == "ride"
+             for i in (one.subject, *one.targets)}  # fmt: skip
+    for index, item in enumerate(draft.objects):
+        if item.said not in _RIDERS or index in taken or item.motions:
+            continue
+        mounts = (i for i in range(len(draft.objects)) if i not in taken and _is_mount(draft, i))
+        for mount in itertools.islice(mounts, 1):
+            draft.relate("ride", [index], [mount])
+            item.motions.append(ObjectMotion("sit"))
+            taken.add(mount)
+
+
+def _is_mount(draft: Draft, index: int) -> bool:
+    noun = draft.noun(index)
+    return is_living(noun) and not is_person(noun) and noun.habitat == "ground"
+
+
+def add_doings(draft: Draft) -> None:
+    """A swimmer swims, unless the prompt says what else it does or rides."""
+    riders = {one.subject for one in draft.relations if one.kind == "ride"}
+    for index, item in enumerate(draft.objects):
+        doing = find_doing(item.said or "")
+        is_idle = not item.motions and not item.is_verb_lost and index not in riders
+        if doing is not None and is_idle and is_person(draft.noun(index)):
+            item.motions.append(ObjectMotion(doing))
+            draft.note(f"the {item.said} does what the word says: {doing}")
 
 
 @lru_cache(maxsize=512)

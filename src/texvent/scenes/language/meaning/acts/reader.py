@@ -13,7 +13,7 @@ from texvent.scenes.language.meaning.acts.devices import blink, give_effect, swi
 from texvent.scenes.language.meaning.acts.fitting import choose_act, fit_verb, is_played
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.meaning.referents import OWNERS, Referent
 from texvent.scenes.language.vocabulary.acts import OF_ONESELF
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
@@ -65,7 +65,9 @@ class ActReader:
         if switch_signal(self._draft, clause, subjects):
             return subjects
         if not isinstance(verb, Verb):
-            is_done_to = any(one.kind in ("things", "unknown", "part") for one in objects)
+            is_done_to = any(
+                one.kind in ("things", "unknown", "part") and not _is_own(one) for one in objects
+            )
             return self._do_alike(clause, word, subjects, targets, is_done_to=is_done_to)
         if targets:
             return self._do_to(clause, verb, subjects, targets)
@@ -73,7 +75,8 @@ class ActReader:
             one.kind in ("unknown", "part") and one.group.text.split()[-1:] != ["times"]
             for one in objects
         )
-        if not verb.kind or (acts_on_unshown and verb.kind not in _TAKES_ANY_OBJECT):
+        is_own = verb.kind in _TAKES_ANY_OBJECT or verb.base in _STOPS
+        if not verb.kind or (acts_on_unshown and not is_own):
             return []
         return self._give(clause, verb, subjects)
 
@@ -351,6 +354,13 @@ class ActReader:
             return motion
         usual = self._draft.noun(index).motion
         return replace(motion, kind=usual if usual != "stand" else "slide")
+
+
+def _is_own(one: Referent) -> bool:
+    """As in "wiggles its hind legs": a part of who does it."""
+    determiner, head = one.group.determiner, one.group.head
+    is_part = head is not None and head.read_as(Role.PART) is not None
+    return is_part and determiner is not None and determiner.text in OWNERS
 
 
 def _carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:

@@ -257,7 +257,7 @@ class CircumstanceReader:
         if one.kind == "camera":
             self._read_towards_camera(word, one, scope)
         else:
-            self._read_style(one)
+            self.read_style(one)
             word.is_used = True
 
     def _read_part(self, word: Word, one: Referent, scope: Scope) -> None:
@@ -308,7 +308,7 @@ class CircumstanceReader:
                 link(one.group.modifiers, [index])
                 word.is_used = True
 
-    def _read_style(self, one: Referent) -> None:
+    def read_style(self, one: Referent) -> None:
         """As in "In slow motion"."""
         pace = one.attributes.pace
         if one.group.head is not None and one.group.head.text == "motion" and pace is not None:

@@ -40,7 +40,9 @@ class RelationReader:
             return
         is_used, before = False, len(self._draft.relations)
         kind = self._relation_kind(word, things)
-        if scope.has_verb and not scope.is_verb_shown:
+        if word.text in _FULL:
+            is_used = self._fill(phrase, things, scope)
+        elif scope.has_verb and not scope.is_verb_shown:
             is_used = self._rest(word, kind, things, scope)
         elif word.text == "with":
             is_used = self._read_with(things, scope)
@@ -80,10 +82,28 @@ class RelationReader:
         return Scope(near.things, [], has_verb=False)
 
     def _rest(self, word: Word, kind: str | None, things: list[int], scope: Scope) -> bool:
-        """What does something that is not shown is where it is, if it acts on nothing."""
+        """What does something that is not shown is where it is, if it acts on nothing.
+
+        As in "tightens a pipe with a wrench": the wrench is held all the same.
+        """
+        if word.text == "with" and scope.has_object and self._is_tool(scope, things):
+            return self._draft.relate("hold", scope.subjects, things)
         if kind is None or word.text not in _RESTING or scope.has_object:
             return False
         return self._relate(kind, scope.subjects, things)
+
+    def _is_tool(self, scope: Scope, things: Sequence[int]) -> bool:
+        noun = self._draft.noun(things[0])
+        is_done_by_people = all(is_person(self._draft.noun(index)) for index in scope.subjects)
+        return is_done_by_people and noun.motion == "stand" and self._is_small(things[0])
+
+    def _fill(self, phrase: PrepPhrase, things: Sequence[int], scope: Scope) -> bool:
+        """As in "a basket full of tulips"; what a harbour is full of is simply there."""
+        near = self._referents.recall(phrase.near)
+        if near is not None and near.kind == "place":
+            return True
+        vessels = near.things if near is not None and near.is_things else scope.subjects
+        return self._draft.relate("in", things, vessels)
 
     def _is_on_ground(self, subjects: Sequence[int]) -> bool:
         """Whether they are people or animals whose motion leaves them on the ground."""
@@ -143,6 +163,7 @@ class RelationReader:
         return self._draft.length_m(index) <= _HELD_AT_MOST_M
 
 
+_FULL = ("full of", "filled with", "loaded with", "packed with")
 _GOALS = ("towards", "past")
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})
 _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
