@@ -236,3 +236,56 @@ def test_slow_motion_may_stand_alone_and_bright_days_are_bright() -> None:
 
 def test_a_boat_with_people_is_on_water() -> None:
     assert parse_prompt("a boat full of people").surroundings.place == "lake"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "kinds"),
+    [
+        ("a bird perched on a fence flies off", "bird", ["stand", "fly"]),
+        ("a police car stops and the car turns left", "police car", ["drive", "stand", "turn"]),
+        ("a man standing on a hill waves", "man", ["wave"]),
+        ("a man sitting on a bench reads a book", "man", ["read"]),
+        ("a man sits on a bench, reading a book", "man", ["read"]),
+        ("a running dog jumps", "dog", ["run", "jump"]),
+        ("a dog carries a stick to a man", "dog", ["walk"]),
+    ],
+)
+def test_a_main_clause_goes_on_from_what_was_said(prompt: str, noun: str, kinds: list[str]) -> None:
+    assert kinds_of(parse_prompt(prompt), noun) == kinds
+
+
+def test_what_cannot_be_done_at_once_is_reported() -> None:
+    description = parse_prompt("a man runs while clapping")
+    assert kinds_of(description, "man") == ["run"]
+    assert "clapping" in description.not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relation"),
+    [
+        ("a robot arm takes a box from a shelf and drops it into a bin", ("in", "box", "dustbin")),
+        ("a man holds a cup on a table and a dog licks it", ("hold", "man", "cup")),
+        ("a boy kicks a ball into a goal", ("in", "ball", "goal")),
+    ],
+)
+def test_it_is_what_was_acted_on_and_goes_into_what_is_said(
+    prompt: str, relation: tuple[str, str, str]
+) -> None:
+    assert relation in relations_of(prompt)
+
+
+def test_the_ball_is_the_football_that_was_named() -> None:
+    assert count_of("two boys play with a football, then a dog chases the ball", "ball") == 0
+
+
+def test_water_is_part_of_the_place_or_reported() -> None:
+    assert parse_prompt("a drone over a lake, its shadow on the water").not_understood == ()
+    assert "water" in parse_prompt("a child jumps, splashing water").not_understood
+
+
+def test_an_own_part_that_moves_is_shown() -> None:
+    assert "tail" in parse_prompt("a cat wiggles its tail").shown
+
+
+def test_what_does_not_happen_is_reported_with_its_verb() -> None:
+    assert {"jet", "hits"} <= set(parse_prompt("a jet of water hits a car").not_understood)

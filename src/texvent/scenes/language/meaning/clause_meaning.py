@@ -179,6 +179,8 @@ class ClauseMeaning:
         self._referents.doers = things
         self._take_partners(clause)
         objects = [self._referents.resolve(group) for group in clause.objects]
+        if clause.verb is not None:
+            self._referents.acted_on = [i for one in objects if one.is_things for i in one.things]
         agents = self._find_agents(clause)
         self._read_subject_phrases(clause, subjects, things)
         movers: list[int] = []
@@ -288,11 +290,13 @@ class ClauseMeaning:
     def _read_object(self, one: Referent, clause: Clause, scope: Scope) -> None:
         if one.kind == "unit":
             self._around.quantities.read(one, scope)
-        elif one.kind in OF_SCENE and one.group.text != "water":
+        elif one.kind in OF_SCENE and not _is_water(one):
             self._surroundings.read_referent(one, is_negated=False)
             self._cross(one, clause, scope)
         elif one.kind == "effect":
             self._around.add_effect(one, scope)
+        elif one.kind == "part" and scope.is_verb_shown:
+            self._around.read_own_part(one, scope.subjects)
         self._around.read_group_phrases(one, Scope(one.things, [], not one.things, has_verb=False))
 
     def _cross(self, one: Referent, clause: Clause, scope: Scope) -> None:
@@ -353,6 +357,11 @@ class ClauseMeaning:
     def _keep_subjects(self, things: Sequence[int]) -> None:
         if things:
             self._draft.subjects = list(things)
+
+
+def _is_water(one: Referent) -> bool:
+    """As in "splashing water": no place."""
+    return one.group.head is not None and one.group.head.text == "water"
 
 
 _OF_SURROUNDINGS = (Role.LIGHT, Role.WEATHER, Role.CLOUDS, Role.PLACE)

@@ -86,6 +86,8 @@ class Referents:
         """Objects in the order in which they were named."""
         self.doers: list[int] = []
         """Subjects of the clause, whom no pronoun after the verb means."""
+        self.acted_on: list[int] = []
+        """What the verb before acts on, which "it" after another verb means."""
         self.verb = ""
         """Verb of the clause whose subjects are being read."""
         self.has_body = False
@@ -214,7 +216,9 @@ class Referents:
         """What a pronoun means: the subject before, or else what was named last, if it fits."""
         # Within the first clause it is the first thing: "a house with a tree behind it".
         first = self._draft.subjects or self._named[:1]
-        candidates = [first, *([one] for one in reversed(self._named))] if first else []
+        others = [self.acted_on] if self.acted_on and self.doers else []
+        named = [[one] for one in reversed(self._named)]
+        candidates = [first, *others, *named] if first else []
         if pronoun.endswith(("self", "selves")):
             return list(self._draft.subjects)
         for things in candidates:
@@ -299,7 +303,18 @@ class Referents:
         determiner = group.determiner
         if determiner is None or determiner.text not in DEFINITE or attributes.is_new:
             return None
-        return self._draft.find(noun, is_plural, said)
+        index = self._draft.find(noun, is_plural, said)
+        return self._find_kind(noun, is_plural) if index is None and said is None else index
+
+    def _find_kind(self, noun: str, is_plural: bool | None) -> int | None:
+        """As in "a football ... the ball": one of that kind, if it was named before."""
+        for index in reversed(self._named):
+            item = self._draft.objects[index]
+            is_ball = noun == "ball" and item.noun.endswith(noun)
+            is_kind = is_ball or item.noun.split()[-1] == noun
+            if is_kind and is_plural in (None, item.count > 1):
+                return index
+        return None
 
     def _add(self, noun: str, is_plural: bool, attributes: Attributes, bare: int) -> int | None:
         if noun in PAIRED and is_plural and bare == PLURAL_COUNT:

@@ -101,11 +101,12 @@ class SceneClauses:
                 else:
                     self._around.read_phrase(phrase, Scope([], []))
                 self._around.read_group_phrases(found, Scope(found.things, []))
-        for one in subjects:
-            self._around.add_effect(one, Scope(sources[:1], []))
+        added = [self._around.add_effect(one, Scope(sources[:1], [])) for one in subjects]
         word = clause.verb
-        if word is not None and (
-            word.lemma in _PLAIN_WEATHER_VERBS or isinstance(word.meaning.value, Verb)
+        if (
+            word is not None
+            and any(added)
+            and (word.lemma in _PLAIN_WEATHER_VERBS or isinstance(word.meaning.value, Verb))
         ):
             word.is_used = True
             for adverb in clause.adverbs:

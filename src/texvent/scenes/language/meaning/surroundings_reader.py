@@ -13,6 +13,9 @@ from texvent.scenes.language.words.word import Word, mark_used
 
 _BRIGHT = ("bright", "harsh", "brilliant", "strong", "clear")
 """What the light of the day is anyway."""
+_WATER = ("water", "waters")
+_WATERY = ("lake", "river", "underwater")
+"""Places that have the water that is named after them."""
 _BACKDROPS = ("mountain", "forest", "city")
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "lake", "river", "sand", "snow",
                 "mountain")  # fmt: skip
@@ -82,7 +85,9 @@ class SurroundingsReader:
     def _read_place_referent(self, one: Referent) -> bool:
         colour = one.attributes.colours[0] if one.attributes.colours else None
         named = colour[0] if colour is not None else None
-        is_used, is_coloured = self.read_place(str(one.value), named)
+        is_water = one.group.head is not None and one.group.head.text in _WATER
+        place = self._place if is_water and self._place in _WATERY else None
+        is_used, is_coloured = self.read_place(place or str(one.value), named)
         if is_coloured and colour is not None:
             mark_used(colour[1])
         head = one.group.head

@@ -18,8 +18,8 @@ from texvent.scenes.language.vocabulary.acts import OF_ONESELF
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.people.activities import WORKING
+from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, WORKING
 
 STAND = ObjectMotion("stand")
 _SINGLE = frozenset({"kick", "hit", "throw", "catch"})
@@ -167,11 +167,11 @@ class ActReader:
         name, words, is_exact = found
         if not is_exact and self._is_act(clause, objects):
             return []
+        added = [self._add_motion(i, ObjectMotion(name), clause) for i in hands or people]
+        if not any(added):
+            return []
         self.is_activity = is_exact
-        for word in words:
-            word.is_used = True
-        for index in hands or people:
-            self._add_motion(index, ObjectMotion(name), clause)
+        mark_used(words)
         self._draft.link_motion(words, hands or people)
         if name in WORKING and not is_exact:
             targets = [index for one in objects if one.is_things for index in one.things]
@@ -260,7 +260,8 @@ class ActReader:
         clause.verb_word.is_used = self._draft.relate(act, subjects, targets)
         if act == "ride":
             return self._ride(clause, verb, subjects, targets)
-        if act in ("push", "pull"):
+        goes = {phrase.preposition.text for phrase in clause.phrases} & _GOING
+        if act in ("push", "pull") or (act == "carry" and goes):
             for index in subjects:
                 self._add_motion(index, ObjectMotion("move", pace=verb.pace), clause)
         return subjects
@@ -339,6 +340,10 @@ class ActReader:
         motion = self._name_kind(index, motion)
         if not motions:
             motions.append(motion)
+        elif order == "same" and _is_done_in(motions[-1].kind, motion.kind):
+            motions[-1] = motion
+        elif order == "same" and _comes_next(clause) and motion.kind != motions[-1].kind:
+            motions.append(motion)
         elif order == "after":
             motions.append(_carry_on(motions[-1], motion))
         elif order == "before":
@@ -356,6 +361,19 @@ class ActReader:
         return replace(motion, kind=usual if usual != "stand" else "slide")
 
 
+def _comes_next(clause: Clause) -> bool:
+    """As in "a bird perched on a fence flies off": a main clause goes on from what was said."""
+    return clause.opener is None and not clause.is_participle and not clause.is_relative
+
+
+def _is_done_in(posture: str, kind: str) -> bool:
+    """As in "a man standing on a hill waves", "sitting on a bench, reading"."""
+    activity = ACTIVITIES.get(kind)
+    if posture == "sit":
+        return kind in DONE_SEATED
+    return posture == "stand" and activity is not None and not activity.travels
+
+
 def _is_own(one: Referent) -> bool:
     """As in "wiggles its hind legs": a part of who does it."""
     determiner, head = one.group.determiner, one.group.head
@@ -369,5 +387,7 @@ def _carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:
     return replace(motion, direction=before.direction) if keeps else motion
 
 
+_GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})
+"""Prepositions of who goes somewhere with what it carries."""
 _STOPS = ("stop", "halt", "come to a stop", "come to rest")
 _FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")

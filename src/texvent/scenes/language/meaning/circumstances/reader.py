@@ -260,6 +260,11 @@ class CircumstanceReader:
             self.read_style(one)
             word.is_used = True
 
+    def read_own_part(self, one: Referent, things: Sequence[int]) -> None:
+        """As in "wiggles its tail": shown where the model has one."""
+        if list_parts_shown(self._draft, things, str(one.value)):
+            self._use_part(one, things)
+
     def _read_part(self, word: Word, one: Referent, scope: Scope) -> None:
         determiner = one.group.determiner
         is_owned = determiner is not None and determiner.text in OWNERS

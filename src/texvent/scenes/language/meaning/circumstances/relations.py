@@ -55,6 +55,9 @@ class RelationReader:
             is_used = self._relate("beside", scope.subjects, things)
         elif kind is not None and not self._is_journey_of_none(kind, scope):
             subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
+            if word.text in ("into", "onto") and scope.acted_on:
+                # As in "drops a box into a bin".
+                subjects = list(scope.acted_on)
             is_used = self._relate(kind, subjects, things)
         word.is_used, word.is_lost = is_used, not is_used
         word.relations = tuple(self._draft.relations[before:])
