@@ -6,7 +6,8 @@ _VOWELS = "aeiou"
 _IRREGULAR = {
     "person": "people", "child": "children", "leaf": "leaves", "wolf": "wolves", "calf": "calves",
     "shelf": "shelves", "bookshelf": "bookshelves", "knife": "knives", "mouse": "mice",
-    "goose": "geese", "ox": "oxen", "scissors": "scissors",
+    "goose": "geese", "ox": "oxen", "scissors": "scissors", "wife": "wives",
+    "midwife": "midwives",
 }  # fmt: skip
 _UNCHANGED = ("fish", "sheep", "deer", "moose", "bison", "squid", "salmon", "tuna", "trout", "cod")
 """Ends of nouns whose plural is the same word."""
@@ -50,8 +51,6 @@ def _list_regular_plurals(noun: str) -> tuple[str, ...]:
         return (f"{noun[:-1]}ies",)
     if noun.endswith("f"):
         return (f"{noun}s", f"{noun[:-1]}ves")
-    if noun.endswith("fe"):
-        return (f"{noun}s", f"{noun[:-2]}ves")
     if noun.endswith("o"):
         return (f"{noun}s", f"{noun}es")
     if noun.endswith("man"):

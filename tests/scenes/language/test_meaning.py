@@ -289,3 +289,20 @@ def test_an_own_part_that_moves_is_shown() -> None:
 
 def test_what_does_not_happen_is_reported_with_its_verb() -> None:
     assert {"jet", "hits"} <= set(parse_prompt("a jet of water hits a car").not_understood)
+
+
+def test_a_slow_shot_is_slow_and_of_something() -> None:
+    description = parse_prompt("a slow tracking shot of a dog running")
+    assert kinds_of(description, "dog") == ["run"]
+    assert [(move.kind, move.pace) for move in description.shot.moves] == [("follow", 0.5)]
+    assert description.not_understood == ()
+
+
+def test_a_verb_may_follow_the_colour_of_clothes() -> None:
+    description = parse_prompt("a man in red walks past a woman in blue")
+    assert kinds_of(description, "man") == ["walk"]
+    assert [one.colour.name for one in description.objects if one.colour] == ["red", "blue"]
+
+
+def test_a_bird_flaps_its_own_wings() -> None:
+    assert kinds_of(parse_prompt("a parrot flaps its wings"), "parrot") == ["hover"]

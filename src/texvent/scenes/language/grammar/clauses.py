@@ -120,8 +120,11 @@ class _ClauseReader(GroupAttachment):
         self._continue_with_same_subjects("after")
 
     def _is_before_adjunct(self) -> bool:
-        """As in "A close-up of": no noun follows."""
-        coming = self._words[self._at + 1 : self._at + 3]
+        """As in "A close-up of", "a slow tracking shot of": no noun follows."""
+        first = self._at + 1
+        is_paced = first < len(self._words) and self._words[first].role is Role.PACE
+        first += 1 if is_paced else 0
+        coming = self._words[first : first + 2]
         return bool(coming) and coming[0].pos is Pos.ADJUNCT and (
             len(coming) == 1 or coming[1].pos not in (Pos.NOUN, Pos.ADJECTIVE)
         )  # fmt: skip

@@ -72,6 +72,23 @@ class CameraReader:
         word.is_used = True
         return True
 
+    def read_phrases(self, adverbs: Sequence[Word]) -> None:
+        """Views, framings and moves among the adverbs: "a slow tracking shot"."""
+        before: Word | None = None
+        for word in adverbs:
+            if word.role in (Role.VIEW, Role.FRAMING, Role.CAMERA_MOVE):
+                self.read_word(word)
+                if word.role is Role.CAMERA_MOVE and before is not None:
+                    self.pace(before)
+            before = word
+
+    def pace(self, word: Word) -> None:
+        """As in "a slow tracking shot": how fast the last move is."""
+        if word.role is Role.PACE and self._moves and not word.is_used:
+            last = self._moves[-1]
+            self._moves[-1] = replace(last, pace=last.pace * word.meaning.value)
+            word.is_used = True
+
     def read_attributes(self, attributes: Attributes) -> None:
         """As in "A slow pan", "a static shot"."""
         for word in attributes.words:
@@ -193,9 +210,7 @@ class CameraReader:
         elif word.role is Role.DIRECTION:
             self._direct(word)
         elif word.role is Role.PACE:
-            last = self._moves[-1]
-            self._moves[-1] = replace(last, pace=last.pace * word.meaning.value)
-            word.is_used = True
+            self.pace(word)
         elif word.text in ("in", "out") and self._moves[-1].kind in ("zoom", "dolly"):
             self._moves[-1] = replace(self._moves[-1], direction=word.text)
             word.is_used = True

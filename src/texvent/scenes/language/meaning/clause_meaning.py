@@ -80,9 +80,7 @@ class ClauseMeaning:
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
         self._turn_views(clause)
-        for word in clause.adverbs:
-            if word.role in (Role.VIEW, Role.FRAMING, Role.CAMERA_MOVE):
-                self._camera.read_word(word)
+        self._camera.read_phrases(clause.adverbs)
         if clause.opener is not None:
             clause.opener.is_used = True
         if clause.verb is not None and clause.verb.text in WEATHER_VERBS:

@@ -202,6 +202,8 @@ class _Tagger:
         self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]
     ) -> Pos | None:
         before, after = self._before(), self._after(index)
+        if self._is_clothed() and verb.role is not Role.UNKNOWN and not after & _NOMINAL:
+            return Pos.VERB
         if before in (Pos.PRONOUN, Pos.RELATIVE, Pos.AUXILIARY):
             is_adjective = Pos.ADJECTIVE in others and verb.form is VerbForm.BASE
             return Pos.ADJECTIVE if is_adjective else Pos.VERB
@@ -258,6 +260,11 @@ class _Tagger:
         """Whether the next word can be a verb in the third person."""
         coming = self._candidates[index + 1] if index + 1 < len(self._candidates) else []
         return any(one.pos is Pos.VERB and one.form is VerbForm.THIRD for one in coming)
+
+    def _is_clothed(self) -> bool:
+        """As in "a keeper in green": a verb may follow."""
+        at = len(self._chosen)
+        return at > 1 and self._chosen[-1].role is Role.COLOUR and self._texts[at - 2] == "in"
 
     def _perceives(self) -> bool:
         """As in "watches a fish swim": the last verb says that somebody sees or hears it."""

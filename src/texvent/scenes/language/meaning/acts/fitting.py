@@ -60,6 +60,8 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
         return replace(verb, kind="move")
     if verb.base in ("chase", "pursue") and not is_living(noun):
         return replace(verb, kind="move")
+    if verb.base in ("flap", "beat") and noun.motion == "fly" and is_living(noun):
+        return replace(verb, kind="hover")
     if verb.base == "roll" and noun.motion in ("sail", "paddle"):
         return replace(verb, kind="sway")
     return None

@@ -72,7 +72,9 @@ class ActReader:
         if targets:
             return self._do_to(clause, verb, subjects, targets)
         acts_on_unshown = any(
-            one.kind in ("unknown", "part") and one.group.text.split()[-1:] != ["times"]
+            one.kind in ("unknown", "part")
+            and not _is_own(one)
+            and one.group.text.split()[-1:] != ["times"]
             for one in objects
         )
         is_own = verb.kind in _TAKES_ANY_OBJECT or verb.base in _STOPS
@@ -370,7 +372,7 @@ def _is_done_in(posture: str, kind: str) -> bool:
     """As in "a man standing on a hill waves", "sitting on a bench, reading"."""
     activity = ACTIVITIES.get(kind)
     if posture == "sit":
-        return kind in DONE_SEATED
+        return kind in DONE_SEATED or kind in _SEATED
     return posture == "stand" and activity is not None and not activity.travels
 
 
@@ -389,5 +391,7 @@ def _carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:
 
 _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})
 """Prepositions of who goes somewhere with what it carries."""
+_SEATED = ("type", "play piano", "play drums", "row")
+"""Activities with a seat of their own."""
 _STOPS = ("stop", "halt", "come to a stop", "come to rest")
 _FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")

@@ -126,7 +126,11 @@ class RelationReader:
     def _stays(self, scope: Scope) -> bool:
         """As in "waves from a window": who does it stays there."""
         motions = [self._draft.objects[index].motions for index in scope.movers]
-        return bool(motions) and all(one and one[-1].kind in ACTIVITIES for one in motions)
+        still = ACTIVITIES.keys() - _OFF_GROUND
+        return bool(motions) and all(
+            one and one[-1].kind in still and not ACTIVITIES[one[-1].kind].travels
+            for one in motions
+        )
 
     def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
         return kind in _JOURNEYS and scope.has_verb and not scope.movers
