@@ -306,3 +306,7 @@ def test_a_verb_may_follow_the_colour_of_clothes() -> None:
 
 def test_a_bird_flaps_its_own_wings() -> None:
     assert kinds_of(parse_prompt("a parrot flaps its wings"), "parrot") == ["hover"]
+
+
+def test_a_part_that_is_to_be_missing_is_reported() -> None:
+    assert "tail" in parse_prompt("a cat with no tail sits on a mat").not_understood

@@ -147,6 +147,16 @@ class Referents:
         role = self._choose_role(head, preposition, group)
         if role is Role.NOUN:
             return self._read_thing(group, attributes, preposition)
+        return self._read_no_thing(group, role, attributes)
+
+    @staticmethod
+    def _read_no_thing(group: NounGroup, role: Role, attributes: Attributes) -> Referent:
+        """A place, a light, a part ..."""
+        head = group.head_word
+        if role is Role.PART and group.negation is not None:
+            # As in "a cat with no tail": the model has one all the same.
+            head.is_lost = True
+            return Referent("unknown", group, attributes=attributes)
         kind = _KINDS.get(role, "unknown")
         if kind == "function":
             head.is_used = True

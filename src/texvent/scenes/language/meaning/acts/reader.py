@@ -22,6 +22,8 @@ from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, WORKING
 
 STAND = ObjectMotion("stand")
+_OF_PARTS = ("work", "sway", "wave")
+"""Motions that an animal shows when it does them with a part of itself."""
 _SINGLE = frozenset({"kick", "hit", "throw", "catch"})
 """Acts of which each subject does one."""
 _TAKES_ANY_OBJECT = frozenset({"walk", "run", "swim", "dance", "jump", "move", "drive", "climb"})
@@ -64,18 +66,16 @@ class ActReader:
             return blink(self._draft, word, subjects)
         if switch_signal(self._draft, clause, subjects):
             return subjects
+        is_alive = all(is_living(self._draft.noun(index)) for index in subjects)
+        outer = [one for one in objects if not (is_alive and _is_own(one))]
         if not isinstance(verb, Verb):
-            is_done_to = any(
-                one.kind in ("things", "unknown", "part") and not _is_own(one) for one in objects
-            )
+            is_done_to = any(one.kind in ("things", "unknown", "part") for one in outer)
             return self._do_alike(clause, word, subjects, targets, is_done_to=is_done_to)
         if targets:
             return self._do_to(clause, verb, subjects, targets)
         acts_on_unshown = any(
-            one.kind in ("unknown", "part")
-            and not _is_own(one)
-            and one.group.text.split()[-1:] != ["times"]
-            for one in objects
+            one.kind in ("unknown", "part") and one.group.text.split()[-1:] != ["times"]
+            for one in (outer if verb.kind in _OF_PARTS else objects)
         )
         is_own = verb.kind in _TAKES_ANY_OBJECT or verb.base in _STOPS
         if not verb.kind or (acts_on_unshown and not is_own):
