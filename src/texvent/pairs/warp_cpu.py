@@ -1,8 +1,7 @@
 """`warp_reference.warp_between`, compiled by Numba: same steps, same order, equal results.
 
 Some rows at a time, in three stages: find the places (vector instructions), gather what lies there
-(scattered loads), mix it (vector instructions). Every pixel is computed on its own, so the number
-of threads does not change the result.
+(scattered loads), mix it (vector instructions). The number of threads does not change the result.
 """
 
 from __future__ import annotations
@@ -13,6 +12,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.pairs.paths_cpu import choose_path, find_sweep, list_contested, mark_contested
 from texvent.pairs.warp_tolerance import (
     LOST_PX2,
     LOST_RELATIVE,
@@ -59,6 +59,10 @@ class WarpPair(NamedTuple):
     """[H · W] flow from first to second, (x, y), px."""
     backward: Words
     """[H · W] flow from second to first."""
+    sweep: Floats
+    """Of `paths_cpu.find_sweep`."""
+    contested: NDArray[np.uint8]
+    """Of `paths_cpu.mark_contested`."""
 
 
 class Points(NamedTuple):
@@ -78,6 +82,8 @@ class Points(NamedTuple):
     """Intensity in the earlier frame."""
     later: Floats
     """Intensity in the later frame."""
+    contested: Numbers
+    """How many of the points are contested, then their numbers; [n + 1]."""
 
 
 class Samples(NamedTuple):
@@ -134,11 +140,13 @@ def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Float
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
     pixels = [read_only(_with_neighbours(frame)) for frame in frames]
-    flows = [
-        read_only(np.ascontiguousarray(flow).reshape(-1).view(np.uint64))
-        for flow in (forward, backward)
-    ]
-    return WarpPair(*frames, *pixels, *flows)
+    ahead, back = (read_only(np.ascontiguousarray(flow)) for flow in (forward, backward))
+    words = [read_only(flow.reshape(-1).view(np.uint64)) for flow in (ahead, back)]
+    sweep = read_only(find_sweep(ahead, back))
+    contested = read_only(mark_contested(ahead, back, sweep))
+    return WarpPair(
+        frames[0], frames[1], pixels[0], pixels[1], words[0], words[1], sweep, contested
+    )
 
 
 def warm_up() -> None:
@@ -202,6 +210,7 @@ def make_room(number: int) -> Room:
         np.zeros(room, np.float32),
         np.zeros(room, np.float32),
         np.zeros(room, np.float32),
+        np.zeros(room + 1, np.int32),
     )
     return Room(points, _make_samples(room), _make_samples(room))
 
@@ -223,8 +232,8 @@ def _make_samples(room: int) -> Samples:
 @jit
 def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
     """Set the points to all pixels of some rows."""
-    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later = points
-    first, second, _, _, forward, backward = pair
+    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later, contested = points
+    first, second, _, _, forward, backward, _, _ = pair
     width = first.shape[1]
     start, number = top * width, (bottom - top) * width
     # All arrays start at the first of these pixels: Numba allows for negative indices where the
@@ -246,12 +255,13 @@ def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
             forward_flow[2 * k] + backward_flow[2 * k],
             forward_flow[2 * k + 1] + backward_flow[2 * k + 1],
         )
+    list_contested(pair.contested, pixel, number, contested)
 
 
 @jit
 def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> None:
     """Set the points to some pixels, given by flat index."""
-    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later = points
+    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later, contested = points
     first, second = pair.first.reshape(-1), pair.second.reshape(-1)
     forward_flow, backward_flow = pair.forward.view(np.float32), pair.backward.view(np.float32)
     width = np.uint64(pair.first.shape[1])
@@ -266,6 +276,21 @@ def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> No
             forward_flow[j] + backward_flow[j],
             forward_flow[j + _ONE] + backward_flow[j + _ONE],
         )
+    list_contested(pair.contested, pixel, chosen.size, contested)
+
+
+@jit(error_model="numpy", inner=True)
+def _choose_paths(pair: WarpPair, points: Points, position: np.float32) -> None:
+    """Give contested points the path at this instant, as if both flows agreed on it."""
+    height, width = pair.first.shape
+    forward = pair.forward.view(np.float32).reshape((height, width, 2))
+    backward = pair.backward.view(np.float32).reshape((height, width, 2))
+    for n in range(points.contested[0]):
+        k = points.contested[n + 1]
+        place = points.x[k], points.y[k]
+        path = choose_path(forward, backward, pair.sweep, place, position)
+        points.forward_x[k], points.forward_y[k] = path
+        points.error_x[k], points.error_y[k] = _0, _0
 
 
 @jit
@@ -274,6 +299,8 @@ def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: F
     points, in_first, in_second = room
     place, shape = np.float32(position), pair.first.shape
     padded = (number + LANES - 1) // LANES * LANES
+    if points.contested[0] > 0:
+        _choose_paths(pair, points, place)
     _locate(points, padded, shape, (place, -place), in_first)
     _locate(points, padded, shape, (place, _1 - place), in_second)
     _gather(pair.first_pixels, pair.forward, number, shape[1], in_first)
@@ -291,7 +318,7 @@ def _locate(
 ) -> None:
     """Find the places of points in a frame: the second of the times along their path."""
     position, share = times
-    pixel, column, row, forward_x, forward_y, error_x, error_y, _, _ = points
+    pixel, column, row, forward_x, forward_y, error_x, error_y, _, _, _ = points
     corner, nearest, u, v, outside, _, _, _ = samples
     width = np.int32(shape[1])
     last_column, last_row = np.float32(shape[1] - 1), np.float32(shape[0] - 1)
@@ -332,7 +359,7 @@ def _mix(
     out: Floats,
 ) -> None:
     """Mix the samples of both frames."""
-    _, _, _, forward_x, forward_y, error_x, error_y, earlier, later = points
+    _, _, _, forward_x, forward_y, error_x, error_y, earlier, later, _ = points
     u1, v1, outside1 = in_first.u, in_first.v, in_first.outside
     u2, v2, outside2 = in_second.u, in_second.v, in_second.outside
     upper1, lower1 = in_first.upper.view(np.float32), in_first.lower.view(np.float32)
@@ -351,8 +378,11 @@ def _mix(
         visible = _VISIBLE_RELATIVE * length2 + _VISIBLE_PX2
         visible = visible * visible
         doubt1, doubt2 = visible + error1 * error1, visible + error2 * error2
-        seen1 = (visible if outside1[k] <= _HALF else _0) + _UNSEEN * doubt1
-        seen2 = (visible if outside2[k] <= _HALF else _0) + _UNSEEN * doubt2
+        trust1 = visible / doubt1 if outside1[k] <= _HALF else _0
+        trust2 = visible / doubt2 if outside2[k] <= _HALF else _0
+        unseen1, unseen2 = _UNSEEN * doubt1, _UNSEEN * doubt2
+        seen1 = (visible if outside1[k] <= _HALF else _0) + unseen1 * (_1 - trust2)
+        seen2 = (visible if outside2[k] <= _HALF else _0) + unseen2 * (_1 - trust1)
         weight1, weight2 = rest * (seen1 * doubt2), position * (seen2 * doubt1)
         above = upper1[2 * k] + (upper1[2 * k + 1] - upper1[2 * k]) * u1[k]
         below = lower1[2 * k] + (lower1[2 * k + 1] - lower1[2 * k]) * u1[k]

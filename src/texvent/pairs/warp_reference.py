@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.pairs.paths_reference import choose_paths
 from texvent.pairs.warp_tolerance import (
     LOST_PX2,
     LOST_RELATIVE,
@@ -42,12 +43,15 @@ def warp_between(
     Returns:
         [H, W], intensity.
 
+    Where both flows agree, the path is (1 − τ) times the one minus τ times the other; see
+    `paths_reference`.
+
     Source: flows to the intermediate frame as in Jiang et al., Super SloMo (CVPR 2018), eq. 4,
         which are −τ and 1 − τ times the path below; the weights are ours: see `warp_tolerance.py`.
     """
     position = first.dtype.type(position)
     rest = first.dtype.type(1.0) - position
-    path = forward - position * (forward + backward)
+    path = choose_paths(forward, backward, position)
     length2 = np.minimum(_squared(path), MOST_PX2)
 
     a, path_first, is_in_first = sample_along(first, forward, -position * path)
@@ -55,13 +59,17 @@ def warp_between(
     error_first = np.minimum(_squared(path_first - path), MOST_PX2)
     error_second = np.minimum(_squared(path_second + path), MOST_PX2)
 
-    # A frame's weight is its share of the time, times (how well it sees the point + UNSEEN_WEIGHT);
-    # both over one denominator, which cancels.
+    # A frame's weight is its share of the time, times (how well it sees the point + UNSEEN_WEIGHT
+    # times how little the other is trusted); both over one denominator, which cancels.
     visible = _squared_number(VISIBLE_RELATIVE * length2 + VISIBLE_PX2)
     doubt_first = visible + error_first * error_first
     doubt_second = visible + error_second * error_second
-    seen_first = np.where(is_in_first, visible, 0) + UNSEEN_WEIGHT * doubt_first
-    seen_second = np.where(is_in_second, visible, 0) + UNSEEN_WEIGHT * doubt_second
+    # Outside its view a frame shows nothing.
+    trust_first = np.where(is_in_first, visible / doubt_first, 0)
+    trust_second = np.where(is_in_second, visible / doubt_second, 0)
+    unseen_first, unseen_second = UNSEEN_WEIGHT * doubt_first, UNSEEN_WEIGHT * doubt_second
+    seen_first = np.where(is_in_first, visible, 0) + unseen_first * (1 - trust_second)
+    seen_second = np.where(is_in_second, visible, 0) + unseen_second * (1 - trust_first)
     weight_first = rest * (seen_first * doubt_second)
     weight_second = position * (seen_second * doubt_first)
     warped = a + (b - a) * (weight_second / (weight_first + weight_second))

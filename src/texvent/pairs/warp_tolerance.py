@@ -13,14 +13,27 @@ VISIBLE_PX2 = 0.1
 is the usual occlusion test (Sundaram, Brox and Keutzer 2010), made gradual."""
 
 UNSEEN_WEIGHT = 0.2
-"""What a frame still counts at a point that it seems not to show. Flow is uncertain just where
-things cover each other, so no frame decides alone."""
+"""What a frame still counts at a point that it seems not to show, as far as the other frame is not
+trusted either."""
 
 LOST_RELATIVE = 0.5
 LOST_PX2 = 2.0
 """The motion counts as lost if, in both frames, the squared error is above
 `LOST_RELATIVE · |path|² + LOST_PX2`, px²: an error of 0.7 of the path says nothing about motion.
 There the two frames are blended where they are."""
+
+CONTESTED_RELATIVE, CONTESTED_PX2 = 0.1, 16.0
+"""Where the two flows at a pixel differ by more than this share of the longer one, squared, plus
+this, px², two surfaces meet there, and the path is chosen among theirs."""
+
+CLEARLY_BETTER = 0.3
+"""By how much more the flows must confirm another path (0..2) to take it instead of the mean."""
+
+SWEPT = 1.5
+"""How well the flows must confirm what passes in front, 0..2."""
+
+LEAST_SWEEP_PX2 = 9.0
+"""What moves less, squared, covers each pixel of its path in one of the frames."""
 
 MOST_PX2 = 1e9
 """Squares of longer paths and larger errors count as this, so that float32 can hold the products

@@ -139,6 +139,8 @@ def test_compiled_parts_equal_their_definitions(shape, spread, is_coarsest, seed
     np.testing.assert_array_equal(
         flow_cpu.try_shifts(*wanted, flow_cpu.search(*wanted, flow, is_coarsest), shifts), patches
     )
+    change = flow_reference.change_along(*wanted, flow)
+    np.testing.assert_array_equal(flow_cpu.change_along(*wanted, flow), change)
     joined = flow_reference.join(*wanted, patches)
     np.testing.assert_array_equal(flow_cpu.join(*wanted, patches), joined)
     np.testing.assert_array_equal(

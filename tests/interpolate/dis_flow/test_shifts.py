@@ -76,9 +76,10 @@ def test_flow_of_a_shift_of_up_to_a_third_of_the_frame_is_that_shift(x, y, seed)
     shift = np.broadcast_to(np.float32([x, y]), (HEIGHT, WIDTH, 2))
     for flow, sign in zip(flows, (1, -1), strict=True):
         error = np.abs(flow - sign * shift).max(axis=-1)
-        assert np.median(error) < 0.2
+        is_seen = ~leads_outside(np.moveaxis(sign * shift, -1, 0))
+        assert np.median(error[is_seen]) < 0.2
         # Small steps are found by patches alone, which guess what leaves the view.
-        assert np.mean(error[~leads_outside(np.moveaxis(sign * shift, -1, 0))] < 1.0) > 0.93
+        assert np.mean(error[is_seen] < 1.0) > 0.93
 
 
 def test_what_leaves_the_view_moves_as_the_frame_does():

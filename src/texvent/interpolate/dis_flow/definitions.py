@@ -110,7 +110,12 @@ def make_pyramid(image: Floats, finest: int, coarsest: int, kernels: ModuleType)
 
 
 def coarse_to_fine(
-    start: list[Floats], stop: list[Floats], shifts: Floats = NO_SHIFTS, *, kernels: ModuleType
+    start: list[Floats],
+    stop: list[Floats],
+    shifts: Floats = NO_SHIFTS,
+    coarser: Floats | None = None,
+    *,
+    kernels: ModuleType,
 ) -> Floats:
     """Flow from one image to another.
 
@@ -118,14 +123,16 @@ def coarse_to_fine(
         start: pyramid of the one.
         stop: pyramid of the other.
         shifts: [n, 2] of the whole image, which patches try too, px of the finest level.
+        coarser: the flow of the next coarser level, if levels have been matched already.
         kernels: `flow_reference` or `flow_cpu`.
 
     Returns:
         [2, H, W] float32: x and y, px, of the finest level.
     """
-    flow = np.zeros((2, *size_of(start[-1])), np.float32)
+    flow = np.zeros((2, *size_of(start[-1])), np.float32) if coarser is None else coarser
     for number in range(len(start) - 1, -1, -1):
         one, other, is_coarsest = start[number], stop[number], number == len(start) - 1
+        is_coarsest &= coarser is None
         if not is_coarsest:
             flow = kernels.double(flow, size_of(one))
         scaled = shifts * np.float32(0.5**number)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numba
 import numpy as np
@@ -11,10 +13,12 @@ from numpy.typing import NDArray
 from texvent.interpolate.dis_flow import flow_cpu
 from texvent.interpolate.dis_flow.definitions import (
     PATCH,
+    Floats,
     coarse_to_fine,
     count_levels,
     make_pyramid,
 )
+from texvent.interpolate.dis_flow.fast_thing import follow_fast_thing, level_of_things
 from texvent.interpolate.dis_flow.shifts import find_shifts
 from texvent.runtime.allocator import keep_freed_memory
 from texvent.runtime.background_jit import is_ready, wait_until_ready
@@ -68,16 +72,39 @@ class DisFlow:
         earlier, later = (make_pyramid(one, finest, levels, flow_cpu) for one in images)
         shifts, full = find_shifts(earlier, later), images[0].shape
 
-        def follow(start: list[FlowArray], stop: list[FlowArray], shifts: FlowArray) -> FlowArray:
-            planes = coarse_to_fine(start, stop, shifts, kernels=flow_cpu)
-            if finest:
-                planes = flow_cpu.double(planes, full)
+        def follow(
+            start: list[Floats], stop: list[Floats], shifts: Floats, coarser: Floats | None
+        ) -> Floats:
+            return coarse_to_fine(start, stop, shifts, coarser, kernels=flow_cpu)
+
+        def follow_both(
+            levels: slice, coarser: tuple[Floats, Floats] | tuple[None, None]
+        ) -> tuple[Floats, Floats]:
+            one, other = earlier[levels], later[levels]
+            scaled = shifts * np.float32(0.5 ** (levels.start or 0))
+            return self._both(
+                follow, (one, other, scaled, coarser[0]), (other, one, -scaled, coarser[1])
+            )
+
+        def enlarge(planes: Floats) -> FlowArray:
+            planes = flow_cpu.double(planes, full) if finest else planes
             return np.stack([plane[: shape[0], : shape[1]] for plane in planes], axis=-1)
 
+        number = level_of_things(earlier)
+        flows = follow_both(slice(number, None), (None, None))
+        flows = follow_fast_thing(earlier[number], later[number], flows, flow_cpu)
+        if number:
+            flows = follow_both(slice(0, number), flows)
+        return self._both(enlarge, (flows[0],), (flows[1],))
+
+    def _both(
+        self, function: Callable[..., Floats], ahead: tuple[Any, ...], back: tuple[Any, ...]
+    ) -> tuple[Floats, Floats]:
+        """What a function returns for each direction, in two threads if there are."""
         if self._helper is None:
-            return follow(earlier, later, shifts), follow(later, earlier, -shifts)
-        back = self._helper.submit(follow, later, earlier, -shifts)
-        return follow(earlier, later, shifts), back.result()
+            return function(*ahead), function(*back)
+        other = self._helper.submit(function, *back)
+        return function(*ahead), other.result()
 
 
 def stretch(

@@ -7,12 +7,22 @@ import sys
 import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, coarse_to_fine, make_pyramid
-from texvent.interpolate.dis_flow.refine_cpu import refine
+from texvent.interpolate.dis_flow.refine_cpu import change_along, refine
 from texvent.interpolate.dis_flow.search_cpu import join, search
 from texvent.interpolate.dis_flow.shifts_cpu import try_shifts
 from texvent.runtime.jit import jit
 
-__all__ = ["double", "halve", "join", "make_level", "refine", "search", "try_shifts", "warm_up"]
+__all__ = [
+    "change_along",
+    "double",
+    "halve",
+    "join",
+    "make_level",
+    "refine",
+    "search",
+    "try_shifts",
+    "warm_up",
+]
 
 # As float32: Numba computes with float64 where a constant is one.
 _2 = np.float32(2.0)
@@ -25,7 +35,9 @@ def warm_up() -> None:
     """Compile, or load what was compiled before."""
     image, kernels = np.zeros((64, 64), np.float32), sys.modules[__name__]
     pyramid, shifts = make_pyramid(image, 1, 2, kernels), np.zeros((1, 2), np.float32)
-    double(coarse_to_fine(pyramid, pyramid, shifts, kernels=kernels), image.shape)
+    flow = coarse_to_fine(pyramid, pyramid, shifts, kernels=kernels)
+    change_along(pyramid[0], pyramid[0], flow)
+    double(flow, image.shape)
 
 
 @jit

@@ -278,6 +278,11 @@ def _data_term(start: Floats, stop: Floats, flow: Floats) -> tuple[Floats, Float
     return np.stack(matrix), np.stack([slope_x * wanted, slope_y * wanted])
 
 
+def change_along(start: Floats, stop: Floats, flow: Floats) -> Floats:
+    """What brightness changes by along a flow, [H, W], levels."""
+    return _sample_along(stop, flow) - start[0, MARGIN:-MARGIN, MARGIN:-MARGIN]
+
+
 def _sample_along(stop: Floats, flow: Floats) -> Floats:
     """A level at the places of the moved pixels, [H, W], bilinear."""
     height, width = size_of(stop)

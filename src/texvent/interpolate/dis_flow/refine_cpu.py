@@ -62,12 +62,30 @@ def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
                 new[x + new_margin] = old[x + margin]
 
 
+@jit(error_model="numpy")
+def change_along(start: Floats, stop: Floats, flow: Floats) -> Floats:
+    """What brightness changes by along a flow, [H, W], levels."""
+    _, change = _sample_along(start[0], stop[0], flow)
+    return change
+
+
 @jit(error_model="numpy", inner=True)
 def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
     """The data term: matrix (xx, xy, yy) and right side (x, y) of each pixel, [5, H, W]."""
     _, height, width = flow.shape
-    columns = stop.shape[1]
     terms = np.empty((5, height, width), np.float32)
+    middle, change = _sample_along(start, stop, flow)
+    for y in range(height):
+        rows = middle[max(y - 1, 0)], middle[y], middle[min(y + 1, height - 1)]
+        _fill_data_term(rows, change[y], (flow[0, y], flow[1, y]), terms, y)
+    return terms
+
+
+@jit(error_model="numpy", inner=True)
+def _sample_along(start: Floats, stop: Floats, flow: Floats) -> tuple[Floats, Floats]:
+    """Mean of both images along a flow, and the change from one to the other, [H, W]."""
+    _, height, width = flow.shape
+    columns = stop.shape[1]
     middle, change = np.empty((height, width), np.float32), np.empty((height, width), np.float32)
     flat = stop.reshape(-1)
     corner, weights = np.empty(width, np.int32), np.empty((2, width), np.float32)
@@ -81,10 +99,7 @@ def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
             corners[3, x] = flat[np.uint64(i + columns + 1)]
         here = start[y + MARGIN, MARGIN : MARGIN + width]
         _mix(corners, weights, here, middle[y], change[y])
-    for y in range(height):
-        rows = middle[max(y - 1, 0)], middle[y], middle[min(y + 1, height - 1)]
-        _fill_data_term(rows, change[y], (flow[0, y], flow[1, y]), terms, y)
-    return terms
+    return middle, change
 
 
 @jit(error_model="numpy", inner=True)

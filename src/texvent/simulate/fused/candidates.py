@@ -20,6 +20,7 @@ from texvent.simulate.fused.definitions import (
     PairArrays,
     PreparedPair,
     ReferenceLevels,
+    with_sweep,
 )
 
 BAND_PIXELS = 1 << 16
@@ -117,7 +118,8 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
 
 
 def arrays_of(motion: MotionInterpolation) -> PairArrays:
-    """The arrays of a pair with flow, as kernels take them."""
+    """The arrays of a pair with flow, as kernels take them for bounds."""
     if motion.flows is None:
         raise ValueError("the frames of the pair are blended, and no pixel moves")
-    return PairArrays(motion.earlier, motion.later, *motion.flows)
+    arrays = PairArrays(motion.earlier, motion.later, *motion.flows)
+    return with_sweep(arrays, motion.prepared.sweep)

@@ -34,6 +34,7 @@ from texvent.simulate.fused.definitions import (
     PairArrays,
     PreparedPair,
     ReferenceLevels,
+    with_sweep,
 )
 
 Columns = tuple[
@@ -54,7 +55,9 @@ def find_candidates(
     arrays: PairArrays, positions: Float64Array, levels: ReferenceLevels
 ) -> CrossingCandidates:
     """Every segment at whose end a pixel may fire; see `candidates_reference.find_candidates`."""
-    prepared = PreparedPair(prepare_pair(*arrays), find_bounds(arrays))
+    pair = prepare_pair(*arrays)
+    arrays = with_sweep(arrays, pair.sweep)
+    prepared = PreparedPair(pair, find_bounds(arrays))
     return find_in_rows(arrays, positions, levels, prepared, (0, arrays.earlier.shape[0]))
 
 

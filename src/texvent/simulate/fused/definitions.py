@@ -17,6 +17,8 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.read_only import read_only
+
 Float32Array: TypeAlias = NDArray[np.float32]
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
@@ -39,6 +41,19 @@ class PairArrays(NamedTuple):
     """[H, W, 2] flow, px."""
     backward: Float32Array
     """[H, W, 2] flow, px."""
+
+
+def with_sweep(arrays: PairArrays, sweep: Float32Array) -> PairArrays:
+    """The arrays, with the longer of forward flow and sweep along each axis: for bounds.
+
+    Args:
+        arrays: of a pair.
+        sweep: [H, W, 2] px, or empty; see `pairs.paths_reference.find_sweep`.
+    """
+    if sweep.size == 0:
+        return arrays
+    longer = np.where(np.abs(sweep) > np.abs(arrays.forward), sweep, arrays.forward)
+    return arrays._replace(forward=read_only(longer))
 
 
 class PreparedPair(NamedTuple):

@@ -1,0 +1,204 @@
+"""Paths through pixels where two surfaces meet, compiled by Numba: `paths_reference`."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.pairs.warp_tolerance import (
+    CLEARLY_BETTER,
+    CONTESTED_PX2,
+    CONTESTED_RELATIVE,
+    LEAST_SWEEP_PX2,
+    MOST_PX2,
+    SWEPT,
+    VISIBLE_PX2,
+    VISIBLE_RELATIVE,
+)
+from texvent.runtime.jit import jit
+
+Floats = NDArray[np.float32]
+Numbers = NDArray[np.int32]
+Vector = tuple[np.float32, np.float32]
+
+# As float32: Numba computes with float64 where a constant is one.
+_VISIBLE_RELATIVE, _VISIBLE_PX2 = np.float32(VISIBLE_RELATIVE), np.float32(VISIBLE_PX2)
+_RELATIVE, _CONTESTED = np.float32(CONTESTED_RELATIVE), np.float32(CONTESTED_PX2)
+_LEAST_SWEEP, _MOST = np.float32(LEAST_SWEEP_PX2), np.float32(MOST_PX2)
+_BETTER, _SWEPT = np.float32(CLEARLY_BETTER), np.float32(SWEPT)
+_0, _HALF, _1 = np.float32(0.0), np.float32(0.5), np.float32(1.0)
+
+
+@jit(error_model="numpy")
+def find_sweep(forward: Floats, backward: Floats) -> Floats:
+    """Motion of what passes each pixel between the frames but lies there in neither.
+
+    Args:
+        forward: [H, W, 2] px.
+        backward: [H, W, 2] px.
+
+    Returns:
+        [H, W, 2] px, 0 where nothing does so; [0, 0, 2] where nothing does anywhere.
+    """
+    height, width, _ = forward.shape
+    sweep = np.empty((0, 0, 2), np.float32)
+    for y in range(height):
+        for x in range(width):
+            u, v = forward[y, x, 0], forward[y, x, 1]
+            length2 = u * u + v * v
+            # Also false for a flow that is no number.
+            if not (length2 >= _LEAST_SWEEP and length2 < _MOST):
+                continue
+            limit = _RELATIVE * length2 + _CONTESTED
+            if _apart2(backward, x, y, (-u, -v)) <= limit:
+                continue
+            if not _is_met(forward, backward, x, y):
+                continue
+            if sweep.size == 0:
+                sweep = np.zeros((height, width, 2), np.float32)
+            steps = math.ceil(max(abs(u), abs(v)))
+            for k in range(1, steps):
+                share = np.float32(k) / np.float32(steps)
+                place = np.float32(y) + share * v, np.float32(x) + share * u
+                _write_sweep(sweep, forward, backward, place, (u, v))
+    return sweep
+
+
+@jit(error_model="numpy", inner=True)
+def _is_met(flow: Floats, other: Floats, x: int, y: int) -> bool:
+    """Whether the flow of a pixel leads to one whose flow leads back, within a pixel."""
+    height, width, _ = flow.shape
+    u, v = flow[y, x, 0], flow[y, x, 1]
+    length2 = u * u + v * v
+    if not length2 < _MOST:
+        return False
+    column, row = _nearest(np.float32(x) + u), _nearest(np.float32(y) + v)
+    if column < 0 or row < 0 or column >= width or row >= height:
+        return False
+    return bool(_apart2(other, column, row, (-u, -v)) <= _VISIBLE_RELATIVE * length2 + _1)
+
+
+@jit(error_model="numpy", inner=True)
+def _write_sweep(
+    sweep: Floats, forward: Floats, backward: Floats, place: Vector, path: Vector
+) -> None:
+    """Note a path in the pixels around a place whose own flows differ from it."""
+    u, v = path
+    length2 = u * u + v * v
+    limit = _RELATIVE * length2 + _CONTESTED
+    top, left = int(np.floor(place[0])), int(np.floor(place[1]))
+    bottom, right = int(np.ceil(place[0])), int(np.ceil(place[1]))
+    height, width, _ = forward.shape
+    for i in range(max(top, 0), min(bottom + 1, height)):
+        for j in range(max(left, 0), min(right + 1, width)):
+            held = sweep[i, j]
+            if held[0] * held[0] + held[1] * held[1] >= length2:
+                continue
+            nearest = min(_apart2(forward, j, i, (u, v)), _apart2(backward, j, i, (-u, -v)))
+            if nearest > limit:
+                held[0], held[1] = u, v
+
+
+@jit(inner=True)
+def _nearest(place: np.float32) -> int:
+    return int(np.floor(place + _HALF))
+
+
+@jit(error_model="numpy", inner=True)
+def _apart2(flow: Floats, x: int, y: int, other: Vector) -> np.float32:
+    """Squared distance of the flow at a pixel from another one."""
+    u, v = flow[y, x, 0] - other[0], flow[y, x, 1] - other[1]
+    return min(u * u + v * v, _MOST)
+
+
+@jit(error_model="numpy")
+def mark_contested(forward: Floats, backward: Floats, sweep: Floats) -> NDArray[np.uint8]:
+    """Where a path has to be chosen, [H · W]; empty where nowhere."""
+    height, width, _ = forward.shape
+    marks, number = np.zeros(height * width, np.uint8), 0
+    for y in range(height):
+        for x in range(width):
+            u, v = forward[y, x, 0], forward[y, x, 1]
+            p, q = backward[y, x, 0], backward[y, x, 1]
+            longest = min(max(u * u + v * v, p * p + q * q), _MOST)
+            is_swept = sweep.size > 0 and (sweep[y, x, 0] != _0 or sweep[y, x, 1] != _0)
+            is_contested = is_swept
+            limit = _RELATIVE * longest + _CONTESTED
+            if not is_swept and _apart2(backward, x, y, (-u, -v)) > limit:
+                is_contested = _is_met(forward, backward, x, y)
+                is_contested = is_contested or _is_met(backward, forward, x, y)
+            if is_contested:
+                marks[y * width + x] = 1
+                number += 1
+    return marks if number else marks[:0]
+
+
+@jit(inner=True)
+def list_contested(
+    marks: NDArray[np.uint8], pixel: Numbers, number: int, contested: Numbers
+) -> None:
+    """Fill in how many of some points are contested, then which.
+
+    Args:
+        marks: of `mark_contested`.
+        pixel: [n] flat index of each point.
+        number: how many points there are.
+        contested: [n + 1].
+    """
+    contested[0] = 0
+    if marks.size == 0:
+        return
+    count = 0
+    for k in range(number):
+        contested[count + 1] = k
+        count += marks[pixel[k]]
+    contested[0] = count
+
+
+@jit(error_model="numpy", inner=True)
+def choose_path(
+    forward: Floats, backward: Floats, sweep: Floats, pixel: Vector, position: np.float32
+) -> Vector:
+    """The path through a pixel at an instant that both flows confirm best."""
+    x, y = int(pixel[0]), int(pixel[1])
+    u, v = forward[y, x, 0], forward[y, x, 1]
+    p, q = backward[y, x, 0], backward[y, x, 1]
+    best = u - position * (u + p), v - position * (v + q)
+    most = _confirmed(forward, backward, pixel, best, position) + _BETTER
+    for k in range(3):
+        if k == 0:
+            path = u, v
+        elif k == 1:
+            path = -p, -q
+        elif sweep.size > 0 and (sweep[y, x, 0] != _0 or sweep[y, x, 1] != _0):
+            path = sweep[y, x, 0], sweep[y, x, 1]
+            most = _SWEPT  # what passes is in front
+        else:
+            break
+        seen = _confirmed(forward, backward, pixel, path, position)
+        if seen > most:
+            best, most = path, seen
+    return best
+
+
+@jit(error_model="numpy", inner=True)
+def _confirmed(
+    forward: Floats, backward: Floats, pixel: Vector, path: Vector, position: np.float32
+) -> np.float32:
+    """How well the flows at both ends of a path agree with it, 0..2."""
+    length2 = min(path[0] * path[0] + path[1] * path[1], _MOST)
+    visible = _VISIBLE_RELATIVE * length2 + _VISIBLE_PX2
+    visible = visible * visible
+    rest, total = _1 - position, _0
+    height, width, _ = forward.shape
+    column, row = _nearest(pixel[0] - position * path[0]), _nearest(pixel[1] - position * path[1])
+    if 0 <= column < width and 0 <= row < height:
+        error = _apart2(forward, column, row, path)
+        total += visible / (visible + error * error)
+    column, row = _nearest(pixel[0] + rest * path[0]), _nearest(pixel[1] + rest * path[1])
+    if 0 <= column < width and 0 <= row < height:
+        error = _apart2(backward, column, row, (-path[0], -path[1]))
+        total += visible / (visible + error * error)
+    return total
