@@ -197,7 +197,7 @@ class Reading:
         verb = action.verb.split()[0]
         kinds = action_kinds(action)
         if any(kinds & self._kinds_of(index) for index in indices):
-            return "right"
+            return "substituted" if stem(verb) in self.swapped else "right"
         if action.subject == "camera":
             is_move = share(stems([verb]), stems(self._camera_words()))
             return "right" if is_move else self._missing(verb)

@@ -103,6 +103,12 @@ def judge(prompt, **said):
     return {(kind, what): state for kind, what, state in judging.Reading.of(sentence).judge()}
 
 
+def test_a_verb_that_is_shown_by_another_is_substituted():
+    action = {"verb": "wiggle", "subject": "cat"}
+    states = judge("a cat wiggles", things=[{"noun": "cat"}], actions=[action])
+    assert states["actions of their subject", "cat wiggle"] == "substituted"
+
+
 def test_a_ground_counts_as_one_but_a_wrong_number_is_silent():
     things = [{"noun": "dog", "count": 2}, {"noun": "lawn", "count": 1}]
     states = judge("a dog runs on a lawn", things=things)

@@ -310,3 +310,7 @@ def test_a_bird_flaps_its_own_wings() -> None:
 
 def test_a_part_that_is_to_be_missing_is_reported() -> None:
     assert "tail" in parse_prompt("a cat with no tail sits on a mat").not_understood
+
+
+def test_a_camera_that_brakes_is_reported() -> None:
+    assert "brake" in parse_prompt("we drive through a tunnel, and we brake").not_understood

@@ -187,7 +187,7 @@ class CameraReader:
                                  "in" if is_towards else "forward", verb.pace))  # fmt: skip
         else:
             return
-        word.is_used = True
+        word.is_used = verb.end_pace is None  # no camera brakes
 
     def _add(self, move: CameraMove) -> None:
         move = replace(move, phase=self._phase)
