@@ -13,6 +13,7 @@ from texvent.pairs.warp_tolerance import (
     CONTESTED_RELATIVE,
     LEAST_SWEEP_PX2,
     MOST_PX2,
+    MOST_SWEEP_PX2,
     SWEPT,
     VISIBLE_PX2,
     VISIBLE_RELATIVE,
@@ -26,7 +27,8 @@ Vector = tuple[np.float32, np.float32]
 # As float32: Numba computes with float64 where a constant is one.
 _VISIBLE_RELATIVE, _VISIBLE_PX2 = np.float32(VISIBLE_RELATIVE), np.float32(VISIBLE_PX2)
 _RELATIVE, _CONTESTED = np.float32(CONTESTED_RELATIVE), np.float32(CONTESTED_PX2)
-_LEAST_SWEEP, _MOST = np.float32(LEAST_SWEEP_PX2), np.float32(MOST_PX2)
+_LEAST_SWEEP, _MOST_SWEEP = np.float32(LEAST_SWEEP_PX2), np.float32(MOST_SWEEP_PX2)
+_MOST = np.float32(MOST_PX2)
 _BETTER, _SWEPT = np.float32(CLEARLY_BETTER), np.float32(SWEPT)
 _0, _HALF, _1 = np.float32(0.0), np.float32(0.5), np.float32(1.0)
 
@@ -49,7 +51,7 @@ def find_sweep(forward: Floats, backward: Floats) -> Floats:
             u, v = forward[y, x, 0], forward[y, x, 1]
             length2 = u * u + v * v
             # Also false for a flow that is no number.
-            if not (length2 >= _LEAST_SWEEP and length2 < _MOST):
+            if not (length2 >= _LEAST_SWEEP and length2 <= _MOST_SWEEP):
                 continue
             limit = _RELATIVE * length2 + _CONTESTED
             if _apart2(backward, x, y, (-u, -v)) <= limit:

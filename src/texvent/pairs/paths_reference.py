@@ -21,6 +21,7 @@ from texvent.pairs.warp_tolerance import (
     CONTESTED_RELATIVE,
     LEAST_SWEEP_PX2,
     MOST_PX2,
+    MOST_SWEEP_PX2,
     SWEPT,
     VISIBLE_PX2,
     VISIBLE_RELATIVE,
@@ -48,7 +49,9 @@ def find_sweep(forward: FloatArray, backward: FloatArray) -> FloatArray:
     for y, x in np.ndindex(height, width):
         flow = forward[y, x]
         length2 = _squared(flow)
-        if not LEAST_SWEEP_PX2 <= length2 < MOST_PX2 or not _differ(backward[y, x], -flow, length2):
+        if not LEAST_SWEEP_PX2 <= length2 <= MOST_SWEEP_PX2 or not _differ(
+            backward[y, x], -flow, length2
+        ):
             continue
         if not _is_met(forward, backward, x, y):
             continue

@@ -32,8 +32,9 @@ CLEARLY_BETTER = 0.3
 SWEPT = 1.5
 """How well the flows must confirm what passes in front, 0..2."""
 
-LEAST_SWEEP_PX2 = 9.0
-"""What moves less, squared, covers each pixel of its path in one of the frames."""
+LEAST_SWEEP_PX2, MOST_SWEEP_PX2 = 9.0, 2304.0
+"""What moves less, squared, covers each pixel of its path in one of the frames. What moves more is
+not followed along its path, which would take too long."""
 
 MOST_PX2 = 1e9
 """Squares of longer paths and larger errors count as this, so that float32 can hold the products
