@@ -39,6 +39,8 @@ HOT_CHANCE = 0.01
 """Expected number of pixels that pass for hot by chance."""
 MOST_DECADES = 1.0
 """Spread of noise rates above which they are not noise."""
+NOT_TOLD = ("contrast_threshold", "on_off_ratio", "threshold_sigma", "cutoff_hz")
+"""Options that a scene at rest does not tell."""
 FLAT_LEVEL = 128
 """Level at which the curve of one point is written; it holds at every level."""
 
@@ -119,21 +121,14 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> StaticSc
         (WINDOWS, GROUPS),
     )
     found, kept = _judge(counts, values, ends, start, exposure_s)
-    spread = leak_spread(calm, values.leak_hz, GROUPS)
-    if spread is None:
-        reason = "too few leak events per pixel"
-        kept.append(Kept("leak_rate_decades", start.leak_rate_decades, reason))
-    else:
-        found.append(spread)
-    if isinstance(dead, str):
-        kept.append(Kept("refractory_period_us", start.refractory_period_us, dead))
-    else:
-        found.append(dead)
+    spread = leak_spread(calm, values.leak_hz, GROUPS) or "too few leak events per pixel"
+    for name, one in (("leak_rate_decades", spread), ("refractory_period_us", dead)):
+        if isinstance(one, str):
+            kept.append(Kept(name, getattr(start, name), one))
+        else:
+            found.append(one)
     reason = "a scene at rest does not tell it"
-    kept += [
-        Kept(name, getattr(start, name), reason)
-        for name in ("contrast_threshold", "on_off_ratio", "threshold_sigma", "cutoff_hz")
-    ]
+    kept += [Kept(name, getattr(start, name), reason) for name in NOT_TOLD]
     return StaticScene(
         _with(start, found, values.noise_hz),
         tuple(found),

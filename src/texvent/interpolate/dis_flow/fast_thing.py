@@ -34,7 +34,7 @@ MOST_MISSED = 0.2
 """Where a larger share is missed, no small thing explains it."""
 LEAST_SHIFT = 4
 """Shorter shifts, px, are left to the search."""
-AGREEMENT, AHEAD = 0.12, 1.1
+AGREEMENT, AHEAD = 0.3, 1.1
 """Least correlation of the shift, and how far above the next one it must be."""
 FITS = 0.3
 """A pixel takes the shift if its surroundings (3×3) change by less than this share of what they

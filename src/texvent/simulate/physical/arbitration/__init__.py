@@ -1,1 +1,1 @@
-"""Who reads events out, and when: pixels wait for their row or for a scan."""
+"""When events are read out: pixels wait for their row or for a scan."""

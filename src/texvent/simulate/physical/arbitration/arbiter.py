@@ -1,4 +1,4 @@
-"""Between the pixels and the readout: events wait until somebody reads their pixel.
+"""Between the pixels and the readout: events wait until their pixel is read.
 
 A pixel holds one event; what it fires while that waits is lost. So nothing piles up.
 """
@@ -17,7 +17,7 @@ ArbiterKind: TypeAlias = Literal["none", "rows", "scan"]
 
 
 class ArbiterRules(NamedTuple):
-    """Who reads the pixels."""
+    """What reads the pixels, and how fast."""
 
     kind: ArbiterKind
     """None, a row arbiter or a scan."""
