@@ -235,6 +235,8 @@ def test_which_transformer_must_be_said_where_there_are_two_and_only_there(model
     path, _ = save_adapter(tmp_path / "a", factors(weights_of(models("wan"))), "diffusers")
     with pytest.raises(ConfigError, match=r"two video transformers, .* add :high or :low"):
         build(models("wan22"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+    with pytest.raises(ConfigError, match=r"two video transformers, .* add :high or :low"):
+        build(models("wan22"), lora=(str(path),)).plan(PROMPT)
     with pytest.raises(ConfigError, match="one video transformer; leave :low out"):
         build(models("wan"), lora=(f"{path}:low",)).generate(PROMPT, progress=Quiet())
 

@@ -128,10 +128,15 @@ def test_a_repository_of_the_cache_is_used_and_another_is_told(tmp_path, monkeyp
     path = snapshot / "sub" / "fast.safetensors"
     path.write_bytes(EMPTY)
     lines = []
-    for source in ("hub:org/name/sub/fast.safetensors", "hub:org/name"):
-        found = find_adapter(Adapter(source, 0.5), lines.append)
-        assert found.path == path
-        assert found.facts == {"source": source, "sha256": found.sha256, "weight": 0.5}
+    source = "hub:org/name/sub/fast.safetensors"
+    found = find_adapter(Adapter(source, 0.5), lines.append)
+    assert found.path == path
+    assert found.facts == {"source": source, "sha256": found.sha256, "weight": 0.5}
+    with pytest.raises(TexventError, match=r"org/name is not on this machine"):
+        find_adapter(Adapter("hub:org/name"), lines.append)  # the repository may hold others
+    saved = snapshot / "pytorch_lora_weights.safetensors"
+    saved.write_bytes(EMPTY)
+    assert find_adapter(Adapter("hub:org/name"), lines.append).path == saved
     assert lines == []
     with pytest.raises(TexventError, match=r"org/other/a\.safetensors is not on this machine"):
         find_adapter(Adapter("hub:org/other/a.safetensors"), lines.append)

@@ -126,12 +126,20 @@ class DiffusersGenerator:
         return self._loaded(NoProgress()).decode(latents)
 
     def plan(self, prompt: str) -> str | None:
-        """What making the video would take, or None if it was made before. Touches no network."""
+        """What making the video would take, or None if it was made before. Touches no network.
+
+        Raises:
+            TexventError: as `generate`, for what shows before the model's networks are loaded.
+        """
         self._check(prompt)
         key = content_key(self._pixel_facts(prompt, self.seed))
         if VideoCache(is_kept=self.config.reuse_video).find(key, self._video_fps) is not None:
             return None
         config, folder = self.config, self.model.folder or find_downloaded(self.model)
+        if folder is None or None in map(find_local, config.adapters):
+            self._check_before_loading()
+        else:  # all files are here: what does not fit them is refused too
+            self._loaded(NoProgress())
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
         wishes = {"frames": config.frames, "steps": config.steps}
         amounts = ", ".join(f"{value} {name}" for name, value in wishes.items() if value)

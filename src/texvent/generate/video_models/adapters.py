@@ -208,7 +208,10 @@ def _fetch_scale(repo: str, file: str, weights: Path) -> None:
 
 
 def _list_files(repo: str, revision: str | None) -> list[str]:
-    """Weights in a repository as the hub lists them; without a network, of the copy here."""
+    """Weights in a repository as the hub lists them.
+
+    Without a network, of the copy here, which may lack some: those whose name needs no choice.
+    """
     hub = require("huggingface_hub", extra=EXTRA)
     errors = require("huggingface_hub.errors", extra=EXTRA)
     try:
@@ -218,9 +221,9 @@ def _list_files(repo: str, revision: str | None) -> list[str]:
     except (OSError, errors.HTTPError):
         with contextlib.suppress(errors.LocalEntryNotFoundError):
             folder = Path(hub.snapshot_download(repo, revision=revision, local_files_only=True))
-            here = [path.relative_to(folder) for path in folder.rglob(f"*{SAFETENSORS}")]
+            here = [name for name in SAVED_NAMES if (folder / name).is_file()]
             if here:
-                return [path.as_posix() for path in here]
+                return here
         raise
     return [name for name in names if name.endswith(SAFETENSORS)]
 
