@@ -66,24 +66,7 @@ def parse_options(
     words = _current_flags(arguments, list(map(type, groups.values())))
     lists = set(_list_flags(groups.values()))
     _refuse_second_lists(words, lists)
-    complaint = io.StringIO()
-    try:
-        with _registry, contextlib.redirect_stderr(complaint):
-            parsed: Any = tyro.cli(
-                form,
-                args=words,
-                prog=prog,
-                add_help=False,
-                config=(tyro.conf.OmitArgPrefixes,),
-            )
-    except SystemExit as stop:
-        if not stop.code:
-            raise
-        message = _first_message(complaint.getvalue())
-        if len(message) > MOST_MESSAGE:
-            # It echoes a value; what is allowed comes last.
-            message = f"{message[: MOST_MESSAGE // 2]} ... {message[-MOST_MESSAGE // 2 :]}"
-        raise ConfigError(f"{message} (see {prog} --help)") from None
+    parsed = _parse(form, words, prog)
     values: dict[str, Any] = {}
     for part in dataclasses.fields(parsed):
         group = getattr(parsed, part.name)
@@ -93,6 +76,28 @@ def parse_options(
         _refuse_empty(values, groups.values())
     protect_inputs(_inputs(values, groups.values()))
     return values
+
+
+def _parse(form: type, words: Sequence[str], prog: str) -> Any:
+    """An instance of `form`.
+
+    Raises:
+        ConfigError: the parser's message, in one line.
+    """
+    complaint = io.StringIO()
+    try:
+        with _registry, contextlib.redirect_stderr(complaint):
+            return tyro.cli(
+                form, args=words, prog=prog, add_help=False, config=(tyro.conf.OmitArgPrefixes,)
+            )
+    except SystemExit as stop:
+        if not stop.code:
+            raise
+        message = _first_message(complaint.getvalue())
+        if len(message) > MOST_MESSAGE:
+            # It echoes a value; what is allowed comes last.
+            message = f"{message[: MOST_MESSAGE // 2]} ... {message[-MOST_MESSAGE // 2 :]}"
+        raise ConfigError(f"{message} (see {prog} --help)") from None
 
 
 def _inputs(values: Mapping[str, Any], groups: Iterable[Any]) -> Iterator[str | Path]:

@@ -10,7 +10,7 @@ says nothing about the pairs. Exchanged within classes only, it says what the cl
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -92,19 +92,12 @@ def score_retrieval(
     places = _Places.of(similarity, targets)
     samples = chance.integers(count, size=(resamples, count))
     drawn = [_values(places.take(sample)) for sample in samples]
+    measured = _values(places)
 
     def exchange(classes: NDArray[Any]) -> tuple[Retrieval, float]:
-        """Mean over exchanges within classes, and the share that is as good as the pairs."""
-        mixed = np.array(
-            [
-                _values(_Places.of(similarity, _permuted(classes, chance)[targets]))
-                for _ in range(exchanges)
-            ]
-        )
-        at_least = int((mixed[:, -1] >= measured[-1]).sum())
-        return _retrieval(mixed.mean(axis=0)), (1 + at_least) / (1 + exchanges)
+        own = (_permuted(classes, chance)[targets] for _ in range(exchanges))
+        return _exchanged([_values(_Places.of(similarity, one)) for one in own], measured)
 
-    measured = _values(places)
     shuffled, p_value = exchange(np.zeros(texts, np.int64))
     within = (None, None) if groups is None else exchange(np.asarray(groups))
     tail = 50 * (1 - CONFIDENCE)
@@ -125,6 +118,13 @@ def score_retrieval(
         within=within[0],
         p_within=within[1],
     )
+
+
+def _exchanged(mixed: Sequence[Any], measured: Any) -> tuple[Retrieval, float]:
+    """Mean over exchanges of the texts, and the share that is as good as the pairs."""
+    values = np.array(mixed)
+    at_least = int((values[:, -1] >= measured[-1]).sum())
+    return _retrieval(values.mean(axis=0)), (1 + at_least) / (1 + len(values))
 
 
 def _checked(

@@ -85,6 +85,27 @@ def prepare_replay(
     tables, facts, folder = metadata.get("settings"), metadata.get("source"), path.parent
     if not (isinstance(tables, Mapping) and isinstance(facts, Mapping)):
         raise InputError("the file does not say how it was made, so it cannot be made again")
+    _refuse_other_recordings(metadata, tables, facts, path)
+    options, prompt = flatten_tables(tables, folder), metadata.get("prompt")
+    prompt = prompt if isinstance(prompt, str) else None
+    if "generate" in tables:
+        settings = resolve("generate", options)
+        return _prepare_generated(facts, settings, prompt=prompt, source=source)
+    settings = resolve("simulate", options)
+    _refuse_fields_of_memory(facts, settings)
+    shaken = facts.get("camera_seed")
+    return prepare_source(
+        source or _find_source(facts, folder),
+        settings,
+        prompt=prompt,
+        video_seed=shaken if isinstance(shaken, int) else None,
+    )
+
+
+def _refuse_other_recordings(
+    metadata: Mapping[str, Any], tables: Mapping[str, Any], facts: Mapping[str, Any], path: Path
+) -> None:
+    """Refuse files that hold something else than their run makes."""
     if "rig" in metadata:
         raise InputError(
             "the file is of one camera of a rig, which is recorded as a whole; texvent rig does it "
@@ -101,35 +122,28 @@ def prepare_replay(
             "the file is a part: its run was stopped; this makes it whole: "
             f"{_command(tables, facts, path)}"
         )
-    options, prompt = flatten_tables(tables, folder), metadata.get("prompt")
-    prompt = prompt if isinstance(prompt, str) else None
-    if "generate" in tables:
-        settings, detailed = resolve("generate", options), str(facts.get("prompt", prompt))
-        if source is None and facts.get("stored") is not None:
-            raise InputError(
-                f"its video was stored, in {facts['stored']} of its data set; take it out of that "
-                "tar and name it with --source"
-            )
-        if source is not None:
-            video = fit_to_sensor(_stored_video(source, facts), settings)
-            return prepare_video(video, settings, prompt=prompt)
-        check_files(facts.get("files"))
-        seed = _video_seed(facts, settings)
-        if seed == settings.run.seed:
-            simulation = prepare_prompt(detailed, settings)
-        else:
-            of_video = replace(settings, run=replace(settings.run, seed=seed))
-            simulation = prepare_video(text_to_video(detailed, of_video), settings)
-        return replace(simulation, prompt=prompt)
-    settings = resolve("simulate", options)
-    _refuse_fields_of_memory(facts, settings)
-    shaken = facts.get("camera_seed")
-    return prepare_source(
-        source or _find_source(facts, folder),
-        settings,
-        prompt=prompt,
-        video_seed=shaken if isinstance(shaken, int) else None,
-    )
+
+
+def _prepare_generated(
+    facts: Mapping[str, Any], settings: Settings, *, prompt: str | None, source: Path | None
+) -> Simulation:
+    """The run of a prompt: from its stored video where that is given, else generated again."""
+    if source is not None:
+        video = fit_to_sensor(_stored_video(source, facts), settings)
+        return prepare_video(video, settings, prompt=prompt)
+    if facts.get("stored") is not None:
+        raise InputError(
+            f"its video was stored, in {facts['stored']} of its data set; take it out of that tar "
+            "and name it with --source"
+        )
+    check_files(facts.get("files"))
+    detailed, seed = str(facts.get("prompt", prompt)), _video_seed(facts, settings)
+    if seed == settings.run.seed:
+        simulation = prepare_prompt(detailed, settings)
+    else:
+        of_video = replace(settings, run=replace(settings.run, seed=seed))
+        simulation = prepare_video(text_to_video(detailed, of_video), settings)
+    return replace(simulation, prompt=prompt)
 
 
 def _refuse_fields_of_memory(facts: Mapping[str, Any], settings: Settings) -> None:
