@@ -18,7 +18,7 @@ from texvent.interpolate.dis_flow.definitions import (
     count_levels,
     make_pyramid,
 )
-from texvent.interpolate.dis_flow.fast_thing import follow_fast_thing, level_of_things
+from texvent.interpolate.dis_flow.fast_things import follow_fast_things, level_of_things
 from texvent.interpolate.dis_flow.shifts import find_shifts
 from texvent.runtime.allocator import keep_freed_memory
 from texvent.runtime.background_jit import is_ready, wait_until_ready
@@ -92,7 +92,7 @@ class DisFlow:
 
         number = level_of_things(earlier)
         flows = follow_both(slice(number, None), (None, None))
-        flows = follow_fast_thing(earlier[number], later[number], flows, flow_cpu)
+        flows = follow_fast_things(earlier[number], later[number], flows, flow_cpu)
         if number:
             flows = follow_both(slice(0, number), flows)
         return self._both(enlarge, (flows[0],), (flows[1],))

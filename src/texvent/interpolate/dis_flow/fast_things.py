@@ -1,20 +1,22 @@
-"""A small thing that moves too far for the search of patches, such as a ball of 8 px by 12 px.
+"""Small things that move too far for the search of patches, such as a ball of 8 px by 12 px.
 
-Coarse levels do not show it, and on fine ones it is out of reach. So it is looked for once both
-flows are known on a level, in what the motion around does not explain:
+Coarse levels do not show them, and on fine ones they are out of reach. So they are looked for once
+both flows are known on a level, one after the other, in what the motion around does not explain:
 
 1. *Around.* The flow of the surroundings is the median over a large window.
-2. *Missed.* Pixels that change along it belong to the thing, or to what it covers and uncovers.
-3. *Shift.* The detail of both images in these pixels is correlated at every shift. The best one
-   counts if it is well above all others.
-4. *Pixels.* A missed pixel whose flow is not confirmed by the other direction takes the shift if
-   its surroundings agree there, and the other image says the same. What the thing covers or
-   uncovers takes the flow of the surroundings.
+2. *Missed.* Pixels that change along it, and whose flow is not confirmed by the other direction,
+   belong to a thing, or to what it covers and uncovers.
+3. *Shift.* The detail of both images in these pixels is correlated at every shift. The best one is
+   tried, unless another one explains the same pixels nearly as well.
+4. *Pixels.* A missed pixel takes the shift if its surroundings agree there, and the other image
+   says the same. What the thing covers or uncovers takes the flow of the surroundings.
+5. *Check.* Around the thing, brightness must change less along the new flows than along those
+   before, in both directions, and also if each unconfirmed pixel counts as a change by `MISSED`.
+   Otherwise nothing is changed.
 """
 
 from __future__ import annotations
 
-import math
 from types import ModuleType
 from typing import NamedTuple
 
@@ -22,27 +24,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, size_of
-from texvent.pairs.shift_correlation import detail
+from texvent.interpolate.dis_flow.missed_shift import Mask, correlate_missed
 
 MOST_SIDE = 400
 """Longer side of the level on which things are looked for, at most, px."""
+MOST_THINGS = 4
+"""At most so many per pair."""
 GRID, WINDOW = 16, 5
 """Surroundings: flow at this many places along the longer side, median over 5×5 of them."""
 MISSED = 24.0
 """Difference to the surroundings' motion from which a pixel is missed, of 255 levels."""
 MOST_MISSED = 0.2
 """Where a larger share is missed, no small thing explains it."""
-LEAST_SHIFT = 4
-"""Shorter shifts, px, are left to the search."""
-AGREEMENT, AHEAD = 0.3, 1.1
-"""Least correlation of the shift, and how far above the next one it must be."""
-FITS = 0.3
+FITS, FITS_DETAIL = 0.3, 0.2
 """A pixel takes the shift if its surroundings (3×3) change by less than this share of what they
-change by along the surroundings' motion."""
+change by along the surroundings' motion, and on average by less than `FITS_DETAIL` of the range of
+brightness around (9×9): ground that a thing covers fits other ground better than the thing."""
+AMBIGUOUS = 0.5
+"""Where a rival fits this share of a shift's pixels too, as in a texture that repeats, neither
+counts."""
 BORDER = 3
-"""Pixels around a thing that may have its flow, or what it covers, by mistake."""
+"""Pixels around a thing that may have its flow, or what it covers, by mistake. The check looks as
+far around these."""
+MOST_CHANGE = 96.0
+"""A larger change of brightness counts as this in the check, levels: it is an edge elsewhere, not
+worse."""
 
-Mask = NDArray[np.bool_]
+Flows = tuple[Floats, Floats]
+"""From the one image to the other, and back, [2, H, W] px."""
 
 
 class Way(NamedTuple):
@@ -50,7 +59,6 @@ class Way(NamedTuple):
 
     start: Floats
     stop: Floats
-    flow: Floats
     around: Floats
     """[2, H, W] flow of the surroundings."""
     change: Floats
@@ -62,16 +70,17 @@ class Way(NamedTuple):
         return np.abs(self.change) > MISSED
 
 
+Ways = tuple[Way, Way]
+
+
 def level_of_things(pyramid: list[Floats]) -> int:
     """Number of the level on which things are looked for."""
     sizes = [max(size_of(level)) for level in pyramid]
     return next((k for k, side in enumerate(sizes) if side <= MOST_SIDE), len(sizes) - 1)
 
 
-def follow_fast_thing(
-    start: Floats, stop: Floats, flows: tuple[Floats, Floats], kernels: ModuleType
-) -> tuple[Floats, Floats]:
-    """Both flows of a level, with the motion of a small fast thing where there is one.
+def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: ModuleType) -> Flows:
+    """Both flows of a level, with the motion of small fast things where there are any.
 
     Args:
         start: level of the one image.
@@ -79,31 +88,31 @@ def follow_fast_thing(
         flows: from one to the other and back, [2, H, W] px.
         kernels: `flow_reference` or `flow_cpu`.
     """
-    ahead = _look(start, stop, flows[0], kernels)
-    if not 0 < ahead.missed.mean() <= MOST_MISSED:
+    ways = _look(start, stop, flows[0], kernels), _look(stop, start, flows[1], kernels)
+    if not 0 < ways[0].missed.mean() <= MOST_MISSED:
         return flows
-    back = _look(stop, start, flows[1], kernels)
-    shift = _find_shift(ahead, back)
-    if shift is None:
-        return flows
-    ways, shifts = (ahead, back), (shift, -shift)
-    is_open = _unconfirmed(ahead, *flows, kernels), _unconfirmed(back, *flows[::-1], kernels)
-    fits = [_fits(*each) for each in zip(ways, shifts, is_open, strict=True)]
-    things = [
-        _filled(_confirmed_by(one, other, each))
-        for one, other, each in zip(fits, fits[::-1], shifts, strict=True)
-    ]
-    near = _dilated(things[0] | things[1], BORDER)
-    found = []
-    for way, each, thing, open_pixels in zip(ways, shifts, things, is_open, strict=True):
-        flow = np.where(near & open_pixels, way.around, way.flow)
-        found.append(np.where(thing, each[:, np.newaxis, np.newaxis], flow))
-    return found[0], found[1]
+    is_open, settled = _unconfirmed(ways, flows, kernels), np.zeros_like(ways[0].missed)
+    images = _image(start), _image(stop)
+    for _ in range(MOST_THINGS):
+        missed = [way.missed & each & ~settled for way, each in zip(ways, is_open, strict=True)]
+        shifts = correlate_missed(images, (missed[0], missed[1]))
+        if not shifts or _is_ambiguous(ways[0], shifts, is_open[0]):
+            break
+        found, near = _follow(ways, flows, is_open, shifts[0])
+        still_open, wide = _unconfirmed(ways, found, kernels), _dilated(near, BORDER)
+        before, after = (
+            np.stack([_unexplained(ways[k], each[k], mask[k], wide, kernels) for k in (0, 1)])
+            for each, mask in ((flows, is_open), (found, still_open))
+        )
+        if not (after < before).all():
+            break
+        flows, is_open, settled = found, still_open, settled | near
+    return flows
 
 
 def _look(start: Floats, stop: Floats, flow: Floats, kernels: ModuleType) -> Way:
     around = surroundings(flow)
-    return Way(start, stop, flow, around, kernels.change_along(start, stop, around))
+    return Way(start, stop, around, kernels.change_along(start, stop, around))
 
 
 def surroundings(flow: Floats) -> Floats:
@@ -120,54 +129,56 @@ def surroundings(flow: Floats) -> Floats:
     return np.ascontiguousarray(median[:, rows][:, :, columns], np.float32)
 
 
-def _find_shift(ahead: Way, back: Way) -> Floats | None:
-    """The shift of what is missed, (x, y) px, if one is well above all others."""
-    one, other = (np.where(way.missed, detail(_image(way.start)), 0) for way in (ahead, back))
-    reach = [side // 3 for side in one.shape]
-    shape = tuple(_fast_length(side + most) for side, most in zip(one.shape, reach, strict=True))
-    spectra = [np.fft.rfft2(image.astype(np.float32), shape) for image in (one, other)]
-    product = np.fft.irfft2(spectra[1] * np.conj(spectra[0]), shape)
-    agreement = product[np.ix_(*(np.arange(-most, most + 1) for most in reach))]
-    agreement = agreement / (np.sqrt((one**2).sum() * (other**2).sum()) + 1.0)
-    held = agreement.copy()
-    _clear(held, reach[0], reach[1], LEAST_SHIFT)
-    row, column = np.unravel_index(int(held.argmax()), held.shape)
-    best = float(held[row, column])
-    _clear(held, int(row), int(column), LEAST_SHIFT)
-    if best < max(AGREEMENT, AHEAD * float(held.max())):
-        return None
-    x = column - reach[1] + _vertex(agreement[row, :], int(column))
-    y = row - reach[0] + _vertex(agreement[:, column], int(row))
-    return np.array([x, y], np.float32)
+def _is_ambiguous(way: Way, shifts: list[Floats], is_open: Mask) -> bool:
+    """Whether the second shift fits the pixels that the first one fits."""
+    if len(shifts) < 2:
+        return False
+    best, rival = (_fits(way, shift, is_open) for shift in shifts)
+    return bool((best & rival).sum() > AMBIGUOUS * best.sum())
 
 
-def _fast_length(least: int) -> int:
-    """The next length for which Fourier transforms are fast."""
-    length = least
-    while math.gcd(length, 2**16 * 3**8 * 5**5) != length:
-        length += 1
-    return length
+def _follow(
+    ways: Ways, flows: Flows, is_open: tuple[Mask, Mask], shift: Floats
+) -> tuple[Flows, Mask]:
+    """Both flows with a thing that moves by a shift, and the pixels around it in either image."""
+    shifts = shift, -shift
+    fits = [_fits(*each) for each in zip(ways, shifts, is_open, strict=True)]
+    things = [
+        _filled(_confirmed_by(one, other, each))
+        for one, other, each in zip(fits, fits[::-1], shifts, strict=True)
+    ]
+    near = _dilated(things[0] | things[1], BORDER)
+    found = [
+        np.where(
+            things[k],
+            shifts[k][:, np.newaxis, np.newaxis],
+            np.where(near & is_open[k], ways[k].around, flows[k]),
+        )
+        for k in (0, 1)
+    ]
+    return (found[0], found[1]), near
+
+
+def _unexplained(
+    way: Way, flow: Floats, is_open: Mask, near: Mask, kernels: ModuleType
+) -> NDArray[np.float64]:
+    """What a flow leaves unexplained in some pixels: change of brightness, and pixels, levels."""
+    change = np.abs(kernels.change_along(way.start, way.stop, np.ascontiguousarray(flow)))
+    total = float(np.minimum(change[near], np.float32(MOST_CHANGE)).sum(dtype=np.float64))
+    return np.array([total, total + MISSED * int(is_open[near].sum())])
+
+
+def _unconfirmed(ways: Ways, flows: Flows, kernels: ModuleType) -> tuple[Mask, Mask]:
+    """Pixels of both images whose flow is not confirmed."""
+    ahead, back = ways
+    return _open_pixels(ahead, *flows, kernels), _open_pixels(back, *flows[::-1], kernels)
 
 
 def _image(level: Floats) -> NDArray[np.float64]:
     return level[0, MARGIN:-MARGIN, MARGIN:-MARGIN].astype(np.float64)
 
 
-def _clear(agreement: NDArray[np.float64], row: int, column: int, reach: int) -> None:
-    rows, columns = (slice(max(at - reach, 0), at + reach + 1) for at in (row, column))
-    agreement[rows, columns] = -1.0
-
-
-def _vertex(values: NDArray[np.float64], at: int) -> float:
-    """Where a parabola through a peak and its neighbours is highest, −0.5..0.5."""
-    if not 0 < at < len(values) - 1:
-        return 0.0
-    before, here, after = values[at - 1 : at + 2]
-    bend = before - 2.0 * here + after
-    return float(np.clip(0.5 * (before - after) / bend, -0.5, 0.5)) if bend < 0 else 0.0
-
-
-def _unconfirmed(way: Way, flow: Floats, other: Floats, kernels: ModuleType) -> Mask:
+def _open_pixels(way: Way, flow: Floats, other: Floats, kernels: ModuleType) -> Mask:
     """Pixels whose flow the other direction contradicts, or along which brightness changes."""
     height, width = size_of(way.start)
     y, x = np.mgrid[:height, :width]
@@ -190,8 +201,9 @@ def _fits(way: Way, shift: Floats, is_open: Mask) -> Mask:
     is_inside = (to_x >= 1) & (to_y >= 1) & (to_x < width - 2) & (to_y < height - 2)
     y, x = y[is_inside], x[is_inside]
     near = _window(way.start, y, x, 4)
-    has_detail = near.max(axis=0) - near.min(axis=0) >= MISSED
-    y, x = y[has_detail], x[has_detail]
+    spread = near.max(axis=0) - near.min(axis=0)
+    has_detail = spread >= MISSED
+    y, x, spread = y[has_detail], x[has_detail], spread[has_detail]
     left, top = int(np.floor(shift[0])), int(np.floor(shift[1]))
     u, v = shift[0] - left, shift[1] - top
     upper, lower = (
@@ -202,7 +214,7 @@ def _fits(way: Way, shift: Floats, is_open: Mask) -> Mask:
     error = np.abs((1 - v) * upper + v * lower - _window(way.start, y, x, 1)).sum(axis=0)
     padded = np.pad(np.abs(way.change), 1)
     before = sum(padded[y + i, x + j] for i in range(3) for j in range(3))
-    fits[y, x] = error < FITS * before
+    fits[y, x] = (error < FITS * before) & (error < 9 * FITS_DETAIL * spread)
     return fits
 
 
