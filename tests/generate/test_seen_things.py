@@ -112,18 +112,18 @@ class Discs:
 @pytest.mark.parametrize(
     ("discs", "reported"),
     [
-        # A disc of 1 m fills 20 % of the width, one of 10 cm 2 %, one of 30 cm 6 % and 0.38 % of
+        # A disc of 1 m fills 20 % of the width, one of 10 cm 2 %, one of 40 cm 8 % and 0.67 % of
         # the points, one of 20 cm 4 % and 0.17 %.
         (((1, 0.0, 1.0, 10.0),), None),
-        (((1, 0.0, 0.3, 10.0),), None),
+        (((1, 0.0, 0.4, 10.0),), None),
         (((1, 0.0, 0.2, 10.0),), "too small"),
         (((1, 0.0, 0.1, 10.0),), "too small"),
         # The lid before the middle hides 0.9² = 81 % of it, a smaller one 0.7² = 49 %.
         (((1, 0.0, 1.0, 10.0), (2, 0.0, 0.9, 9.99)), "mostly hidden"),
         (((1, 0.0, 1.0, 10.0), (2, 0.0, 0.7, 9.99)), None),
-        # The picture's edge is 5 m to the right: 0.5 m of 4 m are inside, or 1.5 m.
+        # The picture's edge is 5 m to the right: 0.5 m of 4 m are inside, or 2.5 m.
         (((1, 6.5, 2.0, 10.0),), "cut off"),
-        (((1, 5.5, 2.0, 10.0),), None),
+        (((1, 4.5, 2.0, 10.0),), None),
         (((1, 8.0, 2.0, 10.0),), "out of view"),
     ],
 )

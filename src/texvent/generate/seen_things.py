@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from texvent.generate.landmarks import SKY, Landmark, is_marked, list_landmarks
+from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
+from texvent.generate.seen_words.picture import Picture, View
+from texvent.generate.seen_words.words import judge_words
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Evidence
 from texvent.scenes.projection import place_in_image, project, ray_directions
@@ -19,7 +20,7 @@ from texvent.scenes.raycast.render import world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
 from texvent.scenes.raycast.trace import GROUND, NOTHING
 from texvent.scenes.raycast.visibility import count_unoccluded
-from texvent.scenes.scene import Camera, Float64Array, Primitives, Scene, Shape
+from texvent.scenes.scene import Float64Array, Scene, Shape
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.sensor import SensorSize
@@ -34,16 +35,17 @@ MOST_POINTS = 4000
 """Image points that are looked at per instant."""
 LEAST_SIZE = 0.025
 """Share of the picture's width or height below which a thing is a speck."""
-LEAST_AREA, SMALL_SIZE = 0.0025, 0.1
+LEAST_AREA, SMALL_SIZE = 0.004, 0.1
 """Share of the picture's points below which a thing up to this size is a speck too."""
 LEAST_PIXELS = 12
 """Pixels below which nothing can be told of a thing."""
-LEAST_SEEN = 0.25
+LEAST_SEEN = 0.45
 """Share of a thing's silhouette of which less is hardly seen."""
-LARGE_AREA = 0.03
+LARGE_AREA = 0.12
 """Share of the picture's points from which on a thing is seen, however far it reaches beyond."""
-LEAST_MARK = 0.003
-"""Share of the picture's points that what a place is known by covers at least."""
+LEAST_MARK, LEAST_GROUND = 0.003, 0.02
+"""Share of the picture's points that what a place is known by covers at least: things; water or a
+road."""
 IN_FOG = 2.5
 """Distance, as a multiple of that at which colours have faded to 37 %, from which on fog hides."""
 LEAST_MOTION_PX = 1.0
@@ -110,6 +112,8 @@ class Findings(NamedTuple):
     """Instances that do not move in the image."""
     places: dict[str, str]
     """Words of places and of the sky that are not shown → why."""
+    views: tuple[View, ...] = ()
+    """What the camera sees at each of `INSTANTS`."""
 
 
 def find_evidence(
@@ -143,11 +147,14 @@ def find_evidence(
             whole = next(copies[index] for index in ends if copies[index])
             for index in ends:
                 copies[index] = copies[index] or whole
+    picture = Picture(scene, size, image_points(size), found.views)
+    words, qualities = judge_words(picture, description)
     return Evidence(
         scene.unmet,
         {index: [found.faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},
         frozenset(index for index, own in copies.items() if found.still.issuperset(own)),
-        found.places,
+        {**words, **found.places},
+        qualities,
     )
 
 
@@ -174,23 +181,27 @@ def look_for_things(
     sights = {one: _Sight() for one in scene.class_names}
     marks: Counter[str] = Counter()
     points = image_points(size)
-    last: _View | None = None
+    views: list[View] = []
     for time_s in _choose_instants(duration_s):
         view = _look(scene, float(time_s), size, points, sights)
         marks |= _count_marks(scene, view, points, scenery)
-        if last is not None:
-            _follow(last, view, sights)
-        last = view
-    least = LEAST_MARK * len(points)
+        if views:
+            _follow(views[-1], view, sights)
+        views.append(view)
     return Findings(
         {one: sight.fault(len(points), size.width * size.height) for one, sight in sights.items()},
         frozenset(one for one, sight in sights.items() if sight.moved_px < LEAST_MOTION_PX),
         {
             landmark.word: "out of view"
             for landmark in landmarks
-            if all(marks[mark] < least for mark in landmark.marks)
+            if all(marks[mark] < _least(mark) * len(points) for mark in landmark.marks)
         },
+        tuple(views),
     )
+
+
+def _least(mark: str) -> float:
+    return LEAST_GROUND if mark in (WATER, ROAD) else LEAST_MARK
 
 
 def _choose_instants(duration_s: float) -> Float64Array:
@@ -199,36 +210,18 @@ def _choose_instants(duration_s: float) -> Float64Array:
     return np.asarray(duration_s * (even + UNEVEN * np.sin(2.0 * np.pi * even)))
 
 
-class _View(NamedTuple):
-    """What the camera sees at an instant."""
-
-    time_s: float
-    camera: Camera
-    size: SensorSize
-    shapes: Primitives
-    depth: Float64Array
-    """[k] of each image point, m."""
-    number: NDArray[np.int32]
-    """[k] shape of each image point."""
-
-    @property
-    def owner(self) -> NDArray[np.int32]:
-        """[n] instance of each shape."""
-        return np.asarray(self.shapes.instance, dtype=np.int32)
-
-
 def _look(
     scene: Scene,
     time_s: float,
     size: SensorSize,
     points: Float64Array,
     sights: Mapping[int, _Sight],
-) -> _View:
+) -> View:
     """Notes what is seen of each thing at an instant."""
     world, shapes = world_and_shapes(scene, time_s, size)
     depth, number = cast(world, points)
     number[np.isfinite(depth) & (depth > IN_FOG * scene.environment(time_s).fog_distance)] = NOTHING
-    view = _View(time_s, scene.camera(time_s), size, shapes, depth, number)
+    view = View(time_s, scene.camera(time_s), size, shapes, depth, number)
     owner = view.owner
     count = 1 + max(int(owner.max(initial=0)), max(sights, default=0))
     seen = np.bincount(owner[view.number[view.number >= 0]], minlength=count)
@@ -241,7 +234,7 @@ def _look(
 
 
 def _count_marks(
-    scene: Scene, view: _View, points: Float64Array, scenery: Sequence[str]
+    scene: Scene, view: View, points: Float64Array, scenery: Sequence[str]
 ) -> Counter[str]:
     """Points of all marks of places."""
     marks = Counter({SKY: int(np.isinf(view.depth).sum())})
@@ -258,7 +251,7 @@ def _count_marks(
     return marks
 
 
-def _follow(before: _View, after: _View, sights: Mapping[int, _Sight]) -> None:
+def _follow(before: View, after: View, sights: Mapping[int, _Sight]) -> None:
     """Add the way of each thing's parts that are seen, for a camera that stays where it was.
 
     A mesh that deforms, a lamp and a surface that change are motion too.
@@ -293,7 +286,7 @@ def _follow(before: _View, after: _View, sights: Mapping[int, _Sight]) -> None:
             sights[number].moved_px += moved
 
 
-def _place_in_frame(view: _View, count: int) -> Float64Array:
+def _place_in_frame(view: View, count: int) -> Float64Array:
     """[count, 2] of each instance: its extent within the image, and which share lies there.
 
     From the boxes around its shapes: the extent is a share of the image's width or height, the

@@ -217,7 +217,9 @@ class Claim:
 
     word: str
     aspect: str
-    """"name" (of objects), "count", "motion", "relation" or "quality" (whatever else it says)."""
+    """"name" (of objects), "count", "motion", "relation", "colour", "size", "material", "part",
+    "side"; "light", "bright", "weather", "clouds", "snow", "sky", "steep", "dust", "flicker",
+    "shadow", "effect", "place", "road", "view", "framing"; or "quality" (whatever else it says)."""
     things: tuple[int, ...]
     """Indices of the objects that show it."""
     relations: tuple[Relation, ...] = ()
@@ -226,6 +228,8 @@ class Claim:
     """Which of the motions of its objects, from 0; None = none, or not known."""
     move: str | None = None
     """Kind of the camera's move that it asks for."""
+    value: str = ""
+    """What it means, where it is a word of the scene: "fog" for "misty"."""
 
 
 @dataclass(frozen=True)

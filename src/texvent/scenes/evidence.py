@@ -44,7 +44,9 @@ class Evidence:
     still: frozenset[int] = frozenset()
     """Objects that do not move in the image."""
     places: Mapping[str, str] = field(default_factory=dict)
-    """Words of places, of the sky and of effects that are not seen → why."""
+    """Words of the scene that are not seen, of its place, light, weather ... → why."""
+    qualities: Mapping[tuple[str, int], str] = field(default_factory=dict)
+    """Aspect of a claim, such as "colour", and the object → why it is not seen."""
 
 
 def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport:
@@ -127,15 +129,28 @@ def _find_reason(claim: Claim, description: SceneDescription, evidence: Evidence
     unseen = [index for index in claim.things if _is_unseen(index, evidence)]
     if unseen and len(unseen) == len(claim.things):
         return _reason(unseen[0], description, evidence)
-    if claim.aspect == "count":
-        for index in claim.things:
-            faults = evidence.faults.get(index, ())
-            if len(faults) <= MOST_COUNTED and any(fault is not None for fault in faults):
-                return f"not all {pluralise(description.objects[index].noun)} in view"
+    poor = _find_poor_quality(claim, description, evidence)
+    if poor is not None:
+        return poor
     if claim.aspect == "motion":
         movers = [index for index in claim.things if is_to_move(index, description)]
         if movers and evidence.still.issuperset(movers):
             return STILL
+    return None
+
+
+def _find_poor_quality(
+    claim: Claim, description: SceneDescription, evidence: Evidence
+) -> str | None:
+    """Why the number, the colour ... of objects that are in view is not seen; None where it is."""
+    for index in claim.things:
+        noun = description.objects[index].noun
+        faults = evidence.faults.get(index, ())
+        is_counted = claim.aspect == "count" and len(faults) <= MOST_COUNTED
+        if is_counted and any(fault is not None for fault in faults):
+            return f"not all {pluralise(noun)} in view"
+        if (claim.aspect, index) in evidence.qualities:
+            return f"{noun} {evidence.qualities[claim.aspect, index]}"
     return None
 
 

@@ -18,6 +18,19 @@ _GRAMMAR = frozenset({Role.FUNCTION, Role.CAMERA, Role.GLOW})
 """Roles of words that show nothing of their own: "scene", "camera", "light"."""
 _OF_MOTION = frozenset({Role.VERB, Role.DIRECTION, Role.PACE, Role.SIMILAR, Role.ACTIVITY})
 
+_OF_OBJECTS = {
+    Role.COUNT: "count", Role.COLOUR: "colour", Role.SHADE: "colour", Role.SIZE: "size",
+    Role.MATERIAL: "material", Role.PART: "part", Role.SIDE: "side",
+}  # fmt: skip
+"""Role of a word that says something of objects → what."""
+_OF_SCENE = {
+    Role.LIGHT: "light", Role.SHADE: "bright", Role.WEATHER: "weather", Role.CLOUDS: "clouds",
+    Role.SNOW: "snow", Role.SKY: "sky", Role.STEEP: "steep", Role.DUST: "dust",
+    Role.FLICKER: "flicker", Role.SHADOW: "shadow", Role.EFFECT: "effect", Role.PLACE: "place",
+    Role.ROAD: "road", Role.VIEW: "view", Role.FRAMING: "framing", Role.COLOUR: "colour",
+}  # fmt: skip
+"""Role of a word that says something of the scene → what."""
+
 
 def says_something(word: Word) -> bool:
     """Whether a word that has an effect is worth a mention as shown: no mere grammar."""
@@ -31,7 +44,15 @@ def says_something(word: Word) -> bool:
 def list_claims(words: Sequence[Word]) -> tuple[Claim, ...]:
     """What each word that is shown, or substituted, stands for."""
     return tuple(
-        Claim(word.text, _aspect_of(word), word.things, word.relations, word.motion, _move_of(word))
+        Claim(
+            word.text,
+            _aspect_of(word),
+            word.things,
+            word.relations,
+            word.motion,
+            _move_of(word),
+            str(word.meaning.value) if word.role in _OF_SCENE else "",
+        )
         for word in words
         if (word.is_used or word.shown_as is not None) and says_something(word)
     )
@@ -40,12 +61,15 @@ def list_claims(words: Sequence[Word]) -> tuple[Claim, ...]:
 def _aspect_of(word: Word) -> str:
     if word.role in _OF_MOTION:
         return "motion"
-    if word.role is Role.COUNT:
-        return "count"
+    if word.things and word.role in _OF_OBJECTS:
+        return _OF_OBJECTS[word.role]
+    if word.role in (Role.EFFECT, Role.DUST):
+        return _OF_SCENE[word.role]
     if word.relations:
         return "relation"
-    is_name = word.pos is Pos.NOUN and bool(word.things) and word.role is not Role.PART
-    return "name" if is_name else "quality"
+    if word.pos is Pos.NOUN and word.things:
+        return "name"
+    return _OF_SCENE.get(word.role, "quality")
 
 
 def _move_of(word: Word) -> str | None:

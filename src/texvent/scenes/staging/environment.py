@@ -264,8 +264,12 @@ def build_environment(
     sky_top, horizon = lighting.sky_top, lighting.sky_horizon
     if said.sky is not None:
         sky_top, horizon = said.sky.rgb, mix(said.sky.rgb, horizon, 0.5)
-    fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
     clouds = lighting.clouds if said.clouds is None else said.clouds
+    if place == "plain" and said.sky is None:
+        # A backdrop: the same all around, without a horizon to speak of.
+        sky_top = horizon = mix(colour, second, 0.5)
+        clouds = said.clouds or 0.0
+    fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
     if said.weather in ("rain", "snow"):
         clouds = max(clouds, 0.8)
         lighting = replace(lighting, sun=mix(lighting.sun, (0.0, 0.0, 0.0), 0.4))

@@ -15,6 +15,7 @@ from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.meaning.owners import lose_owners
 from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
 from texvent.scenes.language.meaning.scene_clauses import SceneClauses
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
@@ -64,6 +65,7 @@ class ClauseMeaning:
         draft = self._draft
         mount_riders(draft)
         add_doings(draft)
+        lose_owners(draft, self._referents.named)
         surroundings, light = self._surroundings.build()
         return SceneDescription(
             prompt=prompt,

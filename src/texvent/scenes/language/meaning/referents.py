@@ -112,6 +112,11 @@ class Referents:
                 link(group.words, found.things)
         return found
 
+    @property
+    def named(self) -> list[Referent]:
+        """What all groups that were read mean."""
+        return list(self._known.values())
+
     def forget(self, group: NounGroup) -> None:
         """A group names nothing of the scene."""
         self._known[id(group)] = Referent("unknown", group)
@@ -274,7 +279,7 @@ class Referents:
             return self._exclude(group, noun)
         is_ours = group.determiner is not None and group.determiner.text in OUR
         if is_ours and self._draft.nouns[noun].motion in ("drive", "sail", "fly"):
-            head.is_used = True
+            head.is_used, head.shown_as = True, "the camera's view from it"
             return Referent("camera", group, attributes=attributes)
         is_plural = attributes.is_many or meaning.is_plural or is_drinks
         said = name_kind(head) if meaning.is_substitute else None

@@ -18,12 +18,19 @@ _SUN = {"set": "dusk", "rise": "dawn"}
 _OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
 _BENDS = ("curve", "wind", "bend", "twist")
 _SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
-_PLAIN_WEATHER_VERBS = frozenset(
-    {"fall", "blow", "drift", "roll", "shine", "rise", "set", "hang", "kick", "kick up", "fly",
-     "float", "glitter", "cast", "cover", "fill", "pour", "come", "glow", "light", "move", "drop",
-     "descend", "billow", "swirl", "shower", "spray", "stream", "fly up"}
+_FALLING = frozenset(
+    {"fall", "blow", "drift", "hang", "fly", "float", "pour", "come", "move", "drop", "descend",
+     "swirl", "shower", "stream"}
 )  # fmt: skip
-"""Verbs that say nothing new of rain, dust, light or smoke: "rain falls"."""
+_PLAIN_VERBS: dict[str, frozenset[str]] = {
+    "weather": _FALLING | {"roll"},
+    "snow": _FALLING,
+    "clouds": frozenset({"drift", "float", "hang", "move"}),
+    "dust": _FALLING | {"rise", "kick", "kick up", "fly up", "billow"},
+    "effect": _FALLING | {"rise", "spray", "fly up", "billow", "glow"},
+    "light": frozenset({"shine", "rise", "set", "come"}),
+}
+"""Kind of what a clause is about → verbs that say nothing new of it: "rain falls"."""
 
 
 class SceneClauses:
@@ -79,7 +86,7 @@ class SceneClauses:
             return self._surroundings.read_light(_SUN[word.lemma], is_sure=True)
         if word.lemma in _SNOWS and "snow" in kinds:
             return self._surroundings.read_weather("snow")
-        return word.lemma in _PLAIN_WEATHER_VERBS and bool(kinds - {"place"})
+        return any(word.lemma in _PLAIN_VERBS.get(kind, ()) for kind in kinds)
 
     def _read_scene_complement(self, one: Referent) -> None:
         """As in "the room is dark"."""
@@ -106,7 +113,7 @@ class SceneClauses:
         if (
             word is not None
             and any(added)
-            and (word.lemma in _PLAIN_WEATHER_VERBS or isinstance(word.meaning.value, Verb))
+            and (word.lemma in _PLAIN_VERBS["effect"] or isinstance(word.meaning.value, Verb))
         ):
             word.is_used = True
             for adverb in clause.adverbs:

@@ -109,6 +109,8 @@ class Staged:
     effects: tuple[ParticleEffect, ...]
     ends_s: dict[int, float]
     """Instance of an object → when it is gone, s."""
+    kinds: tuple[tuple[str, int | None], ...] = ()
+    """What each of `effects` belongs to: a kind of effect or a weather, and its object's index."""
 
 
 def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
@@ -123,6 +125,11 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
     effects = _weather(description, setting)
+    fallen = description.surroundings.weather in WEATHERS
+    kinds: list[tuple[str, int | None]] = [
+        (str(description.surroundings.weather) if fallen and number == 0 else "dust", None)
+        for number in range(len(effects))
+    ]
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
         actors: Sequence[Actor | None] = [None]
@@ -130,10 +137,12 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
             actors = [one for one in setting.actors if one.object_index == effect.source] or [None]
         for copy, actor in enumerate(actors):
             rng = seeded(setting.seed, "effect", effect.kind, number, copy)
-            effects.extend(_make(effect, actor, setting, rng))
+            made = _make(effect, actor, setting, rng)
+            effects.extend(made)
+            kinds += [(effect.kind, effect.source)] * len(made)
             if actor is not None and EFFECTS[effect.kind].ends_source:
                 ends[actor.instance] = _start(effect, actor, setting)
-    return Staged(tuple(effects), ends)
+    return Staged(tuple(effects), ends, tuple(kinds))
 
 
 def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEffect]:

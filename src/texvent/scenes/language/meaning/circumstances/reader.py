@@ -281,7 +281,8 @@ class CircumstanceReader:
         elif list_parts_shown(self._draft, things, str(one.value)):
             is_place = word.text in _ON_PARTS and not word.is_used
             word.is_used, word.is_lost = not is_place, is_place
-            self._use_part(one, things)
+            if not is_place:
+                self._use_part(one, things)
 
     def _read_surroundings(
         self, word: Word, one: Referent, scope: Scope, *, is_negated: bool

@@ -91,7 +91,7 @@ def _sprinkled(spots: list[Point], size: Point, skin: Material) -> list[ModelPar
 
 NOUNS = placed("indoor", (
     thing("apple", ((0.50, 0.03, 0.02), (0.25, 0.42, 0.04)),
-          lambda p: _stalked_fruit(p, (0.078, 0.080, 0.072)), ("red apple", "green apple")),
+          lambda p: _stalked_fruit(p, (0.078, 0.080, 0.072))),
     thing("orange", ((0.75, 0.22, 0.01),), lambda p: [
         ball(mottled(p.colour, contrast=0.12, scale=9.0), (0.0, 0.0, 0.04), (0.08, 0.08, 0.078)),
         ball(LEAF, (0.0, 0.0, 0.078), (0.014, 0.014, 0.006)),

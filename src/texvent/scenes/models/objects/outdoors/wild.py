@@ -122,7 +122,7 @@ def _burst() -> Motion:
 
 
 _GARDEN = placed("grass", (
-    thing("rose", _BRIGHT[::2], nothing, ("red rose",),
+    thing("rose", _BRIGHT[::2], nothing, (),
         moving=(Moving(lambda p: [*_stem(0.42, 3),
             ball(toned(p, 0.7), (0.0, 0.0, 0.45), (0.07, 0.07, 0.075)),
             *(ball(toned(p, 0.8 + 0.08 * k),

@@ -1,0 +1,57 @@
+"""Whether smoke, splashes, sparks and dust are seen, and where the prompt says."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from texvent.generate.seen_words.light import changed_points
+from texvent.generate.seen_words.picture import Picture
+from texvent.scenes.description import SceneDescription
+
+LEAST_EFFECT = 0.004
+"""Share of the picture that an effect changes visibly."""
+LEAST_BESIDE = 0.2
+"""Share of it that lies at the thing that it comes from."""
+FLOWING = frozenset({"drip", "pour", "spray", "splash", "sparks"})
+"""Effects that come from something."""
+
+
+def judge_effects(picture: Picture, description: SceneDescription) -> dict[str, str]:
+    """Kinds of effects that are not seen → why."""
+    found: dict[str, str] = {}
+    for kind, source in dict.fromkeys(picture.scene.particles.kinds):
+        if kind in ("rain", "snow"):
+            continue
+        fault = _judge(picture, description, kind, source)
+        if fault is not None:
+            found[kind] = fault
+    for effect in description.effects:
+        if effect.source is None and effect.kind in FLOWING:
+            found[effect.kind] = "comes from nothing that is shown"
+    return found
+
+
+def _judge(
+    picture: Picture, description: SceneDescription, kind: str, source: int | None
+) -> str | None:
+    seen = changed_points(picture, kind, source)
+    if max(float(np.mean(where)) for where in seen.values()) < LEAST_EFFECT:
+        return "hardly to be seen"
+    if source is None:
+        return None
+    owners = [one for one, index in picture.scene.object_of.items() if index == source]
+    if not any(_is_beside(picture, number, where, owners) for number, where in seen.items()):
+        return f"not at the {description.objects[source].noun}"
+    return None
+
+
+def _is_beside(picture: Picture, number: int, where: np.ndarray, owners: list[int]) -> bool:
+    """Whether the effect is within a box around its thing, half as wide again on every side."""
+    own = np.isin(picture.views[number].instance, owners)
+    if not own.any() or not where.any():
+        return False
+    low, high = picture.points[own].min(axis=0), picture.points[own].max(axis=0)
+    reach = 0.5 * (high - low).max() + 0.02 * picture.size.width
+    at = picture.points[where]
+    inside = np.all((at >= low - reach) & (at <= high + reach), axis=1)
+    return float(np.mean(inside)) >= LEAST_BESIDE

@@ -1,0 +1,63 @@
+"""Whether a place has what its word says: a slope, water that looks like water, a fence."""
+
+from __future__ import annotations
+
+from texvent.generate.seen_words.picture import USUAL, Picture
+from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.raycast.trace import GROUND
+
+MOST_RED = 0.04
+"""How much more red than blue water may be, as a share of white."""
+_FLAT = "the ground is flat"
+_LACKS: dict[str, tuple[str, ...]] = {
+    _FLAT: ("slope", "hillside", "mountainside", "mountain side", "mountain slope", "hill"),
+    "the sand is flat": ("dune", "sand dune"),
+    "sand without the sea": ("beach", "shore", "coast"),
+    "the water is calm": ("surf",),
+    "a plain road": ("motorway", "highway", "freeway", "avenue"),
+    "a wood of firs and broadleaf trees": ("jungle", "rainforest"),
+    "no furrows": ("ploughed field", "plowed field"),
+    "as wide as a lake": ("pond",),
+    "as wide as a river": ("brook", "creek", "canal", "ditch"),
+    "a street": ("square",),
+}
+"""What a place is shown as, or lacks → its words."""
+_NEEDS: dict[str, tuple[str, ...]] = {
+    "backyard": ("house", "fence"), "yard": ("house", "fence"), "garden": ("flower", "fence"),
+}  # fmt: skip
+"""Word → things one of which makes a lawn such a place."""
+_WATERS = ("river", "lake", "sea")
+
+
+def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """Why a word of a place is not seen, or None."""
+    if claim.aspect == "steep":
+        return _FLAT
+    if claim.aspect != "place":
+        return None
+    for reason, words in _LACKS.items():
+        if _is_one_of(claim.word, words):
+            return reason
+    names = {*picture.scene.class_names.values(), *picture.scene.still_nouns}
+    needed = _NEEDS.get(claim.word)
+    if needed is not None and not names & set(needed):
+        return f"no {' or '.join(needed)}"
+    if claim.value in _WATERS and description.surroundings.place == claim.value:
+        return _judge_water(picture)
+    return None
+
+
+def _is_one_of(word: str, words: tuple[str, ...]) -> bool:
+    return word in words or word.removesuffix("s") in words
+
+
+def _judge_water(picture: Picture) -> str | None:
+    """Water that mirrors a red sky looks like soil: it must be as blue as it is red."""
+    for number in USUAL:
+        view = picture.views[number]
+        is_water = (view.number == GROUND) & picture.is_water(number)
+        if is_water.any():
+            red, _, blue = picture.colours(number)[is_water].mean(axis=0)
+            if blue >= red - MOST_RED:
+                return None
+    return "not to be told from the ground"

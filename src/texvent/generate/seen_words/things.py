@@ -1,0 +1,178 @@
+"""Whether what words say of things is seen: colour, size, material, parts, side, number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from texvent.generate.seen_words.colours import share_like
+from texvent.generate.seen_words.picture import USUAL, Picture, View
+from texvent.scenes.description import Claim, NamedColour, SceneDescription
+from texvent.scenes.evidence import MOST_COUNTED
+from texvent.scenes.scene import Float64Array
+
+LEAST_COLOURED = 0.22
+"""Share of a thing's pixels that have the colour that is said of it."""
+LEAST_WORN = 0.08
+"""The same for what another wears or holds, whose pixels are counted with the wearer's."""
+LEAST_DETAIL = 0.14
+"""Share of the picture's width or height below which a thing's material and parts are not told."""
+MOST_SHARED = 0.25
+"""Share of a copy's box in the picture that another may cover while they are told apart."""
+_OPAQUE = frozenset({"glass", "crystal", "ice"})
+_UNRELATED = frozenset({"toy", "baby", "young", "miniature", "short"})
+"""Words of size that mean more than the size."""
+
+
+def judge_thing(
+    picture: Picture, description: SceneDescription, claim: Claim, index: int
+) -> str | None:
+    """Why what a word says of an object is not seen, or None."""
+    if claim.aspect == "colour":
+        return _judge_colour(picture, description, index)
+    if claim.aspect == "size":
+        return _judge_size(picture, description, claim.word, index)
+    if claim.aspect == "material":
+        return _judge_material(picture, claim.word, index)
+    if claim.aspect == "part":
+        return _judge_part(picture, description, claim, index)
+    if claim.aspect == "side":
+        return _judge_side(picture, description, index)
+    if claim.aspect == "count":
+        return _judge_count(picture, description, index)
+    return None
+
+
+def copies_of(picture: Picture, index: int) -> list[int]:
+    """Instances of an object."""
+    return [one for one, of in picture.scene.object_of.items() if of == index]
+
+
+def _judge_colour(picture: Picture, description: SceneDescription, index: int) -> str | None:
+    named = description.objects[index].colour
+    copies = copies_of(picture, index)
+    least = LEAST_COLOURED
+    if not copies:
+        copies, least = _bearers(picture, description, index), LEAST_WORN
+    if named is None or not copies:
+        return "not of that colour"
+    for one in copies:
+        best = max(_coloured_share(picture, number, one, named) for number in USUAL)
+        if 0.0 <= best < least:
+            return f"not {named.name} in the picture"
+    return None
+
+
+def _coloured_share(picture: Picture, number: int, instance: int, named: NamedColour) -> float:
+    own = picture.views[number].instance == instance
+    if not own.any():
+        return -1.0
+    return share_like(picture.colours(number)[own], named.rgb)
+
+
+def _bearers(picture: Picture, description: SceneDescription, index: int) -> list[int]:
+    """Instances of those who wear or hold an object that is a part of their model."""
+    subjects = [one.subject for one in description.relations if index in one.targets]
+    return [copy for subject in subjects for copy in copies_of(picture, subject)]
+
+
+def _judge_size(
+    picture: Picture, description: SceneDescription, word: str, index: int
+) -> str | None:
+    """A size is told beside another thing, which must be as much larger or smaller."""
+    if set(word.split()) & _UNRELATED:
+        return "not to be told from its usual kind"
+    own = next((one for one in picture.scene.actors if one.object_index == index), None)
+    if own is None:
+        return "nothing to tell its size by"
+    length, width, height = own.model.length, own.model.width, own.model.height
+    if word in ("tall", "high"):
+        return None if height >= 1.6 * max(length, width) and height >= 1.8 else "not tall"
+    if word == "long":
+        return None if max(length, width) >= 3.0 * min(length, width, height) else "not long"
+    is_large = description.objects[index].scale > 1.0
+    for other in picture.scene.actors:
+        if other.object_index == index or not _is_seen(picture, other.instance):
+            continue
+        ratio = own.size_m / max(other.size_m, 1e-9)
+        if (ratio > 1.0) == is_large and max(ratio, 1.0 / ratio) > 1.3:
+            return None
+    return "nothing to tell its size by"
+
+
+def _is_seen(picture: Picture, instance: int) -> bool:
+    return any((picture.views[number].instance == instance).any() for number in USUAL)
+
+
+def _judge_material(picture: Picture, word: str, index: int) -> str | None:
+    if word in _OPAQUE:
+        return "not clear to look through"
+    return None if _extent(picture, index) >= LEAST_DETAIL else "too small to tell"
+
+
+def _judge_part(
+    picture: Picture, description: SceneDescription, claim: Claim, index: int
+) -> str | None:
+    if any(effect.source == index for effect in description.effects) and claim.motion is None:
+        return "not told apart"
+    return None if _extent(picture, index) >= LEAST_DETAIL else "too small to tell"
+
+
+def _extent(picture: Picture, index: int) -> float:
+    """Greatest extent of an object's copies, as a share of the picture's width or height."""
+    copies = copies_of(picture, index)
+    edge = np.array([picture.size.width, picture.size.height])
+    best = 0.0
+    for view in picture.views:
+        box = _box(picture, view, copies)
+        if box is not None:
+            best = max(best, float(((box[1] - box[0]) / edge).max()))
+    return best if copies else 1.0
+
+
+def _box(picture: Picture, view: View, instances: Sequence[int]) -> Float64Array | None:
+    """[2, 2] lowest and highest x and y of what is seen of instances; None = nothing."""
+    own = np.isin(view.instance, instances)
+    if not own.any():
+        return None
+    at = picture.points[own]
+    return np.array([at.min(axis=0), at.max(axis=0)])
+
+
+def _judge_side(picture: Picture, description: SceneDescription, index: int) -> str | None:
+    side = description.objects[index].side
+    centres = [
+        float(box.mean(axis=0)[0]) / picture.size.width
+        for view in picture.views
+        if (box := _box(picture, view, copies_of(picture, index))) is not None
+    ]
+    if not centres or side not in ("left", "right", "centre"):
+        return None
+    middle = float(np.median(centres))
+    low, high = {"left": (0.0, 0.48), "right": (0.52, 1.0), "centre": (0.3, 0.7)}[side]
+    return None if low <= middle <= high else f"not in the picture's {side}"
+
+
+def _judge_count(picture: Picture, description: SceneDescription, index: int) -> str | None:
+    """Copies that are counted one by one must be seen apart, at one instant at least."""
+    copies = copies_of(picture, index)
+    if not 1 < len(copies) <= MOST_COUNTED or description.objects[index].count != len(copies):
+        return None
+    for view in picture.views:
+        boxes = [_box(picture, view, [one]) for one in copies]
+        if all(box is not None for box in boxes) and _are_apart(
+            [box for box in boxes if box is not None]
+        ):
+            return None
+    return "overlap in the picture"
+
+
+def _are_apart(boxes: Sequence[Float64Array]) -> bool:
+    for number, one in enumerate(boxes):
+        for other in boxes[:number]:
+            common = np.minimum(one[1], other[1]) - np.maximum(one[0], other[0])
+            areas = [float(np.prod(np.maximum(box[1] - box[0], 1.0))) for box in (one, other)]
+            if (common > 0.0).all() and float(np.prod(common)) > MOST_SHARED * min(areas):
+                return False
+    return True

@@ -1,0 +1,97 @@
+"""All words of a prompt that the scene was staged for, and which of them are not to be seen."""
+
+from __future__ import annotations
+
+from texvent.generate.seen_words.colours import share_like
+from texvent.generate.seen_words.effects import judge_effects
+from texvent.generate.seen_words.light import HARD, judge_light, judge_snow, judge_weather
+from texvent.generate.seen_words.picture import USUAL, Picture
+from texvent.generate.seen_words.places import judge_place
+from texvent.generate.seen_words.things import judge_thing
+from texvent.generate.seen_words.views import judge_camera
+from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.raycast.trace import GROUND
+
+_OF_THINGS = frozenset({"colour", "size", "material", "part", "side", "count"})
+_OF_SCENE = ("light", "weather", "effect", "dust")
+_LEAST_PAINTED = 0.05
+
+
+def judge_words(
+    picture: Picture, description: SceneDescription
+) -> tuple[dict[str, str], dict[tuple[str, int], str]]:
+    """What words say that the picture does not show.
+
+    Args:
+        picture: of the staged scene.
+        description: what it was staged from.
+
+    Returns:
+        Words of the scene → why; aspect and object → why.
+    """
+    effects = judge_effects(picture, description) if picture.scene.particles.kinds else {}
+    words: dict[str, str] = {}
+    qualities: dict[tuple[str, int], str] = {}
+    for claim in description.claims:
+        if claim.things and claim.aspect in _OF_THINGS:
+            for index in claim.things:
+                fault = judge_thing(picture, description, claim, index)
+                if fault is not None:
+                    qualities.setdefault((claim.aspect, index), fault)
+            continue
+        fault = _judge_scene_word(picture, description, claim, effects)
+        if fault is not None:
+            words.setdefault(claim.word, fault)
+    for claim in description.claims:
+        fault = next((words[one] for one in _said_of(claim, description) if one in words), None)
+        if fault is not None:
+            words.setdefault(claim.word, fault)
+    return words, qualities
+
+
+def _said_of(claim: Claim, description: SceneDescription) -> list[str]:
+    """Words for what rain, light or smoke does: a verb that is of no thing."""
+    if claim.aspect != "motion" or claim.things or claim.move is not None:
+        return []
+    return [one.word for one in description.claims if one.aspect in _OF_SCENE]
+
+
+def _judge_scene_word(
+    picture: Picture, description: SceneDescription, claim: Claim, effects: dict[str, str]
+) -> str | None:
+    """Why a word of the scene itself is not seen, or None."""
+    if claim.aspect in ("light", "shadow", "bright") or claim.word in HARD:
+        return judge_light(picture, description, claim)
+    if claim.aspect == "weather":
+        is_said = description.surroundings.weather == claim.value
+        return judge_weather(picture, claim) if is_said else None
+    if claim.aspect == "snow":
+        return judge_snow(picture) if description.surroundings.has_snow else None
+    if claim.aspect in ("view", "framing"):
+        return judge_camera(picture, description, claim)
+    if claim.aspect in ("place", "steep", "clouds", "sky"):
+        return judge_place(picture, description, claim)
+    if claim.aspect == "colour":
+        return _judge_painted(picture, description, claim)
+    if claim.aspect in ("effect", "dust"):
+        kind = claim.value if claim.aspect == "effect" else "dust"
+        is_staged = any(one == kind for one, _ in picture.scene.particles.kinds)
+        return effects.get(kind) if is_staged else "nothing raises it"
+    return None
+
+
+def _judge_painted(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """The colour of the ground or the sky."""
+    said = description.surroundings
+    for named, is_sky in ((said.colour, False), (said.sky, True)):
+        if named is None or claim.word not in named.name.split():
+            continue
+        for number in USUAL:
+            view = picture.views[number]
+            where = view.is_sky if is_sky else view.number == GROUND
+            if where.mean() >= _LEAST_PAINTED:
+                pixels = picture.colours(number)[where]
+                if share_like(pixels, named.rgb) >= 0.3:
+                    return None
+        return f"no {claim.word} {'sky' if is_sky else 'ground'} to be seen"
+    return None

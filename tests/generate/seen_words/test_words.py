@@ -1,0 +1,60 @@
+"""Words of light, weather, colour and size are shown only where the picture shows them."""
+
+from __future__ import annotations
+
+import warnings
+
+import pytest
+
+from texvent.errors import TexventWarning
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.scenes.report import PromptReport
+from texvent.sensor import SensorSize
+
+
+def report_of(prompt: str) -> PromptReport:
+    generator = ProceduralGenerator(ProceduralConfig(duration=2.0), seed=0, size=SensorSize(87, 65))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TexventWarning)
+        return generator.report(prompt)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word"),
+    [
+        ("a dog runs up a steep slope", "slope"),
+        ("a camel walks over a sand dune", "sand dune"),
+        ("a kingfisher flies over a field, backlit by the rising sun", "rising sun"),
+        ("a car drives along a road with long shadows at noon", "long shadows"),
+        ("a cat sits in a room at sunset", "sunset"),
+        ("a glass cube spins", "glass"),
+        ("a tall vase on a table", "tall"),
+        ("a tiny dog runs", "tiny"),
+        ("dust floats in a kitchen", "dust"),
+    ],
+)  # fmt: skip
+def test_what_the_picture_does_not_show_is_named(prompt: str, word: str) -> None:
+    report = report_of(prompt)
+    assert word not in report.shown
+    named = {one.partition(" (")[0] for one in report.not_shown} | set(report.not_understood)
+    assert word in named or any(word.endswith(one) for one in named)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "words"),
+    [
+        ("a red car drives left on a road in the rain", {"red", "car", "rain", "road"}),
+        ("a white dog runs over green grass on a sunny day", {"white", "dog", "sunny"}),
+        ("a car drives at night", {"car", "night"}),
+        ("a man stands in thick fog", {"man", "fog"}),
+        ("a small ball lies beside a big box", {"small", "ball", "big", "box"}),
+        ("snow falls on a house", {"snow", "house"}),
+    ],
+)  # fmt: skip
+def test_what_is_plainly_seen_is_shown(prompt: str, words: set[str]) -> None:
+    assert words <= set(" ".join(report_of(prompt).shown).split())
+
+
+def test_of_things_that_nobody_holds_the_owner_is_not_shown() -> None:
+    assert "her" in report_of("a woman walks past her bicycle").not_understood
+    assert "her" not in report_of("a woman rides her bicycle").not_understood
