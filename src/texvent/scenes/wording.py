@@ -78,6 +78,7 @@ RELATION_WORDS = {
     "carry": "carrying",
     "wear": "wearing",
     "ride": "riding",
+    "ride along": "riding along on",
     "push": "pushing",
     "work on": "working on",
     "pull": "pulling",

@@ -136,4 +136,4 @@ def test_an_animal_fits_into_what_it_is_in(prompt: str) -> None:
     inside, around = stage(prompt).actors
     length = max(inside.model.length, inside.model.width)
     assert length <= 0.801 * max(around.model.length, around.model.width)
-    assert np.allclose(inside.middle(0.5)[:2], around.middle(0.5)[:2], atol=0.2 * length)
+    assert np.allclose(inside.middle(0.5)[:2], around.middle(0.5)[:2], atol=0.45 * length)

@@ -99,6 +99,7 @@ def _give_usual_work(description: SceneDescription) -> SceneDescription:
 
 HAS_RIDER = frozenset({"bicycle", "motorcycle"})
 """Nouns whose models come with the person who rides them."""
+_RIDES = ("ride", "ride along")
 _RIDERS = frozenset({"cyclist", "bicyclist", "motorcyclist", "biker"})
 """Words for who rides them."""
 
@@ -108,7 +109,7 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
     ridden = {
         target
         for relation in description.relations
-        if relation.kind == "ride"
+        if relation.kind in _RIDES
         for target in relation.targets
     }
     ridden |= {
@@ -263,7 +264,7 @@ def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """Let the first object that can move do so, or else the camera."""
-    riders = {relation.subject for relation in description.relations if relation.kind == "ride"}
+    riders = {relation.subject for relation in description.relations if relation.kind in _RIDES}
     for index, scene_object in enumerate(description.objects):
         usual = nouns[scene_object.noun].motion
         if scene_object.motion is None and usual != "stand" and index not in riders:

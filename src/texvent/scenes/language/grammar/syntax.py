@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from texvent.scenes.language.words.english import VerbForm
+from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.word import Word
 
 
@@ -51,6 +51,12 @@ class PrepPhrase:
     near: NounGroup | None = None
     """The noun group it follows."""
     negation: Word | None = None
+
+    @property
+    def has_pronoun(self) -> bool:
+        """Whether its only noun is a pronoun, as in "behind him"."""
+        heads = [group.head for group in self.groups]
+        return len(heads) == 1 and heads[0] is not None and heads[0].pos is Pos.PRONOUN
 
 
 @dataclass(eq=False)

@@ -17,7 +17,7 @@ from texvent.scenes.description import (
 from texvent.scenes.language.words.word import Word, link
 from texvent.scenes.models.protocol import Noun
 
-_ONE_EACH = ("hold", "carry", "wear", "ride", "push", "pull")
+_ONE_EACH = ("hold", "carry", "wear", "ride", "ride along", "push", "pull")
 MAX_OBJECTS = 12
 """Most different things of a prompt that are shown."""
 

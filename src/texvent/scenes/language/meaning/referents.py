@@ -88,6 +88,8 @@ class Referents:
         """Subjects of the clause, whom no pronoun after the verb means."""
         self.acted_on: list[int] = []
         """What the verb before acts on, which "it" after another verb means."""
+        self.near: list[int] = []
+        """What a pronoun of a phrase hangs on: "a baby in it" is not in itself."""
         self.verb = ""
         """Verb of the clause whose subjects are being read."""
         self.has_body = False
@@ -236,15 +238,18 @@ class Referents:
         candidates = [first, *others, *named] if first else []
         if pronoun.endswith(("self", "selves")):
             return list(self._draft.subjects)
+        not_meant = self.near or self.doers
         for things in candidates:
-            if things != self.doers and self._fits(pronoun, things):
+            if things != not_meant and self._fits(pronoun, things):
                 return list(things)
         return list(first)
 
     def _fits(self, pronoun: str, things: Sequence[int]) -> bool:
         is_plural = len(things) > 1 or self._draft.objects[things[0]].count > 1
         if pronoun in _OF_ONE_PERSON:
-            return not is_plural and is_living(self._draft.noun(things[0]))
+            noun = self._draft.noun(things[0])
+            is_other = noun.name in _NEVER.get(pronoun, ())
+            return not is_plural and is_living(noun) and not is_other
         if pronoun == "it":
             return not is_plural and not is_person(self._draft.noun(things[0]))
         return is_plural
@@ -372,6 +377,11 @@ def _find_head(group: NounGroup) -> Word:
 
 PAIRED = frozenset({"hand", "shoe", "ski", "glove", "sock"})
 """Nouns of which a bare plural means two: "her boots"."""
+_NEVER = {
+    **dict.fromkeys(("him", "he", "his"), ("woman", "girl")),
+    **dict.fromkeys(("her", "she", "hers"), ("man",)),
+}
+"""Pronoun → people whom it does not mean."""
 _OF_ONE_PERSON = ("he", "she", "him", "her")
 BODY_PARTS = frozenset({"hand", "finger", "fist", "arm", "head", "leg", "foot", "tail", "wing"})
 OWNERS = ("its", "their", "his", "her")

@@ -103,6 +103,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("drive", "drive", act="ride"),
     Verb("ride", "drive", act="ride"),
     Verb("steer", "drive", act="ride"),
+    Verb("operate", "work", act="ride"),
     Verb("fly", "fly", act="hold"),
     Verb("run", "run"),
     Verb("crawl", "crawl"),

@@ -17,7 +17,9 @@ class Act:
 
 ACTS: Mapping[str, Act] = MappingProxyType(
     {
-        **dict.fromkeys(("hold", "carry", "wear", "ride", "push", "pull", "work on"), Act()),
+        **dict.fromkeys(
+            ("hold", "carry", "wear", "ride", "ride along", "push", "pull", "work on"), Act()
+        ),
         **dict.fromkeys(("kick", "hit", "throw", "catch", "collide"), Act(is_single=True)),
     }
 )

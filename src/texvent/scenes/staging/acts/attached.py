@@ -92,6 +92,18 @@ class OnPart:
 
 
 @dataclass(frozen=True)
+class OnEnd:
+    """Put on its end, as a pencil in a cup."""
+
+    path: Trajectory
+    lean_rad: float = 0.0
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        return replace(self.path.at(time_s), pitch=self.lean_rad - 0.5 * math.pi)
+
+
+@dataclass(frozen=True)
 class MovedAlong:
     """On the ground at a fixed place before or behind a body that pushes or pulls it."""
 

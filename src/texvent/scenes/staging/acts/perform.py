@@ -5,14 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
+from texvent.scenes.description import (
+    STANDING,
+    ObjectMotion,
+    Relation,
+    SceneDescription,
+    SceneObject,
+)
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.props import PROPS, Prop
+from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.actors import Actor, Tether, seeded
 from texvent.scenes.staging.acts import colliding, striking
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
+from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, stow
+from texvent.scenes.staging.acts.cargo import take_along
+from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
     HELD_SCALE,
@@ -27,12 +36,11 @@ from texvent.scenes.staging.acts.holding import (
     shoulder_height,
     size_of,
 )
-from texvent.scenes.staging.acts.riding import MOUNTS, mount
+from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
 from texvent.scenes.staging.acts.working import work_at
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _ORDER = (
-    "ride",
     "push",
     "pull",
     "kick",
@@ -56,7 +64,9 @@ def settle_motions(
     Who pushes walks; what is ridden moves and its rider sits; who kicks faces left or right.
     """
     objects = list(description.objects)
-    relations = [_mounted(relation, objects) for relation in description.relations]
+    stays = {thing for claim in description.claims if claim.word.startswith("stand")
+             for thing in claim.things}  # fmt: skip
+    relations = [_mounted(one, objects, nouns, stays) for one in description.relations]
     relations = [_thrown_to(relation, relations) for relation in relations]
     relations = _hit_with(objects, relations)
     relations += _implied_acts(objects, relations)
@@ -64,7 +74,7 @@ def settle_motions(
         if relation.kind not in ACTS or not relation.targets:
             continue
         subject, target = relation.subject, relation.targets[0]
-        if relation.kind == "ride":
+        if relation.kind in RIDES:
             objects[target] = _give_motion(objects[subject], objects[target], nouns)
             objects[subject] = replace(objects[subject], motion=ObjectMotion("sit"), then=())
         elif relation.kind in ("push", "pull"):
@@ -93,12 +103,25 @@ def settle_motions(
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
-def _mounted(relation: Relation, objects: list[SceneObject]) -> Relation:
-    """A person on a horse or a skateboard rides it."""
-    if relation.kind != "on" or objects[relation.subject].noun not in PERSON_NOUNS:
+def _mounted(
+    relation: Relation, objects: list[SceneObject], nouns: Mapping[str, Noun], stays: set[int]
+) -> Relation:
+    """A person on a horse or a skateboard rides it; so do people in a boat or an open vehicle.
+
+    Who is said to stand, lie or do something else there does that.
+    """
+    person, target = objects[relation.subject], objects[relation.targets[0]].noun
+    if relation.kind not in ("on", "in") or person.noun not in PERSON_NOUNS:
         return relation
-    target = objects[relation.targets[0]].noun
-    return replace(relation, kind="ride") if target in MOUNTS else relation
+    is_idle = relation.subject not in stays and (person.motion or STANDING).kind in _IDLE
+    is_carrier = target in SEATS_OF or (nouns[target].motion == "sail" and target != "ship")
+    is_aboard = is_carrier and target not in CLOSED and is_idle
+    if is_aboard or (relation.kind == "on" and target in MOUNTS):
+        return replace(relation, kind="ride")
+    return relation
+
+
+_IDLE = frozenset({"stand", "sit", "sail", "drive"})
 
 
 def _thrown_to(relation: Relation, relations: list[Relation]) -> Relation:
@@ -194,8 +217,14 @@ def perform_acts(
         The actors in the same order, without those whose part a model plays itself: the rider of
         a bicycle.
     """
-    cast = _Cast(actors)
+    cast = Cast(actors)
     relations = [r for r in description.relations if r.kind in ACTS and r.targets]
+    ridden = {r.targets[0] for r in relations if r.kind in RIDES}
+    towed = [r for r in relations if r.kind in ("push", "pull") and r.targets[0] in ridden]
+    for relation in towed:
+        _perform(cast, relation, duration_s)
+    board(cast, relations)
+    relations = [r for r in relations if r not in towed]
     for kind in _ORDER:
         if kind == "work on":
             _put_to_work(cast, relations)
@@ -204,6 +233,7 @@ def perform_acts(
             if relation.kind == kind:
                 _perform(cast, relation, duration_s)
     _take_off_doubles(cast, actors)
+    take_along(cast, description.relations, actors)
     return [_tied_to_ground(actor) for actor in cast.actors()]
 
 
@@ -216,7 +246,7 @@ def _tied_to_ground(actor: Actor) -> Actor:
     return replace(actor, tether=Tether(flier, "", (0.0, 0.0, 0.0), 0.008))
 
 
-def _take_off_doubles(cast: _Cast, actors: list[Actor]) -> None:
+def _take_off_doubles(cast: Cast, actors: list[Actor]) -> None:
     """A piano, a desk or a board that comes with what somebody does is not shown twice."""
     for number, actor in enumerate(actors):
         nouns = {noun for prop in cast.props(number) if prop.anchor == "ground"
@@ -227,43 +257,7 @@ def _take_off_doubles(cast: _Cast, actors: list[Actor]) -> None:
                 break
 
 
-class _Cast:
-    """The actors by object, so that an act can replace them."""
-
-    def __init__(self, actors: list[Actor]) -> None:
-        self._actors: list[Actor | None] = list(actors)
-
-    def copies(self, index: int) -> list[int]:
-        """Positions of the copies of an object."""
-        return [
-            number
-            for number, actor in enumerate(self._actors)
-            if actor is not None and actor.object_index == index
-        ]
-
-    def get(self, number: int) -> Actor:
-        """The actor at a position."""
-        actor = self._actors[number]
-        if actor is None:
-            raise KeyError(number)
-        return actor
-
-    def props(self, number: int) -> tuple[Prop, ...]:
-        """What comes with an actor's activity; nothing once it is off the scene."""
-        actor = self._actors[number]
-        return () if actor is None else actor.props
-
-    def put(self, number: int, actor: Actor | None) -> None:
-        """Replace an actor; None takes it off the scene."""
-        self._actors[number] = actor
-
-    def actors(self) -> list[Actor]:
-        """Those that are left, numbered anew."""
-        left = [actor for actor in self._actors if actor is not None]
-        return [replace(actor, instance=number) for number, actor in enumerate(left, start=1)]
-
-
-def _put_to_work(cast: _Cast, relations: list[Relation]) -> None:
+def _put_to_work(cast: Cast, relations: list[Relation]) -> None:
     """All who work on one thing share the room along it."""
     crews: dict[int, list[int]] = {}
     for relation in relations:
@@ -277,7 +271,7 @@ def _put_to_work(cast: _Cast, relations: list[Relation]) -> None:
             cast.put(subject, worker)
 
 
-def _perform(cast: _Cast, relation: Relation, duration_s: float) -> None:
+def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
     subjects = cast.copies(relation.subject)
     targets = cast.copies(relation.targets[0])
     if relation.kind == "collide":
@@ -288,6 +282,9 @@ def _perform(cast: _Cast, relation: Relation, duration_s: float) -> None:
             cast.put(two, second)
         return
     others = cast.copies(relation.targets[1]) if len(relation.targets) > 1 else []
+    if is_stowed(cast, relation):
+        stow(cast, relation, cast.stood_in[relation.subject])
+        return
     for turn, target in enumerate(targets):
         if not subjects:
             return
@@ -298,15 +295,10 @@ def _perform(cast: _Cast, relation: Relation, duration_s: float) -> None:
         _bind(cast, relation.kind, (subject, target, other), duration_s)
 
 
-def _bind(cast: _Cast, kind: str, who: tuple[int, int, int | None], duration_s: float) -> None:
+def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: float) -> None:
     subject_at, target_at, other_at = who
     subject, target = cast.get(subject_at), cast.get(target_at)
     other = None if other_at is None else cast.get(other_at)
-    if kind == "ride":
-        style = MOUNTS[target.noun.name].style if target.noun.name in MOUNTS else ""
-        is_own = style == "built-in" and is_person(subject)
-        cast.put(subject_at, None if is_own else mount(subject, target))
-        return
     if kind in ("push", "pull"):
         subject, target = _move_along(kind, subject, target)
     elif kind == "kick":

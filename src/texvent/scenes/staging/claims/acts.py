@@ -64,7 +64,7 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
     missing = []
     relations = stage.description.relations
     bound = {target for one in relations if one.kind in ACTS for target in one.targets}
-    bound |= {one.subject for one in relations if one.kind in ("ride", "follow", *_SINGLE)}
+    bound |= {one.subject for one in relations if one.kind in _MOVED_BY_OTHERS}
     carried = {one.subject for one in relations if one.kind in _CARRIED} | bound
     carried |= {target for one in relations if one.kind in _CARRIED for target in one.targets}
     for index, scene_object in enumerate(stage.description.objects):
@@ -87,6 +87,7 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
 
 
 _SINGLE = tuple(name for name, act in ACTS.items() if act.is_single)
+_MOVED_BY_OTHERS = ("ride", "ride along", "follow", *_SINGLE)
 
 
 def _describe(stage: Stage, motion: ObjectMotion, *, is_plural: bool) -> str:

@@ -23,6 +23,8 @@ _LEAST_STAND = 0.2
 _LOOSE = 1.15
 """How much larger than its container something may be over the ground, unless it is a stem."""
 _SLIM = 1.5
+_TALL_M = 1.3
+"""Height from which a vehicle has a roof, or a rider of its own."""
 
 Holds = Callable[[Actor, Actor, float], bool]
 """Whether a relation holds between two bodies at an instant, s."""
@@ -81,6 +83,17 @@ def touches(subject: Actor, target: Actor, time_s: float) -> bool:
         return True
     own, other = part_boxes(subject, time_s), part_boxes(target, time_s)
     return gap(own, other) <= _TOUCH_M + 2.0 * _tolerance(own, other)
+
+
+def rides(subject: Actor, target: Actor, time_s: float) -> bool:
+    """It is at the target and over it, and not on the roof of something that is closed."""
+    own, other = part_boxes(subject, time_s), part_boxes(target, time_s)
+    (low, high), (base, top) = own.hull, other.hull
+    middle, margin = 0.5 * (low + high)[:2], 0.1 * (top - base)[:2]
+    is_over = np.all(middle > base[:2] - margin) and np.all(middle < top[:2] + margin)
+    tall = float(top[2] - base[2])
+    is_on_roof = target.noun.motion == "drive" and tall > _TALL_M and low[2] > base[2] + 0.6 * tall
+    return bool(is_over and not is_on_roof) and gap(own, other) <= _TOUCH_M + _tolerance(own, other)
 
 
 def strikes(

@@ -19,6 +19,7 @@ from texvent.scenes.staging.claims.contact import (
     is_in,
     is_on,
     moves_parts,
+    rides,
     strikes,
     touches,
 )
@@ -235,6 +236,11 @@ def _is_touching(subject: _Body, targets: list[_Body]) -> bool:
     )  # fmt: skip
 
 
+def _is_riding(subject: _Body, targets: list[_Body]) -> bool:
+    """Every rider is over it and at it, and not on its roof; nobody shares a seat."""
+    return holds_for_all(rides, subject.copies, targets[0].copies, subject.duration_s)
+
+
 def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
     """Every worker touches it, with hands that come down to its top."""
     top = float(targets[0].high[0, 2])
@@ -264,7 +270,8 @@ _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     "with": _is_with,
     "on": _is_on,
     "in": _is_in,
-    **dict.fromkeys(("hold", "carry", "wear", "ride", "push", "pull"), _is_touching),
+    **dict.fromkeys(("hold", "carry", "wear", "push", "pull"), _is_touching),
+    **dict.fromkeys(("ride", "ride along"), _is_riding),
     "work on": _is_worked_on,
     **dict.fromkeys(("kick", "hit", "throw"), partial(_is_striking, moves=True)),
     "catch": partial(_is_striking, moves=False),

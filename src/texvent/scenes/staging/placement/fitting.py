@@ -9,7 +9,12 @@ from dataclasses import replace
 from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.staging.placement.contents import is_stem
 
+_SWIMMING_ROOM = 0.55
+"""The same of one that swims in it."""
+_LONGEST_STEM = 2.0
+"""How much taller than its vessel a stem may be."""
 _ROOM = 0.8
 """Share of a container's longer side that an animal in it may be long."""
 
@@ -27,14 +32,29 @@ def fit_contents(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
         inside, around = relation.subject, relation.targets[0]
         is_animal = nouns[objects[inside].noun].habitat != "fixed"
         is_container = nouns[objects[around].noun].habitat == "fixed"
+        if is_container and not is_animal:
+            objects[inside] = _shorten(objects[inside], objects[around], nouns)
         if not (is_animal and is_container) or objects[inside].noun in PERSON_NOUNS:
             continue
-        ratio = _ROOM * _side(objects[around], nouns) / _side(objects[inside], nouns)
+        is_swimmer = nouns[objects[inside].noun].motion == "swim"
+        room = _SWIMMING_ROOM if is_swimmer else _ROOM
+        ratio = room * _side(objects[around], nouns) / _side(objects[inside], nouns)
         if ratio < 1.0:
             factor = math.sqrt(ratio)
             objects[inside] = replace(objects[inside], scale=objects[inside].scale * factor)
             objects[around] = replace(objects[around], scale=objects[around].scale / factor)
     return replace(description, objects=tuple(objects))
+
+
+def _shorten(inside: SceneObject, around: SceneObject, nouns: Mapping[str, Noun]) -> SceneObject:
+    """Flowers in a glass are cut to fit it."""
+    stem, vessel = (
+        nouns[one.noun].build(colour=None, scale=one.scale, seed=0) for one in (inside, around)
+    )
+    if not is_stem(stem):
+        return inside
+    ratio = _LONGEST_STEM * vessel.height / stem.height
+    return replace(inside, scale=inside.scale * min(ratio, 1.0))
 
 
 def _side(scene_object: SceneObject, nouns: Mapping[str, Noun]) -> float:

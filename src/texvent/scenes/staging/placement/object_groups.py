@@ -43,6 +43,12 @@ class ObjectGroup:
     orbits: ObjectGroup | None = None
     yaws: list[float] | None = None
     """Heading of each copy, where they differ."""
+    pool_m: float | None = None
+    """Radius of the circle in which it swims in a vessel, m."""
+    is_stood_up: bool = False
+    """Whether what lies along its x is put on its end."""
+    belt: ObjectGroup | None = None
+    """The conveyor belt that carries it along."""
     lag: tuple[ObjectGroup, float] | None = None
     """Whose line it follows, and how far behind, m."""
 

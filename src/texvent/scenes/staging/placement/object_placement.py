@@ -11,6 +11,7 @@ import numpy as np
 from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import Material
+from texvent.scenes.models.opened_model import OPENED, OpenedModel
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import PROPS, Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
@@ -18,7 +19,7 @@ from texvent.scenes.models.shapes import post
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.attached import OnPart, Performed
+from texvent.scenes.staging.acts.attached import OnEnd, OnPart, Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
@@ -40,13 +41,22 @@ from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory, plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M, bend_path
 from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath
-from texvent.scenes.staging.trajectories.trajectory import Circle, Riding, Trajectory, Vector
+from texvent.scenes.staging.trajectories.trajectory import (
+    Circle,
+    Riding,
+    Straight,
+    Trajectory,
+    Vector,
+)
 
 ON_TARGET = frozenset({"on", "in", "above", "around", "under", "between", "follow"})
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
 OVERTAKEN = 0.4
 """Speed of what is overtaken, as a share of what overtakes it."""
+_POOL_RAD_S = 1.8
+BELT_M_S = 0.22
+"""Speed of what lies on a conveyor belt."""
 _RESTING = frozenset({"stand", "sit", "lie"})
 SCENIC = frozenset({"surround", "among"})
 """Relations whose targets stand around as scenery; `scenery` places them."""
@@ -106,6 +116,8 @@ class ObjectPlacer:
             )
             for _ in range(scene_object.count)
         ]
+        if noun.name in OPENED and self._holds_something(index):
+            models = [OpenedModel(one, noun.name) for one in models]
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions = (scene_object.motion or STANDING, *scene_object.then)
@@ -123,6 +135,13 @@ class ObjectPlacer:
             plan,
             offsets,
             half_extents_over_clip(models, offsets, plan),
+        )
+
+    def _holds_something(self, index: int) -> bool:
+        """Whether the prompt has something in it or on it."""
+        return any(
+            relation.kind in ("in", "on") and relation.targets[0] == index
+            for relation in self._description.relations
         )
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
@@ -299,6 +318,12 @@ class ObjectPlacer:
     ) -> Trajectory:
         if group.orbits is not None:
             return _orbit(group, group.orbits, number, self._duration_s)
+        if group.pool_m is not None:
+            phase = 2.0 * math.pi * number / len(group.models)
+            return Circle(home, group.pool_m, _POOL_RAD_S * group.plan.motion.pace, phase)
+        if group.belt is not None:
+            way = self._duration_s * 0.5
+            return Straight(home, group.belt.plan.yaw, BELT_M_S, way, "stand")
         if group.lag is not None:
             leader, gap = group.lag
             path = self._choose(leader, leader.models[0], _tuple(leader), 0, rng)
@@ -317,6 +342,8 @@ class ObjectPlacer:
             return _gripping(Riding(carrier, turned, activity), group)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
         path = choose_trajectory(plan, model, home, rng, clear_m=group.clear_m)
+        if group.is_stood_up:
+            return OnEnd(path, 0.08 * (number % 3))
         return _gripping(path, group)
 
 

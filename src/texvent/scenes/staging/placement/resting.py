@@ -15,15 +15,18 @@ from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.support_surface import Support, find_support, top_heights
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
+from texvent.scenes.staging.acts.riding import CLOSED, LOADS, SEATS_OF
+from texvent.scenes.staging.placement.contents import pack
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _SEEN_SHARE = 0.6
 """Share of the height of what is in something that looks out of it."""
+_SWIMMER_SHARE = 0.5
+"""The same of a fish."""
 _ALIVE_SHARE = 0.75
 """The same of an animal, whose ears and antlers reach above its head."""
-_CLOSED = frozenset({"car", "suv", "taxi", "police car", "van", "bus", "truck", "train", "pickup",
-                     "fire engine", "airplane", "helicopter", "house", "building"})  # fmt: skip
+_HIDING = CLOSED | {"house", "building"}
 """What hides who is in it."""
 
 
@@ -38,12 +41,14 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     Returns:
         [3] the middle of the group, m.
     """
-    if target.plan.motion.is_moving:
+    if target.noun.name == "conveyor belt":
+        group.belt = target
+    elif target.plan.motion.is_moving:
         group.carrier = target
     sits = _sits(group, target)
-    support = _find_seat(target) if sits else _find_surface(target)
-    scale = float(getattr(group.models[0], "scale", 1.0))
     is_person = group.noun.name in PERSON_NOUNS
+    support = _find_seat(target) if sits else _find_surface(target, is_person=is_person)
+    scale = float(getattr(group.models[0], "scale", 1.0))
     kind = group.plan.motion.kind
     _line_up(group, target, support, neighbours)
     x, y = support.middle
@@ -72,20 +77,60 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     Args and result: as for `rest_on`. People sit in what carries them, unseen in a closed car.
     """
     is_person = group.noun.name in PERSON_NOUNS
-    if target.noun.name in _CLOSED:
+    if target.noun.name in _HIDING:
         if target.plan.motion.is_moving:
             group.carrier = target
         lift = _origin_height(group)
         return _in_world(target, (0.0, 0.0, 0.05 * target.models[0].height + lift))
+    if target.noun.name == "window":
+        return _rest_in_window(group, target)
     if is_person or target.noun.habitat == "ground":
         return rest_on(group, target, neighbours)
+    if group.noun.habitat == "fixed" and len(target.models) == 1 and not _is_shelf(target):
+        own = len(group.offsets)
+        first, count = own * neighbours.index(group.index), own * len(neighbours)
+        low = pack(group, target, _find_surface(target).height, first, count)
+        group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+        if target.plan.motion.is_moving:
+            group.carrier = target
+        return np.asarray(target.centre + np.array([0.0, 0.0, low + _origin_height(group)]))
     place = rest_on(group, target, neighbours)
-    own, deep = group.models[0].height, target.models[0].height
+    tall, deep = group.models[0].height, target.models[0].height
     top = _find_surface(target).height
     seen = _SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
-    low = max(top - (1.0 - seen) * own, 0.08 * deep)
+    if group.noun.motion == "swim":
+        seen = _SWIMMER_SHARE
+        inside = 0.5 * min(target.models[0].length, target.models[0].width)
+        group.pool_m = max(inside - 0.5 * group.models[0].length, 0.1 * inside)
+        group.offsets = [(0.0, 0.0, 0.0) for _ in group.offsets]
+    low = max(top - (1.0 - seen) * tall, 0.08 * deep)
     base = target.centre[2] + low + _origin_height(group)
     return np.array([place[0], place[1], base])
+
+
+def _is_shelf(target: ObjectGroup) -> bool:
+    """Whether what is "in" it lies in a row: long things are no vessels."""
+    model = target.models[0]
+    return max(model.length, model.width) > _LONG * min(model.length, model.width)
+
+
+_LONG = 2.5
+
+
+def _rest_in_window(group: ObjectGroup, target: ObjectGroup) -> Float64Array:
+    """A person stands behind the open window; animals and things are on its sill."""
+    scale = float(getattr(target.models[0], "scale", 1.0))
+    _line_up(group, target, Support(0.0, (0.0, -0.5), (0.0, 0.5)), [group.index])
+    if group.noun.name in PERSON_NOUNS:
+        group.plan = replace(group.plan, yaw=target.plan.yaw)
+        low = 0.0 if group.models[0].height > _TALL_M else 0.35
+        return _in_world(target, (-0.30 * scale, 0.0, low))
+    group.plan = replace(group.plan, yaw=target.plan.yaw + 0.5 * math.pi)
+    return _in_world(target, (0.04 * scale, 0.0, 0.645 * scale + _origin_height(group)))
+
+
+_TALL_M = 1.45
+"""Whose head is above the sill; others stand on something behind it."""
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
@@ -93,6 +138,8 @@ def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
     if group.noun.name not in PERSON_NOUNS:
         return False
     kind = group.plan.motion.kind
+    if kind == "stand" and (target.noun.name in SEATS_OF or target.noun.motion == "sail"):
+        return False
     is_seat = target.noun.name in SEATS and kind in DONE_SEATED
     return is_seat or kind in ("sit", "drive", "sail") or group.carrier is not None
 
@@ -116,9 +163,19 @@ def _moving_part(target: ObjectGroup, place: tuple[float, float]) -> int | None:
     return None if is_still else number
 
 
-def _find_surface(target: ObjectGroup) -> Support:
-    """The supporting surface; of a vehicle its roof."""
+def _find_surface(target: ObjectGroup, *, is_person: bool = False) -> Support:
+    """The supporting surface; of a vehicle where it carries things or people, or its roof."""
     model = target.models[0]
+    if target.noun.name in LOADS and not is_person:
+        scale = float(getattr(model, "scale", 1.0))
+        x, y, z = (scale * value for value in LOADS[target.noun.name])
+        return Support(z, (x, y), (x, y))
+    if target.noun.name in SEATS_OF:
+        x, y, _ = SEATS_OF[target.noun.name].places[0]
+        height = top_heights(
+            model.parts(Pose(0.0, 0.0, 0.0, "stand")), np.array([x]), np.array([y])
+        )
+        return Support(float(height[0]), (x, y), (x, y))
     if target.noun.motion == "drive":
         parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
         roof = float(top_heights(parts, np.zeros(1), np.zeros(1))[0])
@@ -140,12 +197,16 @@ def _line_up(
     size = max(group.models[0].width, group.models[0].length)
     if group.noun.name in PERSON_NOUNS:
         size = 0.5
+    several = len(target.offsets)
+    count = math.ceil(count / several)
     spacing = max(min(0.95 * extent / count, 1.4 * size), min(1.05 * size, extent))
     yaw = target.plan.yaw + (0.5 * math.pi if is_wide else 0.0)
-    group.offsets = [
-        (a * math.cos(yaw), a * math.sin(yaw), 0.0)
-        for a in (spacing * (number - 0.5 * (count - 1)) for number in range(first, first + own))
-    ]
+    group.offsets = []
+    for number in range(first, first + own):
+        # Several carriers share out what is on them: each person has a mat.
+        x, y, z = target.offsets[number % several] if several > 1 else (0.0, 0.0, 0.0)
+        along = spacing * (number // several - 0.5 * (count - 1))
+        group.offsets.append((x + along * math.cos(yaw), y + along * math.sin(yaw), z))
 
 
 def _lying_yaw(target: ObjectGroup) -> float:

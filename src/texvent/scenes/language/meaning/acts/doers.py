@@ -13,12 +13,13 @@ from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.models.people.activities import ACTIVITIES
 
 _ENDINGS = ("er", "or")
+_RIDES = ("ride", "ride along")
 _RIDERS = ("rider", "jockey")
 
 
 def mount_riders(draft: Draft) -> None:
     """As in "camels, each rider": a rider rides what is there to ride."""
-    taken = {i for one in draft.relations if one.kind == "ride"
+    taken = {i for one in draft.relations if one.kind in _RIDES
              for i in (one.subject, *one.targets)}  # fmt: skip
     for index, item in enumerate(draft.objects):
         if item.said not in _RIDERS or index in taken or item.motions:
@@ -37,7 +38,7 @@ def _is_mount(draft: Draft, index: int) -> bool:
 
 def add_doings(draft: Draft) -> None:
     """A swimmer swims, unless the prompt says what else it does or rides."""
-    riders = {one.subject for one in draft.relations if one.kind == "ride"}
+    riders = {one.subject for one in draft.relations if one.kind in _RIDES}
     for index, item in enumerate(draft.objects):
         doing = find_doing(item.said or "")
         is_idle = not item.motions and not item.is_verb_lost and index not in riders

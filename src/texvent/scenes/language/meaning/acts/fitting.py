@@ -83,6 +83,8 @@ def is_played(kind: str, clause: Clause, draft: Draft) -> bool:
 _ACTED_BY_ANYTHING = frozenset({"push", "pull", "carry"})
 """What a vehicle or a machine does to another object."""
 _ACTED_BY_LIVING = frozenset({"hold", "carry", "push", "pull", "kick", "hit", "throw", "catch"})
+_FLOWN = frozenset({"airplane", "helicopter"})
+"""What is flown from within."""
 _RIDEABLE = frozenset({"drive", "sail"})
 
 
@@ -91,6 +93,8 @@ def choose_act(verb: Verb, doer: Noun, target: Noun) -> str | None:
     act = verb.act
     if act is None:
         return None
+    if verb.base == "fly" and target.name in _FLOWN:
+        return "ride" if is_living(doer) else None
     if act == "ride":
         is_mount = target.motion in _RIDEABLE or is_living(target) or target.name in BOARDS
         return "ride" if is_living(doer) and is_mount else None

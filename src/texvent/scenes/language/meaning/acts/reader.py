@@ -271,7 +271,10 @@ class ActReader:
     def _ride(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
     ) -> list[int]:
-        kind = "fly" if self._draft.noun(targets[0]).motion == "fly" else "move"
+        noun = self._draft.noun(targets[0])
+        kind = "fly" if noun.motion == "fly" else "move"
+        if verb.kind == "work" and can_do(noun, "work"):
+            kind = "work"
         motion = ObjectMotion(kind, verb.direction, verb.pace)
         for index in targets:
             self._add_motion(index, motion, clause)

@@ -126,7 +126,10 @@ class CircumstanceReader:
         if phrase.negation is not None:
             for group in phrase.groups:
                 group.negation = phrase.negation
+        near = self._referents.recall(phrase.near)
+        self._referents.near = near.things if near is not None and near.is_things else []
         found = [self._referents.resolve(group, name, scope.subjects) for group in phrase.groups]
+        self._referents.near = []
         things = [index for one in found if one.is_things for index in one.things]
         if things:
             self._relations.read(phrase, things, scope)

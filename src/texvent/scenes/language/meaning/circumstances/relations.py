@@ -17,8 +17,16 @@ from texvent.scenes.models.people.activities import ACTIVITIES
 from texvent.scenes.models.people.props import PROPS
 
 _HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
-_CARRIES = frozenset({"conveyor belt", "tray", "turntable"})
+_CARRIES = frozenset(
+    {"conveyor belt", "tray", "turntable", "plate", "table", "desk", "shelf", "forklift", "pickup",
+     "truck", "wheelbarrow", "sled", "cart", "wagon", "bench", "towel", "raft"}
+)  # fmt: skip
 """What has the things on it that are "with" it."""
+_VESSELS = frozenset(
+    {"basket", "bowl", "bucket", "box", "cup", "mug", "glass", "vase", "jar", "shopping cart",
+     "wine glass", "bathtub", "flower pot", "stroller", "pot", "pan", "sink"}
+)  # fmt: skip
+"""What has the things in it that are "with" it."""
 _HELD_AT_MOST_M = 1.3
 """A person "with" something up to this long holds it."""
 
@@ -46,13 +54,14 @@ class RelationReader:
             is_used = self._rest(word, kind, things, scope)
         elif word.text == "with":
             is_used = self._read_with(things, scope)
+        elif self._ride_along(word, things, scope) or self._is_in_use(scope, things):
+            is_used = True
         elif kind == "above" and self._is_on_ground(scope.movers or scope.subjects):
             # As in "play badminton over a net": they stand at it, which "over" does not say.
             self._relate("beside", scope.subjects, things)
-        elif self._is_in_use(scope, things):
-            is_used = True
         elif kind == "from" and self._stays(scope):
-            is_used = self._relate("beside", scope.subjects, things)
+            is_window = self._draft.noun(things[0]).name == "window"
+            is_used = self._relate("in" if is_window else "beside", scope.subjects, things)
         elif kind is not None and not self._is_journey_of_none(kind, scope):
             subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
             if word.text in ("into", "onto") and scope.acted_on:
@@ -70,6 +79,9 @@ class RelationReader:
         near = self._referents.recall(phrase.near)
         if near is None or not things:
             return scope
+        if phrase.has_pronoun and near.is_things and set(near.things) != set(things):
+            # As in "pushes a stroller with a baby in it": the baby is.
+            return Scope(near.things, [], has_verb=False)
         is_acted_on = near.is_things and set(near.things) <= set(scope.acted_on)
         is_goal = near.is_things and any(
             one.kind in _GOALS and one.subject in scope.subjects
@@ -77,6 +89,10 @@ class RelationReader:
             for one in self._draft.relations
         )  # fmt: skip
         if (is_acted_on or is_goal) and phrase.preposition.text in _RESTING - {"with"}:
+            return Scope(near.things, [], has_verb=False)
+        names = {self._draft.noun(index).name for index in near.things} if near.is_things else set()
+        if is_acted_on and phrase.preposition.text == "with" and names & (_CARRIES | _VESSELS):
+            # As in "carries a tray with two cups".
             return Scope(near.things, [], has_verb=False)
         if set(things) != set(scope.subjects):
             return scope
@@ -155,6 +171,12 @@ class RelationReader:
 
     def _read_with(self, things: list[int], scope: Scope) -> bool:
         doer, item = self._draft.noun(scope.subjects[0]), self._draft.noun(things[0])
+        if is_person(item) and self._is_carrier(scope.subjects[0], things[0]):
+            # As in "a motorcycle with a passenger", "a boat with three fishermen".
+            said = self._draft.objects[things[0]].said or ""
+            is_second = doer.name in HAS_RIDER and said not in _STEERING
+            kind = "ride along" if is_second else "ride"
+            return self._draft.relate(kind, things, scope.subjects)
         if item.name in WEARABLE and is_living(doer):
             return self._draft.relate("wear", scope.subjects, things)
         is_held = item.name in _HELD or (item.motion == "stand" and self._is_small(things[0]))
@@ -164,12 +186,39 @@ class RelationReader:
             return self._draft.relate("on", scope.subjects, things)
         if doer.name in _CARRIES and self._is_small(things[0]):
             return self._draft.relate("on", things, scope.subjects)
+        if doer.name in _VESSELS and (self._is_small(things[0]) or doer.name == "stroller"):
+            return self._draft.relate("in", things, scope.subjects)
         return self._draft.relate("with", scope.subjects, things)
+
+    def _is_carrier(self, index: int, rider: int) -> bool:
+        """Whether people "with" it are on it or in it: a vehicle, or a mount with its rider."""
+        noun, said = self._draft.noun(index), self._draft.objects[rider].said or ""
+        if is_living(noun):
+            return not is_person(noun) and said in _STEERING
+        return noun.motion in ("drive", "sail", "fly") or noun.name in BOARDS
+
+    def _ride_along(self, word: Word, things: list[int], scope: Scope) -> bool:
+        """As in "a man rides a motorcycle with a woman behind him": she sits on it too."""
+        mounts = [one.targets for one in self._draft.relations
+                  if one.kind == "ride" and one.subject in things]  # fmt: skip
+        is_person_behind = all(is_person(self._draft.noun(index)) for index in scope.subjects)
+        if word.text not in _ABOARD or not mounts or not is_person_behind or scope.has_verb:
+            return False
+        self._draft.relations[:] = [
+            one for one in self._draft.relations
+            if not (one.kind == "with" and set(one.targets) == set(scope.subjects))
+        ]  # fmt: skip
+        return self._draft.relate("ride along", scope.subjects, mounts[-1])
 
     def _is_small(self, index: int) -> bool:
         return self._draft.length_m(index) <= _HELD_AT_MOST_M
 
 
+_STEERING = frozenset(
+    {"rider", "driver", "pilot", "jockey", "biker", "motorcyclist", "cyclist", "captain", "cowboy"}
+)
+"""Words for who steers what they are on."""
+_ABOARD = ("behind", "in front of", "beside", "next to")
 _FULL = ("full of", "filled with", "loaded with", "packed with")
 _GOALS = ("towards", "past")
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})

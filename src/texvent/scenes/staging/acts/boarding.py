@@ -1,0 +1,132 @@
+"""Who sits where: the riders, drivers and passengers of everything that is ridden."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent.scenes.description import Relation
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.attached import HeldAt
+from texvent.scenes.staging.acts.cast import Cast
+from texvent.scenes.staging.acts.holding import GARMENTS, HOLDS, is_person, size_of
+from texvent.scenes.staging.acts.riding import LOADS, MOUNTS, mount
+from texvent.scenes.staging.trajectories.trajectory import Vector, rotation
+
+RIDES = ("ride", "ride along")
+"""Relation of who steers, and of a passenger."""
+
+
+def board(cast: Cast, relations: Sequence[Relation]) -> None:
+    """Seat everybody who rides something.
+
+    Several riders are shared out among several mounts; on one of them they sit behind each other.
+    The first person on a bicycle or a motorcycle is the one that its model brings.
+    """
+    crews: dict[int, list[int | None]] = {}
+    rides = [one for kind in RIDES for one in relations if one.kind == kind]
+    for relation in rides:
+        mounts = cast.copies(relation.targets[0])
+        riders = cast.copies(relation.subject) if mounts else []
+        for turn, rider in enumerate(riders):
+            at = mounts[turn % len(mounts)]
+            crew = crews.setdefault(at, [])
+            if relation.kind == "ride along" and not crew and _has_own_rider(cast, at):
+                crew.append(None)
+            if rider != at and rider not in crew:
+                crew.append(rider)
+    for at, seats in crews.items():
+        for seat, one in enumerate(seats):
+            if one is not None:
+                _seat(cast, one, at, seat, len(seats))
+
+
+def _has_own_rider(cast: Cast, at: int) -> bool:
+    mount_ = MOUNTS.get(cast.get(at).noun.name)
+    return mount_ is not None and mount_.style == "built-in"
+
+
+STOWED = frozenset({"hold", "carry", "wear"})
+"""Acts of a rider that a vehicle's model shows, by which the vehicle has the thing."""
+
+
+def stow(cast: Cast, relation: Relation, at: int) -> None:
+    """Give what a vehicle's own rider has its place: on the carrier, on the back, in the hand."""
+    vehicle = cast.get(at)
+    for number in cast.copies(relation.targets[0])[:1]:
+        thing = cast.get(number)
+        if thing.noun.name in GARMENTS:
+            cast.put(number, None)
+            continue
+        scale = size_of(vehicle.model)
+        place = _place_of(relation.kind, thing, vehicle.noun.name)
+        x, y, z = (scale * value for value in place.at)
+        lift = 0.5 * thing.model.height if thing.is_centred else 0.0
+        turn = rotation(place.yaw, place.pitch, 0.0)
+        offset = np.column_stack([turn, np.array([x, y, z + lift])])
+        path = HeldAt(vehicle, "ground", offset)
+        cast.put(
+            number,
+            replace(thing, trajectory=path, is_mover=vehicle.is_mover, lead_m=0.0, extras=()),
+        )
+
+
+class _Stowage(NamedTuple):
+    """Where something is on a vehicle with its own rider, m and radians."""
+
+    at: Vector
+    pitch: float = 0.0
+    yaw: float = 0.0
+
+
+_ON_BACK = {"bicycle": _Stowage((-0.26, 0.0, 1.02), 0.60, math.pi),
+            "motorcycle": _Stowage((-0.42, 0.0, 0.88), 0.55, math.pi)}  # fmt: skip
+_ON_HEAD = {"bicycle": (0.15, 0.0, 1.66), "motorcycle": (0.13, 0.0, 1.64)}
+_IN_HAND = {"bicycle": (0.40, -0.26, 1.04), "motorcycle": (0.34, -0.34, 1.04)}
+_ON_CARRIER = {"bicycle": (0.66, 0.0, 0.74), "motorcycle": (-0.88, 0.0, 0.86)}
+_ON_RACK = {"bicycle": (-0.62, 0.0, 0.80), "motorcycle": (-0.88, 0.0, 0.86)}
+
+
+def is_stowed(cast: Cast, relation: Relation) -> bool:
+    """Whether the vehicle has what its rider is said to have; a driver holds small things."""
+    if relation.kind not in STOWED or relation.subject not in cast.stood_in:
+        return False
+    if not cast.copies(relation.subject):
+        return True
+    things = [cast.get(number).noun.name for number in cast.copies(relation.targets[0])]
+    return relation.kind != "wear" and all(
+        name not in HOLDS or HOLDS[name].style == "hanging" for name in things
+    )
+
+
+def _place_of(kind: str, thing: Actor, vehicle: str) -> _Stowage:
+    """Worn on the back or the head, small in the hand, else on a carrier: a basket in front."""
+    name = thing.noun.name
+    if vehicle in LOADS:
+        return _Stowage(LOADS[vehicle])
+    if name == "backpack":
+        # Its own front is at the wearer's back.
+        return _ON_BACK[vehicle]
+    if kind == "wear":
+        return _Stowage(_ON_HEAD[vehicle])
+    if name in HOLDS and HOLDS[name].style in ("tool", "upright", "string", "kite", "page"):
+        return _Stowage(_IN_HAND[vehicle])
+    return _Stowage((_ON_CARRIER if name in _IN_FRONT else _ON_RACK)[vehicle])
+
+
+_IN_FRONT = frozenset({"basket", "bag", "handbag", "flower", "bouquet", "shopping bag"})
+
+
+def _seat(cast: Cast, rider: int, at: int, seat: int, crew: int) -> None:
+    subject = cast.get(rider)
+    if seat == 0 and is_person(subject) and _has_own_rider(cast, at):
+        cast.stood_in[subject.object_index] = at
+        cast.put(rider, None)
+        return
+    if cast.get(at).noun.name in LOADS:
+        cast.stood_in[subject.object_index] = at
+    cast.put(rider, mount(subject, cast.get(at), seat, crew))
