@@ -179,6 +179,9 @@ class Illumination:
     said."""
     flicker_hz: float | None = None
     """Frequency at which all light is modulated, Hz; None = steady."""
+    wave: str = "sine"
+    """How the flicker goes: "sine", "strobe" (short flashes in the dark) or "switch" (on and
+    off)."""
     shadows: bool | None = None
     """Whether shadows are stated; None = the light's default."""
 
@@ -244,6 +247,8 @@ class SceneDescription:
     shot: Shot = field(default_factory=Shot)
     light: Illumination = field(default_factory=Illumination)
     surroundings: Surroundings = field(default_factory=Surroundings)
+    is_timelapse: bool = False
+    """Whether the sky goes much faster than in life."""
     absent: tuple[str, ...] = ()
     """Nouns that the prompt excludes; no scenery shows them."""
     shown: tuple[str, ...] = ()

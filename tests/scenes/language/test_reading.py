@@ -291,7 +291,7 @@ def test_who_does_what_in_everyday_sentences(prompt: str, lines: list[str]) -> N
         ("an elephant walks, a calf follows", ["elephant", "elephant"], ()),
         ("a boy juggles three oranges", ["child"], ()),
         ("the red team's goal stands", ["goal"], ("red", "team")),
-        ("a van with flashing lights drives", ["van"], ("flashing", "lights")),
+        ("a van with flashing lights drives", ["van"], ()),
         ("a bowl of tomato soup stands", ["bowl"], ("soup",)),
         ("a waiter serves a cake", ["person", "cake"], ("serves",)),
         ("a door painted orange opens", ["door"], ("painted",)),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -18,6 +20,7 @@ from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.scenes.staging.lightning import lightning_level
 from texvent.scenes.staging.particles.choose import OF_NOUNS
 from texvent.scenes.staging.particles.motion import flight, flight_velocity
 from texvent.scenes.staging.particles.shapes import TINY_M, along
@@ -40,6 +43,12 @@ def small(scene: ComposedScene, time_s: float) -> Float64Array:
     return np.concatenate([one.at(time_s).to_world for one in scene.particles.effects])
 
 
+def glow(scene, time_s: float):
+    return np.concatenate([one.at(time_s).emission for one in scene.particles.effects])
+
+
+LIT = {"string lights", "blinking lights", "beacon", "turn signal", "hazard lights"}
+"""Effects that look the same for every seed."""
 CASES = [
     (kind, source)
     for kind, words in EFFECTS.items()
@@ -66,7 +75,10 @@ def test_every_effect_is_a_function_of_time_with_as_many_shapes_at_every_instant
         np.testing.assert_array_equal(cloud, again.environment(time_s).puffs)
         moved += np.abs(maps - small(scene, 0.01)).sum()
         moved += np.abs(cloud - scene.environment(0.01).puffs).sum()
-    assert moved > 0.0
+        moved += np.abs(glow(scene, time_s) - glow(scene, 0.01)).sum()
+    assert moved > 0.0 or kind == "string lights"
+    if kind in LIT:
+        return
     late = 0.7
     assert not np.array_equal(small(scene, late), small(other, late)) or not np.array_equal(
         scene.environment(late).puffs, other.environment(late).puffs
@@ -189,3 +201,20 @@ def test_no_word_names_two_effects():
     # A noun and the verb of the same effect may be one word: "smoke".
     for word in twice:
         assert sum(word in (*one.nouns, *one.verbs) for one in EFFECTS.values()) == 1
+
+
+def test_lightning_lights_the_sky_and_draws_a_bolt_only_while_it_flashes():
+    scene = staged(Effect("lightning"))
+    dark, bright = scene.environment(0.0), scene.environment(0.3)
+    assert (bright.sky_horizon > dark.sky_horizon + 0.2).all()
+    widths = [np.abs(small(scene, t)[:, :, 0]).max() for t in (0.0, 0.3)]
+    assert widths[0] < 1e-4 < widths[1]
+
+
+def test_strokes_of_lightning_fall_off_and_come_back():
+    levels = [lightning_level(t) for t in (0.29, 0.3, 0.38, 0.395, 1.16)]
+    assert levels[0] == 0.0
+    assert levels[1] == pytest.approx(1.0)
+    assert levels[2] == pytest.approx(math.exp(-0.08 / 0.09))
+    assert levels[3] == pytest.approx(0.55 * math.exp(-0.005 / 0.09))
+    assert levels[4] == pytest.approx(math.exp(-0.01 / 0.09))

@@ -38,6 +38,7 @@ def complete_description(
     )
     description = _move_followed(replace(description, objects=objects), nouns)
     objects = description.objects
+    description = _darken(description)
     place = choose_place(description, nouns)
     description = report_place(description, place)
     said = replace(description.surroundings, place=place)
@@ -51,6 +52,21 @@ def complete_description(
     ):
         return _park(_rest_the_others(description), nouns)
     return _park(_rest_the_others(_set_in_motion(description, nouns)), nouns)
+
+
+_IN_THE_DARK = frozenset({"lightning", "stage lights", "lasers", "blinking lights"})
+"""Effects that are seen in the dark."""
+
+
+def _darken(description: SceneDescription) -> SceneDescription:
+    """Lights that flash or blink do so in the dark, unless the prompt says otherwise."""
+    is_lit = any(effect.kind in _IN_THE_DARK for effect in description.effects)
+    is_lit = is_lit or any(one.blink_hz is not None for one in description.objects)
+    if description.light.kind is not None or not is_lit:
+        return description
+    note = "it is dark, so that the light that changes is seen"
+    light = replace(description.light, kind="night")
+    return replace(description, light=light, notes=(*description.notes, note))
 
 
 _CREWS: dict[str, tuple[SceneObject, ...]] = {

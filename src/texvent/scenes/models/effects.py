@@ -24,11 +24,38 @@ class EffectWords:
     """Whether it begins at one instant (a burst) rather than going on."""
     needs_source: bool = True
     """Whether it comes from an object; otherwise it can be all around."""
+    is_around: bool = False
+    """Whether it is all around, whatever the prompt says that it comes from."""
     ends_source: bool = False
     """Whether the object it comes from is gone afterwards."""
 
 
 EFFECTS: Mapping[str, EffectWords] = MappingProxyType({
+    "lightning": EffectWords(
+        ("lightning", "lightening", "lightning bolt", "lightning flash", "thunder", "thunderstorm",
+         "electrical storm", "lightning storm", "bolt of lightning", "flash of lightning",
+         "lightning strike", "thunder and lightning"), ("thunder",), needs_source=False,
+        is_around=True,
+    ),
+    "stage lights": EffectWords(
+        ("spotlight", "stage lighting", "disco light", "moving spotlight", "concert light",
+         "club light", "light show", "party light"), needs_source=False, is_around=True,
+    ),
+    "lasers": EffectWords(
+        ("laser", "laser beam", "laser light", "laser show"), needs_source=False, is_around=True,
+    ),
+    "string lights": EffectWords(
+        ("string light", "fairy light", "holiday light", "christmas light", "string of lights",
+         "led strip", "light chain", "light string", "festive light", "led light strip"),
+        needs_source=False,
+    ),
+    "blinking lights": EffectWords(needs_source=False),
+    "beacon": EffectWords(
+        ("emergency light", "warning light", "siren light", "police light", "rotating light",
+         "siren"),
+    ),
+    "turn signal": EffectWords(("turn signal", "turn indicator", "blinker", "indicator light")),
+    "hazard lights": EffectWords(("hazard light", "hazard warning light")),
     "smoke": EffectWords(
         ("smoke", "fume", "exhaust", "exhaust smoke", "smoke plume", "plume of smoke"), ("smoke",),
         ("smoking", "smoky"), needs_source=False,

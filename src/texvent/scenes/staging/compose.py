@@ -43,6 +43,7 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.into_view import move_into_view
+from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.road_choice import find_road
@@ -128,7 +129,7 @@ class ComposedScene:
     @property
     def flicker_hz(self) -> float | None:
         """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
-        rates = (self.animated_environment.flicker_hz, self.lamps.blink_hz)
+        rates = (self.animated_environment.fastest_hz, self.lamps.blink_hz)
         return max((rate for rate in rates if rate is not None), default=None)
 
     @property
@@ -174,6 +175,8 @@ def compose_scene(
     )
     actors = with_headroom(description, placer.place_all())
     ground = PLACES[place].ground
+    if travel is None and ground in STRIPS and place not in WATERSIDE:
+        actors = queue_in_lanes(actors, 0.5 * PLACES[place].road_half_width)
     actors, camera_path = _set_camera(description, actors, place, (seed, size, duration_s), travel)
     view = _describe_view(place, camera_path, actors, duration_s, description.surroundings.road)
     if travel is not None:

@@ -14,13 +14,27 @@ from texvent.scenes.scene import (
     Colour,
     Environment,
     Float32Array,
+    Float64Array,
     Ground,
     Texture,
 )
+from texvent.scenes.staging.lightning import STROKE_HZ, lightning_level
 from texvent.scenes.staging.road import RoadLine
 
 FLICKER_DEPTH = 0.8
 """Share of the light that a flicker takes away at its darkest."""
+ON_SHARE = {"strobe": 0.35, "switch": 0.5}
+"""Wave of the light that goes on and off → share of a period that it is on."""
+OFF_DEPTH = {"strobe": 0.96, "switch": 0.9}
+"""The same → share of the light that is gone when it is off."""
+_FLASH = np.array((0.42, 0.47, 0.60), dtype=np.float32)
+"""Light of the brightest stroke of lightning."""
+STROBE = 1.2
+"""Light of a strobe's flash, as a share of that."""
+TIMELAPSE = 60.0
+"""How much faster the sky goes in a time lapse."""
+_SUN_RAD_S = 2.0 * math.pi / 600.0
+"""How fast the sun goes in a time lapse, per second of sky time."""
 
 
 @dataclass(frozen=True)
@@ -198,23 +212,58 @@ class AnimatedEnvironment:
 
     base: Environment
     flicker_hz: float | None
+    wave: str = "sine"
+    """As `Illumination.wave`."""
+    has_lightning: bool = False
+    time_scale: float = 1.0
+    """How much faster than in life clouds, waves and the sun go."""
 
     def at(self, time_s: float) -> Environment:
         """The surroundings at that instant."""
         factor = np.float32(self.flicker(time_s))
-        return replace(
+        base = replace(
             self.base,
-            time_s=time_s,
+            time_s=self.time_scale * time_s,
             sun_colour=self.base.sun_colour * factor,
             ambient=self.base.ambient * factor,
         )
+        if self.time_scale != 1.0:
+            base = replace(base, sun_direction=_sun_at(base.sun_direction, base.time_s))
+        level = lightning_level(time_s) if self.has_lightning else 0.0
+        if self.wave == "strobe" and self.flicker(time_s) >= 1.0:
+            return replace(base, ambient=base.ambient + np.float32(STROBE) * _FLASH)
+        if level <= 0.0:
+            return base
+        flash = np.float32(level) * _FLASH
+        return replace(
+            base,
+            ambient=base.ambient + flash,
+            sky_top=base.sky_top + np.float32(0.5) * flash,
+            sky_horizon=base.sky_horizon + flash,
+        )
+
+    @property
+    def fastest_hz(self) -> float | None:
+        """Highest frequency at which the light goes up and down, Hz; None = it is steady."""
+        return STROKE_HZ if self.has_lightning else self.flicker_hz
 
     def flicker(self, time_s: float) -> float:
         """Share of full light at that instant: 1 at t = 0, period exactly 1 / flicker_hz."""
         if self.flicker_hz is None:
             return 1.0
+        if self.wave != "sine":
+            is_on = (self.flicker_hz * time_s) % 1.0 < ON_SHARE[self.wave]
+            return 1.0 if is_on else 1.0 - OFF_DEPTH[self.wave]
         wave = math.cos(2.0 * math.pi * self.flicker_hz * time_s)
         return 1.0 - 0.5 * FLICKER_DEPTH * (1.0 - wave)
+
+
+def _sun_at(direction: Float64Array, time_s: float) -> Float64Array:
+    """The sun's direction [3] after so many seconds of sky time: it goes around, ever higher."""
+    angle = _SUN_RAD_S * time_s
+    cosine, sine = math.cos(angle), math.sin(angle)
+    x, y, z = direction
+    return np.array([cosine * x - sine * y, sine * x + cosine * y, z])
 
 
 def choose_lighting(place: str, light: Illumination) -> Lighting:
@@ -270,6 +319,8 @@ def build_environment(
         sky_top = horizon = mix(colour, second, 0.5)
         clouds = said.clouds or 0.0
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
+    if any(effect.kind == "lightning" for effect in description.effects):
+        clouds = max(clouds, 0.9)
     if said.weather in ("rain", "snow"):
         clouds = max(clouds, 0.8)
         lighting = replace(lighting, sun=mix(lighting.sun, (0.0, 0.0, 0.0), 0.4))
@@ -300,7 +351,12 @@ def build_environment(
         road_curvature=road.curvature,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
-    return AnimatedEnvironment(base, description.light.flicker_hz)
+    light = description.light
+    return AnimatedEnvironment(
+        base, light.flicker_hz, light.wave,
+        has_lightning=any(effect.kind == "lightning" for effect in description.effects),
+        time_scale=TIMELAPSE if description.is_timelapse else 1.0,
+    )  # fmt: skip
 
 
 def _ground_colours(ground: GroundAppearance, said: Surroundings) -> tuple[Colour, Colour]:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.placement.lanes import FEWEST, find_lanes
 from texvent.scenes.staging.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
@@ -55,6 +56,10 @@ def _straight_road(
     grounded = [actor for actor in actors if actor.noun.habitat == "ground"]
     movers = [actor for actor in grounded if actor.is_mover]
     drivers = [actor for actor in movers if actor.noun.motion == "drive"]
+    lanes = find_lanes(actors)
+    if all(lanes) and sum(map(len, lanes)) >= FEWEST:
+        sides = [lane[0].trajectory.at(0.0).position[1] for lane in lanes]
+        return RoadLine(offset=(0.0, 0.5 * float(sides[0] + sides[1])))
     if drivers:
         return _road_of(drivers, lane_m)
     if movers and movers[0].goes_across:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from texvent.scenes.description import Effect
+from texvent.scenes.description import Effect, ObjectMotion
 from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.meaning.adjectives import Attributes, read_attributes
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
@@ -30,6 +30,7 @@ from texvent.scenes.language.vocabulary.objects import MAX_COUNT, PLURAL_COUNT, 
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
+from texvent.scenes.models.kinds.people import TRAFFIC
 
 PERSON = "person"
 OUR = ("our", "my")
@@ -39,6 +40,7 @@ _KINDS = {
     Role.PICTURE: "picture", Role.FUNCTION: "function", Role.PLACE: "place", Role.LIGHT: "light",
     Role.WEATHER: "weather", Role.SKY: "sky", Role.SNOW: "snow", Role.DUST: "dust",
     Role.SHADOW: "shadow", Role.GLOW: "glow", Role.CLOUDS: "clouds", Role.STEEP: "place",
+    Role.FLICKER: "flicker",
 }  # fmt: skip
 """Role of a head → kind of referent."""
 _LOCATIVE = frozenset(
@@ -152,6 +154,8 @@ class Referents:
             mark_used([head])
             return Referent("things", group, [signal], attributes=attributes)
         role = self._choose_role(head, preposition, group)
+        if role is Role.NOUN and (head.read_as(Role.NOUN) or head.meaning).value in TRAFFIC:
+            return self._read_traffic(group, attributes)
         if role is Role.NOUN:
             return self._read_thing(group, attributes, preposition)
         return self._read_no_thing(group, role, attributes)
@@ -305,6 +309,19 @@ class Referents:
         is_other = meaning.is_substitute or (noun != meaning.value and not is_drinks)
         head.shown_as = noun if is_other else None
         return Referent("things", group, [index], attributes=attributes)
+
+    def _read_traffic(self, group: NounGroup, attributes: Attributes) -> Referent:
+        """As in "highway traffic": vehicles that drive both ways."""
+        head = group.head_word
+        kind = str((head.read_as(Role.NOUN) or head.meaning).value)
+        found = []
+        for noun, count, way in TRAFFIC[kind] if "car" in self._draft.nouns else ():
+            motion = ObjectMotion("drive", way)
+            index = self._draft.add(PartialObject(noun, count, count > 1, motions=[motion]))
+            if index is not None:
+                found.append(index)
+        head.is_used = bool(found)
+        return Referent("things" if found else "unknown", group, found, attributes=attributes)
 
     def _count_last(self) -> int:
         """As in "five camels, each rider": one for each of those named last."""

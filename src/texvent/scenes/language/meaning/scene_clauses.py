@@ -16,6 +16,7 @@ from texvent.scenes.language.words.word import Word, mark_used
 
 _SUN = {"set": "dusk", "rise": "dawn"}
 _OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
+_SWITCHES = ("switch", "turn", "go", "flick", "click", "toggle")
 _BENDS = ("curve", "wind", "bend", "twist")
 _SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
 _FALLING = frozenset(
@@ -48,11 +49,15 @@ class SceneClauses:
         word = clause.verb
         if word is not None and self._read_water(clause, word, subjects):
             return
+        if word is not None and word.role is Role.FLICKER:
+            subjects = [one for one in subjects if not self._around.flash_own(one, word)]
+            word.is_used = word.is_used or not subjects
         for one in subjects:
             self._surroundings.read_referent(one, is_negated=clause.negation is not None)
             self._around.read_group_phrases(one, Scope([], [], has_verb=False))
         if word is not None:
-            word.is_used = self._read_scene_verb(word, {one.kind for one in subjects})
+            shown = self._read_scene_verb(word, {one.kind for one in subjects})
+            word.is_used = word.is_used or shown
         for group in clause.complements:
             self._read_scene_complement(self._referents.resolve(group))
         if word is not None and word.is_used:
@@ -79,6 +84,9 @@ class SceneClauses:
         """What light, weather or a place does; whether it is shown."""
         if word.role is Role.FLICKER and kinds & {"light", "glow"}:
             self._surroundings.flicker()
+            return True
+        if word.lemma in _SWITCHES and kinds & {"light", "glow"}:
+            self._surroundings.flicker("switch")
             return True
         if word.lemma in _BENDS and "place" in kinds:
             return self._surroundings.curve_road()

@@ -16,6 +16,11 @@ _BRIGHT = ("bright", "harsh", "brilliant", "strong", "clear")
 _WATER = ("water", "waters")
 _WATERY = ("lake", "river", "underwater")
 """Places that have the water that is named after them."""
+_USUAL_HZ = {
+    "sine": vocabulary_scene.DEFAULT_FLICKER_HZ,
+    "strobe": vocabulary_scene.STROBE_HZ,
+    "switch": vocabulary_scene.SWITCH_HZ,
+}
 _BACKDROPS = ("mountain", "forest", "city")
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "lake", "river", "sand", "snow",
                 "mountain")  # fmt: skip
@@ -42,6 +47,7 @@ class SurroundingsReader:
         self._has_snow = False
         self._light: str | None = None
         self._flicker_hz: float | None = None
+        self._wave = "sine"
         self._shadows: bool | None = None
         self._glows: list[Word] = []
         self._readers: dict[Role, Callable[[object, bool], bool]] = {
@@ -185,15 +191,16 @@ class SurroundingsReader:
         self._road = str(said) if said != "straight" else None
         return True
 
-    def _set_flicker(self, _: object, is_negated: bool) -> bool:
+    def _set_flicker(self, said: object, is_negated: bool) -> bool:
         if not is_negated:
-            self.flicker()
+            self.flicker("strobe" if str(said).startswith("strob") else "sine")
         return True
 
-    def flicker(self) -> None:
-        """All light flickers."""
+    def flicker(self, wave: str = "sine") -> None:
+        """All light flickers, is a strobe, or is switched on and off."""
         if self._flicker_hz is None:
-            self._flicker_hz = vocabulary_scene.DEFAULT_FLICKER_HZ
+            self._flicker_hz = _USUAL_HZ[wave]
+            self._wave = wave
 
     def curve_road(self) -> bool:
         """The road bends; whether there is one."""
@@ -229,7 +236,7 @@ class SurroundingsReader:
             has_dust=self._has_dust,
             has_snow=self._has_snow or self._weather == "snow",
         )
-        return surroundings, Illumination(self._light, self._flicker_hz, self._shadows)
+        return surroundings, Illumination(self._light, self._flicker_hz, self._wave, self._shadows)
 
     def _is_lit(self) -> bool:
         return self._light is not None or self._flicker_hz is not None or bool(self._glows)

@@ -70,7 +70,7 @@ _TEXT = """
     snail mail, snake skin, snakeskin, snake plant, crocodile clip, alligator clip, alligator
     pear, crocodile tear, kite surfer, kite board, plate rack, coat rack, bike rack, bike lane,
     towel rack, coat hook, coat hanger, clothes hanger, clothes line, clothes rack, fish hook,
-    crochet hook, fishing rod, lightning rod, lightning bolt, bolt cutter, wire cutter, bolt lock,
+    crochet hook, fishing rod, lightning rod, bolt cutter, wire cutter, bolt lock,
     cookie cutter, cookie jar lid, paper cutter, potter wheel, steering wheel, spinning wheel,
     water wheel, mill wheel, cog railway, ship wheel, wheel of fortune, wheel house, hamster
     wheel, wheel clamp, toilet brush, paint roller, steam roller, road roller, hair roller, hair

@@ -71,7 +71,9 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "indoor": (
         "corridor", "studio", "museum", "church", "theatre", "theater", "auditorium", "stage",
         "basement", "attic", "cave", "lobby", "gallery", "palace", "ballroom", "concert hall",
-        "court", "basketball court", "bowling alley", "nightclub", "circus",
+        "club", "night club",
+        "disco", "discotheque", "dance club", "court", "basketball court", "bowling alley",
+        "nightclub", "circus",
     ),
     "living room": ("apartment", "flat", "cafe", "coffee shop", "bar", "pub", "hotel lobby"),
     "kitchen": ("bathroom", "restaurant", "bakery", "restaurant kitchen", "canteen", "diner"),
@@ -196,6 +198,12 @@ DUST = ("dust", "dust cloud", "dust clouds", "dust trail")
 
 SKY_WORDS = ("sky", "skies")
 
+STROBES = ("strobe light", "strobe", "stroboscope", "strobe lamp", "strobe lighting",
+           "stroboscopic light", "strobe effect", "strobe flash")  # fmt: skip
+"""Nouns of light that flashes in the dark."""
+STROBE_HZ = 7.0
+SWITCH_HZ = 0.8
+"""How often a light is switched on and off."""
 FLICKERS = ("flicker", "strobe", "blink", "flash", "twinkle")
 """Verbs of lights that go on and off."""
 DEFAULT_BLINK_HZ = 2.0

@@ -23,7 +23,7 @@ from texvent.scenes.language.vocabulary.opaque import OPAQUE_COMPOUNDS
 from texvent.scenes.language.words.english import Pos, VerbForm, list_verb_forms
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.kinds import KINDS
-from texvent.scenes.models.kinds.people import PEOPLE_GROUPS
+from texvent.scenes.models.kinds.people import PEOPLE_GROUPS, TRAFFIC_WORDS
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
 from texvent.scenes.models.protocol import Noun
 
@@ -244,6 +244,9 @@ def _list_effects() -> Iterator[tuple[str, Meaning]]:
 
 
 def _list_people_groups() -> Iterator[tuple[str, Meaning]]:
+    for kind, texts in TRAFFIC_WORDS.items():
+        for text in texts:
+            yield text, Meaning(Role.NOUN, Pos.NOUN, kind, can_be_both=True)
     for text, count in PEOPLE_GROUPS.items():
         yield text, Meaning(Role.NOUN, Pos.NOUN, "person", is_substitute=True, count=count)
 
@@ -307,6 +310,8 @@ _WORDS: tuple[tuple[Role, Pos, Iterable[str]], ...] = (
     (Role.SHADOW, Pos.NOUN, vocabulary_scene.SHADOW_WORDS),
     (Role.GLOW, Pos.NOUN, vocabulary_scene.GLOW_NOUNS),
     (Role.CAMERA, Pos.NOUN, vocabulary_scene.CAMERA_WORDS),
+    (Role.FLICKER, Pos.NOUN, vocabulary_scene.STROBES),
+    (Role.FLICKER, Pos.NOUN, tuple(f"{one}s" for one in vocabulary_scene.STROBES[:2])),
     *((Role.FUNCTION, pos, words) for pos, words in vocabulary_function.FUNCTION_WORDS.items()),
 )
 """Role, part of speech, and phrases that mean themselves."""

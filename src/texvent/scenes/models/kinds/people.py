@@ -42,6 +42,41 @@ PEOPLE_KINDS: dict[str, str] = {
 }
 """Noun of the models → kinds of it, separated by commas."""
 
+TRAFFIC: dict[str, tuple[tuple[str, int, str], ...]] = {
+    "traffic": (
+        ("car", 2, "right"), ("truck", 1, "right"), ("car", 2, "left"), ("van", 1, "left"),
+    ),
+    "city traffic": (
+        ("taxi", 1, "right"), ("car", 2, "right"), ("car", 1, "left"), ("bus", 1, "left"),
+    ),
+    "rush hour traffic": (
+        ("car", 3, "right"), ("bus", 1, "right"), ("car", 3, "left"), ("van", 1, "left"),
+    ),
+}  # fmt: skip
+"""Word for traffic → vehicles, how many, and which way they drive."""
+TRAFFIC_WORDS: dict[str, tuple[str, ...]] = {
+    "traffic": (
+        "traffic",
+        "highway traffic",
+        "motorway traffic",
+        "freeway traffic",
+        "road traffic",
+        "traffic flow",
+        "flow of traffic",
+        "stream of traffic",
+        "oncoming traffic",
+    ),
+    "city traffic": ("city traffic", "street traffic", "urban traffic"),
+    "rush hour traffic": (
+        "rush hour traffic",
+        "heavy traffic",
+        "dense traffic",
+        "busy traffic",
+        "heavy city traffic",
+    ),
+}
+"""Key of `TRAFFIC` → words for it."""
+
 PEOPLE_GROUPS: dict[str, int] = {
     "couple": 2, "pair": 2, "family": 4, "crowd": 8, "team": 5, "audience": 8, "band": 4,
     "group of people": 5, "ground crew": 3, "orchestra": 8, "choir": 6, "class": 6,

@@ -26,7 +26,9 @@ THING_KINDS: dict[str, str] = {
     "tractor": """
         harvester, combine harvester, thresher, combine, farm vehicle, steamroller""",
     "excavator": "bulldozer, loader, wheel loader, backhoe, earthmover, construction vehicle",
-    "motorcycle": "motor scooter, vespa, dirt bike, chopper bike, quad bike, superbike, moped",
+    "motorcycle": """
+        police motorcycle, police bike, motor scooter, vespa, dirt bike, chopper bike, quad
+        bike, superbike, moped""",
     "bicycle": """
         mountain bike, road bike, racing bike, tandem, bicycle built for two, tricycle,
         unicycle, bmx, ebike, electric bike, velocipede, rickshaw, pedicab""",

@@ -13,10 +13,16 @@ from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.framing import Framing
+from texvent.scenes.staging.particles.body_lights import (
+    make_beacons,
+    make_string,
+    make_turn_signals,
+)
 from texvent.scenes.staging.particles.bursts import Fireball, Fireworks, Pieces, Splash
 from texvent.scenes.staging.particles.clouds import PLUMES, Plume, make_bank
 from texvent.scenes.staging.particles.flakes import FLAKES, Falling
 from texvent.scenes.staging.particles.jets import JETS, WATER, Dripping, Jet
+from texvent.scenes.staging.particles.light_shows import Lasers, Lightning, StageLights
 from texvent.scenes.staging.particles.motion import Source
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.weather import WEATHERS
@@ -189,6 +195,8 @@ def _make(
     colour = None if effect.colour is None else effect.colour.rgb
     base = np.array([setting.framing.target[0], setting.framing.target[1], 0.0])
     reach = setting.framing.distance_m
+    if kind in _LIGHTS:
+        return _light_up(kind, actor, setting, colour, rng)
     if kind in ("mist", "sand"):
         return [make_bank(kind, base, 3.0 * reach, rng, colour)]
     if kind in FLAKES:
@@ -199,6 +207,15 @@ def _make(
         return [Fireworks.of(middle, 0.3 * reach, rng)]
     if EFFECTS[kind].happens_once:
         return _happen_once(effect, actor, setting, rng)
+    return _make_stream(effect, actor, setting, rng)
+
+
+def _make_stream(
+    effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
+) -> list[ParticleEffect]:
+    """Smoke, drops, flames: what leaves a source."""
+    kind, reach = effect.kind, setting.framing.distance_m
+    colour = None if effect.colour is None else effect.colour.rgb
     source = _source(kind, actor, setting)
     if kind == "drip":
         start = source.at(np.zeros(1))[0]
@@ -218,6 +235,42 @@ def _make(
     if kind == "fire" and actor is not None and actor.noun.name not in OF_NOUNS:
         made.append(Plume.of("black smoke", source, rng, start_s=effect.start_s))
     return made
+
+
+_LIGHTS = frozenset(
+    {"lightning", "stage lights", "lasers", "string lights", "blinking lights", "beacon",
+     "turn signal", "hazard lights"}
+)  # fmt: skip
+_BLINK_HZ = {"string lights": 0.0, "blinking lights": 1.1}
+
+
+def _light_up(
+    kind: str, actor: Actor | None, setting: Setting, colour: Colour | None,
+    rng: np.random.Generator,
+) -> list[ParticleEffect]:  # fmt: skip
+    """Effects that are light: see `light_shows` and `body_lights`."""
+    target = np.asarray(setting.framing.target, dtype=np.float64)
+    away = -setting.framing.offset * [1.0, 1.0, 0.0]
+    away /= max(float(np.linalg.norm(away)), 1e-9)
+    side = np.cross(away, [0.0, 0.0, 1.0])
+    reach = setting.framing.distance_m
+    if kind == "lightning":
+        return [Lightning.of(target * [1.0, 1.0, 0.0], away, reach, rng)]
+    if kind == "stage lights":
+        return [StageLights(target * [1.0, 1.0, 0.0], side, reach, colour)]
+    if kind == "lasers":
+        return [Lasers(target + 0.1 * reach * away, side, reach, colour)]
+    if kind in _BLINK_HZ:
+        place = target + reach * (0.22 * np.array([0.0, 0.0, 1.0]) + 0.1 * away)
+        string = make_string(
+            actor, place, side, 0.9 * reach, blink_hz=_BLINK_HZ[kind], colour=colour
+        )
+        return [string]
+    if actor is None:
+        return []
+    if kind == "beacon":
+        return [make_beacons(actor, colour)]
+    return [make_turn_signals(actor, both=kind == "hazard lights")]
 
 
 def _happen_once(

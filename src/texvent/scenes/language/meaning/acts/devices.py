@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import SPIN_RATE_HZ, Effect
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.capabilities import is_person
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents import Referent
 from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB
 from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
@@ -30,6 +32,11 @@ def give_effect(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     return True
 
 
+def switch(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
+    """What lamps and traffic lights do by themselves."""
+    return switch_signal(draft, clause, subjects) or switch_lamps(draft, clause, subjects)
+
+
 def switch_signal(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     """As in "a traffic light turns from red to green", which it does by itself."""
     names = {draft.objects[index].noun for index in subjects}
@@ -40,6 +47,50 @@ def switch_signal(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     groups = [group for phrase in clause.phrases for group in phrase.groups]
     for group in (*groups, *clause.complements, *clause.objects):
         mark_used(word for word in group.words if word.text in _SIGNALS)
+    return True
+
+
+def light_up(draft: Draft, one: Referent, things: Sequence[int]) -> bool:
+    """As in "with flashing blue lights", "with lights": lamps of what has them, or lights on it."""
+    flicker, colours = one.attributes.flicker, one.attributes.colours
+    colour = colours[0][0] if colours else None
+    said = [word for _, words in colours[:1] for word in words]
+    for index in things:
+        item, noun = draft.objects[index], draft.noun(index)
+        if noun.name in BEACONED:
+            said = said if colour is None or colour.name.split()[-1] in BEACONED_HUES else []
+        elif noun.motion == "drive" and flicker is not None:
+            draft.effects.append(Effect("beacon", index, colour))
+        elif noun.name in LAMPS:
+            item.is_lit = True
+            item.blink_hz = DEFAULT_BLINK_HZ if flicker is not None else item.blink_hz
+            said = []
+        elif not is_living(noun):
+            kind = "string lights" if flicker is None else "blinking lights"
+            draft.effects.append(Effect(kind, index, colour))
+        else:
+            return False
+    mark_used([*said, *([flicker] if flicker is not None else []), *one.group.words[-1:]])
+    return bool(things)
+
+
+BEACONED = frozenset({"police car", "fire engine", "ambulance"})
+"""Vehicles whose models have flashing lights."""
+BEACONED_HUES = ("blue", "red")
+SWITCHED_HZ = 0.8
+"""How often a lamp is switched on and off."""
+_ON_AND_OFF = frozenset({"switch", "turn", "flick", "go", "toggle"})
+
+
+def switch_lamps(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
+    """As in "a lamp is switched on and off", "a lamp goes off"."""
+    lamps = [index for index in subjects if draft.objects[index].noun in LAMPS]
+    text = {word.text for word in clause.adverbs} | {one.preposition.text for one in clause.phrases}
+    if not lamps or clause.verb_word.lemma not in _ON_AND_OFF or not text & {"on", "off"}:
+        return False
+    for index in lamps:
+        draft.objects[index].blink_hz = SWITCHED_HZ
+    clause.verb_word.is_used = True
     return True
 
 

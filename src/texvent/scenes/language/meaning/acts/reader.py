@@ -9,7 +9,12 @@ from dataclasses import replace
 from texvent.scenes.description import ObjectMotion, Relation
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.activities import find_activity
-from texvent.scenes.language.meaning.acts.devices import blink, give_effect, switch_signal
+from texvent.scenes.language.meaning.acts.devices import (
+    blink,
+    give_effect,
+    switch,
+    switch_lamps,
+)
 from texvent.scenes.language.meaning.acts.fitting import choose_act, fit_verb, is_played
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
@@ -64,7 +69,7 @@ class ActReader:
         verb = word.meaning.value
         if word.role is Role.FLICKER:
             return blink(self._draft, word, subjects)
-        if switch_signal(self._draft, clause, subjects):
+        if switch(self._draft, clause, subjects):
             return subjects
         is_alive = all(is_living(self._draft.noun(index)) for index in subjects)
         outer = [one for one in objects if not (is_alive and _is_own(one))]
@@ -135,6 +140,8 @@ class ActReader:
         verb = word.meaning.value
         if give_effect(self._draft, clause, subjects):
             return subjects
+        if switch_lamps(self._draft, clause, subjects):
+            return []
         if not isinstance(verb, Verb):
             return []
         if agents:

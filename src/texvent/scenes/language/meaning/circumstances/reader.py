@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import Effect, ObjectMotion, Picture
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
+from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
@@ -291,6 +292,7 @@ class CircumstanceReader:
         self, word: Word, one: Referent, scope: Scope, *, is_negated: bool
     ) -> None:
         if one.kind == "glow" and word.text == "with" and scope.subjects:
+            word.is_used = light_up(self._draft, one, scope.subjects)
             return
         names = _PLACE_PREPOSITIONS if one.kind == "place" else _LIGHT_PREPOSITIONS
         if word.text not in names and one.kind in ("place", "light"):
@@ -351,17 +353,36 @@ class CircumstanceReader:
     def add_effect(self, one: Referent, scope: Scope) -> bool:
         """Smoke, sparks ... that the clause's subjects have."""
         kind = str(one.value)
-        source = scope.subjects[0] if scope.subjects else None
+        source = scope.subjects[0] if scope.subjects and not EFFECTS[kind].is_around else None
         if source is None and EFFECTS[kind].needs_source:
             return False
         colours = one.attributes.colours
         colour = colours[0][0] if colours else None
         for _, words in colours[:1]:
             mark_used(words)
+        if EFFECTS[kind].is_around:
+            mark_used(word for word in one.group.modifiers if word.text in _OF_LIGHT_SHOWS)
+            if "storm" in one.group.text:
+                self._surroundings.read_weather("rain")
+            if any(effect.kind == kind for effect in self._draft.effects):
+                mark_used(one.group.words[-1:])
+                return True
+        flicker = one.attributes.flicker
+        if kind == "string lights" and flicker is not None:
+            kind, flicker.is_used = "blinking lights", True
         self._draft.effects.append(Effect(kind, source, colour))
         if one.group.head is not None:
             one.group.head.is_used = True
         return True
+
+    def flash_own(self, one: Referent, word: Word) -> bool:
+        """As in "a fire truck leaves with its lights flashing"."""
+        determiner = one.group.determiner
+        is_owned = determiner is not None and determiner.text in OWNERS
+        if one.kind != "glow" or not is_owned or not self._draft.subjects:
+            return False
+        one.attributes.flicker = word
+        return light_up(self._draft, one, self._draft.subjects)
 
     def _use_part(self, one: Referent, things: Sequence[int]) -> None:
         """The part is shown; its colour too, if it is the usual one."""
@@ -389,6 +410,11 @@ class CircumstanceReader:
         return None
 
 
+_OF_LIGHT_SHOWS = frozenset(
+    {"changing", "moving", "sweeping", "flashing", "rotating", "colorful", "colourful",
+     "coloured", "colored", "bright", "swirling", "dancing"}
+)  # fmt: skip
+"""What light shows and lightning do anyway."""
 _ON_PARTS = frozenset({"on", "over", "under", "above", "behind", "in front of", "around"})
 """Prepositions that say where something is: "a board on his head" is carried in the hands."""
 _BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
