@@ -12,6 +12,7 @@ import numpy as np
 
 from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
 from texvent.generate.seen_words.picture import Picture, View
+from texvent.generate.seen_words.things import judge_outline
 from texvent.generate.seen_words.words import judge_words
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Evidence
@@ -37,6 +38,8 @@ LEAST_SIZE = 0.025
 """Share of the picture's width or height below which a thing is a speck."""
 LEAST_AREA, SMALL_SIZE = 0.004, 0.1
 """Share of the picture's points below which a thing up to this size is a speck too."""
+LEAST_SLENDER, SLENDER_SIZE = 0.002, 0.3
+"""The same for what is slender, up to this size: a person far away."""
 LEAST_PIXELS = 12
 """Pixels below which nothing can be told of a thing."""
 LEAST_SEEN = 0.45
@@ -44,12 +47,14 @@ LEAST_SEEN = 0.45
 LARGE_AREA = 0.12
 """Share of the picture's points from which on a thing is seen, however far it reaches beyond."""
 LEAST_MARK, LEAST_GROUND = 0.003, 0.02
-"""Share of the picture's points that what a place is known by covers at least: things; water or a
-road."""
+"""Share of the picture's points that what a place is known by covers at least: things; water, a
+road or mountains."""
 IN_FOG = 2.5
 """Distance, as a multiple of that at which colours have faded to 37 %, from which on fog hides."""
 LEAST_MOTION_PX = 1.0
 """Way in the image, over the clip, below which a thing stands still."""
+_EXTRAS = {"conveyor belt": "parcels ride on the conveyor belt"}
+"""Noun → what its model shows besides."""
 
 
 @dataclass
@@ -96,6 +101,7 @@ class _Sight:
         if not self.points:
             return "hidden" if self.alone else "too small"
         is_speck = share < LEAST_AREA and self.extent < SMALL_SIZE
+        is_speck |= share < LEAST_SLENDER and self.extent < SLENDER_SIZE
         if self.extent < LEAST_SIZE or is_speck or share * pixels < LEAST_PIXELS:
             return "too small"
         if self.seen < LEAST_SEEN and share < LARGE_AREA:
@@ -149,13 +155,27 @@ def find_evidence(
                 copies[index] = copies[index] or whole
     picture = Picture(scene, size, image_points(size), found.views)
     words, qualities = judge_words(picture, description)
+    faults = {one: fault or judge_outline(picture, one) for one, fault in found.faults.items()}
     return Evidence(
         scene.unmet,
-        {index: [found.faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},
+        {index: [faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},
         frozenset(index for index, own in copies.items() if found.still.issuperset(own)),
         {**words, **found.places},
         qualities,
+        tuple(dict.fromkeys(_list_extras(scene, description))),
     )
+
+
+def _list_extras(scene: ComposedScene, description: SceneDescription) -> list[str]:
+    """What comes with a thing or an act without being said."""
+    said = {one.noun for one in description.objects}
+    words = set(description.prompt.casefold().split())
+    found = [note for noun, note in _EXTRAS.items() if noun in said]
+    for actor in scene.actors:
+        for prop in actor.props:
+            if prop.nouns and not said.intersection(prop.nouns) | words.intersection(prop.nouns):
+                found.append(f"the {actor.noun.name} has a {prop.nouns[0]} for what it does")
+    return found
 
 
 def look_for_things(
@@ -201,7 +221,7 @@ def look_for_things(
 
 
 def _least(mark: str) -> float:
-    return LEAST_GROUND if mark in (WATER, ROAD) else LEAST_MARK
+    return LEAST_GROUND if mark in (WATER, ROAD, "mountain") else LEAST_MARK
 
 
 def _choose_instants(duration_s: float) -> Float64Array:

@@ -47,6 +47,8 @@ class Evidence:
     """Words of the scene that are not seen, of its place, light, weather ... → why."""
     qualities: Mapping[tuple[str, int], str] = field(default_factory=dict)
     """Aspect of a claim, such as "colour", and the object → why it is not seen."""
+    notes: Sequence[str] = ()
+    """What is seen that the prompt does not say, as sentences."""
 
 
 def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport:
@@ -74,6 +76,7 @@ def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport
         shown=tuple(word for word in plain.shown if word not in gone),
         substituted=tuple(one for one in plain.substituted if one.said not in gone),
         not_shown=tuple(missing),
+        notes=(*plain.notes, *evidence.notes),
     )
 
 

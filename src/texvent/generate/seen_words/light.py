@@ -81,7 +81,7 @@ def _judge_sunshine(picture: Picture) -> str | None:
 def _judge_lamp(picture: Picture, word: str) -> str | None:
     if word.removesuffix("s") in _NO_LAMP:
         return "shown as the light of a lamp"
-    names = {*picture.scene.class_names.values(), *picture.scene.still_nouns}
+    names = picture.seen_nouns()
     for lamp, words in _LAMP_OF.items():
         if word.removesuffix("s") in words and lamp not in names:
             return f"no {lamp} in view"

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.generate.landmarks import WATER, is_marked
+from texvent.generate.landmarks import is_marked
 from texvent.scenes.projection import ray_directions
 from texvent.scenes.raycast.render import render_pixels
 from texvent.scenes.raycast.trace import GROUND, SKY
@@ -79,15 +79,28 @@ class Picture:
             self._colours[number] = self._render(self.scene, number)
         return self._colours[number]
 
-    def is_water(self, number: int) -> NDArray[np.bool_]:
-        """[k] whether each image point shows water of the ground."""
+    def seen_nouns(self) -> set[str]:
+        """Nouns of all things and scenery of which an image point shows something."""
+        scenery = self.scene.list_scenery()
+        found: set[str] = set()
+        for view in self.views:
+            shapes = np.unique(view.number[view.number >= 0])
+            found |= {scenery[one] for one in shapes if one < len(scenery)}
+            owners = np.unique(view.owner[shapes])
+            found |= {self.scene.class_names.get(int(one), "") for one in owners}
+        return found - {""}
+
+    def strip(self, number: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """[k] whether image points show water or road of the ground, and the ground beside it."""
         view = self.views[number]
         found = view.number == GROUND
         rays = ray_directions(view.camera, self.size, self.points[found])
         spots = (view.camera.position + rays * view.depth[found, None])[:, :2]
-        mark, where = is_marked(self.scene.environment(view.time_s), spots)
-        found[found] = where & (mark == WATER)
-        return np.asarray(found, dtype=np.bool_)
+        _, where = is_marked(self.scene.environment(view.time_s), spots)
+        beside = found.copy()
+        found[found] = where
+        beside[beside] = ~where
+        return np.asarray(found, dtype=np.bool_), np.asarray(beside, dtype=np.bool_)
 
     def difference(
         self,

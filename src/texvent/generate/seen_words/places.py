@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from texvent.generate.seen_words.picture import USUAL, Picture
 from texvent.scenes.description import Claim, SceneDescription
-from texvent.scenes.raycast.trace import GROUND
 
 MOST_RED = 0.04
 """How much more red than blue water may be, as a share of white."""
+LEAST_STRIP, LEAST_EDGE = 0.02, 0.05
+"""Share of the picture that water or a road covers; its difference from the ground beside it."""
+_WATER_WORDS = frozenset({"water", "waters"})
+_ROADS = ("road", "dirt road", "city")
 _FLAT = "the ground is flat"
 _LACKS: dict[str, tuple[str, ...]] = {
     _FLAT: ("slope", "hillside", "mountainside", "mountain side", "mountain slope", "hill"),
@@ -38,12 +43,17 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     for reason, words in _LACKS.items():
         if _is_one_of(claim.word, words):
             return reason
-    names = {*picture.scene.class_names.values(), *picture.scene.still_nouns}
+    names = picture.seen_nouns()
     needed = _NEEDS.get(claim.word)
     if needed is not None and not names & set(needed):
         return f"no {' or '.join(needed)}"
-    if claim.value in _WATERS and description.surroundings.place == claim.value:
+    place = description.surroundings.place
+    if claim.word in _WATER_WORDS and place not in (*_WATERS, "underwater"):
+        return None if place in ("sky", "space", None) else "no water in view"
+    if claim.value in _WATERS and place in _WATERS:
         return _judge_water(picture)
+    if claim.value in _ROADS and place in _ROADS:
+        return _judge_road(picture)
     return None
 
 
@@ -54,10 +64,23 @@ def _is_one_of(word: str, words: tuple[str, ...]) -> bool:
 def _judge_water(picture: Picture) -> str | None:
     """Water that mirrors a red sky looks like soil: it must be as blue as it is red."""
     for number in USUAL:
-        view = picture.views[number]
-        is_water = (view.number == GROUND) & picture.is_water(number)
-        if is_water.any():
-            red, _, blue = picture.colours(number)[is_water].mean(axis=0)
+        water, _ = picture.strip(number)
+        if water.mean() >= LEAST_STRIP:
+            red, _, blue = picture.colours(number)[water].mean(axis=0)
             if blue >= red - MOST_RED:
                 return None
+    return "not to be told from the ground"
+
+
+def _judge_road(picture: Picture) -> str | None:
+    """A road differs from the ground beside it."""
+    for number in USUAL:
+        road, beside = picture.strip(number)
+        if road.mean() < LEAST_STRIP:
+            continue
+        colours = picture.colours(number)
+        if not beside.any():
+            return None
+        if np.abs(colours[road].mean(axis=0) - colours[beside].mean(axis=0)).max() >= LEAST_EDGE:
+            return None
     return "not to be told from the ground"

@@ -20,6 +20,16 @@ LEAST_DETAIL = 0.14
 """Share of the picture's width or height below which a thing's material and parts are not told."""
 MOST_SHARED = 0.25
 """Share of a copy's box in the picture that another may cover while they are told apart."""
+LEAST_OUTLINE = 0.07
+"""Difference from its surroundings, and within it, that a thing is told by, as a share of white."""
+PATTERN_SIZE = 0.2
+"""Share of the picture's width or height below which no stripes are told."""
+_PATTERNED = frozenset({"zebra", "tiger", "leopard"})
+_ONE_SIDED = frozenset(
+    {"headlight", "headlights", "tail light", "tail lights", "windscreen", "windshield", "face",
+     "door", "rack", "roof rack", "neck", "trunk"}
+)  # fmt: skip
+"""Parts that are seen from some sides only."""
 _OPAQUE = frozenset({"glass", "crystal", "ice"})
 _UNRELATED = frozenset({"toy", "baby", "young", "miniature", "short"})
 """Words of size that mean more than the size."""
@@ -116,7 +126,35 @@ def _judge_part(
 ) -> str | None:
     if any(effect.source == index for effect in description.effects) and claim.motion is None:
         return "not told apart"
+    if claim.word in _ONE_SIDED:
+        return "not told apart"
     return None if _extent(picture, index) >= LEAST_DETAIL else "too small to tell"
+
+
+def judge_outline(picture: Picture, instance: int) -> str | None:
+    """Why a thing that is in view is not recognised: lost in the dark or the fog, or None."""
+    noun = picture.scene.class_names.get(instance, "")
+    size, contrast = 0.0, -1.0
+    edge = np.array([picture.size.width, picture.size.height])
+    for number in USUAL:
+        view = picture.views[number]
+        box = _box(picture, view, [instance])
+        if box is None:
+            continue
+        size = max(size, float(((box[1] - box[0]) / edge).max()))
+        own = view.instance == instance
+        reach = 0.04 * picture.size.width
+        near = np.all(
+            (picture.points >= box[0] - reach) & (picture.points <= box[1] + reach), axis=1
+        )
+        colours = picture.colours(number)
+        inside, outside = colours[own], colours[near & ~own]
+        if len(outside):
+            between = float(np.abs(inside.mean(axis=0) - outside.mean(axis=0)).max())
+            contrast = max(contrast, between, float(inside.std(axis=0).max()))
+    if 0.0 <= contrast < LEAST_OUTLINE:
+        return "not told from what is around it"
+    return "too small" if noun in _PATTERNED and 0.0 < size < PATTERN_SIZE else None
 
 
 def _extent(picture: Picture, index: int) -> float:

@@ -16,6 +16,9 @@ KNEE_M, LOOKING_UP = 1.8, 0.05
 LEAST_CLOSE = 0.45
 """Share of the picture's width or height that a thing in close-up fills."""
 
+MOST_WIDE = 0.5
+"""The same up to which a shot is wide."""
+
 
 def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """Why a view or a framing is not seen, or None."""
@@ -28,6 +31,8 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
         return _judge_low(picture)
     if claim.value == "close" and _greatest_extent(picture) < LEAST_CLOSE:
         return "things are small in the picture"
+    if claim.value == "wide" and _greatest_extent(picture) > MOST_WIDE:
+        return "things fill the picture"
     return None
 
 

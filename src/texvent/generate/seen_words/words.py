@@ -11,6 +11,7 @@ from texvent.generate.seen_words.things import judge_thing
 from texvent.generate.seen_words.views import judge_camera
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.raycast.trace import GROUND
+from texvent.scenes.staging.environment import is_room
 
 _OF_THINGS = frozenset({"colour", "size", "material", "part", "side", "count"})
 _OF_SCENE = ("light", "weather", "effect", "dust")
@@ -44,6 +45,8 @@ def judge_words(
             words.setdefault(claim.word, fault)
     for claim in description.claims:
         fault = next((words[one] for one in _said_of(claim, description) if one in words), None)
+        if fault is None and _is_of_scene(claim):
+            fault = next(iter(effects.values()), None)
         if fault is not None:
             words.setdefault(claim.word, fault)
     return words, qualities
@@ -51,9 +54,13 @@ def judge_words(
 
 def _said_of(claim: Claim, description: SceneDescription) -> list[str]:
     """Words for what rain, light or smoke does: a verb that is of no thing."""
-    if claim.aspect != "motion" or claim.things or claim.move is not None:
+    if not _is_of_scene(claim):
         return []
     return [one.word for one in description.claims if one.aspect in _OF_SCENE]
+
+
+def _is_of_scene(claim: Claim) -> bool:
+    return claim.aspect == "motion" and not claim.things and claim.move is None
 
 
 def _judge_scene_word(
@@ -75,8 +82,11 @@ def _judge_scene_word(
         return _judge_painted(picture, description, claim)
     if claim.aspect in ("effect", "dust"):
         kind = claim.value if claim.aspect == "effect" else "dust"
-        is_staged = any(one == kind for one, _ in picture.scene.particles.kinds)
-        return effects.get(kind) if is_staged else "nothing raises it"
+        if all(one != kind for one, _ in picture.scene.particles.kinds):
+            return "nothing raises it"
+        if claim.aspect == "dust" and is_room(description.surroundings.place or "grass"):
+            return "only at the feet of who moves"
+        return effects.get(kind)
     return None
 
 

@@ -14,6 +14,7 @@ from texvent.scenes.language.meaning.senses import (
     choose_sense,
     is_figurative,
     is_of_drinks,
+    is_other_sense,
     is_pane,
     read_herd,
     read_young,
@@ -147,7 +148,11 @@ class Referents:
             return Referent("things", group, bodies, attributes=attributes)
         if herd is not None:
             attributes.count = herd
-        elif is_figurative(group, preposition) or is_pane(group, self._draft):
+        elif (
+            is_figurative(group, preposition)
+            or is_pane(group, self._draft, preposition)
+            or is_other_sense(group, self._draft, preposition)
+        ):
             return Referent("unknown", group, attributes=attributes)
         signal = self._find_signal(group)
         if signal is not None:

@@ -109,14 +109,37 @@ _GLAZED = frozenset(
 )  # fmt: skip
 
 
-def is_pane(group: NounGroup, draft: Draft) -> bool:
+def is_pane(group: NounGroup, draft: Draft, preposition: str | None = None) -> bool:
     """As in "rain on the glass of a car window", "a bus with a crack in the glass": no vessel."""
     head, determiner = group.head_word, group.determiner
     if head.text != "glass" or determiner is None or determiner.text not in ("the", "its"):
         return False
     inner = [one.head.lemma for phrase in group.phrases for one in phrase.groups if one.head]
     named = {item.noun for item in draft.objects}
-    return "glass" not in named and bool(_GLAZED & {*inner, *named})
+    is_flat = preposition in ("down", "against", "across", "behind", "through")
+    return "glass" not in named and (is_flat or bool(_GLAZED & {*inner, *named}))
+
+
+_OTHERWISE_BESIDE: dict[str, frozenset[str]] = {
+    "bow": _words("ship boat sailboat yacht ferry kayak canoe submarine"),
+    "stern": _words("ship boat sailboat"),
+    "net": _words("boat ship fish sailboat fisherman"),
+}
+"""Word → things beside which it is none of its usual sense: the bow of a ship shoots no arrows."""
+_OF_GROUND = frozenset({"stones", "cobbles", "pebbles", "tiles", "boards"})
+"""Bare plurals with "the" that name what one walks on."""
+
+
+def is_other_sense(group: NounGroup, draft: Draft, preposition: str | None) -> bool:
+    """As in "curls of wood", "a fisherman casts a net": not what the word usually names."""
+    head, determiner = group.head_word, group.determiner
+    if head.text in ("wood", "streams") and determiner is None:
+        return True
+    named = {item.noun for item in draft.objects} | {item.said for item in draft.objects}
+    if named & _OTHERWISE_BESIDE.get(head.lemma, frozenset()):
+        return True
+    is_known = determiner is not None and determiner.text == "the"
+    return head.text in _OF_GROUND and is_known and preposition in ("over", "on", "across")
 
 
 def is_of_drinks(group: NounGroup, preposition: str | None) -> bool:

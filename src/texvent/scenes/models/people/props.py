@@ -277,7 +277,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("right hand", _LADLE, ("spoon",)),
             Prop("left hand", _PAN, ("frying pan", "pot")),
         ),
-        "wash": (Prop("right hand", _CLOTH),),
+        "wash": (Prop("right hand", _CLOTH, ("towel", "cloth")),),
         "fish": (Prop("right hand", _ROD, ("fishing rod",)),),
     }
 )

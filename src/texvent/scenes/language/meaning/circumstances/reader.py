@@ -223,11 +223,7 @@ class CircumstanceReader:
         found = [self._referents.resolve(group, "of") for group in phrase.groups]
         for one in found:
             if one.is_things and whole.is_things:
-                is_whole = one.group.determiner is not None or one.group.owner is not None
-                if not is_whole:
-                    self._draft.relate("in", one.things, whole.things)
-                phrase.preposition.is_used = not is_whole
-                phrase.preposition.is_lost = is_whole
+                self._relations.read_of(phrase.preposition, whole, one)
             elif one.kind == "picture":
                 self.show_on(one, whole.things)
             elif not one.is_things:

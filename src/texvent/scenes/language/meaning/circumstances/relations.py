@@ -8,7 +8,7 @@ from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import Referents
+from texvent.scenes.language.meaning.referents import Referent, Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.words.lexicon import Role
@@ -116,11 +116,23 @@ class RelationReader:
         is_done_by_people = all(is_person(self._draft.noun(index)) for index in scope.subjects)
         return is_done_by_people and noun.motion == "stand" and self._is_small(things[0])
 
+    def read_of(self, preposition: Word, whole: Referent, content: Referent) -> None:
+        """As in "a bowl of apples"; "the window of a train" shows a window by itself."""
+        is_whole = content.group.determiner is not None or content.group.owner is not None
+        preposition.is_used, preposition.is_lost = not is_whole, is_whole
+        if not is_whole:
+            self._draft.relate("in", content.things, whole.things)
+            return
+        head = whole.group.head
+        if head is not None and head.shown_as is None:
+            head.shown_as = f"{head.text} by itself"
+
     def _fill(self, phrase: PrepPhrase, things: Sequence[int], scope: Scope) -> bool:
-        """As in "a basket full of tulips"; what a harbour is full of is simply there."""
+        """As in "a basket full of tulips"; what a harbour is full of, is few."""
         near = self._referents.recall(phrase.near)
         if near is not None and near.kind == "place":
-            return True
+            phrase.preposition.is_lost = True
+            return False
         vessels = near.things if near is not None and near.is_things else scope.subjects
         return self._draft.relate("in", things, vessels)
 
