@@ -94,6 +94,8 @@ class Actor:
     """Whether it crosses the road."""
     headroom_m: float = 0.0
     """Room above it that the image should show too: for smoke, m."""
+    waist_m: float = 0.0
+    """Height below which the image need not show it: of who works at a table, m."""
     _boxes: dict[float, tuple[Float64Array, Float64Array]] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -171,6 +173,8 @@ class Actor:
         low, high = self._boxes[time_s]
         high = high.copy()
         high[2] += self.headroom_m
+        if self.waist_m > 0.0:
+            low = np.array([low[0], low[1], self.waist_m])
         middle = 0.5 * (low + high)
         middle[:2] = np.where(high[:2] - low[:2] > limit_m, 0.0, middle[:2])
         half = 0.5 * np.minimum(high - low, limit_m)

@@ -8,7 +8,7 @@ from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
 from texvent.scenes.language.meaning.acts.doers import add_doings, mount_riders
-from texvent.scenes.language.meaning.acts.fitting import is_plain_past
+from texvent.scenes.language.meaning.acts.fitting import is_plain_past, list_goals
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
@@ -25,6 +25,7 @@ from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS, WEATHER_VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word, link, mark_used
+from texvent.scenes.models.people.handwork import HANDWORK
 from texvent.scenes.models.protocol import Noun
 
 POSTER = "poster"
@@ -108,10 +109,13 @@ class ClauseMeaning:
     def _take_partners(clause: Clause) -> None:
         """As in "crashes into a wall", "collide with each other": what they meet is the object."""
         verb = clause.verb.meaning.value if clause.verb is not None else None
-        if not isinstance(verb, Verb) or verb.act != "collide":
-            return
+        prepositions: tuple[str, ...] = ()
+        if isinstance(verb, Verb) and verb.act == "collide":
+            prepositions = ("into", "with", "against")
+        elif clause.verb is not None and clause.verb.lemma in HANDWORK:
+            prepositions = list_goals(clause)
         for phrase in list(clause.phrases):
-            if phrase.preposition.text in ("into", "with", "against"):
+            if phrase.preposition.text in prepositions:
                 phrase.preposition.is_used = True
                 clause.objects.extend(phrase.groups)
                 clause.phrases.remove(phrase)
@@ -190,7 +194,7 @@ class ClauseMeaning:
             if clause.is_passive and not (clause.is_participle and is_plain_past(clause.verb)):
                 movers = self._acts.undergo(clause, things, agents)
             else:
-                movers = self._acts.read(clause, things, objects)
+                movers = self._acts.read(clause, things, self._find_wholes(clause, objects))
             self._draft.link_motion([clause.verb], movers or things)
             clause.verb.relations = tuple(self._draft.relations[before:])
         if clause.verb is None and not clause.complements:
@@ -218,6 +222,23 @@ class ClauseMeaning:
         if not (is_aside and self._sentence == clause.sentence):
             self._keep_subjects(things)
             self._sentence = clause.sentence
+
+    def _find_wholes(self, clause: Clause, objects: Sequence[Referent]) -> Sequence[Referent]:
+        """As in "brushes the mane of a pony": hands are at the pony."""
+        if clause.verb is None or clause.verb.lemma not in HANDWORK:
+            return objects
+        if any(one.is_things for one in objects):
+            return objects
+        inner = [
+            self._referents.resolve(group, phrase.preposition.text)
+            for one in objects
+            for phrase in one.group.phrases
+            if phrase.preposition.text == "of"
+            for group in phrase.groups
+        ]
+        owners = [one.group.owner for one in objects if one.group.owner is not None]
+        inner += [self._referents.resolve(owner) for owner in owners]
+        return [*objects, *(one for one in inner if one.is_things)]
 
     @staticmethod
     def _take_in_hand(clause: Clause) -> None:

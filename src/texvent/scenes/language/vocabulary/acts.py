@@ -5,18 +5,6 @@ from __future__ import annotations
 from texvent.scenes.models.effects import EFFECTS
 
 SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
-    "cook": (
-        "mix", "season", "whisk", "fry", "grill", "roast", "prepare", "boil",
-    ),
-    "wash": (
-        "wipe", "scrub", "brush", "polish", "rub", "clean", "rinse", "iron", "knead", "stroke",
-        "pet", "groom", "dry", "massage", "sand", "shampoo",
-    ),
-    "write": (
-        "draw", "sketch", "sign", "note",
-    ),
-    "hammer": ("forge", "nail", "chisel", "pound"),
-    "dig": ("shovel", "hoe", "scoop", "rake"),
     "stretch": ("do yoga", "practice yoga", "exercise", "warm up", "meditate", "train"),
     "swing racket": ("rally", "volley", "smash", "serve"),
     "throw": ("lasso", "fling", "sling", "pitch", "bowl", "cast"),

@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from texvent.scenes.models.people.handwork import HANDWORK
+
 
 @dataclass(frozen=True)
 class Activity:
@@ -115,7 +117,7 @@ _DAILY: dict[str, Activity] = {
                                   "play the trumpet", "play trumpet"),
     "type": _seen_from_side("type", "use a laptop", "use a computer", "work on a laptop",
                             "work on a computer", "work at a computer"),
-    "write": Activity(("write", "draw", "sketch")),
+    "write": Activity(("write",)),
     "read": Activity(("read", "read a book", "read a newspaper")),
     "eat": Activity(("eat", "have lunch", "have dinner", "have breakfast", "dine")),
     "drink": Activity(("drink", "sip")),
@@ -128,13 +130,9 @@ _DAILY: dict[str, Activity] = {
     "sing": Activity(("sing",)),
     "dig": _seen_from_side("dig", "shovel"),
     "sweep": _seen_from_side("sweep", "mop", "vacuum", "rake"),
-    "hammer": _seen_from_side("hammer", "pound"),
-    "saw": _seen_from_side("saw",),
-    "chop": _seen_from_side("chop", "chop wood", "cut wood"),
-    "paint": Activity(("paint", "paint a wall")),
-    "cook": Activity(("cook", "stir", "fry", "prepare food", "make food")),
-    "wash": Activity(("wash", "wash dishes", "wipe", "clean", "scrub")),
-    "pull": _seen_from_side("pull", "tug"),
+    "chop wood": _seen_from_side("chop wood", "cut wood", "split wood", "split logs"),
+    "cook": Activity(("cook", "prepare food", "make food", "prepare")),
+    "pull": _seen_from_side("pull",),
     "push": _seen_from_side("push", "shove"),
     "fish": _seen_from_side("fish", "go fishing"),
 }  # fmt: skip
@@ -153,8 +151,9 @@ _ON_FOOT: dict[str, Activity] = {
 }
 
 ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
-    {**_ON_FOOT, **_RESTING, **_GESTURES, **_SPORTS, **_DAILY}
-)
+    {**_ON_FOOT, **_RESTING, **_GESTURES, **_SPORTS, **_DAILY,
+     **{verb: _seen_from_side(verb) for verb in HANDWORK if verb not in _DAILY}}
+)  # fmt: skip
 """What a person can do: name → activity."""
 
 TRAVELLING = frozenset(name for name, activity in ACTIVITIES.items() if activity.travels)
@@ -206,8 +205,6 @@ DVS_GESTURES: Mapping[str, str] = MappingProxyType(
 )
 """Class of DVS-Gesture (Amir et al., CVPR 2017) → activity."""
 
-WORKING = frozenset({"wash", "paint", "hammer", "saw", "chop"})
-"""What hands do to a thing that they reach."""
 SEATS = frozenset({"chair", "armchair", "office chair", "rocking chair", "sofa", "bench", "stool",
                    "bed", "swing", "seesaw", "wheelchair", "throne"})  # fmt: skip
 """Nouns on which a person sits, unless the prompt says otherwise."""

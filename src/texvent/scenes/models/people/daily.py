@@ -193,23 +193,6 @@ def _sweep(t: float) -> Posture:
     )  # fmt: skip
 
 
-def _strike(rate_hz: float, reach: float) -> Movement:
-    """One hand strikes down again and again."""
-
-    def move(t: float) -> Posture:
-        share = (t * rate_hz) % 1.0
-        up = ease(share, 0.0, 0.6) - ease(share, 0.62, 0.92)
-        return Posture(
-            hips=(0.0, 0.0, 0.90), lean=0.34 - 0.22 * up, nod=0.15,
-            right=Arm((0.40 - 0.16 * up, -0.04, -0.34 + reach * up), _OUT),
-            left=Arm((0.42, -0.08, -0.36 + 0.3 * max(reach - 0.5, 0.0) * up), _DOWN),
-            left_leg=Leg((0.14, 0.12, ANKLE)), right_leg=Leg((-0.14, 0.12, ANKLE)),
-            tool=(0.9 - 1.0 * up, 0.0, 0.15 + 0.85 * up),
-        )  # fmt: skip
-
-    return move
-
-
 def _chop(t: float) -> Posture:
     share = (t * 0.7) % 1.0
     up = ease(share, 0.0, 0.6) - ease(share, 0.65, 0.9)
@@ -219,24 +202,6 @@ def _chop(t: float) -> Posture:
         hips=(-0.04, 0.0, 0.88), lean=0.55 - 0.60 * up, left=arm, right=arm,
         left_leg=Leg((0.12, 0.16, ANKLE)), right_leg=Leg((-0.10, 0.16, ANKLE)),
         tool=(0.95 - 1.4 * up, 0.0, -0.15 + 0.9 * up),
-    )  # fmt: skip
-
-
-def _saw(t: float) -> Posture:
-    stroke = swing(t, 1.2)
-    return Posture(
-        hips=(0.0, 0.0, 0.88), lean=0.45, nod=0.1, left=Arm((0.48, 0.02, -0.36), _DOWN),
-        right=Arm((0.30 + 0.15 * stroke, -0.02, -0.34 - 0.05 * stroke), _OUT),
-        left_leg=Leg((0.18, 0.12, ANKLE)), right_leg=Leg((-0.16, 0.12, ANKLE)),
-        tool=(0.95, 0.0, -0.3),
-    )  # fmt: skip
-
-
-def _paint(t: float) -> Posture:
-    stroke = swing(t, 0.6)
-    return Posture(
-        right=Arm((0.44, 0.02 + 0.10 * swing(t, 0.15), 0.14 + 0.30 * stroke), _OUT),
-        nod=-0.15 * stroke, lean=0.05, tool=(0.65, 0.0, 0.75),
     )  # fmt: skip
 
 
@@ -283,8 +248,7 @@ DAILY: Mapping[str, Movement] = MappingProxyType(
         "play piano": _keys(2.5, 0.12), "type": _keys(5.0, 0.02), "play violin": _violin,
         "play flute": _flute, "write": _write, "read": _read, "eat": _eat, "drink": _drink,
         "phone": _phone, "text": _text, "photograph": _photograph, "sing": _sing, "dig": _dig,
-        "sweep": _sweep, "hammer": _strike(1.6, 0.5), "chop": _chop, "saw": _saw,
-        "paint": _paint, "cook": _stir(1.2, 0.07), "wash": _stir(1.6, 0.10), "push": _push,
+        "sweep": _sweep, "chop wood": _chop, "cook": _stir(1.2, 0.07), "push": _push,
         "pull": _pull, "fish": _fish,
     }
 )  # fmt: skip

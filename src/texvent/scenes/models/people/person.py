@@ -12,9 +12,11 @@ from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import SEATED
 from texvent.scenes.models.people.anchors import locate_anchor
+from texvent.scenes.models.people.bench import list_grips, usual_bench
 from texvent.scenes.models.people.daily import DAILY
 from texvent.scenes.models.people.figure import draw_figure
 from texvent.scenes.models.people.gestures import GESTURES, Movement
+from texvent.scenes.models.people.handwork import HANDWORK
 from texvent.scenes.models.people.outfit import (
     ADULT,
     CHILD,
@@ -41,7 +43,7 @@ from texvent.scenes.models.people.posture import (
 from texvent.scenes.models.people.sports import SINGLE_ACTS, SPORTS
 from texvent.scenes.models.people.timing import ease
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import Affine
+from texvent.scenes.models.shapes import Affine, Point
 from texvent.scenes.scene import Colour
 
 WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
@@ -105,6 +107,10 @@ def _choose_posture(kind: PersonKind, pose: Pose) -> Posture:
         base = fill(MOVEMENTS["sit"](pose.time_s), base)
         activity = activity.removeprefix(SEATED)
     movement = MOVEMENTS.get(activity)
+    if movement is None and activity in HANDWORK:
+        work = HANDWORK[activity]
+        grips = list_grips(work, usual_bench(work), pose.time_s)
+        return _grip(base, replace(pose, grips=grips + pose.grips))
     if movement is None:
         return _grip(base, pose)
     return _grip(fill(movement(pose.time_s), base), pose)
@@ -176,7 +182,28 @@ def _grip(posture: Posture, pose: Pose) -> Posture:
             changes[f"{name}_leg"] = Leg((x, side * y, z), knee)
     if "hips" in held:
         changes["hips"] = held["hips"]
-    return Posture(**{**posture.__dict__, **changes})
+    gripped = Posture(**{**posture.__dict__, **changes})
+    return _bow_to(gripped, held) if "neck" in held else gripped
+
+
+def _bow_to(posture: Posture, held: Mapping[str, Point]) -> Posture:
+    """The torso bends to where its neck is held; the tool and the head point to their places."""
+    (x, _, z), (neck_x, _, neck_z) = held["hips"], held["neck"]
+    lean = math.atan2(neck_x - x, neck_z - z)
+    c, s = math.cos(lean), math.sin(lean)
+    ahead, left, up = (a - b for a, b in zip(held["tip"], held["right hand"], strict=True))
+    look_x, look_y, look_z = held["gaze"]
+    head_x, head_z = x + 0.70 * s, z + 0.70 * c
+    down = math.atan2(head_z - look_z, max(look_x - head_x, 0.15))
+    return replace(
+        posture,
+        lean=lean,
+        turn=0.0,
+        tilt=0.0,
+        tool=(c * ahead - s * up, -left, s * ahead + c * up),
+        nod=min(max(0.8 * down - lean, -0.6), 0.6),
+        look=min(max(math.atan2(look_y, max(look_x, 0.2)), -0.6), 0.6),
+    )
 
 
 NOUNS = (

@@ -21,7 +21,10 @@ from texvent.scenes.models.materials import (
     glowing,
     striped,
 )
+from texvent.scenes.models.people.bench import TABLE_M, usual_bench
+from texvent.scenes.models.people.handwork import HANDWORK
 from texvent.scenes.models.people.sports import BOARD_STANCE, DRIBBLE_HZ, JUGGLE_HZ
+from texvent.scenes.models.people.tools import TOOLS
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, blade, box, post, rod, spike
 
@@ -74,12 +77,7 @@ _BROOM = _still(
     _stick(WOOD, -0.50, 0.86, 0.014),
     spike(Material(YELLOW), (0.0, 0.0, 1.06), (0.0, 0.0, 0.76), 0.15),
 )
-_HAMMER = _still(_stick(WOOD, -0.06, 0.26, 0.016), box(STEEL, (0.0, 0.0, 0.27), (0.15, 0.05, 0.06)))
 _AXE = _still(_stick(WOOD, -0.12, 0.62, 0.018), box(STEEL, (0.08, 0.0, 0.60), (0.18, 0.03, 0.14)))
-_SAW = _still(box(WOOD, (0.0, 0.0, 0.0), (0.10, 0.04, 0.12)),
-              box(STEEL, (-0.02, 0.0, 0.32), (0.10, 0.012, 0.54)))  # fmt: skip
-_BRUSH = _still(_stick(WOOD, -0.06, 0.20, 0.014),
-                rod(Material(BLUE), (0.0, -0.12, 0.24), (0.0, 0.12, 0.24), 0.04))  # fmt: skip
 _LADLE = _still(_stick(WOOD, -0.10, 0.28, 0.012), ball(WOOD, (0.0, 0.0, 0.30), (0.07, 0.05, 0.07)))
 _PAN = _still(post(DARK, (0.22, 0.0, -0.02), (0.34, 0.34, 0.07)),
               rod(DARK, (-0.04, 0.0, 0.0), (0.10, 0.0, 0.0), 0.014))  # fmt: skip
@@ -98,7 +96,6 @@ _SPOON = _still(
 _BOWL = _still(ball(Material((0.55, 0.60, 0.68)), (0.06, 0.0, 0.02), (0.20, 0.20, 0.12)))
 _PAD = _still(box(Material(WHITE), (0.04, 0.04, 0.03), (0.24, 0.20, 0.02)))
 _PEN = _still(_stick(Material(BLUE), -0.02, 0.12, 0.008))
-_CLOTH = _still(box(Material((0.7, 0.6, 0.1)), (0.02, 0.0, -0.04), (0.18, 0.16, 0.03)))
 _BOOK = _still(
     box(Material(RED), (0.02, 0.09, 0.04), (0.03, 0.18, 0.26), lean=0.25),
     box(Material(RED), (0.02, -0.09, 0.04), (0.03, 0.18, 0.26), lean=0.25),
@@ -269,16 +266,54 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "sing": (Prop("right hand", _MICROPHONE, ("microphone",)),),
         "dig": (Prop("right hand", _SHOVEL, ("shovel", "spade")),),
         "sweep": (Prop("right hand", _BROOM, ("broom", "mop")),),
-        "hammer": (Prop("right hand", _HAMMER, ("hammer",)),),
-        "chop": (Prop("right hand", _AXE, ("axe",)),),
-        "saw": (Prop("right hand", _SAW, ("saw",)),),
-        "paint": (Prop("right hand", _BRUSH, ("brush", "paintbrush")),),
+        "chop wood": (Prop("right hand", _AXE, ("axe",)),),
         "cook": (
             Prop("right hand", _LADLE, ("spoon",)),
             Prop("left hand", _PAN, ("frying pan", "pot")),
         ),
-        "wash": (Prop("right hand", _CLOTH, ("towel", "cloth")),),
         "fish": (Prop("right hand", _ROD, ("fishing rod",)),),
     }
 )
 """Activity → what is drawn with it."""
+
+
+def list_props(kind: str) -> tuple[Prop, ...]:
+    """What comes with an activity; hand work that nothing is named for has a table or a board."""
+    work = HANDWORK.get(kind)
+    if kind in PROPS or work is None:
+        return PROPS.get(kind, ())
+    tool = (hand_tool(work.tool),) if work.tool in TOOLS else ()
+    if work.place == "hands":
+        return tool
+    ahead = usual_bench(work).spot[0]
+    return (*tool, _panel(ahead) if work.side == "front" else table(ahead - _INSET_M, TABLE_M))
+
+
+def hand_tool(name: str) -> Prop:
+    """A tool in the right hand: a name of `tools.TOOLS`."""
+    return Prop("right hand", _still(*TOOLS[name].parts))
+
+
+def _panel(ahead: float) -> Prop:
+    """An upright board before the body: how far its face is, m."""
+    board = box(Material((0.62, 0.60, 0.55)), (ahead + 0.02, 0.0, 1.15), (0.03, 1.1, 0.9))
+    legs = (rod(WOOD, (ahead + 0.06, y, 0.0), (ahead + 0.06, y, 1.5), 0.025) for y in (0.5, -0.5))
+    return Prop("ground", _still(board, *legs))
+
+
+_INSET_M = 0.28
+"""From the near edge of a table to where one works on it."""
+_TABLE_DEEP, _TABLE_WIDE = 0.62, 1.0
+
+
+def table(near: float, top: float) -> Prop:
+    """A table before the body: where its near edge is and how high its top, m."""
+    middle = near + 0.5 * _TABLE_DEEP
+    x, y = 0.5 * _TABLE_DEEP - 0.05, 0.5 * _TABLE_WIDE - 0.05
+    legs = (
+        rod(WOOD, (middle + a * x, b * y, 0.0), (middle + a * x, b * y, top - 0.04), 0.025)
+        for a in (1.0, -1.0)
+        for b in (1.0, -1.0)
+    )
+    board = box(WOOD, (middle, 0.0, top - 0.02), (_TABLE_DEEP, _TABLE_WIDE, 0.04))
+    return Prop("ground", _still(board, *legs))

@@ -22,6 +22,7 @@ from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
 from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, stow
 from texvent.scenes.staging.acts.cargo import take_along
 from texvent.scenes.staging.acts.cast import Cast
+from texvent.scenes.staging.acts.crews import put_to_work
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
     HELD_SCALE,
@@ -37,7 +38,7 @@ from texvent.scenes.staging.acts.holding import (
     size_of,
 )
 from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
-from texvent.scenes.staging.acts.working import work_at
+from texvent.scenes.staging.acts.working import WorkingAt
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _ORDER = (
@@ -227,7 +228,7 @@ def perform_acts(
     relations = [r for r in relations if r not in towed]
     for kind in _ORDER:
         if kind == "work on":
-            _put_to_work(cast, relations)
+            put_to_work(cast, relations, description.relations)
             continue
         for relation in relations:
             if relation.kind == kind:
@@ -255,20 +256,6 @@ def _take_off_doubles(cast: Cast, actors: list[Actor]) -> None:
             if thing.noun.name in nouns and actor is not thing:
                 cast.put(other, None)
                 break
-
-
-def _put_to_work(cast: Cast, relations: list[Relation]) -> None:
-    """All who work on one thing share the room along it."""
-    crews: dict[int, list[int]] = {}
-    for relation in relations:
-        targets = cast.copies(relation.targets[0])
-        if relation.kind == "work on" and targets:
-            for turn, subject in enumerate(cast.copies(relation.subject)):
-                crews.setdefault(targets[turn % len(targets)], []).append(subject)
-    for target, crew in crews.items():
-        for place, subject in enumerate(crew):
-            worker = work_at(cast.get(subject), cast.get(target), place, len(crew))
-            cast.put(subject, worker)
 
 
 def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
@@ -356,11 +343,15 @@ def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     return subject, _carried(target, held, subject)
 
 
+_IDLE = frozenset({"stand", "move", "walk", "run", "sit", "sit on ground"})
+
+
 def _hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
-    hold: Hold = choose_hold(subject, target)
+    works = isinstance(subject.trajectory, WorkingAt)
+    hold: Hold = Hold("tool") if works else choose_hold(subject, target)
     anchor, offset, is_upright, grips = place_in_hold(hold, subject, target)
-    busy = subject.trajectory.at(0.0).activity not in ("stand", "move", "walk", "run", "sit",
-                                                       "sit on ground")  # fmt: skip
+    doing = subject.trajectory.at(0.0).activity
+    busy = works or doing not in _IDLE
     if is_person(subject) and not busy and grips:
         subject = replace(subject, trajectory=Performed(subject.trajectory, None, grips))
     if is_person(subject) and not busy and hold.activity and not subject.is_mover:

@@ -11,9 +11,12 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
+from texvent.scenes.models.people.handwork import HOVERING
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.acts.surface_points import sample_surface
+from texvent.scenes.staging.acts.working import WorkingAt, tool_tip
 from texvent.scenes.staging.claims.contact import (
     holds_for_all,
     is_in,
@@ -242,14 +245,22 @@ def _is_riding(subject: _Body, targets: list[_Body]) -> bool:
 
 
 def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
-    """Every worker touches it, with hands that come down to its top."""
-    top = float(targets[0].high[0, 2])
+    """Every worker's hand, or the tip of its tool, touches the thing, and moves."""
     times = [float(t) for t in np.linspace(0.0, subject.duration_s, _HAND_SAMPLES)]
-    return all(
-        min(worker.anchor("right hand", t)[2, 3] for t in times) < top + _TOOL_M
-        and any(touches(worker, thing, t) for t in times for thing in targets[0].copies)
-        for worker in subject.copies
-    )
+    for worker in subject.copies:
+        path = worker.trajectory
+        hovers = isinstance(path, WorkingAt) and path.work.pattern in HOVERING
+        least = _HOVER_M if hovers else _TOUCH_M
+        tips = np.array([tool_tip(worker, t) for t in times])
+        if float(np.ptp(tips, axis=0).max()) < _LEAST_STROKE_M:
+            return False
+        if not any(
+            sample_surface(thing, t).gap(tip) < least
+            for t, tip in zip(times, tips, strict=True)
+            for thing in targets[0].copies
+        ):
+            return False
+    return True
 
 
 def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
@@ -257,8 +268,10 @@ def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
 
 
 _HAND_SAMPLES = 13
-_TOOL_M = 0.25
-"""How far a tool in the hand reaches below it."""
+_TOUCH_M = 0.08
+"""From the middle of a palm, or the tip of a tool, to a surface that it touches."""
+_HOVER_M = 0.35
+_LEAST_STROKE_M = 0.03
 _BY_CONTACT = frozenset({"on", "in", "with", *ACTS})
 """Relations that the report names with their subject: "bottle on the conveyor belt"."""
 _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {

@@ -13,7 +13,7 @@ from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.opened_model import OPENED, OpenedModel
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.props import PROPS, Prop
+from texvent.scenes.models.people.props import Prop, list_props
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.pictures import PicturedModel, can_show
@@ -308,7 +308,7 @@ class ObjectPlacer:
         shown = {scene_object.noun for scene_object in self._description.objects}
         said = (group.scene_object.motion or STANDING, *group.scene_object.then)
         kinds = dict.fromkeys(motion.kind for motion in said)
-        props = [prop for kind in kinds for prop in PROPS.get(kind, ())]
+        props = [prop for kind in kinds for prop in list_props(kind)]
         return tuple(
             prop for prop in props if prop.anchor == "ground" or not shown.intersection(prop.nouns)
         )

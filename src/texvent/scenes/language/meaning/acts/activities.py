@@ -11,6 +11,7 @@ from texvent.scenes.language.vocabulary.motion import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES, Activity
+from texvent.scenes.models.people.handwork import HANDWORK
 
 Key = tuple[str, ...]
 
@@ -78,6 +79,8 @@ def name_activity(words: Sequence[Word]) -> tuple[str, str] | None:
 @lru_cache(maxsize=1024)
 def _normalise(word: str) -> str:
     """Base form of a word, of its verb if it can be one."""
+    if word in HANDWORK:
+        return word  # "feed" is no past of "fee"
     readings = list_readings(word)
     verbs = [one.lemma for one in readings if one.pos is Pos.VERB]
     return (verbs or [one.lemma for one in readings] or [word])[0]

@@ -15,7 +15,12 @@ from texvent.scenes.language.meaning.acts.devices import (
     switch,
     switch_lamps,
 )
-from texvent.scenes.language.meaning.acts.fitting import choose_act, fit_verb, is_played
+from texvent.scenes.language.meaning.acts.fitting import (
+    choose_act,
+    fit_verb,
+    is_hand_work,
+    is_played,
+)
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import OWNERS, Referent
@@ -24,7 +29,8 @@ from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
-from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, WORKING
+from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
+from texvent.scenes.models.people.handwork import HANDWORK, ONTO
 
 STAND = ObjectMotion("stand")
 _OF_PARTS = ("work", "sway", "wave")
@@ -54,10 +60,10 @@ class ActReader:
         Returns:
             The objects that its directions and speeds are about; empty if the verb is not shown.
         """
-        word = clause.verb_word
         self.is_activity = False
         targets = [index for one in objects if one.is_things for index in one.things]
-        if isinstance(word.meaning.value, Verb) and word.meaning.value.act == "collide":
+        verb = clause.verb_word.meaning.value
+        if isinstance(verb, Verb) and verb.act == "collide":
             return self._collide(clause, subjects, targets)
         if clause.negation is not None:
             return self._stand(clause, subjects)
@@ -66,16 +72,29 @@ class ActReader:
             return movers
         if give_effect(self._draft, clause, subjects):
             return subjects
-        verb = word.meaning.value
-        if word.role is Role.FLICKER:
-            return blink(self._draft, word, subjects)
+        if clause.verb_word.role is Role.FLICKER:
+            return blink(self._draft, clause.verb_word, subjects)
         if switch(self._draft, clause, subjects):
             return subjects
+        return self._read_verb(clause, subjects, objects, targets)
+
+    def _read_verb(
+        self,
+        clause: Clause,
+        subjects: list[int],
+        objects: Sequence[Referent],
+        targets: list[int],
+    ) -> list[int]:
+        """A verb that is no activity, effect or signal."""
+        word = clause.verb_word
+        verb = word.meaning.value
         is_alive = all(is_living(self._draft.noun(index)) for index in subjects)
         outer = [one for one in objects if not (is_alive and _is_own(one))]
         if not isinstance(verb, Verb):
             is_done_to = any(one.kind in ("things", "unknown", "part") for one in outer)
             return self._do_alike(clause, word, subjects, targets, is_done_to=is_done_to)
+        if targets and self._is_by_hand(verb, subjects, targets):
+            return self._work_by_hand(clause, verb, subjects, targets)
         if targets:
             return self._do_to(clause, verb, subjects, targets)
         acts_on_unshown = any(
@@ -119,7 +138,7 @@ class ActReader:
                 word.shown_as = kinds[0]
                 moved.append(index)
         if moved and targets:
-            kind = "work on" if word.shown_as in WORKING else "beside"
+            kind = "work on" if word.shown_as in HANDWORK else "beside"
             self._draft.relate(kind, moved, targets)
             if word.shown_as == "climb":
                 word.shown_as = "climb beside it"
@@ -174,7 +193,7 @@ class ActReader:
         if found is None:
             return []
         name, words, is_exact = found
-        if not is_exact and self._is_act(clause, objects):
+        if not is_exact and (self._is_act(clause, objects) or _is_of_own_part(name, objects)):
             return []
         added = [self._add_motion(i, ObjectMotion(name), clause) for i in hands or people]
         if not any(added):
@@ -182,10 +201,23 @@ class ActReader:
         self.is_activity = is_exact
         mark_used(words)
         self._draft.link_motion(words, hands or people)
-        if name in WORKING and not is_exact:
-            targets = [index for one in objects if one.is_things for index in one.things]
-            self._draft.relate("work on", people, targets[:1])
+        if name in HANDWORK and not is_exact:
+            self._work_on(words[0], people, objects)
         return hands or people
+
+    def _work_on(self, word: Word, people: list[int], objects: Sequence[Referent]) -> None:
+        """Hands at the thing that is named; the word is no such act where that is not shown."""
+        targets = [index for one in objects if one.is_things for index in one.things]
+        work = HANDWORK.get(word.lemma)
+        is_onto = work is not None and work.pattern in ONTO
+        self._draft.relate("work on", people, targets[-1:] if is_onto else targets[:1])
+        if is_onto and len(targets) > 1:
+            self._draft.relate("hold", people, targets[:1])
+        seen = work.shown_as if work is not None else ""
+        if seen:
+            word.shown_as = seen
+        if objects and not targets:
+            word.shown_as = f"{seen or word.lemma} nothing"
 
     def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
         """Whether the verb acts on an object of the scene, or moves in a plain way."""
@@ -224,6 +256,20 @@ class ActReader:
                 self._give(clause, verb, [i for i in targets if is_living(self._draft.noun(i))])
             return movers
         return []
+
+    def _is_by_hand(self, verb: Verb, subjects: list[int], targets: list[int]) -> bool:
+        doer, target = self._draft.noun(subjects[0]), self._draft.noun(targets[0])
+        return is_person(doer) and is_hand_work(verb, target)
+
+    def _work_by_hand(
+        self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
+    ) -> list[int]:
+        """As in "hits a drum with a stick", "lifts a box": hands at what stays in its place."""
+        motion = ObjectMotion(verb.base, pace=verb.pace)
+        movers = [index for index in subjects if self._add_motion(index, motion, clause)]
+        if movers:
+            clause.verb_word.is_used = self._draft.relate("work on", movers, targets[:1])
+        return movers
 
     def _do_to_each_other(self, clause: Clause, verb: Verb, subjects: list[int]) -> list[int]:
         """As in "two trains pass each other": the two come from opposite sides.
@@ -371,6 +417,12 @@ class ActReader:
             return motion
         usual = self._draft.noun(index).motion
         return replace(motion, kind=usual if usual != "stand" else "slide")
+
+
+def _is_of_own_part(name: str, objects: Sequence[Referent]) -> bool:
+    """As in "two men shake hands": no hand work at a thing."""
+    is_part = any(one.kind == "part" for one in objects)
+    return name in HANDWORK and is_part and not any(one.is_things for one in objects)
 
 
 def _comes_next(clause: Clause) -> bool:

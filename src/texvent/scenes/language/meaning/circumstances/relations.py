@@ -14,6 +14,7 @@ from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES
+from texvent.scenes.models.people.handwork import HANDWORK
 from texvent.scenes.models.people.props import PROPS
 
 _HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
@@ -192,6 +193,9 @@ class RelationReader:
         if item.name in WEARABLE and is_living(doer):
             return self._draft.relate("wear", scope.subjects, things)
         is_held = item.name in _HELD or (item.motion == "stand" and self._is_small(things[0]))
+        motions = [self._draft.objects[i].motions[-1:] for i in scope.movers]
+        works = any(one[0].kind in HANDWORK for one in motions if one)
+        is_held |= works and item.motion == "stand" and item.habitat == "fixed"
         if is_person(doer) and is_held:
             return self._draft.relate("hold", scope.subjects, things)
         if item.name in _CARRIES and doer.name not in _CARRIES:

@@ -1,0 +1,269 @@
+"""How hands move at a thing: strokes, blows, twists and the like, as functions of time.
+
+Offsets are in the axes of the surface that is worked on: along it away from the worker (a level
+surface) or up (an upright one), along it to the left, and out of it; metres for an adult.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from texvent.scenes.models.people.timing import ease, pulse, swing
+from texvent.scenes.models.shapes import Point
+
+RATE_HZ = 0.9
+"""Strokes per second: each is seen in several of a few stills."""
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """Where hands and tool are at one instant, from the spot that is worked on."""
+
+    right: Point
+    """Tip of the tool, or the right palm."""
+    left: Point | None = (0.0, 0.20, 0.02)
+    """Left palm; None = it hangs."""
+    tool: Point = (0.75, 0.0, -0.65)
+    """Direction from the right palm to the tip of the tool."""
+    thing: Point = (0.0, 0.0, 0.0)
+    """How far the thing has been moved."""
+    bow: float = 0.0
+    """How much further the body leans, radians."""
+
+
+Pattern = Callable[[float, float], Stroke]
+"""Time, s, and half of the thing's width, m → the hands."""
+
+
+def _slice(t: float, half: float) -> Stroke:
+    up = pulse(t, 1.3)
+    return Stroke(
+        (0.02 + 0.05 * up, -0.02 - 0.03 * swing(t, 0.4), 0.13 * up),
+        (0.02, 0.10, 0.03),
+        (0.92, 0.1, -0.25 + 0.45 * up),
+    )
+
+
+def _peel(t: float, half: float) -> Stroke:
+    along = swing(t, RATE_HZ)
+    return Stroke((0.12 * along, -0.02, 0.02), (-0.02, 0.03, -0.03), (0.2, 0.85, 0.1))
+
+
+def _snip(t: float, half: float) -> Stroke:
+    up = pulse(t, 1.2)
+    return Stroke((0.05 * swing(t, 0.5), -0.02, 0.09 * up), (0.0, 0.12, 0.02), (0.8, 0.3, -0.3))
+
+
+def _saw(t: float, half: float) -> Stroke:
+    along = swing(t, 1.1)
+    return Stroke((0.10 + 0.15 * along, 0.0, 0.0), (0.08, 0.18, 0.02), (0.95, 0.0, -0.30))
+
+
+def _strike(t: float, half: float) -> Stroke:
+    share = (t * 1.1) % 1.0
+    up = ease(share, 0.0, 0.55) - ease(share, 0.60, 0.80)
+    return Stroke(
+        (-0.20 * up, -0.06 * up, 0.48 * up),
+        (-0.05, 0.24, 0.02),
+        (0.85 - 1.05 * up, 0.0, -0.35 + 1.25 * up),
+        bow=-0.12 * up,
+    )
+
+
+def _chop(t: float, half: float) -> Stroke:
+    share = (t * 0.8) % 1.0
+    up = ease(share, 0.0, 0.55) - ease(share, 0.60, 0.80)
+    tool = (0.80 - 1.1 * up, 0.0, -0.50 + 1.4 * up)
+    grip = (-0.62 * (0.80 - 1.1 * up) - 0.12, 0.08, 0.40 + 0.15 * up)
+    return Stroke((-0.35 * up, 0.0, 0.70 * up), grip, tool, bow=-0.25 * up)
+
+
+def _rub(t: float, half: float) -> Stroke:
+    return Stroke(
+        (0.10 * swing(t, RATE_HZ), -0.02 + 0.15 * swing(t, RATE_HZ, 0.22), 0.0), (-0.06, 0.24, 0.02)
+    )
+
+
+def _stroke(t: float, half: float) -> Stroke:
+    share = (t * RATE_HZ) % 1.0
+    forth = ease(share, 0.0, 0.6) - ease(share, 0.6, 1.0)
+    lift = 0.10 * math.sin(math.pi * max(share - 0.6, 0.0) / 0.4) ** 2
+    return Stroke((0.15 - 0.32 * forth, -0.02, lift), (-0.02, 0.20, 0.02), (0.55, 0.1, -0.8))
+
+
+def _scribble(t: float, half: float) -> Stroke:
+    return Stroke(
+        (0.05 * swing(t, 1.7), 0.09 * swing(t, 0.45), 0.0), (-0.05, 0.16, 0.01), (0.35, 0.25, -0.9)
+    )
+
+
+def _pluck(t: float, half: float) -> Stroke:
+    out = pulse(t, RATE_HZ)
+    return Stroke(
+        (-0.06 * out, -0.03 - 0.24 * out, 0.04 + 0.20 * out), (0.0, 0.06, -0.03), (0.3, 0.7, -0.3)
+    )
+
+
+def _tie(t: float, half: float) -> Stroke:
+    apart, up = pulse(t, RATE_HZ), 0.12 * pulse(t, RATE_HZ, 0.2)
+    return Stroke((-0.02, -0.03 - 0.14 * apart, 0.02 + up), (-0.02, 0.03 + 0.14 * apart, 0.02 + up))
+
+
+def _twist(t: float, half: float) -> Stroke:
+    angle = 1.1 * swing(t, 0.8)
+    return Stroke((0.0, -0.03, 0.02), (0.02, 0.10, 0.01), (math.cos(angle), math.sin(angle), -0.2))
+
+
+def _drill(t: float, half: float) -> Stroke:
+    return Stroke(
+        (0.0, -0.03, 0.06 * pulse(t, RATE_HZ)),
+        (0.02, 0.05, 0.20),
+        (0.05, 0.0, -1.0),
+        bow=-0.06 * pulse(t, RATE_HZ),
+    )
+
+
+def _hold(t: float, half: float) -> Stroke:
+    return Stroke(
+        (0.07 * swing(t, 0.4), 0.09 * swing(t, 0.5), 0.05), (-0.04, 0.20, 0.02), (0.6, 0.2, -0.75)
+    )
+
+
+def _dab(t: float, half: float) -> Stroke:
+    up = pulse(t, RATE_HZ)
+    return Stroke(
+        (-0.02, -0.02 + 0.08 * swing(t, 0.25), 0.16 * up), (-0.04, 0.18, 0.02), (0.25, 0.1, -1.0)
+    )
+
+
+def _knock(t: float, half: float) -> Stroke:
+    return Stroke((0.0, -0.03, 0.16 * pulse(t, 1.6)), None)
+
+
+def _press(t: float, half: float) -> Stroke:
+    push = pulse(t, RATE_HZ)
+    return Stroke(
+        (-0.06 + 0.14 * push, -0.08, 0.09 - 0.09 * push),
+        (-0.06 + 0.14 * push, 0.08, 0.09 - 0.09 * push),
+        bow=0.14 * push,
+    )
+
+
+def _mould(t: float, half: float) -> Stroke:
+    side, up = min(half, 0.22), -0.10 + 0.10 * swing(t, 0.7)
+    side = side * (0.85 + 0.15 * swing(t, 0.7, 0.3)) + 0.03
+    return Stroke((0.04, -side, up), (0.04, side, up))
+
+
+def _fold(t: float, half: float) -> Stroke:
+    over, up = swing(t, 0.7), pulse(t, 1.4, 0.25)
+    return Stroke((0.02, -0.05 - 0.15 * over, 0.16 * up), (0.02, 0.20, 0.01))
+
+
+def _stir(t: float, half: float) -> Stroke:
+    angle = 2.0 * math.pi * t
+    radius = min(max(0.5 * half, 0.05), 0.11)
+    return Stroke(
+        (radius * math.cos(angle), radius * math.sin(angle), 0.0),
+        (-0.02, half + 0.04, 0.0),
+        (0.25 + 0.2 * math.cos(angle), 0.2 * math.sin(angle), -0.9),
+    )
+
+
+def _sprinkle(t: float, half: float) -> Stroke:
+    return Stroke(
+        (0.08 * swing(t, 1.6), 0.08 * swing(t, 0.4), 0.22 + 0.05 * swing(t, 1.6)),
+        (-0.06, 0.24, 0.02),
+        (0.2, 0.1, -1.0),
+    )
+
+
+def _pour(t: float, half: float) -> Stroke:
+    tip = ease(t, 0.2, 0.9) - ease(t, 1.7, 2.4)
+    return Stroke(
+        (0.0, 0.0, 0.24), (-0.02, half + 0.05, 0.02), (0.35 + 0.65 * tip, 0.1, 0.9 - 1.5 * tip)
+    )
+
+
+def _lift(t: float, half: float) -> Stroke:
+    up = 0.55 * (ease(t % 2.4, 0.15, 1.1) - ease(t % 2.4, 1.5, 2.35))
+    side = min(half, 0.36) + 0.02
+    return Stroke(
+        (0.05, -side, up - 0.05), (0.05, side, up - 0.05), thing=(0.0, 0.0, up), bow=-0.45 * up
+    )
+
+
+def _tug(t: float, half: float) -> Stroke:
+    back = pulse(t, RATE_HZ)
+    return Stroke(
+        (-0.16 * back, -0.05, 0.0),
+        (-0.16 * back, 0.05, 0.0),
+        bow=-0.30 * back,
+        thing=(-0.05 * back, 0.0, 0.0),
+    )
+
+
+def _rock(t: float, half: float) -> Stroke:
+    move = (0.0, 0.03 * swing(t, 1.4), 0.09 * swing(t, 1.4))
+    side = min(half, 0.36) + 0.02
+    return Stroke((0.0, move[1] - side, move[2]), (0.0, move[1] + side, move[2]), thing=move)
+
+
+def _offer(t: float, half: float) -> Stroke:
+    near = pulse(t, 0.6)
+    return Stroke((-0.20 + 0.20 * near, -0.03, 0.03), None, (0.9, 0.0, 0.1))
+
+
+def _reach(t: float, half: float) -> Stroke:
+    there = pulse(t, 0.6)
+    return Stroke((-0.32 + 0.32 * there, -0.04, 0.03 - 0.10 * (1.0 - there)), (-0.34, 0.20, -0.15))
+
+
+def _dig(t: float, half: float) -> Stroke:
+    up = pulse(t, RATE_HZ)
+    return Stroke(
+        (-0.05 * up, -0.03, 0.14 * up), (-0.06, 0.20, 0.0), (0.5 + 0.4 * up, 0.0, -0.85 + 0.6 * up)
+    )
+
+
+def _spray(t: float, half: float) -> Stroke:
+    return Stroke((0.12 * swing(t, 0.6), 0.18 * swing(t, 0.8), 0.16), None, (0.1, 0.0, -1.0))
+
+
+PATTERNS: Mapping[str, Pattern] = MappingProxyType(
+    {
+        "slice": _slice,
+        "peel": _peel,
+        "snip": _snip,
+        "saw": _saw,
+        "strike": _strike,
+        "chop": _chop,
+        "rub": _rub,
+        "stroke": _stroke,
+        "scribble": _scribble,
+        "pluck": _pluck,
+        "tie": _tie,
+        "twist": _twist,
+        "drill": _drill,
+        "hold": _hold,
+        "dab": _dab,
+        "knock": _knock,
+        "press": _press,
+        "mould": _mould,
+        "fold": _fold,
+        "stir": _stir,
+        "sprinkle": _sprinkle,
+        "pour": _pour,
+        "lift": _lift,
+        "tug": _tug,
+        "rock": _rock,
+        "offer": _offer,
+        "reach": _reach,
+        "dig": _dig,
+        "spray": _spray,
+    }
+)
+"""Name → how hands move."""

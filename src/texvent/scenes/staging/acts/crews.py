@@ -1,0 +1,48 @@
+"""Who works on which thing, with which tool, and on what the thing lies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.description import Relation
+from texvent.scenes.staging.acts.cast import Cast
+from texvent.scenes.staging.acts.working import SMALL_M, moved_with, shortened, work_at
+
+
+def put_to_work(cast: Cast, relations: Sequence[Relation], every: Sequence[Relation]) -> None:
+    """All who work on one thing share the room along it.
+
+    Args:
+        cast: the actors; workers, things and tools are replaced.
+        relations: the acts of the prompt.
+        every: all its relations, which say what things are on or in.
+    """
+    crews: dict[int, list[int]] = {}
+    tools: dict[int, int] = {}
+    for relation in relations:
+        targets = cast.copies(relation.targets[0])
+        if relation.kind == "work on" and targets:
+            for turn, subject in enumerate(cast.copies(relation.subject)):
+                crews.setdefault(targets[turn % len(targets)], []).append(subject)
+        elif relation.kind == "hold" and targets:
+            tools.update(dict.fromkeys(cast.copies(relation.subject), targets[0]))
+    on = {r.subject: r.targets[0] for r in every if r.kind in ("on", "in")}
+    for target, crew in crews.items():
+        under = cast.copies(on.get(cast.get(target).object_index, -1))
+        support = cast.get(under[0]) if under else None
+        for place, subject in enumerate(crew):
+            tool = None
+            if subject in tools:
+                tool = shortened(cast.get(tools[subject]))
+                cast.put(tools[subject], tool)
+            if support is not None and under and support.size_m < SMALL_M:
+                # What is in a pot is worked on in the pot.
+                worker, pot = work_at(cast.get(subject), support, place, len(crew), tool)
+                cast.put(under[0], pot)
+                thing = moved_with(cast.get(target), support, pot)
+            else:
+                worker, thing = work_at(
+                    cast.get(subject), cast.get(target), place, len(crew), tool, support
+                )
+            cast.put(subject, worker)
+            cast.put(target, thing)
