@@ -18,12 +18,12 @@ from texvent.scenes.models.people.activities import (
 from texvent.scenes.models.people.gestures import GESTURES, PALM_HALF
 from texvent.scenes.models.people.hand import build_hand
 from texvent.scenes.models.people.hand_gestures import HAND_MOVEMENTS
-from texvent.scenes.models.people.handwork import HANDWORK
 from texvent.scenes.models.people.outfit import ADULT
 from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.people.sports import KICK_FOOT, SINGLE_ACTS
 from texvent.scenes.models.people.timing import ease, follow_keys, pulse
+from texvent.scenes.models.people.work.verbs import HANDWORK
 from texvent.scenes.models.protocol import Pose
 
 STEP_S = 1e-3

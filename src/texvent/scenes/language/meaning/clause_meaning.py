@@ -25,7 +25,7 @@ from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS, WEATHER_VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word, link, mark_used
-from texvent.scenes.models.people.handwork import HANDWORK
+from texvent.scenes.models.people.work.verbs import HANDWORK
 from texvent.scenes.models.protocol import Noun
 
 POSTER = "poster"

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from texvent.scenes.models.people.handwork import HANDWORK
+from texvent.scenes.models.people.work.verbs import HANDWORK
 
 
 @dataclass(frozen=True)

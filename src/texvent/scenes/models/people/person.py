@@ -12,11 +12,9 @@ from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import SEATED
 from texvent.scenes.models.people.anchors import locate_anchor
-from texvent.scenes.models.people.bench import list_grips, usual_bench
 from texvent.scenes.models.people.daily import DAILY
 from texvent.scenes.models.people.figure import draw_figure
 from texvent.scenes.models.people.gestures import GESTURES, Movement
-from texvent.scenes.models.people.handwork import HANDWORK
 from texvent.scenes.models.people.outfit import (
     ADULT,
     CHILD,
@@ -42,6 +40,8 @@ from texvent.scenes.models.people.posture import (
 )
 from texvent.scenes.models.people.sports import SINGLE_ACTS, SPORTS
 from texvent.scenes.models.people.timing import ease
+from texvent.scenes.models.people.work.bench import list_grips, usual_bench
+from texvent.scenes.models.people.work.verbs import HANDWORK
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Affine, Point
 from texvent.scenes.scene import Colour

@@ -21,10 +21,10 @@ from texvent.scenes.models.materials import (
     glowing,
     striped,
 )
-from texvent.scenes.models.people.bench import TABLE_M, usual_bench
-from texvent.scenes.models.people.handwork import HANDWORK
 from texvent.scenes.models.people.sports import BOARD_STANCE, DRIBBLE_HZ, JUGGLE_HZ
-from texvent.scenes.models.people.tools import TOOLS
+from texvent.scenes.models.people.work.bench import TABLE_M, usual_bench
+from texvent.scenes.models.people.work.tools import TOOLS
+from texvent.scenes.models.people.work.verbs import HANDWORK
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, blade, box, post, rod, spike
 

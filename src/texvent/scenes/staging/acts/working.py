@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.people.bench import (
+from texvent.scenes.models.people.props import Prop, hand_tool, table
+from texvent.scenes.models.people.work.bench import (
     TABLE_M,
     Bench,
     choose_distance,
@@ -16,9 +17,8 @@ from texvent.scenes.models.people.bench import (
     stroke_at,
     usual_bench,
 )
-from texvent.scenes.models.people.handwork import HANDWORK, HandWork
-from texvent.scenes.models.people.props import Prop, hand_tool, table
-from texvent.scenes.models.people.tools import TOOLS
+from texvent.scenes.models.people.work.tools import TOOLS
+from texvent.scenes.models.people.work.verbs import HANDWORK, HandWork
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.enlarged import Enlarged

@@ -11,7 +11,7 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
-from texvent.scenes.models.people.handwork import HOVERING
+from texvent.scenes.models.people.work.verbs import HOVERING
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS

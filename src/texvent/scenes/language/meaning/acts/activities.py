@@ -11,7 +11,7 @@ from texvent.scenes.language.vocabulary.motion import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES, Activity
-from texvent.scenes.models.people.handwork import HANDWORK
+from texvent.scenes.models.people.work.verbs import HANDWORK
 
 Key = tuple[str, ...]
 

@@ -13,7 +13,7 @@ from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import SEATS
-from texvent.scenes.models.people.handwork import HANDWORK, ONTO
+from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO
 from texvent.scenes.models.protocol import Noun
 
 _ON_GROUND = ("drive", "walk", "run", "jump")

@@ -30,7 +30,7 @@ from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
-from texvent.scenes.models.people.handwork import HANDWORK, ONTO
+from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO
 
 STAND = ObjectMotion("stand")
 _OF_PARTS = ("work", "sway", "wave")

@@ -14,8 +14,8 @@ from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES
-from texvent.scenes.models.people.handwork import HANDWORK
 from texvent.scenes.models.people.props import PROPS
+from texvent.scenes.models.people.work.verbs import HANDWORK
 
 _HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
 _CARRIES = frozenset(

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from texvent.scenes.models.people.hand_patterns import PATTERNS, Stroke
-from texvent.scenes.models.people.handwork import HandWork
 from texvent.scenes.models.people.posture import NECK, SHOULDER_DROP, SHOULDER_SIDE
-from texvent.scenes.models.people.tools import TOOLS
+from texvent.scenes.models.people.work.patterns import PATTERNS, Stroke
+from texvent.scenes.models.people.work.tools import TOOLS
+from texvent.scenes.models.people.work.verbs import HandWork
 from texvent.scenes.models.shapes import Point
 
 Grips = tuple[tuple[str, Point], ...]
