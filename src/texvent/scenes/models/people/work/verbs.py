@@ -15,7 +15,7 @@ class HandWork:
     """What one verb means for hands; the verb is an `ObjectMotion.kind`."""
 
     pattern: str
-    """How the hands move: a name of `hand_patterns.PATTERNS`."""
+    """How the hands move: a name of `patterns.PATTERNS`."""
     tool: str = ""
     """What the right hand uses unless the prompt names something: a name of `tools.TOOLS`, or ""
     for the bare hand."""
