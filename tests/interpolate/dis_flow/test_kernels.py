@@ -134,11 +134,14 @@ def test_compiled_parts_equal_their_definitions(shape, spread, is_coarsest, seed
     np.testing.assert_array_equal(flow_cpu.double(flow, twice), flow_reference.double(flow, twice))
     patches = flow_reference.search(*wanted, flow, is_coarsest)
     np.testing.assert_array_equal(flow_cpu.search(*wanted, flow, is_coarsest), patches)
-    shifts = rng.normal(0, 1 + shape[0] / 4, (2, 2)).astype(np.float32)
-    patches = flow_reference.try_shifts(*wanted, patches, shifts)
+    vectors = rng.normal(0, 1 + shape[0] / 4, (*patches.shape[:2], 2)).astype(np.float32)
+    patches = flow_reference.try_vectors(*wanted, patches, vectors)
     np.testing.assert_array_equal(
-        flow_cpu.try_shifts(*wanted, flow_cpu.search(*wanted, flow, is_coarsest), shifts), patches
+        flow_cpu.try_vectors(*wanted, flow_cpu.search(*wanted, flow, is_coarsest), vectors), patches
     )
+    back = rng.normal(0, 0.3, flow.shape).astype(np.float32) - flow
+    confirmed = flow_reference.unconfirmed(*wanted, flow, back)
+    np.testing.assert_array_equal(flow_cpu.unconfirmed(*wanted, flow, back), confirmed)
     change = flow_reference.change_along(*wanted, flow)
     np.testing.assert_array_equal(flow_cpu.change_along(*wanted, flow), change)
     joined = flow_reference.join(*wanted, patches)

@@ -7,9 +7,9 @@ level of an image pyramid, from the coarsest to half size:
    steps on their mean-free difference. A patch starts from the coarser level's flow or from a
    neighbour's (first those to the left and above; in a second pass those to the right and below).
    On the coarsest level it first tries the whole pixels around.
-   Where the whole frame is shifted by more than that (`shifts.find_shifts`), every patch of every
-   level then tries the shift. A patch that the shift takes out of the view follows it if it was
-   not found elsewhere.
+   Where the motion of the whole frame is known (`shifts.find_shift`, `frame_motion.find_motion`),
+   every patch then tries it. A patch that it takes out of the view follows it if it was not found
+   elsewhere.
 2. *Join.* The flow of a pixel is the weighted mean over the patches that contain it; those that
    fit the pixel better count more.
 3. *Refine.* One linearisation of brightness constancy with an edge-preserving smoothness term,
@@ -25,10 +25,13 @@ before y, px):
 * `double(flow, shape)`: the flow of an image of twice the size, or a row or column less.
 * `search(start, stop, flow, is_coarsest)`: the flow of each patch, from an initial flow:
   [rows, columns, 3], x, y and cost.
-* `try_shifts(start, stop, patches, shifts)`: the patches, with a shift where it fits better;
-  shifts are [n, 2], px.
+* `try_vectors(start, stop, patches, vectors)`: the patches, each with a vector where it fits
+  better; vectors are [rows, columns, 2], px.
 * `join(start, stop, patches)`: the flow of each pixel.
 * `refine(start, stop, flow)`: the refined flow.
+* `change_along(start, stop, flow)`: what brightness changes by along a flow, [H, W], levels.
+* `unconfirmed(start, stop, flow, back)`: [H, W], where brightness changes along the flow, or the
+  flow of the other direction does not lead back.
 
 Deviation: Gauss-Newton steps of full length, so two do instead of 25; images keep their precision;
     no gradient constancy; whole pixels are tried on the coarsest level. More steps and sweeps were
@@ -45,6 +48,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats: TypeAlias = NDArray[np.float32]
+Mask: TypeAlias = NDArray[np.bool_]
 
 PATCH = 8
 """Side of a patch, px."""
@@ -70,6 +74,11 @@ SEARCH_COST = 8.0
 LEAST_DIFFERENCE = 1.0
 """Patches that differ by less at a pixel have equal weights there, levels."""
 
+CHANGED = 24.0
+"""Change of brightness along its flow from which a pixel is not explained by it, of 255 levels."""
+SAME_RELATIVE, SAME_PX2 = 0.02, 0.5
+"""The way there and back may end this share of its squared length, plus this, px², from its start,
+squared."""
 UNEXPLAINED, NOISE_COST = 0.25, 64.0
 """A patch whose cost exceeds this share of its spread, plus this, was not found, squared levels."""
 
@@ -81,8 +90,6 @@ LEAST_SLOPE2 = 0.01
 """Added to the squared slope of the image, levels²/px²."""
 LEAST2 = 1e-6
 """Added under square roots."""
-
-NO_SHIFTS: Floats = np.empty((0, 2), np.float32)
 
 
 def count_levels(shape: tuple[int, int]) -> int:
@@ -112,7 +119,7 @@ def make_pyramid(image: Floats, finest: int, coarsest: int, kernels: ModuleType)
 def coarse_to_fine(
     start: list[Floats],
     stop: list[Floats],
-    shifts: Floats = NO_SHIFTS,
+    motion: Floats | None = None,
     coarser: Floats | None = None,
     *,
     kernels: ModuleType,
@@ -122,7 +129,8 @@ def coarse_to_fine(
     Args:
         start: pyramid of the one.
         stop: pyramid of the other.
-        shifts: [n, 2] of the whole image, which patches try too, px of the finest level.
+        motion: of the whole image, which patches try too; [2, 3]; see
+            `scale_motion`.
         coarser: the flow of the next coarser level, if levels have been matched already.
         kernels: `flow_reference` or `flow_cpu`.
 
@@ -135,8 +143,8 @@ def coarse_to_fine(
         is_coarsest &= coarser is None
         if not is_coarsest:
             flow = kernels.double(flow, size_of(one))
-        scaled = shifts * np.float32(0.5**number)
-        flow = match_level(one, other, flow, is_coarsest, shifts=scaled, kernels=kernels)
+        scaled = None if motion is None else scale_motion(motion, 0.5**number)
+        flow = match_level(one, other, flow, is_coarsest, motion=scaled, kernels=kernels)
     return flow
 
 
@@ -147,24 +155,57 @@ def match_level(
     is_coarsest: bool,
     *,
     kernels: ModuleType,
-    shifts: Floats = NO_SHIFTS,
+    motion: Floats | None = None,
 ) -> Floats:
     """The flow from one level to another, from an initial flow: search, join, refine."""
     patches = kernels.search(start, stop, flow, is_coarsest)
-    if len(shifts):
-        patches = kernels.try_shifts(start, stop, patches, shifts)
+    if motion is not None:
+        vectors = patch_vectors(motion, size_of(start))
+        patches = kernels.try_vectors(start, stop, patches, vectors)
     joined = kernels.join(start, stop, patches)
     refined: Floats = kernels.refine(start, stop, joined)
+    if motion is None:
+        return refined
     # Outside the view, brightness tells nothing.
-    return np.where(leads_outside(joined), joined, refined) if len(shifts) else refined
+    height, width = size_of(start)
+    x = np.arange(width, dtype=np.float32) + np.float32(0.5 - width / 2)
+    y = np.arange(height, dtype=np.float32) + np.float32(0.5 - height / 2)
+    moved = np.moveaxis(vectors_at(motion, x, y[:, np.newaxis]), -1, 0)
+    is_lost = np.abs(kernels.change_along(start, stop, refined)) > CHANGED
+    return np.where(leads_outside(moved) & (leads_outside(refined) | is_lost), moved, refined)
 
 
-def leads_outside(flow: Floats) -> NDArray[np.bool_]:
+def scale_motion(motion: Floats, factor: float) -> Floats:
+    """The motion of the whole frame, for an image of another size.
+
+    Args:
+        motion: [2, 3]: x and y of the middle of the frame, px, then what they grow by per px to the
+            right, and per px downwards.
+        factor: how many times as large the image is.
+    """
+    return motion * np.array([factor, 1, 1], np.float32)
+
+
+def vectors_at(motion: Floats, x: Floats, y: Floats) -> Floats:
+    """What a motion moves places by, px from the middle of the frame; [..., 2] px."""
+    return np.stack([own[0] + own[1] * x + own[2] * y for own in motion], axis=-1)
+
+
+def patch_vectors(motion: Floats, shape: tuple[int, int]) -> Floats:
+    """What a motion moves the middle of each patch by, [rows, columns, 2] px."""
+    y, x = (
+        np.arange(0, side - PATCH + 1, STEP).astype(np.float32) + np.float32((PATCH - side) / 2)
+        for side in shape
+    )
+    return vectors_at(motion, x, y[:, np.newaxis])
+
+
+def leads_outside(flow: Floats) -> Mask:
     """Whether each pixel's flow leads out of the image, [H, W]."""
     _, height, width = flow.shape
     y, x = np.ogrid[:height, :width]
     to_x, to_y = x + flow[0], y + flow[1]
-    outside: NDArray[np.bool_] = (to_x < 0) | (to_y < 0) | (to_x > width - 1) | (to_y > height - 1)
+    outside: Mask = (to_x < 0) | (to_y < 0) | (to_x > width - 1) | (to_y > height - 1)
     return outside
 
 

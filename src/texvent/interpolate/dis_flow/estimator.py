@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any
 
 import numba
@@ -17,9 +18,17 @@ from texvent.interpolate.dis_flow.definitions import (
     coarse_to_fine,
     count_levels,
     make_pyramid,
+    match_level,
 )
 from texvent.interpolate.dis_flow.fast_things import follow_fast_things, level_of_things
-from texvent.interpolate.dis_flow.shifts import find_shifts
+from texvent.interpolate.dis_flow.frame_motion import (
+    NO_MOTIONS,
+    Motions,
+    find_motions,
+    scale,
+    shift_motion,
+)
+from texvent.interpolate.dis_flow.shifts import find_shift
 from texvent.runtime.allocator import keep_freed_memory
 from texvent.runtime.background_jit import is_ready, wait_until_ready
 
@@ -70,32 +79,41 @@ class DisFlow:
         finest = 0 if min(shape) < SMALL_SIDE_PX else 1
         levels = max(finest, count_levels(images[0].shape))
         earlier, later = (make_pyramid(one, finest, levels, flow_cpu) for one in images)
-        shifts, full = find_shifts(earlier, later), images[0].shape
-
-        def follow(
-            start: list[Floats], stop: list[Floats], shifts: Floats, coarser: Floats | None
-        ) -> Floats:
-            return coarse_to_fine(start, stop, shifts, coarser, kernels=flow_cpu)
-
-        def follow_both(
-            levels: slice, coarser: tuple[Floats, Floats] | tuple[None, None]
-        ) -> tuple[Floats, Floats]:
-            one, other = earlier[levels], later[levels]
-            scaled = shifts * np.float32(0.5 ** (levels.start or 0))
-            return self._both(
-                follow, (one, other, scaled, coarser[0]), (other, one, -scaled, coarser[1])
+        shift = find_shift(earlier, later)
+        motions = NO_MOTIONS if shift is None else (shift_motion(shift), shift_motion(-shift))
+        number = level_of_things(earlier)
+        one, other = earlier[number], later[number]
+        flows = self._follow(earlier[number:], later[number:], scale(motions, 0.5**number))
+        found = find_motions(one, other, flows, flow_cpu)
+        if found is not None:
+            motions = scale(found, 2.0**number)
+            flows = self._both(
+                _match_again, (one, other, flows[0], found[0]), (other, one, flows[1], found[1])
             )
+        flows = follow_fast_things(one, other, flows, flow_cpu)
+        if number:
+            flows = self._follow(earlier[:number], later[:number], motions, flows)
+        full = images[0].shape
 
         def enlarge(planes: Floats) -> FlowArray:
             planes = flow_cpu.double(planes, full) if finest else planes
             return np.stack([plane[: shape[0], : shape[1]] for plane in planes], axis=-1)
 
-        number = level_of_things(earlier)
-        flows = follow_both(slice(number, None), (None, None))
-        flows = follow_fast_things(earlier[number], later[number], flows, flow_cpu)
-        if number:
-            flows = follow_both(slice(0, number), flows)
         return self._both(enlarge, (flows[0],), (flows[1],))
+
+    def _follow(
+        self,
+        earlier: list[Floats],
+        later: list[Floats],
+        motions: Motions,
+        coarser: tuple[Floats, Floats] | tuple[None, None] = (None, None),
+    ) -> tuple[Floats, Floats]:
+        """Both flows between some levels, from those of the next coarser level."""
+        return self._both(
+            partial(coarse_to_fine, kernels=flow_cpu),
+            (earlier, later, motions[0], coarser[0]),
+            (later, earlier, motions[1], coarser[1]),
+        )
 
     def _both(
         self, function: Callable[..., Floats], ahead: tuple[Any, ...], back: tuple[Any, ...]
@@ -105,6 +123,10 @@ class DisFlow:
             return function(*ahead), function(*back)
         other = self._helper.submit(function, *back)
         return function(*ahead), other.result()
+
+
+def _match_again(start: Floats, stop: Floats, flow: Floats, motion: Floats) -> Floats:
+    return match_level(start, stop, flow, False, motion=motion, kernels=flow_cpu)
 
 
 def stretch(

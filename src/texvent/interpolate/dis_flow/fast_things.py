@@ -11,7 +11,7 @@ both flows are known on a level, one after the other, in what the motion around 
 4. *Pixels.* A missed pixel takes the shift if its surroundings agree there, and the other image
    says the same. What the thing covers or uncovers takes the flow of the surroundings.
 5. *Check.* Around the thing, brightness must change less along the new flows than along those
-   before, in both directions, and also if each unconfirmed pixel counts as a change by `MISSED`.
+   before, in both directions, and also if each unconfirmed pixel counts as a change by `CHANGED`.
    Otherwise nothing is changed.
 """
 
@@ -23,8 +23,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, size_of
-from texvent.interpolate.dis_flow.missed_shift import Mask, correlate_missed
+from texvent.interpolate.dis_flow.confirmation import Flows, both_unconfirmed
+from texvent.interpolate.dis_flow.definitions import CHANGED, MARGIN, Floats, Mask, size_of
+from texvent.interpolate.dis_flow.missed_shift import correlate_missed
 
 MOST_SIDE = 400
 """Longer side of the level on which things are looked for, at most, px."""
@@ -32,8 +33,6 @@ MOST_THINGS = 4
 """At most so many per pair."""
 GRID, WINDOW = 16, 5
 """Surroundings: flow at this many places along the longer side, median over 5×5 of them."""
-MISSED = 24.0
-"""Difference to the surroundings' motion from which a pixel is missed, of 255 levels."""
 MOST_MISSED = 0.2
 """Where a larger share is missed, no small thing explains it."""
 FITS, FITS_DETAIL = 0.3, 0.2
@@ -50,9 +49,6 @@ MOST_CHANGE = 96.0
 """A larger change of brightness counts as this in the check, levels: it is an edge elsewhere, not
 worse."""
 
-Flows = tuple[Floats, Floats]
-"""From the one image to the other, and back, [2, H, W] px."""
-
 
 class Way(NamedTuple):
     """One direction of a pair on a level."""
@@ -67,7 +63,7 @@ class Way(NamedTuple):
     @property
     def missed(self) -> Mask:
         """Pixels that the surroundings' motion does not explain."""
-        return np.abs(self.change) > MISSED
+        return np.abs(self.change) > CHANGED
 
 
 Ways = tuple[Way, Way]
@@ -91,7 +87,7 @@ def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: Modul
     ways = _look(start, stop, flows[0], kernels), _look(stop, start, flows[1], kernels)
     if not 0 < ways[0].missed.mean() <= MOST_MISSED:
         return flows
-    is_open, settled = _unconfirmed(ways, flows, kernels), np.zeros_like(ways[0].missed)
+    is_open, settled = both_unconfirmed(start, stop, flows, kernels), np.zeros_like(ways[0].missed)
     images = _image(start), _image(stop)
     for _ in range(MOST_THINGS):
         missed = [way.missed & each & ~settled for way, each in zip(ways, is_open, strict=True)]
@@ -99,7 +95,7 @@ def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: Modul
         if not shifts or _is_ambiguous(ways[0], shifts, is_open[0]):
             break
         found, near = _follow(ways, flows, is_open, shifts[0])
-        still_open, wide = _unconfirmed(ways, found, kernels), _dilated(near, BORDER)
+        still_open, wide = both_unconfirmed(start, stop, found, kernels), _dilated(near, BORDER)
         before, after = (
             np.stack([_unexplained(ways[k], each[k], mask[k], wide, kernels) for k in (0, 1)])
             for each, mask in ((flows, is_open), (found, still_open))
@@ -165,31 +161,11 @@ def _unexplained(
     """What a flow leaves unexplained in some pixels: change of brightness, and pixels, levels."""
     change = np.abs(kernels.change_along(way.start, way.stop, np.ascontiguousarray(flow)))
     total = float(np.minimum(change[near], np.float32(MOST_CHANGE)).sum(dtype=np.float64))
-    return np.array([total, total + MISSED * int(is_open[near].sum())])
-
-
-def _unconfirmed(ways: Ways, flows: Flows, kernels: ModuleType) -> tuple[Mask, Mask]:
-    """Pixels of both images whose flow is not confirmed."""
-    ahead, back = ways
-    return _open_pixels(ahead, *flows, kernels), _open_pixels(back, *flows[::-1], kernels)
+    return np.array([total, total + CHANGED * int(is_open[near].sum())])
 
 
 def _image(level: Floats) -> NDArray[np.float64]:
     return level[0, MARGIN:-MARGIN, MARGIN:-MARGIN].astype(np.float64)
-
-
-def _open_pixels(way: Way, flow: Floats, other: Floats, kernels: ModuleType) -> Mask:
-    """Pixels whose flow the other direction contradicts, or along which brightness changes."""
-    height, width = size_of(way.start)
-    y, x = np.mgrid[:height, :width]
-    column = np.floor(x + flow[0] + 0.5).astype(np.intp)
-    row = np.floor(y + flow[1] + 0.5).astype(np.intp)
-    is_inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
-    back = other[:, np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
-    error2, length2 = ((flow + back) ** 2).sum(axis=0), (flow**2).sum(axis=0)
-    change = kernels.change_along(way.start, way.stop, np.ascontiguousarray(flow))
-    unconfirmed: Mask = ~is_inside | (error2 > 0.02 * length2 + 0.5) | (np.abs(change) > MISSED)
-    return unconfirmed
 
 
 def _fits(way: Way, shift: Floats, is_open: Mask) -> Mask:
@@ -200,10 +176,6 @@ def _fits(way: Way, shift: Floats, is_open: Mask) -> Mask:
     to_x, to_y = x + shift[0], y + shift[1]
     is_inside = (to_x >= 1) & (to_y >= 1) & (to_x < width - 2) & (to_y < height - 2)
     y, x = y[is_inside], x[is_inside]
-    near = _window(way.start, y, x, 4)
-    spread = near.max(axis=0) - near.min(axis=0)
-    has_detail = spread >= MISSED
-    y, x, spread = y[has_detail], x[has_detail], spread[has_detail]
     left, top = int(np.floor(shift[0])), int(np.floor(shift[1]))
     u, v = shift[0] - left, shift[1] - top
     upper, lower = (
@@ -214,7 +186,11 @@ def _fits(way: Way, shift: Floats, is_open: Mask) -> Mask:
     error = np.abs((1 - v) * upper + v * lower - _window(way.start, y, x, 1)).sum(axis=0)
     padded = np.pad(np.abs(way.change), 1)
     before = sum(padded[y + i, x + j] for i in range(3) for j in range(3))
-    fits[y, x] = (error < FITS * before) & (error < 9 * FITS_DETAIL * spread)
+    may_fit = error < FITS * before
+    y, x, error = y[may_fit], x[may_fit], error[may_fit]
+    near = _window(way.start, y, x, 4)
+    spread = near.max(axis=0) - near.min(axis=0)
+    fits[y, x] = (spread >= CHANGED) & (error < 9 * FITS_DETAIL * spread)
     return fits
 
 

@@ -6,10 +6,11 @@ import sys
 
 import numpy as np
 
+from texvent.interpolate.dis_flow.confirmation_cpu import unconfirmed
 from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, coarse_to_fine, make_pyramid
 from texvent.interpolate.dis_flow.refine_cpu import change_along, refine
 from texvent.interpolate.dis_flow.search_cpu import join, search
-from texvent.interpolate.dis_flow.shifts_cpu import try_shifts
+from texvent.interpolate.dis_flow.shifts_cpu import try_vectors
 from texvent.runtime.jit import jit
 
 __all__ = [
@@ -20,7 +21,8 @@ __all__ = [
     "make_level",
     "refine",
     "search",
-    "try_shifts",
+    "try_vectors",
+    "unconfirmed",
     "warm_up",
 ]
 
@@ -34,8 +36,9 @@ _QUARTER = np.float32(0.25)
 def warm_up() -> None:
     """Compile, or load what was compiled before."""
     image, kernels = np.zeros((64, 64), np.float32), sys.modules[__name__]
-    pyramid, shifts = make_pyramid(image, 1, 2, kernels), np.zeros((1, 2), np.float32)
-    flow = coarse_to_fine(pyramid, pyramid, shifts, kernels=kernels)
+    pyramid, rest = make_pyramid(image, 1, 2, kernels), np.zeros((2, 3), np.float32)
+    flow = coarse_to_fine(pyramid, pyramid, rest, kernels=kernels)
+    unconfirmed(pyramid[0], pyramid[0], flow, flow)
     change_along(pyramid[0], pyramid[0], flow)
     double(flow, image.shape)
 

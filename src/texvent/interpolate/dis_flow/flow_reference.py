@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import (
+    CHANGED,
     DATA,
     LEAST2,
     LEAST_DETERMINANT,
@@ -17,6 +18,8 @@ from texvent.interpolate.dis_flow.definitions import (
     PATCH,
     RELAXATION,
     SAME_FLOW,
+    SAME_PX2,
+    SAME_RELATIVE,
     SEARCH_COST,
     SEARCH_RADIUS,
     SMALL_STEP2,
@@ -25,6 +28,7 @@ from texvent.interpolate.dis_flow.definitions import (
     SWEEPS,
     UNEXPLAINED,
     Floats,
+    Mask,
     size_of,
 )
 
@@ -195,26 +199,24 @@ def _total(patch: Floats) -> np.float32:
     return np.float32(columns[0] + columns[1])
 
 
-def try_shifts(start: Floats, stop: Floats, patches: Floats, shifts: Floats) -> Floats:
-    """The patches, each with the shift that fits it better than its own flow, if one does."""
+def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -> Floats:
+    """The patches, each with the vector that fits it better than its own flow, if it does."""
     found, (height, width) = patches.copy(), size_of(start)
     for i, j in np.ndindex(found.shape[:2]):
-        here, own, is_better = (i * STEP, j * STEP), found[i, j], False
-        for shift in shifts:
-            if np.abs(shift - own[:2]).sum() < np.float32(SAME_FLOW):
-                continue
-            x, y = np.float32(here[1]) + shift[0], np.float32(here[0]) + shift[1]
-            if not (0 <= x <= width - PATCH and 0 <= y <= height - PATCH):
-                patch = _patch(start[0], here)
-                spread = _cost((_total(patch), _total(patch * patch)))
-                if own[2] > np.float32(UNEXPLAINED) * spread + np.float32(NOISE_COST):
-                    own[:], is_better = (*shift, 0), False
-                continue
-            cost = _cost(_compare(start, stop, here, shift)[0])
-            if cost < own[2]:
-                own[:], is_better = (*shift, cost), True
-        if is_better:
-            _gauss_newton(start, stop, found, (i, j), own[:2].copy())
+        here, own, vector = (i * STEP, j * STEP), found[i, j], vectors[i, j]
+        if np.abs(vector - own[:2]).sum() < np.float32(SAME_FLOW):
+            continue
+        x, y = np.float32(here[1]) + vector[0], np.float32(here[0]) + vector[1]
+        if not (0 <= x <= width - PATCH and 0 <= y <= height - PATCH):
+            patch = _patch(start[0], here)
+            spread = _cost((_total(patch), _total(patch * patch)))
+            if own[2] > np.float32(UNEXPLAINED) * spread + np.float32(NOISE_COST):
+                own[:] = (*vector, 0)
+            continue
+        cost = _cost(_compare(start, stop, here, vector)[0])
+        if cost < own[2]:
+            own[:] = (*vector, cost)
+            _gauss_newton(start, stop, found, (i, j), vector)
     return found
 
 
@@ -281,6 +283,22 @@ def _data_term(start: Floats, stop: Floats, flow: Floats) -> tuple[Floats, Float
 def change_along(start: Floats, stop: Floats, flow: Floats) -> Floats:
     """What brightness changes by along a flow, [H, W], levels."""
     return _sample_along(stop, flow) - start[0, MARGIN:-MARGIN, MARGIN:-MARGIN]
+
+
+def unconfirmed(start: Floats, stop: Floats, flow: Floats, back: Floats) -> Mask:
+    """Pixels whose flow the other direction contradicts, or along which brightness changes."""
+    height, width = size_of(start)
+    y, x = np.mgrid[:height, :width].astype(np.float32)
+    column = np.floor(x + flow[0] + np.float32(0.5)).astype(np.intp)
+    row = np.floor(y + flow[1] + np.float32(0.5)).astype(np.intp)
+    is_inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
+    met = back[:, np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
+    u, v = flow[0] + met[0], flow[1] + met[1]
+    length2 = flow[0] * flow[0] + flow[1] * flow[1]
+    contradicts = u * u + v * v > np.float32(SAME_RELATIVE) * length2 + np.float32(SAME_PX2)
+    is_changed = np.abs(change_along(start, stop, flow)) > np.float32(CHANGED)
+    found: Mask = ~is_inside | contradicts | is_changed
+    return found
 
 
 def _sample_along(stop: Floats, flow: Floats) -> Floats:

@@ -7,10 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.interpolate.dis_flow.definitions import Floats
+from texvent.interpolate.dis_flow.definitions import Floats, Mask
 from texvent.pairs.shift_correlation import detail
-
-Mask = NDArray[np.bool_]
 
 LEAST_SHIFT = 4
 """Shorter shifts, px, are left to the search."""

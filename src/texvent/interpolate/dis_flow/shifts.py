@@ -2,7 +2,7 @@
 
 The search looks `SEARCH_RADIUS` pixels around on the coarsest level: a shift of more than a tenth
 of the width is lost to it. Here both frames are correlated at every shift, on thumbnails; every
-patch then tries the shift that agrees best (`try_shifts` in `flow_reference`).
+patch then tries the shift that agrees best (`try_vectors` in `flow_reference`).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ LEAST_VARIANCE = 4.0
 """Variance of detail below which agreement means nothing, squared levels."""
 
 
-def find_shifts(start: list[Floats], stop: list[Floats]) -> Floats:
+def find_shift(start: list[Floats], stop: list[Floats]) -> Floats | None:
     """How one frame is shifted to the other, if by more than patches are searched for.
 
     Args:
@@ -34,28 +34,27 @@ def find_shifts(start: list[Floats], stop: list[Floats]) -> Floats:
         stop: pyramid of the other.
 
     Returns:
-        [n, 2] float32 (x, y), px of the finest level; n is 0 or 1.
+        (x, y) float32, px of the finest level.
     """
-    none = np.empty((0, 2), np.float32)
     number = next(
         (k for k, level in enumerate(start) if max(level.shape) - 2 * MARGIN <= MOST_CELLS),
         len(start) - 1,
     )
     one, other = (detail(_image(pyramid[number])) for pyramid in (start, stop))
     if _agreement_in_place(one, other) >= IN_PLACE:
-        return none
+        return None
     agreement = correlate_shifts(one, other, LEAST_VARIANCE)
     around = np.pad(agreement, 1, constant_values=-1.0)
     near = np.maximum(np.maximum(around[:-2], around[2:]), around[1:-1])
     is_peak = agreement >= np.maximum(np.maximum(near[:, :-2], near[:, 2:]), near[:, 1:-1])
     is_peak &= agreement >= max(AGREEMENT, float(agreement.max()) - ALIKE)
     if not is_peak.any():
-        return none
+        return None
     shifts = np.argwhere(is_peak)[:, ::-1] - np.array(agreement.shape[::-1]) // 2
     shortest = shifts[np.argmin((shifts**2).sum(axis=1))]
     if np.abs(shortest).max() * 2**number <= SEARCH_RADIUS * 2 ** (len(start) - 1):
-        return none
-    return np.asarray(shortest[np.newaxis] * 2.0**number, np.float32)
+        return None
+    return np.asarray(shortest * 2.0**number, np.float32)
 
 
 def _image(level: Floats) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Shifts of the whole frame tried for every patch, compiled by Numba."""
+"""Motion of the whole frame tried for every patch, compiled by Numba."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _UNEXPLAINED, _NOISE_COST = np.float32(UNEXPLAINED), np.float32(NOISE_COST)
 
 
 @jit(error_model="numpy")
-def try_shifts(start: Floats, stop: Floats, patches: Floats, shifts: Floats) -> Floats:
-    """The patches, each with the shift that fits it better than its own flow, if one does."""
+def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -> Floats:
+    """The patches, each with the vector that fits it better than its own flow, if it does."""
     found = patches.copy()
     slopes = np.empty((found.shape[0], found.shape[1], 6), np.float32)
     level, target, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
@@ -35,23 +35,19 @@ def try_shifts(start: Floats, stop: Floats, patches: Floats, shifts: Floats) -> 
     for row in range(found.shape[0]):
         for column in range(found.shape[1]):
             here, own = (row * STEP, column * STEP), found[row, column]
-            is_better = False
-            for k in range(len(shifts)):
-                u, v = shifts[k, 0], shifts[k, 1]
-                if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
-                    continue
-                x, y = np.float32(here[1]) + u, np.float32(here[0]) + v
-                if x < _0 or y < _0 or x > width - _SIDE or y > height - _SIDE:
-                    if own[2] > _UNEXPLAINED * _spread(level, shape, here) + _NOISE_COST:
-                        own[0], own[1], own[2], is_better = u, v, _0, False
-                    continue
-                _, cost, _, _ = compare(level, target, shape, here, (u, v))
-                if cost < own[2]:
-                    own[0], own[1], own[2], is_better = u, v, cost, True
-            if is_better:
-                begin = own[0], own[1]
+            u, v = vectors[row, column, 0], vectors[row, column, 1]
+            if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
+                continue
+            x, y = np.float32(here[1]) + u, np.float32(here[0]) + v
+            if x < _0 or y < _0 or x > width - _SIDE or y > height - _SIDE:
+                if own[2] > _UNEXPLAINED * _spread(level, shape, here) + _NOISE_COST:
+                    own[0], own[1], own[2] = u, v, _0
+                continue
+            _, cost, _, _ = compare(level, target, shape, here, (u, v))
+            if cost < own[2]:
+                own[0], own[1], own[2] = u, v, cost
                 sum_slopes(level, target, shape, here, slopes[row, column])
-                gauss_newton(level, target, shape, begin, slopes, found, (row, column))
+                gauss_newton(level, target, shape, (u, v), slopes, found, (row, column))
     return found
 
 

@@ -1,0 +1,106 @@
+"""Motion of the whole frame that is fitted to what the search has found."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.interpolate.dis_flow.definitions import leads_outside, patch_vectors, scale_motion
+from texvent.interpolate.dis_flow.estimator import DisFlow
+from texvent.interpolate.dis_flow.frame_motion import fit_motion, scale, shift_motion
+
+WIDTH, HEIGHT = 192, 144
+
+
+def places(width=WIDTH, height=HEIGHT):
+    """x and y of each pixel from the middle of the frame, px."""
+    y, x = np.mgrid[:height, :width]
+    return x + 0.5 - width / 2, y + 0.5 - height / 2
+
+
+def move(motion):
+    """The flow of a frame under a motion, [2, H, W]."""
+    x, y = places()
+    return np.float32([own[0] + own[1] * x + own[2] * y for own in motion])
+
+
+def waves(x, y):
+    """A texture without period."""
+    image = np.zeros_like(x)
+    for k, (across, down) in enumerate(np.random.default_rng(5).normal(0, 0.3, (40, 2))):
+        image += np.cos(across * x + down * y + k)
+    return (127 + 18 * image).astype(np.float32)
+
+
+def similarity(zoom, degrees):
+    """What a zoom and a turn about the middle of the frame move it by, [2, 3]."""
+    cos, sin = (zoom * f(math.radians(degrees)) for f in (math.cos, math.sin))
+    return np.array([[0, cos - 1, -sin], [0, sin, cos - 1]])
+
+
+@settings(max_examples=20)
+@given(
+    st.lists(st.floats(-20, 20), min_size=2, max_size=2),
+    st.lists(st.floats(-0.3, 0.3), min_size=4, max_size=4),
+    st.integers(0, 99),
+)
+def test_a_motion_is_fitted_although_a_few_vectors_are_wild(offset, growth, seed):
+    rng = np.random.default_rng(seed)
+    motion = np.column_stack([offset, np.reshape(growth, (2, 2))])
+    flow = move(motion) + rng.normal(0, 0.05, (2, HEIGHT, WIDTH))
+    wild = rng.random((HEIGHT, WIDTH)) < 0.05
+    flow[:, wild] = rng.uniform(-40, 40, (2, int(wild.sum())))
+    corners = np.abs(move(motion)[:, :: HEIGHT - 1, :: WIDTH - 1]).max()
+    found = fit_motion(flow.astype(np.float32), np.ones((HEIGHT, WIDTH), bool))
+    if corners > 1.5:
+        np.testing.assert_allclose(found[:, 0], motion[:, 0], atol=0.02)
+        np.testing.assert_allclose(found[:, 1:], motion[:, 1:], atol=3e-4)
+    elif corners < 0.5:
+        assert found is None
+
+
+def test_two_layers_a_frame_at_rest_and_few_vectors_tell_no_motion_of_the_frame():
+    everywhere = np.ones((HEIGHT, WIDTH), bool)
+    flow = move([[8, 0, 0], [0, 0, 0]])
+    assert fit_motion(flow, everywhere) is not None
+    flow[:, :, :60] = 0
+    assert fit_motion(flow, everywhere) is None
+    assert fit_motion(0 * flow, everywhere) is None
+    few = np.zeros_like(everywhere)
+    few[:10] = True
+    assert fit_motion(move([[8, 0, 0], [0, 0, 0]]), few) is None
+
+
+def test_patches_move_as_their_middles_do():
+    vectors = patch_vectors(np.float32([[1, 0.5, 0], [0, 0, 0.25]]), (14, 20))
+    assert vectors.shape == (3, 5, 2)
+    # The first patch covers 0..8 px: its middle is 6 px left of the middle, and 3 px above.
+    np.testing.assert_allclose(vectors[0, 0], (1 - 3, -0.75))
+    np.testing.assert_allclose(vectors[2, 4], (1 + 3, 0.75))
+
+
+def test_a_motion_of_half_the_size_has_half_the_shift_and_the_same_growth():
+    motion = np.float32([[8, 0.5, 0], [-4, 0, 0.25]])
+    np.testing.assert_array_equal(scale_motion(motion, 0.5), [[4, 0.5, 0], [-2, 0, 0.25]])
+    assert scale((None, None), 2) == (None, None)
+    one, other = scale((shift_motion(np.float32([3, 1])), shift_motion(np.float32([-3, -1]))), 2)
+    np.testing.assert_array_equal(one, [[6, 0, 0], [2, 0, 0]])
+    np.testing.assert_array_equal(other, [[-6, 0, 0], [-2, 0, 0]])
+
+
+@pytest.mark.parametrize(("zoom", "degrees"), [(1.3, 0), (0.8, 0), (1.0, 15), (1.2, 10)])
+def test_flow_of_a_zoom_and_a_turn_reaches_the_borders(zoom, degrees):
+    x, y = places()
+    cos, sin = (f(math.radians(degrees)) / zoom for f in (math.cos, math.sin))
+    first, second = waves(x, y), waves(cos * x + sin * y, cos * y - sin * x)
+    forward, _ = DisFlow().both_ways(first, second)
+    wanted = move(similarity(zoom, degrees))
+    error = np.abs(np.moveaxis(forward, -1, 0) - wanted).max(axis=0)
+    outside = leads_outside(wanted)
+    assert np.mean(error[~outside] < 1) > 0.9
+    if outside.any():  # what leaves the view goes on as the frame does
+        assert np.mean(error[outside] < 1) > 0.9
