@@ -119,8 +119,9 @@ class Relation:
     "right of", "past", "overtake", "through" (a tunnel, a gate), "around", "surround", "among",
     "towards", "away from", "from" (with "towards": from one to the other), "follow" or "with"; or
     an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull",
-    "ride along" (as a passenger), "work on" (hands at it), "kick", "hit", "throw", "catch" or
-    "collide" (the subject itself is its target if its copies do)."""
+    "ride along" (as a passenger), "on head", "on shoulder", "on back", "on lap" (where it has
+    the target), "work on" (hands at it), "kick", "hit", "throw", "catch" or "collide" (the subject
+    itself is its target if its copies do)."""
     subject: int
     """Index into `SceneDescription.objects`."""
     targets: tuple[int, ...]

@@ -67,6 +67,7 @@ _SIDES = {
     "right": "on the right",
     "centre": "in the middle",
     "far": "far away",
+    "lane": "on the road",
     "near": "in the foreground",
 }
 RELATION_WORDS = {
@@ -78,6 +79,10 @@ RELATION_WORDS = {
     "carry": "carrying",
     "wear": "wearing",
     "ride": "riding",
+    "on head": "carrying on the head",
+    "on shoulder": "carrying on the shoulder",
+    "on back": "carrying on the back",
+    "on lap": "holding on the lap",
     "ride along": "riding along on",
     "push": "pushing",
     "work on": "working on",

@@ -99,9 +99,24 @@ def test_a_whole_after_of_is_reported() -> None:
     assert "of" in parse_prompt("a window of a train").not_understood
 
 
-def test_where_on_the_body_it_is_carried_is_reported_but_not_a_hat_on_a_head() -> None:
-    assert "on" in parse_prompt("a man carries a box on his head").not_understood
-    assert parse_prompt("a man with a hat on his head").not_understood == ()
+@pytest.mark.parametrize(
+    ("prompt", "relation"),
+    [
+        ("a man carries a box on his head", ("on head", "man", "box")),
+        ("a man with a parrot on his shoulder", ("on shoulder", "man", "parrot")),
+        ("a bird sits on a man's shoulder", ("on shoulder", "man", "bird")),
+        ("a dog with a stick in its mouth", ("hold", "dog", "branch")),
+        ("a man with a hat on his head", ("wear", "man", "hat")),
+        ("a bird sits on an elephant's back", ("on", "bird", "elephant")),
+    ],
+)
+def test_where_on_the_body_it_is_carried(prompt: str, relation: tuple[str, str, str]) -> None:
+    assert relations_of(prompt) == {relation}
+    assert parse_prompt(prompt).not_understood == ()
+
+
+def test_under_which_arm_it_is_carried_is_reported() -> None:
+    assert "under" in parse_prompt("a boy carries a ball under his arm").not_understood
 
 
 def test_the_colour_of_clothes_belongs_to_who_stands_before_it() -> None:

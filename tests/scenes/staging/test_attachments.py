@@ -8,7 +8,7 @@ import pytest
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.claims.contact import is_in, rides
+from texvent.scenes.staging.claims.contact import is_in, rides, touches
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 
@@ -115,3 +115,38 @@ def test_bottles_go_along_on_a_belt_without_its_own_boxes() -> None:
         assert abs(way[2]) < 1e-6
     tops = [part.to_body[2, 3] for part in belt.model.parts(belt.pose(0.3))]
     assert max(tops) < 0.72
+
+
+@pytest.mark.parametrize(
+    ("prompt", "thing"),
+    [
+        ("a woman with a basket on her head walks", "basket"),
+        ("a man with a parrot on his shoulder", "parrot"),
+        ("a girl carries a cat on her back", "cat"),
+        ("a boy with a stick walks", "branch"),
+        ("a dog with a stick in its mouth runs", "branch"),
+    ],
+)
+def test_what_somebody_has_on_the_body_goes_along(prompt: str, thing: str) -> None:
+    scene = stage(prompt)
+    owner = next(actor for actor in scene.actors if actor.noun.name != thing)
+    held = named(scene, thing)[0]
+    assert touches(owner, held, 0.0)
+    assert touches(owner, held, 1.0)
+    assert not scene.not_shown
+
+
+def test_what_stands_in_the_lane_is_on_the_road_of_a_camera_that_drives() -> None:
+    scene = stage("a deer stands in the lane ahead as we drive along a road")
+    assert not scene.not_shown
+    deer = named(scene, "deer")[0].middle(0.0)
+    ahead = deer - scene.camera(0.0).position
+    assert abs(ahead[0]) < 2.0
+    assert ahead[1] > 3.0
+
+
+def test_who_stands_in_a_doorway_stands_on_the_ground() -> None:
+    scene = stage("a man stands in a doorway")
+    man, door = named(scene, "man")[0], named(scene, "door")[0]
+    assert man.corners(0.0)[:, 2].min() < 0.05
+    assert np.linalg.norm((man.middle(0.0) - door.middle(0.0))[:2]) < 0.6

@@ -39,7 +39,7 @@ _TOOLS = (
     "hockey stick", "badminton racket", "rake", "pitchfork", "sledgehammer", "mallet", "saw",
     "ping-pong paddle", "brush", "paintbrush", "toothbrush", "scissors", "pen", "pencil",
     "screwdriver", "wrench", "flashlight", "wand", "magnifying glass", "hair drier", "remote",
-    "arrow", "pool cue",
+    "arrow", "pool cue", "branch",
 )  # fmt: skip
 _UPRIGHTS = (
     "umbrella", "flag", "candle", "sign", "flower", "bouquet", "cup", "mug", "bottle", "glass",
@@ -99,13 +99,17 @@ WORN: Mapping[str, Wear] = MappingProxyType(
         "tie": Wear("torso", (0.15, 0.0, 0.24), 0.5 * math.pi),
         "vest": Wear("torso", (0.0, 0.0, 0.02)),
         "backpack": Wear("torso", (-0.25, 0.0, 0.02), 0.0, math.pi),
+        **dict.fromkeys(("shoe", "boots"), Wear("foot", (-0.11, 0.0, -0.07))),
+        "glove": Wear("hand"),
     }
 )
-"""Noun → where it is worn; anything else on the head."""
+"""Noun → where it is worn; of a pair of feet or hands, one on each."""
 GARMENTS = frozenset({"shirt", "jacket", "coat", "dress"})
 """What the body's own clothes show, in its colour."""
 
-HELD_SCALE: Mapping[str, float] = MappingProxyType({"umbrella": 0.5, "flag": 0.3, "sign": 0.45})
+HELD_SCALE: Mapping[str, float] = MappingProxyType(
+    {"umbrella": 0.5, "flag": 0.3, "sign": 0.45, "branch": 0.75}
+)
 """Noun → size of what is carried relative to what stands on the ground."""
 LARGE_M = 0.36
 """What is larger is held in both arms."""
@@ -243,6 +247,11 @@ def offset_of_worn(wear: Wear, wearer: Actor, thing: Actor) -> Float64Array:
 def along_tool(thing: Actor, lift: float) -> Affine:
     """What lies along its x: the handle in the hand, the rest along what the hand points to."""
     model = thing.model
+    if model.width > 2.0 * max(model.length, model.height):
+        # What lies along its y: a stick.
+        return np.column_stack(
+            [rotation(0.0, 0.0, 0.5 * math.pi), np.array([0.0, 0.0, 0.36 * model.width])]
+        )
     if model.length < 2.0 * model.height:
         return _shifted(0.0, 0.0, lift - 0.12 * model.height)
     sign = _handle_side(model) * (-1.0 if thing.noun.name in _GUARDED else 1.0)

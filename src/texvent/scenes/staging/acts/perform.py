@@ -37,6 +37,7 @@ from texvent.scenes.staging.acts.holding import (
     shoulder_height,
     size_of,
 )
+from texvent.scenes.staging.acts.on_body import ON_BODY, put_on_body
 from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
 from texvent.scenes.staging.acts.working import WorkingAt
 from texvent.scenes.staging.trajectories.trajectory import Vector
@@ -52,6 +53,10 @@ _ORDER = (
     "work on",
     "hold",
     "carry",
+    "on head",
+    "on shoulder",
+    "on back",
+    "on lap",
     "wear",
 )
 """What moves bodies comes before what hangs on them."""
@@ -296,6 +301,8 @@ def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: f
         subject, target = striking.catch(subject, target, duration_s)
     elif kind == "hit":
         subject, target, other = striking.hit(subject, target, other, duration_s)
+    elif kind in ON_BODY:
+        subject, target = put_on_body(kind, subject, target)
     elif kind == "wear":
         subject, worn = _wear(subject, target)
         cast.put(target_at, worn)
@@ -339,6 +346,9 @@ def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     if target.noun.name in GARMENTS and is_person(subject):
         return subject, None
     wear = WORN.get(target.noun.name, Wear("crown"))
+    if wear.place in ("foot", "hand"):
+        side = "left" if target.instance % 2 else "right"
+        wear = replace(wear, place=f"{side} {wear.place}")
     held = HeldAt(subject, wear.place, offset_of_worn(wear, subject, target))
     return subject, _carried(target, held, subject)
 

@@ -73,6 +73,8 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
             continue
         is_plural = scene_object.count > 1
         name = pluralise(scene_object.noun) if is_plural else scene_object.noun
+        if scene_object.side == "lane" and not all(_is_on_road(stage, one) for one in copies):
+            missing.append(Unmet(f"{name} on the road"))
         if index not in carried and not _has_support(stage, copies[0]):
             missing.append(Unmet(f"{name} on the ground"))
         if scene_object.motion is None or index in bound:
@@ -179,14 +181,24 @@ def _crosses(stage: Stage, actor: Actor) -> bool:
     """From one side of a road to the other, where there is one."""
     if stage.place not in _ROADS:
         return True
-    ground = stage.environment
-    line = RoadLine(
-        ground.road_angle, (float(ground.road_offset[0]), float(ground.road_offset[1])),
-        ground.road_curvature,
-    )  # fmt: skip
+    line = _road_of(stage)
     start, end = (line.across(actor.middle(t)[:2]) for t in (0.0, stage.duration_s))
-    side = 0.8 * ground.road_half_width
+    side = 0.8 * stage.environment.road_half_width
     return start * end < 0.0 and min(abs(start), abs(end)) > side
+
+
+def _is_on_road(stage: Stage, actor: Actor) -> bool:
+    """Whether its middle is over the roadway when the clip begins."""
+    if stage.place not in _ROADS:
+        return True
+    aside = abs(_road_of(stage).across(actor.middle(0.0)[:2]))
+    return aside < stage.environment.road_half_width
+
+
+def _road_of(stage: Stage) -> RoadLine:
+    ground = stage.environment
+    offset = (float(ground.road_offset[0]), float(ground.road_offset[1]))
+    return RoadLine(ground.road_angle, offset, ground.road_curvature)
 
 
 def _has_support(stage: Stage, actor: Actor) -> bool:

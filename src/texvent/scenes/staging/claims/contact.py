@@ -74,7 +74,9 @@ def is_in(subject: Actor, target: Actor, time_s: float) -> bool:
         and low[2] < top[2] - sunk + _TOUCH_M
         and high[2] > base[2]
     )
-    return is_inside or (subject.noun.name in PERSON_NOUNS and is_on(subject, target, time_s))
+    is_person = subject.noun.name in PERSON_NOUNS
+    is_below_top = room[2] < _TALL_M or 0.5 * float((low + high)[2]) < top[2] - 0.1 * room[2]
+    return is_below_top and (is_inside or (is_person and is_on(subject, target, time_s)))
 
 
 def touches(subject: Actor, target: Actor, time_s: float) -> bool:

@@ -11,12 +11,15 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.work.verbs import HOVERING
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.acts.surface_points import sample_surface
 from texvent.scenes.staging.acts.working import WorkingAt, tool_tip
+from texvent.scenes.staging.claims.bodies import part_boxes
 from texvent.scenes.staging.claims.contact import (
     holds_for_all,
     is_in,
@@ -239,6 +242,24 @@ def _is_touching(subject: _Body, targets: list[_Body]) -> bool:
     )  # fmt: skip
 
 
+def _is_worn(subject: _Body, targets: list[_Body]) -> bool:
+    """It touches them, at a place where such a thing is worn."""
+    return targets[0].copies[0].noun.name in WORN and _is_touching(subject, targets)
+
+
+def _is_on_body(subject: _Body, targets: list[_Body], *, least: float) -> bool:
+    """Each target is at one of the subjects, its foot above that share of the subject's height."""
+
+    def is_there(target: Actor, own: Actor, time_s: float) -> bool:
+        base, top = part_boxes(own, time_s).hull
+        low, high = part_boxes(target, time_s).hull
+        # The legs of a child on a back hang down.
+        foot = float(low[2] if target.noun.name not in PERSON_NOUNS else 0.5 * (low + high)[2])
+        return touches(own, target, time_s) and foot > base[2] + least * (top[2] - base[2])
+
+    return holds_for_all(is_there, targets[0].copies, subject.copies, subject.duration_s)
+
+
 def _is_riding(subject: _Body, targets: list[_Body]) -> bool:
     """Every rider is over it and at it, and not on its roof; nobody shares a seat."""
     return holds_for_all(rides, subject.copies, targets[0].copies, subject.duration_s)
@@ -283,7 +304,12 @@ _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     "with": _is_with,
     "on": _is_on,
     "in": _is_in,
-    **dict.fromkeys(("hold", "carry", "wear", "push", "pull"), _is_touching),
+    "on head": partial(_is_on_body, least=0.85),
+    "on shoulder": partial(_is_on_body, least=0.4),
+    "on back": partial(_is_on_body, least=0.3),
+    "on lap": partial(_is_on_body, least=0.2),
+    "wear": _is_worn,
+    **dict.fromkeys(("hold", "carry", "push", "pull"), _is_touching),
     **dict.fromkeys(("ride", "ride along"), _is_riding),
     "work on": _is_worked_on,
     **dict.fromkeys(("kick", "hit", "throw"), partial(_is_striking, moves=True)),

@@ -17,6 +17,8 @@ from texvent.scenes.staging.trajectories.choose_trajectory import MotionPlan
 _SEEN = 1.8
 """What stands aside is in the picture from this many times as far ahead."""
 _GAP_M = 1.5
+_BEFORE_M = 2.5
+"""What the camera keeps clear of what is in its lane, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
 
@@ -52,6 +54,8 @@ class RoutePlacer:
         """
         if is_goal or group.noun.name in GATES:
             return self._place_ahead(group, height, is_goal=is_goal)
+        if group.scene_object.side == "lane" and not group.plan.is_path:
+            return self._place_in_lane(group, height)
         if group.plan.is_path and group.plan.motion.direction in ("left", "right", "across"):
             return self._place_across(group, height)
         if group.plan.is_path and is_centred(group.noun):
@@ -71,6 +75,13 @@ class RoutePlacer:
     def _place_across(self, group: ObjectGroup, height: float) -> Float64Array:
         """Crosses the route just beyond its end."""
         along = self._travel.length_m + 4.0 + 0.6 * group.models[0].width + self._next(group)
+        x, y, _ = self._travel.point(along, 0.0)
+        return np.array([x, y, height])
+
+    def _place_in_lane(self, group: ObjectGroup, height: float) -> Float64Array:
+        """On the roadway, where the camera comes to the end of its way before it."""
+        deep = float(max(group.half[:2]))
+        along = self._travel.length_m + _BEFORE_M + 1.5 * deep + self._next(group)
         x, y, _ = self._travel.point(along, 0.0)
         return np.array([x, y, height])
 

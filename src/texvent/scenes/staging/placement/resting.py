@@ -20,6 +20,8 @@ from texvent.scenes.staging.placement.contents import pack
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
+GATEWAYS = frozenset({"door", "gate", "arch"})
+"""In what one stands on the ground."""
 _SEEN_SHARE = 0.6
 """Share of the height of what is in something that looks out of it."""
 _SWIMMER_SHARE = 0.5
@@ -82,6 +84,10 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
             group.carrier = target
         lift = _origin_height(group)
         return _in_world(target, (0.0, 0.0, 0.05 * target.models[0].height + lift))
+    if target.noun.name in GATEWAYS:
+        group.plan = replace(group.plan, yaw=target.plan.yaw)
+        ahead = 0.25 * group.models[0].length
+        return _in_world(target, (ahead, 0.0, _origin_height(group)))
     if target.noun.name == "window":
         return _rest_in_window(group, target)
     if is_person or target.noun.habitat == "ground":

@@ -10,6 +10,7 @@ from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.meaning.circumstances.body_places import BodyPlaceReader
 from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
 from texvent.scenes.language.meaning.circumstances.relations import (
     WEAK_PREPOSITIONS,
@@ -55,6 +56,7 @@ class CircumstanceReader:
         self._surroundings = surroundings
         self.quantities = QuantityReader(draft, surroundings)
         self._relations = RelationReader(draft, referents)
+        self._parts = BodyPlaceReader(draft, referents)
 
     def read_adverbs(self, adverbs: Sequence[Word], scope: Scope) -> None:
         """Directions, paces, sides and times."""
@@ -236,6 +238,8 @@ class CircumstanceReader:
     def _read_other(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
         """What is no object of the scene."""
         word = phrase.preposition
+        if self._parts.read(phrase, one, scope):
+            return
         if one.kind == "absent":
             word.is_used = True
         elif one.kind == "unit":
@@ -259,6 +263,12 @@ class CircumstanceReader:
         else:
             self.read_style(one)
             word.is_used = True
+
+    def find_whose(self, one: Referent) -> list[int]:
+        """As in "water sprays from its paws": the dog that was spoken of."""
+        determiner = one.group.determiner
+        is_owned = determiner is not None and determiner.text in OWNERS
+        return list(self._draft.subjects) if is_owned and one.kind in ("part", "unknown") else []
 
     def read_own_part(self, one: Referent, things: Sequence[int]) -> None:
         """As in "wiggles its tail": shown where the model has one."""
@@ -297,11 +307,22 @@ class CircumstanceReader:
         is_covered = word.text.startswith("covered") and one.kind != "weather"
         is_unread = word.text == "facing" or (is_covered and bool(scope.subjects))
         word.is_used, word.is_lost = is_read and not is_unread, is_unread
+        self._put_on_road(word, one, scope)
         direction = _MOTION_BY_PREPOSITION.get(word.text)
         for index in scope.movers if is_read and direction == "across" else ():
             motions = self._draft.objects[index].motions
             if motions and motions[-1].direction is None and motions[-1].is_moving:
                 motions[-1] = replace(motions[-1], direction="across")
+
+    def _put_on_road(self, word: Word, one: Referent, scope: Scope) -> None:
+        """As in "a deer stands in the lane": on it, not beside it."""
+        head = one.group.head
+        if word.text not in ("in", "on") or head is None or head.lemma not in _ROADWAYS:
+            return
+        for index in scope.subjects:
+            item = self._draft.objects[index]
+            if item.side is None and self._draft.noun(index).motion != "drive":
+                item.side = "lane"
 
     def _read_worn_colour(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
         """As in "A defender in white": the colour of the clothes."""
@@ -411,6 +432,7 @@ _OF_LIGHT_SHOWS = frozenset(
      "coloured", "colored", "bright", "swirling", "dancing"}
 )  # fmt: skip
 """What light shows and lightning do anyway."""
+_ROADWAYS = frozenset({"road", "lane", "street", "highway", "roadway", "motorway"})
 _ON_PARTS = frozenset({"on", "over", "under", "above", "behind", "in front of", "around"})
 """Prepositions that say where something is: "a board on his head" is carried in the hands."""
 _BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",

@@ -28,6 +28,12 @@ _VESSELS = frozenset(
      "wine glass", "bathtub", "flower pot", "stroller", "pot", "pan", "sink"}
 )  # fmt: skip
 """What has the things in it that are "with" it."""
+_TAKEN_BY = {
+    "dog": ("branch", "bone", "frisbee", "ball", "tennis ball", "newspaper", "shoe"),
+    "cat": ("mouse", "fish"),
+    "bird": ("branch", "fish", "worm"),
+}
+"""Animal → what it has in its mouth when it is "with" it."""
 _HELD_AT_MOST_M = 1.3
 """A person "with" something up to this long holds it."""
 
@@ -110,6 +116,9 @@ class RelationReader:
             return self._draft.relate("hold", scope.subjects, things)
         if kind is None or word.text not in _RESTING or scope.has_object:
             return False
+        if kind == "on" and self._draft.noun(things[0]).name in _LEANT_ON:
+            # As in "leans on a fence": nobody stands on its top.
+            kind = "beside"
         return self._relate(kind, scope.subjects, things)
 
     def _is_tool(self, scope: Scope, things: Sequence[int]) -> bool:
@@ -192,6 +201,10 @@ class RelationReader:
             return self._draft.relate(kind, things, scope.subjects)
         if item.name in WEARABLE and is_living(doer):
             return self._draft.relate("wear", scope.subjects, things)
+        is_taken = item.name in _TAKEN_BY.get(doer.name, ())
+        if is_taken or (is_person(doer) and item.name == "branch"):
+            # As in "a boy with a stick", "a dog with a bone".
+            return self._draft.relate("hold", scope.subjects, things)
         is_held = item.name in _HELD or (item.motion == "stand" and self._is_small(things[0]))
         motions = [self._draft.objects[i].motions[-1:] for i in scope.movers]
         works = any(one[0].kind in HANDWORK for one in motions if one)
@@ -236,6 +249,7 @@ _STEERING = frozenset(
 """Words for who steers what they are on."""
 _ABOARD = ("behind", "in front of", "beside", "next to")
 _FULL = ("full of", "filled with", "loaded with", "packed with")
+_LEANT_ON = frozenset({"fence", "wall", "gate", "door", "railing", "car", "tree", "lamp post"})
 _GOALS = ("towards", "past")
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})
 _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})

@@ -1,0 +1,68 @@
+"""What somebody has on the head, a shoulder, the back or the lap."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.attached import HeldAt, Performed
+from texvent.scenes.staging.acts.holding import is_person, size_of
+from texvent.scenes.staging.trajectories.trajectory import Vector
+
+
+@dataclass(frozen=True)
+class BodyPlace:
+    """Where something is on a person, or on an animal."""
+
+    anchor: str
+    """Place of the body."""
+    shift: Vector
+    """From there to the foot of the thing's middle, m, for an adult."""
+    is_behind: bool = False
+    """Whether it hangs behind: half its length farther back."""
+
+
+ON_BODY: Mapping[str, BodyPlace] = MappingProxyType(
+    {
+        "on head": BodyPlace("crown", (-0.03, 0.0, -0.01)),
+        "on shoulder": BodyPlace("neck", (0.0, -0.23, -0.17)),
+        "on back": BodyPlace("torso", (-0.13, 0.0, 0.02), is_behind=True),
+        "on lap": BodyPlace("seat", (0.28, 0.0, 0.20)),
+    }
+)
+"""Relation kind → place."""
+_BAGS = frozenset({"bag", "handbag", "shopping bag", "guitar case"})
+"""What hangs from the shoulder by a strap."""
+_STRAP_M = 0.25
+_AT_HEAD: Vector = (0.05, -0.24, 1.80)
+"""Right hand of who steadies something on the head, adult's body coordinates, m."""
+
+
+def put_on_body(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """The body with a hand at the thing where it needs one, and the thing in its place."""
+    place, size = ON_BODY[kind], size_of(subject.model)
+    x, y, z = (size * value for value in place.shift)
+    if kind == "on shoulder" and math.cos(subject.trajectory.at(0.0).yaw) < 0.0:
+        # The shoulder on the viewer's side.
+        y = -y
+    if kind == "on shoulder" and target.noun.name in _BAGS:
+        z -= _STRAP_M * size + target.model.height
+    if place.is_behind:
+        x -= 0.10 * size if is_person(target) else 0.5 * target.model.length
+    lift = 0.5 * target.model.height if target.is_centred else 0.0
+    activity = "stand"
+    if is_person(target):
+        activity, z = "sit", z - 0.42 * size_of(target.model)
+    offset = np.column_stack([np.eye(3), np.array([x, y, z + lift])])
+    held = HeldAt(subject, place.anchor, offset, is_upright=True, activity=activity)
+    if kind == "on head" and is_person(subject) and target.model.height < 0.9:
+        hand = (size * _AT_HEAD[0], size * _AT_HEAD[1], size * _AT_HEAD[2])
+        path = Performed(subject.trajectory, None, (("right hand", hand),))
+        subject = replace(subject, trajectory=path)
+    target = replace(target, trajectory=held, is_mover=subject.is_mover, lead_m=0.0, extras=())
+    return subject, target
