@@ -317,7 +317,7 @@ class ClauseMeaning:
         elif one.kind == "effect":
             self._around.add_effect(one, scope)
         elif one.kind == "part" and scope.is_verb_shown:
-            self._around.read_own_part(one, scope.subjects)
+            self._around.parts.read_own(one, scope.subjects)
         self._around.read_group_phrases(one, Scope(one.things, [], not one.things, has_verb=False))
 
     def _cross(self, one: Referent, clause: Clause, scope: Scope) -> None:

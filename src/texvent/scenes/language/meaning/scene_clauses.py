@@ -114,7 +114,7 @@ class SceneClauses:
                     sources.extend(found.things)
                     phrase.preposition.is_used = True
                 else:
-                    sources.extend(self._around.find_whose(found))
+                    sources.extend(self._around.parts.find_whose(found))
                     self._around.read_phrase(phrase, Scope([], []))
                 self._around.read_group_phrases(found, Scope(found.things, []))
         added = [self._around.add_effect(one, Scope(sources[:1], [])) for one in subjects]

@@ -10,7 +10,7 @@ from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
-from texvent.scenes.language.meaning.circumstances.body_places import BodyPlaceReader
+from texvent.scenes.language.meaning.circumstances.parts import PartReader
 from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
 from texvent.scenes.language.meaning.circumstances.relations import (
     WEAK_PREPOSITIONS,
@@ -22,7 +22,7 @@ from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.objects import LIKENESSES, LIQUIDS
-from texvent.scenes.language.vocabulary.scene import PART_COLOURS, SPELT
+from texvent.scenes.language.vocabulary.scene import SPELT
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
@@ -56,7 +56,7 @@ class CircumstanceReader:
         self._surroundings = surroundings
         self.quantities = QuantityReader(draft, surroundings)
         self._relations = RelationReader(draft, referents)
-        self._parts = BodyPlaceReader(draft, referents)
+        self.parts = PartReader(draft, referents)
 
     def read_adverbs(self, adverbs: Sequence[Word], scope: Scope) -> None:
         """Directions, paces, sides and times."""
@@ -233,12 +233,12 @@ class CircumstanceReader:
             self.read_group_phrases(one, scope)
         parts = [index for one in found if one.is_things for index in one.things]
         if whole.kind == "part" and list_parts_shown(self._draft, parts, str(whole.value)):
-            self._use_part(whole, parts)
+            self.parts.use(whole, parts)
 
     def _read_other(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
         """What is no object of the scene."""
         word = phrase.preposition
-        if self._parts.read(phrase, one, scope):
+        if self.parts.read(phrase, one, scope):
             return
         if one.kind == "absent":
             word.is_used = True
@@ -249,7 +249,7 @@ class CircumstanceReader:
         elif one.kind == "effect":
             word.is_used = self.add_effect(one, scope)
         elif one.kind == "part":
-            self._read_part(word, one, scope)
+            self.parts.read_part(word, one, scope)
         elif one.kind == "unknown":
             self._read_worn_colour(phrase, one, scope)
         elif one.kind in ("camera", "function"):
@@ -263,36 +263,6 @@ class CircumstanceReader:
         else:
             self.read_style(one)
             word.is_used = True
-
-    def find_whose(self, one: Referent) -> list[int]:
-        """As in "water sprays from its paws": the dog that was spoken of."""
-        determiner = one.group.determiner
-        is_owned = determiner is not None and determiner.text in OWNERS
-        return list(self._draft.subjects) if is_owned and one.kind in ("part", "unknown") else []
-
-    def read_own_part(self, one: Referent, things: Sequence[int]) -> None:
-        """As in "wiggles its tail": shown where the model has one."""
-        if list_parts_shown(self._draft, things, str(one.value)):
-            self._use_part(one, things)
-
-    def _read_part(self, word: Word, one: Referent, scope: Scope) -> None:
-        determiner = one.group.determiner
-        is_owned = determiner is not None and determiner.text in OWNERS
-        things = self._draft.subjects if is_owned and not scope.subjects else scope.subjects
-        wearers = [
-            one.subject
-            for one in self._draft.relations
-            if one.kind == "wear" and set(one.targets) & set(things)
-        ]
-        if is_owned and wearers and word.text == "on":
-            # As in "a hat on his head".
-            word.is_used = list_parts_shown(self._draft, wearers, str(one.value))
-            self._use_part(one, wearers if word.is_used else [])
-        elif list_parts_shown(self._draft, things, str(one.value)):
-            is_place = word.text in _ON_PARTS and not word.is_used
-            word.is_used, word.is_lost = not is_place, is_place
-            if not is_place:
-                self._use_part(one, things)
 
     def _read_surroundings(
         self, word: Word, one: Referent, scope: Scope, *, is_negated: bool
@@ -401,18 +371,6 @@ class CircumstanceReader:
         one.attributes.flicker = word
         return light_up(self._draft, one, self._draft.subjects)
 
-    def _use_part(self, one: Referent, things: Sequence[int]) -> None:
-        """The part is shown; its colour too, if it is the usual one."""
-        link(one.group.words, things)
-        if one.group.head is not None:
-            one.group.head.is_used = True
-        for colour, words in one.attributes.colours:
-            names = {
-                PART_COLOURS.get((self._draft.objects[i].noun, str(one.value))) for i in things
-            }
-            if names == {colour.name}:
-                mark_used(words)
-
     def read_extra(self, one: Referent) -> None:
         """What else is named: a place, or what hangs on an object."""
         if one.kind in OF_SCENE:
@@ -433,7 +391,5 @@ _OF_LIGHT_SHOWS = frozenset(
 )  # fmt: skip
 """What light shows and lightning do anyway."""
 _ROADWAYS = frozenset({"road", "lane", "street", "highway", "roadway", "motorway"})
-_ON_PARTS = frozenset({"on", "over", "under", "above", "behind", "in front of", "around"})
-"""Prepositions that say where something is: "a board on his head" is carried in the hands."""
 _BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
               "from": "away", "at": "towards"}  # fmt: skip

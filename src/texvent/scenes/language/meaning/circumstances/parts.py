@@ -1,17 +1,18 @@
-"""Places on a body at which things are: "on her head", "in its mouth", "on a man's shoulder"."""
+"""Parts of things and bodies: "black wheels"; places at which things are: "on her head"."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from texvent.scenes.description import Relation
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents
+from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents, list_parts_shown
 from texvent.scenes.language.meaning.scope import Scope
-from texvent.scenes.language.words.word import link, mark_used
+from texvent.scenes.language.vocabulary.scene import PART_COLOURS
+from texvent.scenes.language.words.word import Word, link, mark_used
 
 _PLACES: Mapping[tuple[str, str], str] = MappingProxyType(
     {
@@ -23,13 +24,15 @@ _PLACES: Mapping[tuple[str, str], str] = MappingProxyType(
     }
 )  # fmt: skip
 """Preposition and part of a body → kind of the relation of who has the thing there."""
+_ON_PARTS = frozenset({"on", "over", "under", "above", "behind", "in front of", "around"})
+"""Prepositions that say where something is: "a board on his head" is carried in the hands."""
 _HAVING = frozenset({"hold", "carry", "with", "wear"})
 _OF_ANIMALS = ("mouth", "beak", "paw")
 _OF_ANIMAL = frozenset({"on back", "on head"})
 
 
-class BodyPlaceReader:
-    """Says where somebody has what the prompt gives them."""
+class PartReader:
+    """Reads parts of what is there, and where on a body something is."""
 
     def __init__(self, draft: Draft, referents: Referents) -> None:
         self._draft = draft
@@ -88,3 +91,46 @@ class BodyPlaceReader:
         if is_person(noun):
             return True
         return is_living(noun) and (part in _OF_ANIMALS or kind in _OF_ANIMAL)
+
+    def find_whose(self, one: Referent) -> list[int]:
+        """As in "water sprays from its paws": the dog that was spoken of."""
+        determiner = one.group.determiner
+        is_owned = determiner is not None and determiner.text in OWNERS
+        return list(self._draft.subjects) if is_owned and one.kind in ("part", "unknown") else []
+
+    def read_own(self, one: Referent, things: Sequence[int]) -> None:
+        """As in "wiggles its tail": shown where the model has one."""
+        if list_parts_shown(self._draft, things, str(one.value)):
+            self.use(one, things)
+
+    def read_part(self, word: Word, one: Referent, scope: Scope) -> None:
+        """As in "a car with black wheels": shown where the model has them."""
+        determiner = one.group.determiner
+        is_owned = determiner is not None and determiner.text in OWNERS
+        things = self._draft.subjects if is_owned and not scope.subjects else scope.subjects
+        wearers = [
+            one.subject
+            for one in self._draft.relations
+            if one.kind == "wear" and set(one.targets) & set(things)
+        ]
+        if is_owned and wearers and word.text == "on":
+            # As in "a hat on his head".
+            word.is_used = list_parts_shown(self._draft, wearers, str(one.value))
+            self.use(one, wearers if word.is_used else [])
+        elif list_parts_shown(self._draft, things, str(one.value)):
+            is_place = word.text in _ON_PARTS and not word.is_used
+            word.is_used, word.is_lost = not is_place, is_place
+            if not is_place:
+                self.use(one, things)
+
+    def use(self, one: Referent, things: Sequence[int]) -> None:
+        """The part is shown; its colour too, if it is the usual one."""
+        link(one.group.words, things)
+        if one.group.head is not None:
+            one.group.head.is_used = True
+        for colour, words in one.attributes.colours:
+            names = {
+                PART_COLOURS.get((self._draft.objects[i].noun, str(one.value))) for i in things
+            }
+            if names == {colour.name}:
+                mark_used(words)
