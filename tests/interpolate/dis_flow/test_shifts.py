@@ -110,4 +110,16 @@ def test_a_patch_takes_the_shift_that_fits_it_or_leads_it_out_of_the_view(kernel
     assert (found[0, :5, 2] < 1e-3).all()
     assert not found[0, 6:, 2].any()
     patches[..., 2] = 0  # found where they are
-    np.testing.assert_array_equal(kernels.try_vectors(start, stop, patches, vectors), patches)
+    worse = np.tile(np.float32([5, 0]), (1, 9, 1))
+    np.testing.assert_array_equal(kernels.try_vectors(start, stop, patches, worse), patches)
+
+
+@pytest.mark.parametrize("kernels", [flow_reference, flow_cpu], ids=["reference", "cpu"])
+def test_texture_that_repeats_goes_with_the_frame(kernels):
+    stripes = np.tile(128 + 100 * np.sin(np.arange(40) * np.pi / 8), (8, 1)).astype(np.float32)
+    start, stop = (kernels.make_level(np.roll(stripes, x, 1)) for x in (0, 7))
+    patches = np.zeros((1, 11, 3), np.float32)
+    patches[..., 0] = -9  # fits as well as 7
+    vectors = np.tile(np.float32([7, 0]), (1, 11, 1))
+    found = kernels.try_vectors(start, stop, patches, vectors)
+    np.testing.assert_allclose(found[0, 3:9, 0], 7, atol=1e-3)

@@ -25,8 +25,9 @@ before y, px):
 * `double(flow, shape)`: the flow of an image of twice the size, or a row or column less.
 * `search(start, stop, flow, is_coarsest)`: the flow of each patch, from an initial flow:
   [rows, columns, 3], x, y and cost.
-* `try_vectors(start, stop, patches, vectors)`: the patches, each with a vector where it fits
-  better; vectors are [rows, columns, 2], px.
+* `try_vectors(start, stop, patches, vectors)`: the patches, each with its vector if that fits no
+  worse, within `NOISE_COST`: texture that repeats goes with the frame; vectors are [rows, columns,
+  2], px.
 * `join(start, stop, patches)`: the flow of each pixel.
 * `refine(start, stop, flow)`: the refined flow.
 * `change_along(start, stop, flow)`: what brightness changes by along a flow, [H, W], levels.

@@ -200,7 +200,7 @@ def _total(patch: Floats) -> np.float32:
 
 
 def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -> Floats:
-    """The patches, each with the vector that fits it better than its own flow, if it does."""
+    """The patches, each with its vector if that fits no worse than its own flow."""
     found, (height, width) = patches.copy(), size_of(start)
     for i, j in np.ndindex(found.shape[:2]):
         here, own, vector = (i * STEP, j * STEP), found[i, j], vectors[i, j]
@@ -214,7 +214,7 @@ def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -
                 own[:] = (*vector, 0)
             continue
         cost = _cost(_compare(start, stop, here, vector)[0])
-        if cost < own[2]:
+        if cost < own[2] + np.float32(NOISE_COST):
             own[:] = (*vector, cost)
             _gauss_newton(start, stop, found, (i, j), vector)
     return found

@@ -27,7 +27,7 @@ _UNEXPLAINED, _NOISE_COST = np.float32(UNEXPLAINED), np.float32(NOISE_COST)
 
 @jit(error_model="numpy")
 def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -> Floats:
-    """The patches, each with the vector that fits it better than its own flow, if it does."""
+    """The patches, each with its vector if that fits no worse than its own flow."""
     found = patches.copy()
     slopes = np.empty((found.shape[0], found.shape[1], 6), np.float32)
     level, target, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
@@ -44,7 +44,7 @@ def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -
                     own[0], own[1], own[2] = u, v, _0
                 continue
             _, cost, _, _ = compare(level, target, shape, here, (u, v))
-            if cost < own[2]:
+            if cost < own[2] + _NOISE_COST:
                 own[0], own[1], own[2] = u, v, cost
                 sum_slopes(level, target, shape, here, slopes[row, column])
                 gauss_newton(level, target, shape, (u, v), slopes, found, (row, column))
