@@ -230,6 +230,8 @@ class Environment:
     """Material of a room's walls."""
     puffs: Float64Array = field(default_factory=lambda: np.zeros((0, PUFF_COLUMNS)))
     """[k, 19] translucent ellipsoids of smoke, steam, mist or flame; see `PUFF_COLUMNS`."""
+    has_stars: bool = True
+    """Whether a dark sky has stars."""
     wall_colour: Colour = (0.75, 0.69, 0.61)
     """Linear RGB of a room's walls."""
     has_highlights: bool = False

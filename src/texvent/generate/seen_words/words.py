@@ -82,7 +82,10 @@ def _judge_scene_word(
         return _judge_painted(picture, description, claim)
     if claim.aspect in ("effect", "dust"):
         kind = claim.value if claim.aspect == "effect" else "dust"
-        if all(one != kind for one, _ in picture.scene.particles.kinds):
+        staged = {one for one, _ in picture.scene.particles.kinds}
+        if kind == "string lights" and kind not in staged:
+            kind = "blinking lights"
+        if kind not in staged:
             return "nothing raises it"
         if claim.aspect == "dust" and is_room(description.surroundings.place or "grass"):
             return "only at the feet of who moves"
@@ -99,6 +102,8 @@ def _judge_painted(picture: Picture, description: SceneDescription, claim: Claim
         for number in USUAL:
             view = picture.views[number]
             where = view.is_sky if is_sky else view.number == GROUND
+            if said.place == "plain" and not is_sky:
+                where = where | view.is_sky  # a backdrop goes all around
             if where.mean() >= _LEAST_PAINTED:
                 pixels = picture.colours(number)[where]
                 if share_like(pixels, named.rgb) >= 0.3:

@@ -77,8 +77,8 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         return _choose_sea(habitats, is_submerged=is_submerged, is_in_water=is_in_water)
     if said.place in ("lake", "river") and is_submerged:
         return "underwater"
-    if said.place is not None:
-        return said.place
+    if said.place is not None or _is_of_clouds(description):
+        return said.place or "sky"
     if is_submerged:
         return "underwater"
     if is_in_water:
@@ -95,6 +95,11 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         for one in description.objects
     )
     return _choose_usual(members, rests=rests, is_wet=said.weather in ("rain", "snow"))
+
+
+def _is_of_clouds(description: SceneDescription) -> bool:
+    """As in "timelapse of clouds"."""
+    return description.is_timelapse and {one.noun for one in description.objects} == {"cloud"}
 
 
 def _choose_sea(habitats: Set[str], *, is_submerged: bool, is_in_water: bool) -> str:

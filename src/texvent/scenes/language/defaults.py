@@ -15,6 +15,7 @@ from texvent.scenes.description import (
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.default_place import choose_place, report_place
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
+from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
 from texvent.scenes.models.protocol import Noun
 
@@ -265,7 +266,9 @@ _AT_REST = frozenset({"bell"})
 
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
     motion = scene_object.motion
-    if noun.is_working and (motion is None or motion.kind in ("stand", "swing", "spin")):
+    if noun.is_working and (
+        motion is None or motion.kind in ("stand", "swing", "spin") or noun.name in FACING
+    ):
         if noun.name in _AT_REST and (motion is None or motion.kind == "stand"):
             return replace(scene_object, motion=STANDING)
         pace = 1.0 if motion is None else motion.pace

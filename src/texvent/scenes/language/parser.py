@@ -17,6 +17,7 @@ from texvent.scenes.description import SceneDescription, Substitution
 from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
+from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.word_claims import SILENT_PREPOSITIONS, list_claims, says_something
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Role
@@ -78,8 +79,12 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
             "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
             "models that take any text"
         )
+    is_timelapse = any(word.text in TIMELAPSES for word in words)
+    if is_timelapse:
+        notes.append("a time lapse: clouds and the sun go fast, things move as usual")
     description = replace(
         description,
+        is_timelapse=is_timelapse,
         shown=shown,
         substituted=substituted,
         not_understood=unread,

@@ -349,7 +349,8 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
     for number, (x, y, direction) in enumerate(crossings):
         row = (x, y, math.cos(direction), math.sin(direction))
         instant["crossings"][number] = row
-    instant["stars"] = np.clip(1.5 * (1.0 - luma / NIGHT_SKY), 0.0, 1.0)
+    stars = np.clip(1.5 * (1.0 - luma / NIGHT_SKY), 0.0, 1.0)
+    instant["stars"] = stars if environment.has_stars else 0.0
     instant["sun"] = sun / np.linalg.norm(sun)
     instant["sun_radius"] = SUN_RADIUS
     instant["shadows"] = int(environment.shadows and shadows)

@@ -9,6 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import Illumination, SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
+from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
     Colour,
@@ -318,7 +319,11 @@ def build_environment(
         # A backdrop: the same all around, without a horizon to speak of.
         sky_top = horizon = mix(colour, second, 0.5)
         clouds = said.clouds or 0.0
+        if description.objects and all(one.noun in FACING for one in description.objects):
+            ground = replace(ground, ground=Ground.NONE)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
+    if description.is_timelapse:
+        clouds = max(clouds, 0.5)
     if any(effect.kind == "lightning" for effect in description.effects):
         clouds = max(clouds, 0.9)
     if said.weather in ("rain", "snow"):
@@ -346,6 +351,7 @@ def build_environment(
         time_s=0.0,
         room_half_size=room_m,
         ground_surface=Texture.SNOW if is_white else ground.surface,
+        has_stars=place != "plain",
         wall_surface=ground.walls,
         wall_colour=ground.wall_colour,
         road_curvature=road.curvature,

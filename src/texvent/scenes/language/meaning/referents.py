@@ -11,8 +11,10 @@ from texvent.scenes.language.meaning.adjectives import Attributes, read_attribut
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.senses import (
+    choose_pattern,
     choose_sense,
     is_figurative,
+    is_no_pattern,
     is_of_drinks,
     is_other_sense,
     is_pane,
@@ -192,6 +194,10 @@ class Referents:
         is_thing = head.read_as(Role.NOUN) is not None
         place = head.read_as(Role.PLACE)
         if is_thing and place is not None:
+            if head.lemma == "square" and any(w.role is Role.COLOUR for w in group.modifiers):
+                return Role.NOUN
+            if head.lemma == "square":
+                return Role.PLACE
             if place.value == "indoor" and preposition in _OUTSIDE:
                 return Role.NOUN
             is_around = preposition in _AROUND and place.value == "mountain"
@@ -285,6 +291,9 @@ class Referents:
         head = group.head_word
         meaning = head.read_as(Role.NOUN) or head.meaning
         noun = choose_sense(head, str(meaning.value), self._draft, self.verb)
+        noun = choose_pattern(group, noun, self.verb)
+        if is_no_pattern(group, noun, preposition, self._draft):
+            return Referent("unknown", group, attributes=attributes)
         is_drinks = is_of_drinks(group, preposition) and "glass" in self._draft.nouns
         if is_drinks:
             noun = "glass"

@@ -161,6 +161,41 @@ def choose_sense(head: Word, noun: str, draft: Draft, verb: str = "") -> str:
     return noun
 
 
+_TURNED = _words("spin rotate turn revolve whirl slow stop")
+_TURNING = _words("spinning rotating turning revolving sector sectors segment segments stripes")
+_GROWING = _words("expanding growing widening looming approaching")
+_PATTERNS = {"ring": "expanding ring", "disc": "looming disc", "square": "looming disc"}
+
+
+def choose_pattern(group: NounGroup, noun: str, verb: str) -> str:
+    """As in "a rotating disc", "an expanding ring": the pattern that moves so."""
+    said = {word.text for word in group.modifiers}
+    inner = {one.head.text for phrase in group.phrases for one in phrase.groups if one.head}
+    if noun in _PATTERNS and said & _GROWING:
+        mark_used(word for word in group.modifiers if word.text in _GROWING)
+        is_ring = noun == "ring" or group.head_word.lemma == "circle"
+        return "expanding ring" if is_ring else _PATTERNS[noun]
+    if noun == "disc" and (said | inner) & _TURNING | {verb} & _TURNED:
+        mark_used(word for word in group.modifiers if word.text in _TURNING)
+        return "spinning disc"
+    return noun
+
+
+def is_no_pattern(group: NounGroup, noun: str, preposition: str | None, draft: Draft) -> bool:
+    """As in "a shirt with vertical stripes", "a cat opens its eyes": part of something else."""
+    if noun == "grating":
+        if preposition == "with" and any(one.noun == "spinning disc" for one in draft.objects):
+            mark_used(group.words)
+        return preposition in ("with", "in", "of")
+    if noun != "eye":
+        return False
+    others = any(draft.nouns[item.noun].motion != "stand" for item in draft.objects)
+    is_own = group.owner is not None or (
+        group.determiner is not None and group.determiner.text in ("its", "his", "her", "their")
+    )
+    return others or is_own
+
+
 _HERDS = {"herd": 7, "flock": 9, "pack": 5, "caravan": 5, "swarm": 14, "school": 10, "shoal": 10,
           "pair": 2, "team": 4, "convoy": 5, "fleet": 6, "trio": 3}  # fmt: skip
 """Word for a group after the name of its members → how many they are."""

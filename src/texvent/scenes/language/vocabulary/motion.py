@@ -247,7 +247,8 @@ UNITS: dict[tuple[str, float], tuple[str, ...]] = {
 """(Quantity, factor to m/s, Hz or s) → units."""
 
 WORK_RATES_HZ: dict[str, float] = {
-    "spinning disc": 1.5, "spinning top": 3.0, "gyroscope": 4.0, "fidget spinner": 3.0,
+    "spinning disc": 0.7, "grating": 0.6, "spinning top": 3.0, "gyroscope": 4.0,
+    "fidget spinner": 3.0,
     "propeller": 2.5, "pinwheel": 1.2, "hard disk": 2.0, "disco ball": 0.25, "globe": 0.25,
     "roulette wheel": 0.6, "record player": 0.55, "merry-go-round": 0.12, "ferris wheel": 0.05,
     "washing machine": 0.8,

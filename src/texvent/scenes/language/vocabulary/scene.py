@@ -211,6 +211,10 @@ DEFAULT_BLINK_HZ = 2.0
 DEFAULT_FLICKER_HZ = 10.0
 """Flicker whose frequency is not said, Hz."""
 
+TIMELAPSES = ("timelapse", "time lapse", "timelapse video", "time lapse video", "hyperlapse",
+              "time lapse shot", "timelapse footage")  # fmt: skip
+"""Nouns of clips whose sky goes much faster than in life."""
+
 SHADOW_WORDS = ("shadow", "shadows", "casting shadows", "long shadows", "casts a shadow")
 
 GLOW_NOUNS = ("light", "lights", "lighting", "glow")
@@ -298,6 +302,7 @@ PARTS_SHOWN: dict[str, tuple[str, ...]] = {
     "sail": ("sail", "sails", "mast", "hull"),
     "person": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs", "neck"),
     "excavator": ("arm", "boom", "bucket"),
+    "spinning disc": ("sector", "sectors", "segment", "segments", "stripe", "stripes"),
     "tree": ("trunk", "branch", "branches", "leaves"),
     "house": ("door", "window", "windows", "roof", "wall", "walls"),
 }  # fmt: skip
@@ -306,6 +311,10 @@ case."""
 PART_WORDS = tuple(sorted({part for parts in PARTS_SHOWN.values() for part in parts}))
 PART_COLOURS: dict[tuple[str, str], str] = {
     ("suv", "roof rack"): "black",
+    **{
+        ("spinning disc", part): "black"
+        for part in ("sector", "sectors", "segment", "segments", "stripe", "stripes")
+    },
 }
 """(noun, part) that a model shows in any case → the colour it has."""
 SPELT = ("letter", "letters", "digit", "number", "word", "words")

@@ -312,6 +312,7 @@ _WORDS: tuple[tuple[Role, Pos, Iterable[str]], ...] = (
     (Role.CAMERA, Pos.NOUN, vocabulary_scene.CAMERA_WORDS),
     (Role.FLICKER, Pos.NOUN, vocabulary_scene.STROBES),
     (Role.FLICKER, Pos.NOUN, tuple(f"{one}s" for one in vocabulary_scene.STROBES[:2])),
+    (Role.FUNCTION, Pos.NOUN, vocabulary_scene.TIMELAPSES),
     *((Role.FUNCTION, pos, words) for pos, words in vocabulary_function.FUNCTION_WORDS.items()),
 )
 """Role, part of speech, and phrases that mean themselves."""

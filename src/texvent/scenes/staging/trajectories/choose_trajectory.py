@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
+from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -190,6 +191,8 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
         return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
     if noun.name in _SIDEWAYS:
         return 0.3 * tilt
+    if noun.name in FACING:
+        return -0.5 * math.pi
     if model.length < FLAT * model.width or noun.name in PERSON_NOUNS:
         return -0.5 * math.pi + 0.5 * tilt
     if noun.habitat == "fixed":
@@ -229,8 +232,10 @@ def choose_trajectory(
         return Circle(home, radius, rate, phase, _activity(kind), lean)
     if direction in ("to and fro", "up and down"):
         reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
+        is_flat = model.length < 0.3 * min(model.width, model.height)
+        yaw = -0.5 * math.pi if is_flat and direction == "up and down" else plan.yaw
         return Shuttle(
-            home, plan.yaw, reach, max(plan.duration_s, 1.0), _activity(kind),
+            home, yaw, reach, max(plan.duration_s, 1.0), _activity(kind),
             direction == "up and down",
         )  # fmt: skip
     if kind in PATH_KINDS:
@@ -264,7 +269,8 @@ def _activity(kind: str) -> str:
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
     kind = plan.motion.kind
     is_air = kind == "fly"
-    is_flat = is_air and model.length < 0.3 * min(model.width, model.height)
+    is_flat = model.length < 0.3 * min(model.width, model.height)
+    is_flat = is_flat and (is_air or kind == "slide")
     path = Straight(
         home,
         plan.yaw,
@@ -275,7 +281,7 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
         bob_m=0.04 * model.height if is_air or kind in ("sail", "paddle") else 0.0,
         weave_rad=0.08 if kind in _WEAVING else 0.0,
         phase=phase,
-        facing_rad=-0.5 * math.pi + 0.35 if is_flat else None,
+        facing_rad=-0.5 * math.pi + 0.35 * is_air if is_flat else None,
     )
     if kind == "roll":
         return Rolling(path, 0.5 * model.height, 0.5 * model.height)

@@ -96,6 +96,9 @@ def switch_lamps(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
 
 def blink(draft: Draft, word: Word, subjects: list[int]) -> list[int]:
     """As in "a lamp flickers": the lamps among the subjects."""
+    if any(draft.objects[index].noun == "eye" for index in subjects) and word.lemma == "blink":
+        word.is_used = True
+        return []
     lamps = [index for index in subjects if draft.objects[index].noun in LAMPS]
     for index in lamps:
         draft.objects[index].blink_hz = DEFAULT_BLINK_HZ

@@ -132,5 +132,5 @@ class PartReader:
             names = {
                 PART_COLOURS.get((self._draft.objects[i].noun, str(one.value))) for i in things
             }
-            if names == {colour.name}:
+            if names == {colour.name} or (names == {"black"} and colour.name == "white"):
                 mark_used(words)

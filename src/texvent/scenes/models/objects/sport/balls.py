@@ -177,16 +177,6 @@ NOUNS = placed("indoor", (
                     (0.03, 0.03, 0.009)),
         post(INK, (0.03 * math.cos(2.094 * i), 0.03 * math.sin(2.094 * i), 0.006),
             (0.016, 0.016, 0.010)))], spinning("z", 3.0)),), same=("spinner",)),
-    thing("spinning disc", (BLACKISH,),
-        lambda p: [post(SILVER, (0.0, 0.0, 0.06), (0.05, 0.05, 0.12)),
-            box(INK, (-0.06, 0.0, 0.02), (0.30, 0.30, 0.04))], moving=(Moving(lambda p: [
-        rod(PALE, (0.0, 0.0, 0.24), (0.03, 0.0, 0.24), 0.22),
-        *(box(p, (0.031, 0.11 * math.cos(1.571 * i), 0.24 + 0.11 * math.sin(1.571 * i)),
-            (0.006, 0.085, 0.085)) for i in range(4)),
-            disc(RED_PAINT, (0.0, 0.24), 0.03, 0.04, 0.02)],
-            spinning("x", 1.5, (0.0, 0.0, 0.24))),),
-        same=("spinning disk", "rotating disc", "rotating disk", "disk", "disc",
-            "spinning wheel disc")),
     thing("yo-yo", _BRIGHT, lambda p: [rod(PALE, (0.0, 0.02, 0.03), (0.0, 0.02, 0.60), 0.002)],
         ("yoyo",), moving=(Moving(lambda p: [
         *(disc(p, (0.0, 0.03), 0.028, 0.013, x) for x in (0.009, -0.009)),
