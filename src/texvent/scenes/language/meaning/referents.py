@@ -196,7 +196,7 @@ class Referents:
         if is_thing and place is not None:
             if head.lemma == "square" and any(w.role is Role.COLOUR for w in group.modifiers):
                 return Role.NOUN
-            if head.lemma == "square":
+            if head.lemma == "square" and self.doers:
                 return Role.PLACE
             if place.value == "indoor" and preposition in _OUTSIDE:
                 return Role.NOUN

@@ -25,6 +25,8 @@ _BARS, _BAR_HZ = 5, 0.6
 """Bars of a grating, and how many pass a point each second."""
 _SECTORS, _TURN_HZ = 6, 0.7
 _GROW_HZ = 0.5
+_FOOT = ((0.0, 0.0, 0.001), (0.002, 0.002, 0.002))
+"""Place and size of a speck that makes what hovers stand on the ground."""
 _BLINK_S, _CLOSED_S = 0.8, 0.36
 """Time from one blink to the next, and how long one takes."""
 
@@ -67,14 +69,15 @@ def _grating(dark: Colour, pose: Pose) -> list[ModelPart]:
 
 
 def _build_grating(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Bars that drift over a white plate, 1.8 m wide; `colour` is that of the bars."""
     del seed
     plate = box(_flat(_WHITE), (0.0, 0.0, 0.6), (_THIN, 1.8, 1.2))
-    dark = colour if colour is not None and max(colour) < 0.7 else _BLACK
+    dark = colour if colour is not None and min(colour) < 0.7 else _BLACK
     return ArticulatedModel([plate], scale=scale, articulate=partial(_grating, dark))
 
 
-def _sectors(pose: Pose) -> list[ModelPart]:
-    """White sectors that turn on a black disc."""
+def _sectors(colour: Colour, pose: Pose) -> list[ModelPart]:
+    """Bright sectors that turn on a black disc."""
     angle = 2.0 * math.pi * _TURN_HZ * pose.time_s
     half = math.pi / (2.0 * _SECTORS)
     parts = []
@@ -84,15 +87,17 @@ def _sectors(pose: Pose) -> list[ModelPart]:
         out = 0.49 * math.cos(half)
         wide = 2.0 * 0.49 * math.sin(half)
         parts.append(
-            fin(_flat(_WHITE), (0.006, out * y, 0.5 + out * z), (0.006, 0.0, 0.5),
+            fin(_flat(colour), (0.006, out * y, 0.5 + out * z), (0.006, 0.0, 0.5),
                 chord=(0.0, -wide * z, wide * y), thickness=(_THIN, 0.0, 0.0))
         )  # fmt: skip
     return parts
 
 
 def _build_sectors(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    del colour, seed
-    return ArticulatedModel(_disc(_flat(_BLACK)), scale=scale, articulate=_sectors)
+    """A disc of black and bright sectors, 1 m, that turns; `colour` is that of the bright ones."""
+    del seed
+    turning = partial(_sectors, _WHITE if colour is None else colour)
+    return ArticulatedModel(_disc(_flat(_BLACK)), scale=scale, articulate=turning)
 
 
 def _grown(pose: Pose, least: float) -> float:
@@ -111,8 +116,10 @@ def _ring_parts(skin: Material, pose: Pose) -> list[ModelPart]:
 
 
 def _build_ring(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """A ring that grows to 1.2 m, again and again; `colour` is its own."""
     skin = _flat(paint(colour, seed, "paint", (_BLACK,)))
-    return ArticulatedModel([], scale=scale, articulate=partial(_ring_parts, skin))
+    foot = box(skin, *_FOOT)
+    return ArticulatedModel([foot], scale=scale, articulate=partial(_ring_parts, skin))
 
 
 def _looming(skin: Material, pose: Pose) -> list[ModelPart]:
@@ -122,8 +129,10 @@ def _looming(skin: Material, pose: Pose) -> list[ModelPart]:
 
 
 def _build_looming(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """A disc that grows to 1.2 m, again and again; `colour` is its own."""
     skin = _flat(paint(colour, seed, "paint", (_BLACK,)))
-    return ArticulatedModel([], scale=scale, articulate=partial(_looming, skin))
+    foot = box(skin, *_FOOT)
+    return ArticulatedModel([foot], scale=scale, articulate=partial(_looming, skin))
 
 
 _SKIN: Colour = (0.62, 0.40, 0.30)
@@ -164,6 +173,7 @@ def _eye(iris: Colour) -> Sequence[ModelPart]:
 
 
 def _build_eye(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """An eye that blinks, with skin and brow around it, 1.6 m wide; `colour` is its iris."""
     iris = paint(colour, seed, "paint", _IRISES)
     return ArticulatedModel(_eye(iris), scale=scale, articulate=_lids)
 
@@ -182,7 +192,7 @@ NOUNS = (
         thing("square", (_BLACK,), _square),
         thing("disc", (_BLACK,), _disc, ("disk", "circle", "dot", "round disc", "circular disc")),
         thing("triangle", (_BLACK,), _triangle),
-        thing("vertical bar", (_BLACK,), _stripe, ("vertical line", "vertical stripe", "edge")),
+        thing("vertical bar", (_BLACK,), _stripe, ("vertical line",)),
     )),
     _pattern("grating", _build_grating, (
         "moving grating", "sine grating", "drifting grating", "stripe pattern", "striped pattern",
@@ -195,7 +205,7 @@ NOUNS = (
         "striped disc", "optical chopper")),
     _pattern("expanding ring", _build_ring, ("expanding circle", "growing ring")),
     _pattern("looming disc", _build_looming, ("expanding disc", "growing disc", "growing circle")),
-    _pattern("eye", _build_eye, ("human eye", "eyeball")),
+    _pattern("eye", _build_eye, ("human eye",)),
 )  # fmt: skip
 """Nouns of shapes and patterns."""
 FACING = frozenset(noun.name for noun in NOUNS)
