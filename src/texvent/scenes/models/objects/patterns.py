@@ -161,7 +161,7 @@ def _eye(iris: Colour) -> Sequence[ModelPart]:
     """The ball of an eye, and the skin and brow around it."""
     skin = Material(_SKIN)
     return [
-        box(skin, (-0.06, 0.0, 0.45), (0.12, 1.6, 1.1)),
+        box(skin, (-0.06, 0.0, 0.54), (0.12, 1.6, 1.1)),
         ball(_flat((0.86, 0.84, 0.82)), (0.03, 0.0, 0.38), (0.40, 0.74, 0.44)),
         ball(_flat(iris), (0.19, 0.0, 0.38), (0.10, 0.28, 0.28)),
         ball(_flat(_BLACK), (0.225, 0.0, 0.38), (0.05, 0.13, 0.13)),
@@ -197,8 +197,8 @@ NOUNS = (
     _pattern("grating", _build_grating, (
         "moving grating", "sine grating", "drifting grating", "stripe pattern", "striped pattern",
         "bar pattern", "black and white stripes", "vertical stripes", "black and white bars",
-        "vertical bars", "moving bars", "moving stripes"), (
-        "black and white stripes", "vertical stripes", "black and white bars", "vertical bars",
+        "moving bars", "moving stripes"), (
+        "black and white stripes", "vertical stripes", "black and white bars",
         "moving bars", "moving stripes")),
     _pattern("spinning disc", _build_sectors, (
         "spinning disk", "rotating disc", "rotating disk", "spinning wheel disc", "sector disc",
