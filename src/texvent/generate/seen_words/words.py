@@ -81,16 +81,23 @@ def _judge_scene_word(
     if claim.aspect == "colour":
         return _judge_painted(picture, description, claim)
     if claim.aspect in ("effect", "dust"):
-        kind = claim.value if claim.aspect == "effect" else "dust"
-        staged = {one for one, _ in picture.scene.particles.kinds}
-        if kind == "string lights" and kind not in staged:
-            kind = "blinking lights"
-        if kind not in staged:
-            return "nothing raises it"
-        if claim.aspect == "dust" and is_room(description.surroundings.place or "grass"):
-            return "only at the feet of who moves"
-        return effects.get(kind)
+        return _judge_effect(picture, description, claim, effects)
     return None
+
+
+def _judge_effect(
+    picture: Picture, description: SceneDescription, claim: Claim, effects: dict[str, str]
+) -> str | None:
+    """An effect, or dust behind what drives."""
+    staged = {one for one, _ in picture.scene.particles.kinds}
+    kind = str(claim.value) if claim.aspect == "effect" else "dust"
+    if kind == "string lights" and kind not in staged:
+        kind = "blinking lights"
+    if kind not in staged:
+        return "nothing raises it"
+    if claim.aspect == "dust" and is_room(description.surroundings.place or "grass"):
+        return "only at the feet of who moves"
+    return effects.get(kind)
 
 
 def _judge_painted(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
