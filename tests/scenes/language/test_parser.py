@@ -27,7 +27,7 @@ THINGS: list[tuple[str, list[str]]] = [
     ("two dogs run right", ["2 dog run right"]),
     ("3 dogs and a cat walk to the left", ["3 dog walk left", "1 cat walk left"]),
     ("a couple of birds fly away", ["2 bird fly away"]),
-    ("several cows graze in a field", ["5 cow stand"]),
+    ("several cows graze in a field", ["5 cow graze"]),
     ("a flock of birds", ["9 bird fly"]),
     ("many balloons rise into the sky", ["8 balloon rise"]),
     ("ostriches crossing the grassland", ["3 ostrich walk across"]),

@@ -114,6 +114,8 @@ class Noun:
     """Irregular plurals, such as ("people",)."""
     place: str = ""
     """Place where it usually is, such as "indoor"; empty = no usual place of its own."""
+    acts: frozenset[str] = frozenset()
+    """What an animal's model shows besides moving: names of `animals.acts.ANIMAL_ACTS`."""
     is_working: bool = False
     """Whether it stays in place and moves by itself, as a metronome does."""
 

@@ -186,7 +186,7 @@ class Actor:
     def _box(self, time_s: float) -> tuple[Float64Array, Float64Array]:
         """Least and greatest body coordinates: of a body with limbs, at that instant."""
         pose = self.pose(time_s)
-        if has_places(self.model):
+        if has_places(self.model) or pose.activity in self.noun.acts:
             parts = [*self.model.parts(pose)]
             for prop in self.props:
                 parts += moved(prop.draw(pose.time_s), locate(self.model, prop.anchor, pose))

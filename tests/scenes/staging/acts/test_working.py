@@ -77,3 +77,37 @@ def test_workers_share_the_room_along_a_thing(prompt):
 def test_a_crew_that_finds_no_room_is_reported():
     scene = compose(parse_prompt("nine men paint a door"))
     assert "men working on the door" in scene.not_shown
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "a woman slices a cucumber", "a man tightens a pipe with a wrench",
+        "a boy knocks on a door", "a woman irons a shirt",
+        "a man stirs soup in a pot", "a man pours coffee into a cup",
+        "a potter shapes a vase", "a worker welds a pipe", "a man lifts a box",
+    ],
+)  # fmt: skip
+def test_hands_or_tools_touch_what_the_verb_acts_on(prompt):
+    assert not any("working on" in text for text in compose(parse_prompt(prompt)).not_shown)
+
+
+def test_a_small_thing_is_put_on_a_table_that_comes_with_the_worker():
+    worker, cucumber = compose(parse_prompt("a woman slices a cucumber")).actors
+    assert cucumber.trajectory.at(0.0).position[2] > 0.6
+    assert any(prop.anchor == "ground" for prop in worker.props)
+
+
+@pytest.mark.parametrize(("subject", "thing"), [("rabbit", "carrot"), ("dog", "bowl")])
+def test_an_animal_eats_with_its_mouth_at_the_thing(subject, thing):
+    scene = compose(parse_prompt(f"a {subject} eats from a {thing}"))
+    animal, food = scene.actors
+    assert any(touches(animal, food, float(t)) for t in np.linspace(0.0, 1.0, 9))
+    assert scene.not_shown == ()
+
+
+def test_who_climbs_a_ladder_holds_it_and_goes_up():
+    scene = compose(parse_prompt("a man climbs a ladder"))
+    man, _ = scene.actors
+    assert man.trajectory.at(1.5).position[2] > man.trajectory.at(0.0).position[2] + 0.4
+    assert scene.not_shown == ()

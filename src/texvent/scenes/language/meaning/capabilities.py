@@ -19,8 +19,11 @@ ANYTHING = frozenset(
 )  # fmt: skip
 """What every object can do: a path through the air or over the ground."""
 _TRAVELLER = frozenset({"turn", "reverse", "zigzag"})
-_ANIMAL = frozenset({"walk", "run", "sit", "swim", "dance", "eat", "crawl", "climb", "crouch"})
+_ANIMAL = frozenset(
+    {"walk", "run", "sit", "swim", "dance", "crawl", "climb", "crouch", "roll over"}
+)
 _VEHICLE = frozenset({"drive"})
+_LEANING = frozenset({"bicycle", "motorcycle", "scooter"})
 _VESSEL = frozenset({"sail"})
 
 _BY_MOTION: Mapping[str, frozenset[str]] = MappingProxyType(
@@ -55,7 +58,12 @@ def can_do(noun: Noun, kind: str) -> bool:
         noun: the object.
         kind: an `ObjectMotion.kind`.
     """
-    if kind in ANYTHING or kind == noun.motion or (kind == "work" and noun.is_working):
+    if (
+        kind in noun.acts
+        or kind in ANYTHING
+        or kind == noun.motion
+        or (kind == "work" and noun.is_working)
+    ):
         return True
     if is_person(noun):
         return kind in ACTIVITIES or kind in _TRAVELLER or kind in _ANIMAL

@@ -8,7 +8,7 @@ from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
 from texvent.scenes.language.meaning.acts.doers import add_doings, mount_riders
-from texvent.scenes.language.meaning.acts.fitting import is_plain_past, list_goals
+from texvent.scenes.language.meaning.acts.fitting import DRINKS, is_plain_past, list_goals
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
@@ -114,6 +114,8 @@ class ClauseMeaning:
             prepositions = ("into", "with", "against")
         elif clause.verb is not None and clause.verb.lemma in HANDWORK:
             prepositions = list_goals(clause)
+        elif clause.verb is not None and clause.verb.lemma in DRINKS and not clause.objects:
+            prepositions = ("from", "out of")
         for phrase in list(clause.phrases):
             if phrase.preposition.text in prepositions:
                 phrase.preposition.is_used = True

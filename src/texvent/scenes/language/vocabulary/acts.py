@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
 
 SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
@@ -32,9 +33,9 @@ SIMILAR_GAITS: dict[str, tuple[str, ...]] = {
 """Motion → verbs it stands for, for people and for others."""
 
 SIMILAR_MOTIONS: dict[str, tuple[str, ...]] = {
-    "walk": ("sniff", "forage"),
+    **ANIMAL_ACTS,
     "run": ("play",),
-    "jump": ("bob", "breach", "rear"),
+    "jump": ("bob", "breach"),
     "sit": ("crouch", "squat", "curl up", "watch", "stare", "lean", "relax", "lounge"),
     "sway": (
         "wiggle", "quiver", "jiggle", "shudder", "rattle", "bob", "tug", "wriggle", "squirm",

@@ -29,7 +29,6 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
         1.0: ("move", "head", "proceed", "advance", "journey", "go", "travel", "shuffle"),
         1.7: ("race", "speed"), 1.6: ("rush",), 1.8: ("zip",), 1.5: ("hurry",),
         0.4: ("creep", "drift"),
-        1.2: ("weave",),
     },
     "drive": {0.8: ("cruise",), 0.6: ("plough", "plow"), 1.0: ("pedal", "cycle")},
     "run": {
@@ -57,7 +56,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "jump": {1.0: ("jump",), 0.7: ("hop",), 0.8: ("skip",), 1.2: ("leap",)},
     "work": {1.0: ("flap", "work", "operate", "beat", "pulse")},
     "stand": {
-        1.0: ("park", "wait", "rest", "stay", "pause", "pose", "graze", "stand", "stand up", "hang",
+        1.0: ("park", "wait", "rest", "stay", "pause", "pose", "stand", "stand up", "hang",
               "remain", "perch", "idle", "freeze"),
     },
     "sit": {1.0: ("sit", "sit down", "sleep")},
@@ -98,7 +97,9 @@ VERBS: tuple[Verb, ...] = (
     Verb("veer", "turn", 1.2),
     Verb("turn around", "turn", direction="around"),
     Verb("make a u turn", "turn", direction="around"),
-    Verb("zigzag", "zigzag"),
+    *(Verb(base, "zigzag") for base in ("zigzag", "weave", "slalom", "snake")),
+    *(Verb(f"{base} a wheelie", "wheelie") for base in ("do", "pop", "pull", "perform")),
+    Verb("roll over", "roll over"),
     Verb("taxi", "roll"),
     Verb("drive", "drive", act="ride"),
     Verb("ride", "drive", act="ride"),

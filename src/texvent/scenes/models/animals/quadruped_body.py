@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from texvent.scenes.models.animals.acts import STANDING, Stance, act_stance
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
 from texvent.scenes.models.materials import (
@@ -22,12 +23,15 @@ from texvent.scenes.models.shapes import (
     Point,
     ball,
     blade,
+    compose,
     limb,
     moved,
     part_way,
     rod,
     shift,
     spike,
+    turn_x,
+    turn_y,
     turn_z,
 )
 from texvent.scenes.models.variation import fraction
@@ -106,12 +110,20 @@ def draw_animal(
         sit = _sit_drop(build) if pose.activity == "sit" else 0.0
         beat = amount * math.sin(turn)
         wag = math.sin(2.0 * math.pi * (0.9 * pose.time_s + start))
-        parts = [*_torso(build, coat, sit), *_neck_and_head(build, coat, beat, wag)]
-        parts += [*_tail(build, coat, sit, wag), *extras]
-        parts = moved(parts, shift(z=rise))
+        stance = act_stance(pose.activity, pose.time_s)
+        tail = wag if stance is STANDING else stance.wag
+        parts = [
+            *_torso(build, coat, sit),
+            *_neck_and_head(build, coat, beat, wag, stance.head_down),
+        ]
+        lift = 0.0 if stance is STANDING else 0.4 * stance.wag
+        parts += [*_tail(build, coat, sit, tail, lift), *extras]
+        body = _tip(build, stance)
+        parts = moved(moved(parts, body), shift(z=rise))
         for index in range(4):
-            foot = foot_path(gait, distance, _offset(index, runs), amount)
-            parts += _leg(build, coat, index, (foot, rise, sit))
+            x, z = foot_path(gait, distance, _offset(index, runs), amount)
+            z += (stance.paws[index] if index < 2 else 0.0) * 0.5 * build.shoulder
+            parts += _leg(build, coat, index, ((x, z), rise, sit), body)
         return parts
 
     def anchor(name: str, pose: Pose) -> Affine | None:
@@ -125,6 +137,29 @@ def draw_animal(
     return ArticulatedModel([], scale=scale, articulate=articulate, anchor=anchor)
 
 
+def _tip(build: Build, stance: Stance) -> Affine:
+    """[3, 4] turn of the trunk: up about the hind feet, down about the hips for a low head."""
+    length, _, height = build.body
+    hips = (-0.30 * length, 0.0, build.shoulder - 0.5 * height)
+    pitch = stance.pitch - _bow(build) * max(stance.head_down, 0.0)
+    return compose(turn_y(-pitch, hips), turn_x(stance.roll, hips))
+
+
+def _bow(build: Build) -> float:
+    """How far the trunk bows for the mouth to reach the ground, rad."""
+    left = _lowest_nose(build) - 0.04 * build.shoulder
+    return min(max(left / max(0.66 * build.body[0], 1e-6), 0.0), 0.34)
+
+
+def _lowest_nose(build: Build) -> float:
+    """Height of the nose with neck and head as low as they go, m."""
+    height = build.body[2]
+    long = (build.neck + 0.2 * height) * math.sin(_LOWEST)
+    return build.shoulder - 0.36 * height + long - 0.9 * (build.head[1] + 0.35 * build.head[0])
+
+
+_LOWEST = -1.15
+"""Angle of a neck that is let down, rad."""
 _NOSE = 4
 """Which of the parts of neck and head the nose is."""
 
@@ -185,11 +220,15 @@ def _rounded(material: Material, middle: Point, size: Point) -> ModelPart:
     return blade(material, start, end, chord=across, thickness=upright)
 
 
-def _neck_and_head(build: Build, coat: Coat, beat: float, wag: float) -> list[ModelPart]:
+def _neck_and_head(
+    build: Build, coat: Coat, beat: float, wag: float, down: float = 0.0
+) -> list[ModelPart]:
+    """`down` 1 lets neck and head down to the ground, -1 throws them up."""
     length, width, height = build.body
     skull, muzzle = build.head
     base: Point = (0.36 * length, 0.0, build.shoulder - 0.36 * height)
     rise = build.rise + 0.05 * beat
+    rise += down * (build.rise - _LOWEST) * -1.0 if down > 0.0 else -0.45 * down
     top: Point = (
         base[0] + (build.neck + 0.2 * height) * math.cos(rise),
         0.0,
@@ -220,7 +259,10 @@ def _neck_and_head(build: Build, coat: Coat, beat: float, wag: float) -> list[Mo
     for side in (1.0, -1.0):
         parts.append(_ear(build, coat, (top, side), 0.12 * wag))
         parts += _horn(build, coat, top, side)
-    return [*parts, *_mane(build, coat, base, top), *_trunk(build, coat, nose, wag)]
+    parts += _trunk(build, coat, nose, wag)
+    nod = 0.75 * down if down > 0.0 else 0.6 * down
+    head = moved(parts[2:], turn_y(nod, top)) if down else parts[2:]
+    return [*parts[:2], *head, *_mane(build, coat, base, top)]
 
 
 def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> ModelPart:
@@ -306,9 +348,10 @@ def _trunk(build: Build, coat: Coat, nose: Point, wag: float) -> list[ModelPart]
     return parts
 
 
-def _tail(build: Build, coat: Coat, sit: float, wag: float) -> list[ModelPart]:
+def _tail(build: Build, coat: Coat, sit: float, wag: float, lift: float) -> list[ModelPart]:
+    """`lift` turns it up, rad, so that wagging is seen from the side."""
     length, _, height = build.body
-    long, rise = build.tail
+    long, rise = build.tail[0], build.tail[1] + lift
     root: Point = (-0.46 * length, 0.0, build.shoulder - 0.28 * height - sit)
     side = 0.25 * wag
     middle = (
@@ -331,7 +374,11 @@ def _tail(build: Build, coat: Coat, sit: float, wag: float) -> list[ModelPart]:
 
 
 def _leg(
-    build: Build, coat: Coat, index: int, step: tuple[tuple[float, float], float, float]
+    build: Build,
+    coat: Coat,
+    index: int,
+    step: tuple[tuple[float, float], float, float],
+    body: Affine,
 ) -> list[ModelPart]:
     """Upper leg, lower leg and hoof or paw; hind legs bend backwards at the hock."""
     (x, lift), rise, sit = step
@@ -342,6 +389,12 @@ def _leg(
     y = side * (0.5 * width - 0.9 * thick)
     low = 0.0 if is_fore else sit
     top: Point = (root_x, y, build.shoulder - 0.52 * height + rise - low)
+    x_top, y_top, z_top = body @ np.array([*top, 1.0])
+    lifted = z_top - top[2] if is_fore else 0.0
+    if lifted > 0.02:
+        # The fore feet leave the ground with the body.
+        x, lift = x + float(x_top) - top[0] + 0.25 * lifted, lift + 0.9 * lifted
+    top = (float(x_top), float(y_top), float(z_top))
     ahead = 0.28 * length if sit > 0.0 and not is_fore else 0.0
     ankle: Point = (root_x + x + ahead, y, 0.8 * thick + lift)
     half = (0.50 + 0.02 / build.thick) * (build.shoulder - 0.52 * height - 0.8 * thick)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.animals.quadruped_body import Build, Coat, draw_animal
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import (
@@ -330,7 +331,10 @@ def animal_noun(
     plurals: tuple[str, ...] = (),
 ) -> Noun:
     """A four-legged animal that walks at that usual speed, m/s."""
-    return Noun(name, partial(build_animal, animal), "ground", speed, "walk", synonyms, plurals)
+    return Noun(
+        name, partial(build_animal, animal), "ground", speed, "walk", synonyms, plurals,
+        acts=frozenset(ANIMAL_ACTS),
+    )  # fmt: skip
 
 
 NOUNS = (

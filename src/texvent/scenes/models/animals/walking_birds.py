@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import partial
 
+from texvent.scenes.models.animals.acts import act_stance
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
 from texvent.scenes.models.materials import (
@@ -17,7 +18,7 @@ from texvent.scenes.models.materials import (
     leather,
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import Point, ball, blade, limb, moved, shift, spike
+from texvent.scenes.models.shapes import Point, ball, blade, limb, moved, shift, spike, turn_y
 from texvent.scenes.models.variation import fraction
 from texvent.scenes.scene import Colour
 
@@ -87,13 +88,22 @@ def build_strider(
         distance = pose.distance_m + start * kind.gait.stride
         turn = 2.0 * math.pi * distance / kind.gait.stride
         bob = 0.03 * kind.hip * amount * math.cos(2.0 * turn)
-        parts = moved(_trunk(kind, plumage, amount * math.sin(2.0 * turn)), shift(z=bob))
+        parts = _trunk(kind, plumage, amount * math.sin(2.0 * turn))
+        down = act_stance(pose.activity, pose.time_s).head_down
+        if down:
+            # The whole bird bows about its hips.
+            parts = moved(parts, turn_y(_BOW * down, (0.0, 0.0, kind.hip)))
+        parts = moved(parts, shift(z=bob))
         for side, offset in ((1.0, 0.0), (-1.0, 0.5)):
             foot = foot_path(kind.gait, distance, offset, amount)
             parts += _leg(kind, side, foot, bob)
         return parts
 
     return ArticulatedModel([], scale=scale, articulate=articulate)
+
+
+_BOW = 1.0
+"""Turn of a bird whose beak is at the ground, rad."""
 
 
 def _trunk(kind: Strider, plumage: Material, nod: float) -> list[ModelPart]:
@@ -204,11 +214,12 @@ def build_penguin(*, colour: Colour | None, scale: float, seed: int) -> Articula
     return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
+_ACTS = frozenset({"graze", "eat", "drink", "peck", "nod", "bark", "howl"})
 NOUNS = (
-    Noun("ostrich", partial(build_strider, OSTRICH), "ground", 2.5, "walk"),
-    Noun("flamingo", partial(build_strider, FLAMINGO), "ground", 0.6, "walk"),
-    Noun("chicken", partial(build_strider, CHICKEN), "ground", 0.4, "walk", ("hen",)),
-    Noun("rooster", partial(build_strider, ROOSTER), "ground", 0.4, "walk"),
-    Noun("turkey", partial(build_strider, TURKEY), "ground", 0.4, "walk"),
+    Noun("ostrich", partial(build_strider, OSTRICH), "ground", 2.5, "walk", acts=_ACTS),
+    Noun("flamingo", partial(build_strider, FLAMINGO), "ground", 0.6, "walk", acts=_ACTS),
+    Noun("chicken", partial(build_strider, CHICKEN), "ground", 0.4, "walk", ("hen",), acts=_ACTS),
+    Noun("rooster", partial(build_strider, ROOSTER), "ground", 0.4, "walk", acts=_ACTS),
+    Noun("turkey", partial(build_strider, TURKEY), "ground", 0.4, "walk", acts=_ACTS),
     Noun("penguin", build_penguin, "ground", 0.4, "walk"),
 )

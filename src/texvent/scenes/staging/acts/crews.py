@@ -6,7 +6,15 @@ from collections.abc import Sequence
 
 from texvent.scenes.description import Relation
 from texvent.scenes.staging.acts.cast import Cast
-from texvent.scenes.staging.acts.working import SMALL_M, moved_with, shortened, work_at
+from texvent.scenes.staging.acts.climbing import climb_at
+from texvent.scenes.staging.acts.holding import is_person
+from texvent.scenes.staging.acts.working import (
+    SMALL_M,
+    before_mouth,
+    moved_with,
+    shortened,
+    work_at,
+)
 
 
 def put_to_work(cast: Cast, relations: Sequence[Relation], every: Sequence[Relation]) -> None:
@@ -29,20 +37,31 @@ def put_to_work(cast: Cast, relations: Sequence[Relation], every: Sequence[Relat
     on = {r.subject: r.targets[0] for r in every if r.kind in ("on", "in")}
     for target, crew in crews.items():
         under = cast.copies(on.get(cast.get(target).object_index, -1))
-        support = cast.get(under[0]) if under else None
         for place, subject in enumerate(crew):
-            tool = None
-            if subject in tools:
-                tool = shortened(cast.get(tools[subject]))
-                cast.put(tools[subject], tool)
-            if support is not None and under and support.size_m < SMALL_M:
-                # What is in a pot is worked on in the pot.
-                worker, pot = work_at(cast.get(subject), support, place, len(crew), tool)
-                cast.put(under[0], pot)
-                thing = moved_with(cast.get(target), support, pot)
+            if not is_person(cast.get(subject)):
+                cast.put(target, before_mouth(cast.get(subject), cast.get(target)))
+            elif cast.get(subject).trajectory.at(0.0).activity == "climb":
+                cast.put(subject, climb_at(cast.get(subject), cast.get(target)))
             else:
-                worker, thing = work_at(
-                    cast.get(subject), cast.get(target), place, len(crew), tool, support
-                )
-            cast.put(subject, worker)
-            cast.put(target, thing)
+                used = tools.get(subject)
+                _set_to_work(cast, (subject, target, used), under[:1], (place, len(crew)))
+
+
+def _set_to_work(
+    cast: Cast, who: tuple[int, int, int | None], under: list[int], team: tuple[int, int]
+) -> None:
+    """A worker, a thing, a tool; what is in a pot is worked on in the pot."""
+    subject, target, used = who
+    tool = None
+    if used is not None:
+        tool = shortened(cast.get(used))
+        cast.put(used, tool)
+    support = cast.get(under[0]) if under else None
+    if support is not None and support.size_m < SMALL_M:
+        worker, pot = work_at(cast.get(subject), support, *team, tool)
+        cast.put(under[0], pot)
+        thing = moved_with(cast.get(target), support, pot)
+    else:
+        worker, thing = work_at(cast.get(subject), cast.get(target), *team, tool, support)
+    cast.put(subject, worker)
+    cast.put(target, thing)

@@ -278,6 +278,20 @@ def _stand_at(
     return _put(subject, target, WorkingAt(home, yaw, work, bench, tempo), rest)
 
 
+def before_mouth(animal: Actor, thing: Actor) -> Actor:
+    """What an animal eats, drinks from or sniffs at, where its mouth is."""
+    path = thing.trajectory
+    if not isinstance(path, Stationary):
+        return thing
+    times = np.linspace(0.0, 1.0, 9)
+    mouths = [animal.anchor("mouth", float(t))[:, 3] for t in times]
+    x, y, _ = min(mouths, key=lambda spot: float(spot[2]))
+    ahead_m = 0.25 * thing.model.length
+    yaw = animal.trajectory.at(0.0).yaw
+    home = ahead((float(x), float(y), 0.0), yaw, ahead_m, path.home[2])
+    return replace(thing, trajectory=replace(path, home=home))
+
+
 def shortened(tool: Actor) -> Actor:
     """A branch or a pole, as long as can be worked with."""
     share = min(_TOOL_M / max(tool.model.length, tool.model.height), 1.0)

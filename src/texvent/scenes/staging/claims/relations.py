@@ -16,6 +16,7 @@ from texvent.scenes.models.people.work.verbs import HOVERING
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.acts.climbing import ClimbingAt
 from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.acts.surface_points import sample_surface
 from texvent.scenes.staging.acts.working import WorkingAt, tool_tip
@@ -269,9 +270,14 @@ def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
     """Every worker's hand, or the tip of its tool, touches the thing, and moves."""
     times = [float(t) for t in np.linspace(0.0, subject.duration_s, _HAND_SAMPLES)]
     for worker in subject.copies:
+        if worker.noun.name not in PERSON_NOUNS:
+            if not holds_for_all(touches, [worker], targets[0].copies, subject.duration_s):
+                return False
+            continue
         path = worker.trajectory
         hovers = isinstance(path, WorkingAt) and path.work.pattern in HOVERING
         least = _HOVER_M if hovers else _TOUCH_M
+        least = _GRASP_M if isinstance(path, ClimbingAt) else least
         tips = np.array([tool_tip(worker, t) for t in times])
         if float(np.ptp(tips, axis=0).max()) < _LEAST_STROKE_M:
             return False
@@ -291,7 +297,7 @@ def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
 _HAND_SAMPLES = 13
 _TOUCH_M = 0.08
 """From the middle of a palm, or the tip of a tool, to a surface that it touches."""
-_HOVER_M = 0.35
+_HOVER_M, _GRASP_M = 0.35, 0.2
 _LEAST_STROKE_M = 0.03
 _BY_CONTACT = frozenset({"on", "in", "with", *ACTS})
 """Relations that the report names with their subject: "bottle on the conveyor belt"."""

@@ -7,9 +7,17 @@ lengths in metres, times in seconds.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector, ahead
+import numpy as np
+
+from texvent.scenes.staging.trajectories.trajectory import (
+    BodyState,
+    Trajectory,
+    Vector,
+    ahead,
+    rotation,
+)
 
 GRAVITY_M_S2 = 9.81
 
@@ -193,3 +201,40 @@ class Sway:
         """State at that instant."""
         angle = self.amplitude_rad * math.sin(2.0 * math.pi * self.rate_hz * time_s)
         return BodyState(self.home, self.yaw, roll=angle, activity="stand")
+
+
+@dataclass(frozen=True)
+class RollOver:
+    """Lies and turns about its own length, once in two seconds."""
+
+    home: Vector
+    yaw: float
+    pivot_m: float
+    """Height of that length above the ground, m."""
+    tempo: float = 1.0
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        turn = math.pi * self.tempo * time_s
+        return BodyState(self.home, self.yaw, roll=turn, pivot_m=self.pivot_m, activity="lie")
+
+
+@dataclass(frozen=True)
+class Wheelie:
+    """Rides with its front lifted, about its rear wheel."""
+
+    path: Trajectory
+    rear_m: float
+    """How far the rear wheel's hub is behind the middle, m."""
+    hub_m: float
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        state = self.path.at(time_s)
+        share = min(max(time_s / 0.6, 0.0), 1.0)
+        lift = 0.65 * share**2 * (3.0 - 2.0 * share)
+        hub = np.array([-self.rear_m, 0.0, self.hub_m])
+        turned = rotation(state.yaw, -lift, 0.0) @ hub
+        level = rotation(state.yaw, 0.0, 0.0) @ hub
+        x, y, z = (a + float(b) for a, b in zip(state.position, level - turned, strict=True))
+        return replace(state, position=(x, y, z), pitch=-lift)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
@@ -17,16 +18,19 @@ from texvent.scenes.models.people.activities import (
     PERSON_NOUNS,
     TRAVELLING,
 )
-from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.models.protocol import Model, Noun, Pose
+from texvent.scenes.models.shapes import bounds
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
     Bounce,
     Climb,
     Hop,
     Hover,
+    RollOver,
     Spin,
     Sway,
     Swing,
+    Wheelie,
 )
 from texvent.scenes.staging.trajectories.phases import (
     NO_FLOOR_M,
@@ -189,7 +193,7 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
         and ACTIVITIES[motion.kind].is_sideways
     ):
         return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
-    if noun.name in _SIDEWAYS:
+    if noun.name in _SIDEWAYS or motion.kind == "roll over":
         return 0.3 * tilt
     if noun.name in FACING:
         return -0.5 * math.pi
@@ -283,6 +287,8 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
         phase=phase,
         facing_rad=-0.5 * math.pi + 0.35 * is_air if is_flat else None,
     )
+    if kind == "wheelie":
+        return Wheelie(path, 0.30 * model.length, 0.3 * model.height)
     if kind == "roll":
         return Rolling(path, 0.5 * model.height, 0.5 * model.height)
     return path
@@ -311,11 +317,22 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         return Hop(home, height, hop_m=hop, yaw=plan.yaw, mid_s=0.5 * plan.duration_s)
     if kind == "dance":
         return Hop(home, 0.06 * model.height, 0.1, yaw=-1.2, sway_rad=0.5, phase_s=0.1 * phase)
+    return _act_on_spot(plan, model, home, phase)
+
+
+def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
+    """What goes neither far nor high."""
+    kind, pace = plan.motion.kind, plan.motion.pace
+    span = max(model.length, model.width, model.height)
     if kind in ("hover", "float"):
         return Hover(home, 0.12 * span * pace, plan.yaw, phase)
     if kind == "sway":
         return Sway(home, 0.14, 0.5 * pace, plan.yaw)
-    return Stationary(home, plan.yaw, kind if kind in _RESTING else "move")
+    if kind == "roll over":
+        lying = model.parts(Pose(0.0, 0.0, 0.0, "lie"))
+        return RollOver(home, plan.yaw, 0.5 * float(bounds(lying)[1][2]), pace)
+    is_act = kind in _RESTING or kind in ANIMAL_ACTS
+    return Stationary(home, plan.yaw, kind if is_act else "move", pace)
 
 
 _RESTING = frozenset({"stand", "sit", "lie"})

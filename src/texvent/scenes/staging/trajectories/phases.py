@@ -13,7 +13,8 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
-PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
+PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move",
+                                       "wheelie"})  # fmt: skip
 """Motions from one place to another."""
 _STEERED_KINDS = frozenset({"turn", "reverse", "zigzag", "enter", "leave", "appear"})
 _GOING = _STEERED_KINDS - {"turn", "zigzag"}

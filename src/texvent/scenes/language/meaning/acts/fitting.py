@@ -65,6 +65,14 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
         return replace(verb, kind="move")
     if verb.base in ("flap", "beat") and noun.motion == "fly" and is_living(noun):
         return replace(verb, kind="hover")
+    if (
+        verb.base == "roll"
+        and is_living(noun)
+        and "down" not in {one.preposition.text for one in clause.phrases}
+    ):
+        return replace(verb, kind="roll over")
+    if verb.base == "roll over" and not is_living(noun):
+        return replace(verb, kind="roll")
     if verb.base == "roll" and noun.motion in ("sail", "paddle"):
         return replace(verb, kind="sway")
     return None
@@ -110,6 +118,8 @@ def choose_act(verb: Verb, doer: Noun, target: Noun) -> str | None:
     return act if act in _ACTED_BY_ANYTHING else None
 
 
+DRINKS = frozenset({"drink", "lap", "eat", "nibble", "feed", "peck"})
+"""What a mouth does "from" something."""
 _AT = frozenset({"knock", "hammer", "tug", "poke", "pick", "prod", "pound", "tap", "hew"})
 """Hand work at something: "pounds at a door"."""
 

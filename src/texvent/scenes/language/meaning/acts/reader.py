@@ -29,6 +29,7 @@ from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS, shown_as
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
 from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO
 
@@ -122,26 +123,26 @@ class ActReader:
         moved: list[int] = []
         for index in subjects:
             noun = self._draft.noun(index)
-            if is_done_to and not is_person(noun):
-                continue
             kinds = [
                 one.value[0]
                 for one in (word.meaning, *word.others)
                 if one.role is Role.SIMILAR and one.value[1] == is_person(noun)
             ]
+            if is_done_to and not is_person(noun) and not set(kinds) & ANIMAL_ACTS.keys():
+                continue
             if is_done_to and kinds[:1] and kinds[0] in OF_ONESELF:
                 continue
             is_able = (
                 bool(kinds) and can_do(noun, kinds[0]) and is_played(kinds[0], clause, self._draft)
             )
             if is_able and self._add_motion(index, ObjectMotion(kinds[0]), clause):
-                word.shown_as = kinds[0]
+                is_act = kinds[0] in ANIMAL_ACTS
+                word.shown_as = shown_as(kinds[0], word.lemma) if is_act else kinds[0]
                 moved.append(index)
         if moved and targets:
-            kind = "work on" if word.shown_as in HANDWORK else "beside"
-            self._draft.relate(kind, moved, targets)
-            if word.shown_as == "climb":
-                word.shown_as = "climb beside it"
+            done = {self._draft.objects[index].motions[-1].kind for index in moved}
+            is_at = done & (HANDWORK.keys() | MOUTH_ACTS | {"climb"})
+            self._draft.relate("work on" if is_at else "beside", moved, targets)
         word.is_used = bool(moved)
         return moved
 
@@ -249,8 +250,9 @@ class ActReader:
             if movers and verb.kind == "rise":
                 # As in "climbs a ladder": it moves beside it.
                 kind = self._draft.objects[movers[0]].motions[-1].kind
-                clause.verb_word.shown_as = f"{kind} beside it"
-                self._draft.relate("beside", movers, targets)
+                is_at = kind == "climb" and is_person(doer)
+                clause.verb_word.shown_as = None if is_at else f"{kind} beside it"
+                self._draft.relate("work on" if is_at else "beside", movers, targets)
             elif movers:
                 self._draft.relate("with", movers, targets)
                 self._give(clause, verb, [i for i in targets if is_living(self._draft.noun(i))])
@@ -341,7 +343,8 @@ class ActReader:
         word = clause.verb_word
         things = [self._mount(index) for index in things]
         nouns = [self._draft.noun(index) for index in things]
-        if verb.kind in ("wave", "fly", "sway") and any(noun.is_working for noun in nouns):
+        is_by_itself = verb.kind in ("wave", "fly", "sway") and verb.base not in _UNSTEADY
+        if is_by_itself and any(noun.is_working for noun in nouns):
             verb = replace(verb, kind="work")
         if verb.kind == "swim" and nouns and all(noun.habitat == "air" for noun in nouns):
             verb = replace(verb, kind="fly")
@@ -455,5 +458,7 @@ _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "pa
 """Prepositions of who goes somewhere with what it carries."""
 _SEATED = ("type", "play piano", "play drums", "row")
 """Activities with a seat of their own."""
+_UNSTEADY = ("wobble", "rock", "tilt")
+"""How the whole of a thing moves that works in its place: a top, a metronome."""
 _STOPS = ("stop", "halt", "come to a stop", "come to rest")
 _FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")

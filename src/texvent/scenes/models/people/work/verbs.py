@@ -53,7 +53,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("scribble", "pen"), "sign draw sketch trace engrave label doodle"),
     (HandWork("pluck", "needle", "hands"), "sew stitch embroider mend darn knit crochet suture"),
     (HandWork("tie"), "tie untie knot lace unlace braid plait wrap unwrap bandage fasten buckle "
-     "button unbutton zip unzip arrange decorate weave"),
+     "button unbutton zip unzip arrange decorate"),
     (HandWork("twist", "wrench"), "tighten loosen screw unscrew bolt unbolt repair fix service "
      "assemble disassemble install adjust tinker"),
     (HandWork("twist"), "uncork unlock wring squeeze juice unwind"),

@@ -1,0 +1,122 @@
+"""What animals do besides moving on, with the English verbs that mean it.
+
+Loads nothing but the standard library, so that the sentence reader can import it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+ANIMAL_ACTS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "graze": ("graze", "browse", "forage"),
+        "eat": ("eat", "nibble", "munch", "chew", "feed", "devour", "gnaw", "feast"),
+        "drink": ("drink", "lap"),
+        "sniff": ("sniff", "smell", "snuffle"),
+        "peck": ("peck",),
+        "bark": ("bark", "yap", "growl", "snarl", "meow", "bleat", "quack", "cluck", "yelp"),
+        "howl": ("howl", "roar", "bellow", "moo", "crow", "neigh", "bray"),
+        "wag": ("wag",),
+        "shake": ("shake off", "shake itself", "shake dry"),
+        "rear": ("rear", "rear up", "beg"),
+        "buck": ("buck",),
+        "paw": ("paw", "dig", "burrow"),
+        "nod": ("nod",),
+    }
+)
+"""Act → verbs; those that differ from its name are reported as shown by it."""
+MOUTH_ACTS = frozenset({"graze", "eat", "drink", "sniff", "peck"})
+"""Acts in which the mouth is at the ground, or at what is eaten."""
+
+
+@dataclass(frozen=True)
+class Stance:
+    """How an act changes a standing animal."""
+
+    head_down: float = 0.0
+    """1 = the mouth is at the ground, -1 = the head is thrown up."""
+    pitch: float = 0.0
+    """Turn of the body about the hind feet, up, rad."""
+    roll: float = 0.0
+    """Turn of the body about its length, rad."""
+    wag: float = 0.0
+    """How far the tail is to its left, 1 = as far as it goes."""
+    paws: tuple[float, float] = (0.0, 0.0)
+    """How far the fore feet, left and right, are lifted, in shares of the leg."""
+
+
+STANDING = Stance()
+
+
+def act_stance(act: str, time_s: float) -> Stance:
+    """An act at an instant; what is no act of `ANIMAL_ACTS` is standing."""
+    make = _STANCES.get(act)
+    return STANDING if make is None else make(time_s)
+
+
+def shown_as(act: str, verb: str) -> str | None:
+    """What is seen of a verb, where that is less than it says: nothing is heard."""
+    if act in ("bark", "howl"):
+        return "throw up its head"
+    return None if act == verb.split()[0] or verb in ANIMAL_ACTS[act] else act
+
+
+def _swing(time_s: float, rate_hz: float) -> float:
+    return math.sin(2.0 * math.pi * rate_hz * time_s)
+
+
+def _low(t: float) -> Stance:
+    return Stance(head_down=0.93 + 0.07 * _swing(t, 1.2), wag=0.4 * _swing(t, 0.7))
+
+
+def _peck(t: float) -> Stance:
+    return Stance(head_down=0.5 - 0.5 * math.cos(2.0 * math.pi * 1.1 * t))
+
+
+def _bark(t: float) -> Stance:
+    jerk = max(_swing(t, 1.1), 0.0)
+    return Stance(head_down=0.15 - 0.75 * jerk, pitch=0.10 * jerk)
+
+
+def _howl(t: float) -> Stance:
+    return Stance(head_down=-0.75 - 0.25 * _swing(t, 0.6))
+
+
+def _shake(t: float) -> Stance:
+    roll = _swing(t, 1.7)
+    return Stance(head_down=0.15, roll=0.34 * roll, wag=0.8 * roll)
+
+
+def _rear(t: float) -> Stance:
+    up = 0.5 - 0.5 * math.cos(math.pi * t)
+    paw = 0.2 * up * _swing(t, 1.2)
+    return Stance(pitch=0.85 * up, paws=(0.5 * up + paw, 0.5 * up - paw))
+
+
+def _buck(t: float) -> Stance:
+    kick = max(_swing(t, 0.9), 0.0)
+    return Stance(head_down=0.5 * kick, pitch=-0.30 * kick)
+
+
+def _paw(t: float) -> Stance:
+    left = 0.5 * _swing(t, 1.1)
+    return Stance(head_down=0.55, paws=(max(left, 0.0), max(-left, 0.0)))
+
+
+_STANCES: Mapping[str, Callable[[float], Stance]] = MappingProxyType(
+    {
+        **dict.fromkeys(("graze", "eat", "drink", "sniff"), _low),
+        "peck": _peck,
+        "bark": _bark,
+        "howl": _howl,
+        "wag": lambda t: Stance(wag=1.5 * _swing(t, 1.3)),
+        "shake": _shake,
+        "rear": _rear,
+        "buck": _buck,
+        "paw": _paw,
+        "nod": lambda t: Stance(head_down=0.25 + 0.25 * _swing(t, 0.9)),
+    }
+)
