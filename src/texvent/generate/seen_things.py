@@ -36,10 +36,8 @@ MOST_POINTS = 4000
 """Image points that are looked at per instant."""
 LEAST_SIZE = 0.025
 """Share of the picture's width or height below which a thing is a speck."""
-LEAST_AREA, SMALL_SIZE = 0.004, 0.1
-"""Share of the picture's points below which a thing up to this size is a speck too."""
-LEAST_SLENDER, SLENDER_SIZE = 0.002, 0.3
-"""The same for what is slender, up to this size: a person far away."""
+SPECKS = ((0.1, 0.005), (0.2, 0.003), (0.3, 0.002))
+"""Sizes of what is seen, and shares of the picture's points below which that is a speck."""
 LEAST_PIXELS = 12
 """Pixels below which nothing can be told of a thing."""
 LEAST_SEEN = 0.45
@@ -100,8 +98,7 @@ class _Sight:
             return "out of view"
         if not self.points:
             return "hidden" if self.alone else "too small"
-        is_speck = share < LEAST_AREA and self.extent < SMALL_SIZE
-        is_speck |= share < LEAST_SLENDER and self.extent < SLENDER_SIZE
+        is_speck = any(self.extent < size and share < area for size, area in SPECKS)
         if self.extent < LEAST_SIZE or is_speck or share * pixels < LEAST_PIXELS:
             return "too small"
         if self.seen < LEAST_SEEN and share < LARGE_AREA:
@@ -170,7 +167,9 @@ def _list_extras(scene: ComposedScene, description: SceneDescription) -> list[st
     """What comes with a thing or an act without being said."""
     said = {one.noun for one in description.objects}
     words = set(description.prompt.casefold().split())
-    found = [note for noun, note in _EXTRAS.items() if noun in said]
+    laden = {description.objects[i].noun for one in description.relations if one.kind == "on"
+             for i in one.targets}  # fmt: skip
+    found = [note for noun, note in _EXTRAS.items() if noun in said - laden]
     for actor in scene.actors:
         for prop in actor.props:
             if prop.nouns and not said.intersection(prop.nouns) | words.intersection(prop.nouns):

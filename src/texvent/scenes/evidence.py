@@ -66,7 +66,9 @@ def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport
     for claim in description.claims:
         if _fails(claim, description, evidence):
             reason = _find_reason(claim, description, evidence)
-            is_named = claim.word in named or claim.aspect == "name"
+            is_named = claim.word in named or (
+                claim.aspect == "name" and any(_is_unseen(one, evidence) for one in claim.things)
+            )
             lost[claim.word] = None if is_named else reason or lost.get(claim.word)
     missing |= {f"{word} ({reason})": None for word, reason in lost.items() if reason}
     gone = named | set(lost)

@@ -31,12 +31,20 @@ def report_of(prompt: str) -> PromptReport:
         ("a tall vase on a table", "tall"),
         ("a tiny dog runs", "tiny"),
         ("dust floats in a kitchen", "dust"),
+        ("a man in a white coat walks", "coat"),
+        ("table tennis rally", "table tennis"),
+        ("snowy mountains behind a road", "snowy"),
+        ("curls of wood fall on a table", "wood"),
+        ("a boat sails and a man stands at the bow", "bow"),
+        ("a pile of boxes in a room", "a pile of"),
+        ("a backyard with a dog", "backyard"),
     ],
 )  # fmt: skip
 def test_what_the_picture_does_not_show_is_named(prompt: str, word: str) -> None:
     report = report_of(prompt)
     assert word not in report.shown
     named = {one.partition(" (")[0] for one in report.not_shown} | set(report.not_understood)
+    named |= {one.said for one in report.substituted}
     assert word in named or any(word.endswith(one) for one in named)
 
 
@@ -58,3 +66,13 @@ def test_what_is_plainly_seen_is_shown(prompt: str, words: set[str]) -> None:
 def test_of_things_that_nobody_holds_the_owner_is_not_shown() -> None:
     assert "her" in report_of("a woman walks past her bicycle").not_understood
     assert "her" not in report_of("a woman rides her bicycle").not_understood
+
+
+def test_what_an_act_brings_along_is_noted() -> None:
+    notes = report_of("a woman plays tennis").notes
+    assert any("tennis racket" in note for note in notes)
+
+
+def test_a_window_of_something_is_a_window_by_itself() -> None:
+    report = report_of("a woman looks out of the window of a train")
+    assert "window" not in report.shown

@@ -18,8 +18,8 @@ BRIGHT = 0.42
 """Mean luma of the picture from which it is bright."""
 SUNNY, CLEAR_SKY = 0.32, 0.08
 """The same of sunshine where so much of the picture is sky."""
-LEAST_SHADOW = 0.02
-"""Share of the picture that shadows darken visibly."""
+LEAST_SHADOW, DEEP = 0.02, 0.12
+"""Share of the picture that shadows darken visibly; by how much, where a word names them."""
 LOW_SUN = 0.45
 """Sine of the sun's height below which it is low and shadows are long."""
 LEAST_FOG = 0.10
@@ -89,8 +89,9 @@ def _judge_lamp(picture: Picture, word: str) -> str | None:
 
 
 def _judge_shadows(picture: Picture, word: str) -> str | None:
+    least = DEEP if "shadow" in word else VISIBLE
     shares = [
-        float(np.mean(picture.difference(None, number, shadows=False) > VISIBLE))
+        float(np.mean(picture.difference(None, number, shadows=False) > least))
         for number in USUAL[1:]
     ]
     if max(shares) < LEAST_SHADOW:

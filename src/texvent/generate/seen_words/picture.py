@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
@@ -23,6 +24,8 @@ DENSE = (1, 3, 4, 5, 7)
 """Which of them effects are judged by: a splash does not last."""
 DARK, MOST_DARK = 0.30, 0.5
 """Luma up to which a point is dark, and share of such points that makes a picture dark."""
+LEAST_TOLD = 0.005
+"""Share of the image points that a noun of the scenery is told by."""
 VISIBLE = 0.06
 """Difference of a coded level, as a share of white, that is seen at once."""
 
@@ -80,15 +83,17 @@ class Picture:
         return self._colours[number]
 
     def seen_nouns(self) -> set[str]:
-        """Nouns of all things and scenery of which an image point shows something."""
+        """Nouns of all things and scenery of which several image points show something."""
         scenery = self.scene.list_scenery()
-        found: set[str] = set()
+        most: Counter[str] = Counter()
         for view in self.views:
-            shapes = np.unique(view.number[view.number >= 0])
-            found |= {scenery[one] for one in shapes if one < len(scenery)}
-            owners = np.unique(view.owner[shapes])
-            found |= {self.scene.class_names.get(int(one), "") for one in owners}
-        return found - {""}
+            counts: Counter[str] = Counter()
+            for one, count in zip(*np.unique(view.number[view.number >= 0], return_counts=True),
+                                  strict=True):  # fmt: skip
+                noun = self.scene.class_names.get(int(view.owner[one]), "")
+                counts[noun or (scenery[one] if one < len(scenery) else "")] += int(count)
+            most |= counts
+        return {noun for noun, count in most.items() if count >= LEAST_TOLD * len(self.points)}
 
     def strip(self, number: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """[k] whether image points show water or road of the ground, and the ground beside it."""
@@ -124,6 +129,10 @@ class Picture:
         """Luma (BT.601) of all image points of the views that light is judged by, 0..1."""
         pixels = np.concatenate([self.colours(number) for number in USUAL])
         return np.asarray(pixels @ np.array([0.299, 0.587, 0.114]))
+
+    def ground_share(self) -> float:
+        """Share of the picture that is ground, at most."""
+        return max(float(np.mean(self.views[one].number == GROUND)) for one in USUAL)
 
     def brightness(self) -> float:
         """Mean luma of the picture, 0..1."""

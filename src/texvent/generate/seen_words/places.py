@@ -12,6 +12,9 @@ MOST_RED = 0.04
 LEAST_STRIP, LEAST_EDGE = 0.02, 0.05
 """Share of the picture that water or a road covers; its difference from the ground beside it."""
 _WATER_WORDS = frozenset({"water", "waters"})
+LEAST_GROUND = 0.05
+"""Share of the picture that a ground such as grass covers."""
+_GROUNDS = ("grass", "savanna", "gravel", "soil", "sand", "snow", "construction site")
 _ROADS = ("road", "dirt road", "city")
 _FLAT = "the ground is flat"
 _LACKS: dict[str, tuple[str, ...]] = {
@@ -54,7 +57,8 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         return _judge_water(picture)
     if claim.value in _ROADS and place in _ROADS:
         return _judge_road(picture)
-    return None
+    is_ground = claim.value == place and place in _GROUNDS
+    return "out of view" if is_ground and picture.ground_share() < LEAST_GROUND else None
 
 
 def _is_one_of(word: str, words: tuple[str, ...]) -> bool:

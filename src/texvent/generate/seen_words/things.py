@@ -30,6 +30,9 @@ _ONE_SIDED = frozenset(
      "door", "rack", "roof rack", "neck", "trunk"}
 )  # fmt: skip
 """Parts that are seen from some sides only."""
+MOST_BENT = 0.12
+"""Spread of a row across it, as a share of that along it."""
+_GARMENTS = frozenset({"coat", "jacket"})
 _OPAQUE = frozenset({"glass", "crystal", "ice"})
 _UNRELATED = frozenset({"toy", "baby", "young", "miniature", "short"})
 """Words of size that mean more than the size."""
@@ -39,8 +42,12 @@ def judge_thing(
     picture: Picture, description: SceneDescription, claim: Claim, index: int
 ) -> str | None:
     """Why what a word says of an object is not seen, or None."""
+    if claim.aspect == "name":
+        return _judge_garment(picture, description, index)
     if claim.aspect == "colour":
         return _judge_colour(picture, description, index)
+    if claim.aspect in ("size", "material") and _is_substituted(description, index):
+        return "is something else"
     if claim.aspect == "size":
         return _judge_size(picture, description, claim.word, index)
     if claim.aspect == "material":
@@ -50,8 +57,37 @@ def judge_thing(
     if claim.aspect == "side":
         return _judge_side(picture, description, index)
     if claim.aspect == "count":
-        return _judge_count(picture, description, index)
+        return _judge_order(picture, claim.word, index) or _judge_count(picture, description, index)
     return None
+
+
+def _is_substituted(description: SceneDescription, index: int) -> bool:
+    """Whether something of another kind is shown for the word that names it."""
+    names = {one.word for one in description.claims if one.aspect == "name" and index in one.things}
+    return any(one.said in names and one.shown not in one.said for one in description.substituted)
+
+
+def _judge_garment(picture: Picture, description: SceneDescription, index: int) -> str | None:
+    """A coat that is worn colours the upper body, as a shirt does."""
+    is_long = description.objects[index].noun in _GARMENTS
+    if is_long and not copies_of(picture, index) and _bearers(picture, description, index):
+        return "is shown as a shirt"
+    return None
+
+
+def _judge_order(picture: Picture, word: str, index: int) -> str | None:
+    """A row must be straight; nothing is piled."""
+    names = set(word.split())
+    if names & {"pile", "stack", "heap"}:
+        return "not on top of each other"
+    if not names & {"row", "rows", "line"}:
+        return None
+    at = [one.trajectory.at(0.0).position[:2] for one in picture.scene.actors
+          if one.object_index == index]  # fmt: skip
+    if len(at) < 3:
+        return None
+    spread = np.linalg.svd(np.array(at) - np.mean(at, axis=0), compute_uv=False)
+    return None if spread[1] <= MOST_BENT * spread[0] else "not in a row"
 
 
 def copies_of(picture: Picture, index: int) -> list[int]:
@@ -180,16 +216,35 @@ def _box(picture: Picture, view: View, instances: Sequence[int]) -> Float64Array
 
 def _judge_side(picture: Picture, description: SceneDescription, index: int) -> str | None:
     side = description.objects[index].side
+    if side in ("far", "near"):
+        return _judge_depth(picture, index, is_far=side == "far")
     centres = [
         float(box.mean(axis=0)[0]) / picture.size.width
         for view in picture.views
         if (box := _box(picture, view, copies_of(picture, index))) is not None
     ]
-    if not centres or side not in ("left", "right", "centre"):
+    if not centres or side is None:
         return None
     middle = float(np.median(centres))
     low, high = {"left": (0.0, 0.48), "right": (0.52, 1.0), "centre": (0.3, 0.7)}[side]
     return None if low <= middle <= high else f"not in the picture's {side}"
+
+
+def _judge_depth(picture: Picture, index: int, *, is_far: bool) -> str | None:
+    """What is in the background lies behind all other things in view, or is small."""
+    own, others = [], []
+    copies = copies_of(picture, index)
+    for number in USUAL:
+        view = picture.views[number]
+        mine = np.isin(view.instance, copies)
+        own += [float(np.median(view.depth[mine]))] if mine.any() else []
+        rest = (view.instance > 0) & ~mine
+        others += [float(np.median(view.depth[rest]))] if rest.any() else []
+    if not own or not others:
+        return None
+    if is_far:
+        return None if np.median(own) > np.median(others) else "not behind the others"
+    return None if np.median(own) < np.median(others) else "not before the others"
 
 
 def _judge_count(picture: Picture, description: SceneDescription, index: int) -> str | None:

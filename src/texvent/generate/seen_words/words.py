@@ -13,7 +13,7 @@ from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.raycast.trace import GROUND
 from texvent.scenes.staging.environment import is_room
 
-_OF_THINGS = frozenset({"colour", "size", "material", "part", "side", "count"})
+_OF_THINGS = frozenset({"name", "colour", "size", "material", "part", "side", "count"})
 _OF_SCENE = ("light", "weather", "effect", "dust")
 _LEAST_PAINTED = 0.05
 
@@ -60,7 +60,8 @@ def _said_of(claim: Claim, description: SceneDescription) -> list[str]:
 
 
 def _is_of_scene(claim: Claim) -> bool:
-    return claim.aspect == "motion" and not claim.things and claim.move is None
+    is_act = claim.aspect == "motion" or (claim.aspect == "quality" and claim.word.endswith("ing"))
+    return is_act and not claim.things and claim.move is None
 
 
 def _judge_scene_word(
@@ -73,7 +74,7 @@ def _judge_scene_word(
         is_said = description.surroundings.weather == claim.value
         return judge_weather(picture, claim) if is_said else None
     if claim.aspect == "snow":
-        return judge_snow(picture) if description.surroundings.has_snow else None
+        return _judge_snow(picture, description, claim)
     if claim.aspect in ("view", "framing"):
         return judge_camera(picture, description, claim)
     if claim.aspect in ("place", "steep", "clouds", "sky"):
@@ -98,6 +99,13 @@ def _judge_effect(
     if claim.aspect == "dust" and is_room(description.surroundings.place or "grass"):
         return "only at the feet of who moves"
     return effects.get(kind)
+
+
+def _judge_snow(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    is_of_mountains = claim.word.startswith("snow") and claim.word != "snow"
+    if is_of_mountains and "mountain" in description.surroundings.backdrops:
+        return "the mountains are bare"
+    return judge_snow(picture) if description.surroundings.has_snow else None
 
 
 def _judge_painted(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:

@@ -268,7 +268,9 @@ class ClauseMeaning:
         noun, activity = found
         mark_used([*words, *clause.adverbs])
         if activity == "swing racket":
-            words[-1].shown_as = f"one person, {activity}"
+            for word in words:
+                if word.read_as(Role.COUNT) is None:
+                    word.shown_as = f"one person, {activity}"
         item = PartialObject(noun, motions=[ObjectMotion(activity)])
         index = self._draft.add(item)
         if index is not None:

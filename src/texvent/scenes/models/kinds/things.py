@@ -245,6 +245,7 @@ THING_KINDS: dict[str, str] = {
     "electric guitar": "bass guitar",
     "headphones": "headset, earphones",
     "record player": "gramophone, vinyl record, phonograph",
+    "sink": "kitchen sink",
     "pipe": "pipeline",
     "hourglass": "egg timer",
     "bell": "church bell, handbell",

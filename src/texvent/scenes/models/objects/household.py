@@ -201,7 +201,7 @@ def build_umbrella(*, colour: Colour | None, scale: float, seed: int) -> Articul
 
 NOUNS = (
     fixed_noun("cup", build_cup, ("coffee cup", "teacup")),
-    fixed_noun("bottle", build_bottle, ("wine bottle", "glass bottle")),
+    fixed_noun("bottle", build_bottle, ("wine bottle",)),
     working_noun("clock", build_clock, ("wall clock",)),
     fixed_noun("lamp", build_lamp, ("floor lamp", "standing lamp")),
     fixed_noun("candle", build_candle),
