@@ -134,7 +134,8 @@ class RelationReader:
             self._draft.relate("in", content.things, whole.things)
             return
         head = whole.group.head
-        if head is not None and head.shown_as is None:
+        is_body = set(whole.things) <= set(content.things)
+        if head is not None and head.shown_as is None and not is_body:
             head.shown_as = f"{head.text} by itself"
 
     def _fill(self, phrase: PrepPhrase, things: Sequence[int], scope: Scope) -> bool:
