@@ -23,7 +23,7 @@ from texvent.scenes.scene import (
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitives
 from texvent.scenes.staging.camera.camera_path import CameraPath
-from texvent.scenes.staging.camera.camera_placement import place_camera
+from texvent.scenes.staging.camera.camera_placement import choose_main, place_camera
 from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
 from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.relations import list_not_shown
@@ -42,7 +42,7 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
-from texvent.scenes.staging.placement.into_view import move_into_view
+from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
 from texvent.scenes.staging.preparation import prepare
@@ -173,11 +173,8 @@ def compose_scene(
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors = with_headroom(description, placer.place_all())
     ground = PLACES[place].ground
-    if travel is None and ground in STRIPS and place not in WATERSIDE:
-        actors = queue_in_lanes(actors, 0.5 * PLACES[place].road_half_width)
-    actors, camera_path = _set_camera(description, actors, place, (seed, size, duration_s), travel)
+    actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
     view = _describe_view(place, camera_path, actors, duration_s, description.surroundings.road)
     if travel is not None:
         view = replace(view, road=travel.road, travel=travel)
@@ -215,22 +212,34 @@ def compose_scene(
 
 def _set_camera(
     description: SceneDescription,
-    actors: list[Actor],
+    placer: ObjectPlacer,
     place: str,
     how: tuple[int, SensorSize, float],
     travel: TravelPlan | None,
 ) -> tuple[list[Actor], CameraPath]:
-    """The camera, and the actors with those in view that it would leave out for no reason.
+    """The camera, and the actors, placed so that it shows them.
 
     `how` are the seed, the image's size, and the length of the clip, s.
     """
     seed, size, duration_s = how
     aspect = size.height / size.width
+    has_lanes = travel is None and PLACES[place].ground in STRIPS and place not in WATERSIDE
+
+    def stand(placed: list[Actor]) -> list[Actor]:
+        placed = with_headroom(description, placed)
+        return queue_in_lanes(placed, 0.5 * PLACES[place].road_half_width) if has_lanes else placed
+
+    actors = stand(placer.place_all())
     path = place_camera(
         description, actors, place, seed=seed, aspect=aspect, duration_s=duration_s, travel=travel
     )
     if travel is None and PLACES[place].ground is not Ground.NONE:
-        actors = move_into_view(description, actors, path, aspect=aspect, duration_s=duration_s)
+        subject = choose_main(description, actors).object_index if actors else None
+        shifts = find_shifts(
+            description, actors, path, subject=subject, aspect=aspect, duration_s=duration_s
+        )
+        if shifts:
+            actors = stand(placer.move(shifts))
     return actors, path
 
 

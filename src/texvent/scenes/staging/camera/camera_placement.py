@@ -69,7 +69,7 @@ def place_camera(
         return _travel(description, travel, actors, place, duration_s)
     if not actors:
         return _look_around(description, place, duration_s)
-    main = _choose_main(description, actors)
+    main = choose_main(description, actors)
     moves = _plan_moves(description, main, duration_s)
     path = _frame(description, actors, main, moves, place, (seed, aspect, duration_s))
     path = _keep_in_view(path, main, actors, aspect)
@@ -132,8 +132,7 @@ def _fit_path(
             has_floor, subject_corners=main.corners,
         )  # fmt: skip
 
-    paths: list[CameraPath] = []
-    for times in _instants(main, duration_s):
+    def come(times: Float64Array, elevation: float) -> CameraPath:
         views = list_views(description, actors, main, moves, times)
         framings = [
             fit(view.points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=view.fill,
@@ -145,10 +144,45 @@ def _fit_path(
         known = {main.object_index, *list_related(description, main)}
         others = [actor for actor in actors if actor.object_index not in known]
         is_clear = partial(has_clear_view, main=main, others=others, times=times, aspect=aspect)
-        paths.append(come_near(framings, path_of, prominence, goals, is_clear))
+        return come_near(framings, path_of, prominence, goals, is_clear)
+
+    paths: list[CameraPath] = []
+    for times in _instants(main, duration_s):
+        paths.append(come(times, elevation))
+        level = _eye_level(description, actors, main, paths[-1].framing) if has_floor else None
+        if level is not None:
+            paths[-1] = come(times, level)
         if _begins_and_ends_outside(paths[-1], main, aspect):
             break
     return paths[-1]
+
+
+_EYE_M = 3.0
+"""Height of a camera that shows small things on the ground with a large or high subject."""
+_LOWEST_RAD = -0.6
+
+
+def _eye_level(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    framing: Framing,
+) -> float | None:
+    """Elevation of a camera at eye level, where one higher up would see no ground that is near.
+
+    Only beside a large or high subject, and where smaller things on the ground are to be seen.
+    """
+    if description.shot.view is not None or framing.position[2] <= 1.1 * _EYE_M:
+        return None
+    smaller = [
+        actor
+        for actor in actors
+        if actor.noun.habitat == "ground" and actor.size_m < 0.4 * main.size_m
+    ]
+    if not smaller:
+        return None
+    rise = (_EYE_M - float(framing.target[2])) / framing.distance_m
+    return max(math.asin(min(max(rise, -1.0), 1.0)), _LOWEST_RAD)
 
 
 _LANDMARKS = TOGETHER | {"through", "past", "from", "towards", "away from"}
@@ -203,13 +237,33 @@ def _creeps(path: CameraPath, main: Actor) -> bool:
 def _instants(main: Actor, duration_s: float) -> list[Float64Array]:
     """Instants at which everything must be in the picture; choices for what enters or leaves."""
     if not (main.enters or main.leaves):
-        return [np.linspace(0.0, duration_s, INSTANTS)]
+        outside = _share_outside(main, duration_s)
+        return [np.linspace(outside * duration_s, (1.0 - outside) * duration_s, INSTANTS)]
     choices = []
     for share in _OUTSIDE_SHARES:
         first = share * duration_s if main.enters else 0.0
         last = (1.0 - share) * duration_s if main.leaves else duration_s
         choices.append(np.linspace(min(first, last), max(first, last), INSTANTS))
     return choices
+
+
+_HALF_OUTSIDE = 0.4
+"""Share of its length by which a subject that goes across may be out of the picture."""
+_MOST_OUTSIDE = 0.25
+_LONG_M = 5.0
+"""Only what is that long: a bus, a train."""
+
+
+def _share_outside(main: Actor, duration_s: float) -> float:
+    """Share of the clip at its beginning, and at its end, at which not all of it need be seen.
+
+    What covers more than its own length would be small in a picture that holds all of its way.
+    """
+    way = float(np.abs(main.middle(duration_s)[0] - main.middle(0.0)[0]))
+    long = main.model.length
+    if long < _LONG_M or way < long or not main.is_mover:
+        return 0.0
+    return min(_HALF_OUTSIDE * long / way, _MOST_OUTSIDE)
 
 
 def _project(path: CameraPath, points: Float64Array, time_s: float) -> Float64Array:
@@ -312,7 +366,7 @@ def _travel(
                       journey=travel.journey)  # fmt: skip
 
 
-def _choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
+def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
     """The object the camera is about: as said, or the first that moves or could."""
     target = description.shot.target
     for actor in actors:

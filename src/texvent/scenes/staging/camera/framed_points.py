@@ -26,7 +26,7 @@ _LARGE_IN_WIDE = 0.6
 """How much less prominent the subject is in a wide shot."""
 _LARGE_AIM = 1.3
 """Prominence of what a camera moves in on, at least."""
-_WIDE_FILL = 0.55
+_WIDE_FILL = 0.7
 _FAR_FILL = 1.3
 """The same at the near end of a move in: at the far end all fits."""
 _APPROACHES = frozenset({"zoom", "dolly", "dolly zoom"})
@@ -204,6 +204,30 @@ def _goes(actor: Actor, times: Float64Array) -> bool:
     return float(np.ptp(places, axis=0).max()) > _STIRS * actor.size_m
 
 
+_BACKDROP, _BACKDROP_M = 6.0, 6.0
+"""What stands is a backdrop of what is so many times smaller, from this size on, m."""
+
+
+def is_backdrop(actor: Actor, main: Actor) -> bool:
+    """Whether it is too large to be shown whole with the subject, and can stand far behind it."""
+    is_large = actor.size_m > max(_BACKDROP * main.size_m, _BACKDROP_M)
+    return is_large and actor.noun.habitat == "fixed" and not actor.is_mover
+
+
+_ANYWHERE = frozenset({"beside", "past", "towards", "away from", "from"})
+"""Relations that a backdrop far behind fulfils; "behind" too, where it is what stands behind."""
+
+
+def may_stand_back(description: SceneDescription, actor: Actor, main: Actor) -> bool:
+    """Whether it is a backdrop of the subject that no relation puts close to something."""
+    return is_backdrop(actor, main) and all(
+        relation.kind in _ANYWHERE
+        or (relation.kind == "behind" and relation.subject == actor.object_index)
+        for relation in description.relations
+        if actor.object_index in (relation.subject, *relation.targets)
+    )
+
+
 def list_related(description: SceneDescription, main: Actor) -> set[int]:
     """The objects that a relation ties to the subject."""
     related = {
@@ -230,6 +254,7 @@ def _list_partners_of(
         actor
         for actor in actors
         if description.objects[actor.object_index].side != "far"
+        and not may_stand_back(description, actor, main)
         and (actor.object_index in related or belongs(actor))
     ]
 

@@ -94,11 +94,20 @@ class ObjectPlacer:
             if relation.kind in SCENIC
             for target in relation.targets
         }
-        order = [i for i in range(len(self._description.objects)) if i not in scenic]
-        for index in order:
-            self._place(index, frozenset())
+        for index in range(len(self._description.objects)):
+            if index not in scenic:
+                self._place(index, frozenset())
+        return self._perform()
+
+    def move(self, shifts: Mapping[int, Float64Array]) -> list[Actor]:
+        """The same copies with objects moved: index → [3] m."""
+        for index, shift in shifts.items():
+            self.groups[index].centre = self.groups[index].centre + shift
+        return self._perform()
+
+    def _perform(self) -> list[Actor]:
         actors: list[Actor] = []
-        for index in order:
+        for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
         return perform_acts(self._description, actors, self._duration_s)
 
