@@ -42,9 +42,11 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
+from texvent.scenes.staging.placement.fitting import enlarge_small
 from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
+from texvent.scenes.staging.placement.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.road_choice import find_road
 from texvent.scenes.staging.scenery import SceneryItem, ViewClearance, scatter
@@ -166,7 +168,8 @@ def compose_scene(
     """
     if not (math.isfinite(duration_s) and duration_s > 0.0):
         raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
-    description, missing = prepare(description, nouns, duration_s)
+    said, missing = prepare(description, nouns, duration_s)
+    description = set_on_table(enlarge_small(said, nouns), nouns)
     place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
     travel = plan_travel(description, place, duration_s)
@@ -179,14 +182,18 @@ def compose_scene(
     if travel is not None:
         view = replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
-    missing += list_not_shown(description, actors, duration_s)
+    missing += list_not_shown(said, actors, duration_s)
     missing += _list_missing_scenery(description, surrounding)
     first_free = len(actors) + 1
     placed = [item.place(0) for item in items]
     placed += [item.place(first_free + number) for number, (_, item) in enumerate(surrounding)]
     names = {actor.instance: actor.noun.name for actor in actors}
     names.update({first_free + number: item.noun for number, (_, item) in enumerate(surrounding)})
-    object_of = {actor.instance: actor.object_index for actor in actors}
+    object_of = {
+        actor.instance: actor.object_index
+        for actor in actors
+        if actor.object_index < len(said.objects)
+    }
     object_of.update({first_free + n: index for n, (index, _) in enumerate(surrounding)})
     distance = camera_path.framing.distance_m
     animated_environment = build_environment(
@@ -194,7 +201,14 @@ def compose_scene(
         distance_m=distance, room_m=camera_path.room_m if ground is Ground.FLOOR else 9.0,
     )  # fmt: skip
     surroundings = animated_environment.at(0.0)
-    stage = Stage(description, actors, camera_path, surroundings, place, duration_s)
+    stage = Stage(
+        replace(said, objects=description.objects),
+        actors,
+        camera_path,
+        surroundings,
+        place,
+        duration_s,
+    )
     missing += list_acts_not_shown(stage)
     missing += list_moves_not_shown(description.shot, camera_path, duration_s)
     strength = choose_lighting(place, description.light).lamps

@@ -1,4 +1,4 @@
-"""Sizes of what is in something: content and container are made to fit each other."""
+"""Sizes: content and container fit each other, small things beside large ones are enlarged."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription, SceneObject
+from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.placement.contents import is_stem
@@ -55,6 +56,46 @@ def _shorten(inside: SceneObject, around: SceneObject, nouns: Mapping[str, Noun]
         return inside
     ratio = _LONGEST_STEM * vessel.height / stem.height
     return replace(inside, scale=inside.scale * min(ratio, 1.0))
+
+
+_LARGER = 1.8
+"""Most by which a small thing is enlarged; see docs/prompts.md."""
+_LARGER_WORN = 1.3
+"""The same of what is worn."""
+_SMALL_M = 0.35
+"""Size up to which things are enlarged, m."""
+_MUCH_SMALLER = 4.0
+
+
+def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description with small things larger, beside something several times their size.
+
+    A cup in a hand is hardly seen in a picture that holds who has it. What the prompt calls small
+    keeps its size.
+    """
+    objects = list(description.objects)
+    worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
+    sizes = [extent(one, nouns) for one in objects]
+    for index, (one, size) in enumerate(zip(objects, sizes, strict=True)):
+        is_fixed = nouns[one.noun].habitat == "fixed" or nouns[one.noun].name in _BY_HAND
+        if not is_fixed or one.scale < 1.0 or max(sizes) < _MUCH_SMALLER * size:
+            continue
+        most = _LARGER_WORN if index in worn else _LARGER
+        factor = min(max(_SMALL_M / size, 1.0), most)
+        objects[index] = replace(one, scale=one.scale * factor)
+    return replace(description, objects=tuple(objects))
+
+
+_BY_HAND = frozenset(noun.name for noun in FAMILIES["objects sport balls"]) | {
+    "frisbee", "tennis ball", "snowball", "soap bubble", "paper plane", "dart", "feather",
+    "toy car",
+}  # fmt: skip
+
+
+def extent(scene_object: SceneObject, nouns: Mapping[str, Noun]) -> float:
+    """Its largest extent, m."""
+    model: Model = nouns[scene_object.noun].build(colour=None, scale=scene_object.scale, seed=0)
+    return max(model.length, model.width, model.height)
 
 
 def _side(scene_object: SceneObject, nouns: Mapping[str, Noun]) -> float:
