@@ -13,6 +13,7 @@ from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.closeness import come_near_small, eye_level
 from texvent.scenes.staging.camera.framed_points import (
     INSTANTS,
     TOGETHER,
@@ -144,45 +145,18 @@ def _fit_path(
         known = {main.object_index, *list_related(description, main)}
         others = [actor for actor in actors if actor.object_index not in known]
         is_clear = partial(has_clear_view, main=main, others=others, times=times, aspect=aspect)
-        return come_near(framings, path_of, prominence, goals, is_clear)
+        path = come_near(framings, path_of, prominence, goals, is_clear)
+        return come_near_small(description, actors, main, path, path_of, times, aspect)
 
     paths: list[CameraPath] = []
     for times in _instants(main, duration_s):
         paths.append(come(times, elevation))
-        level = _eye_level(description, actors, main, paths[-1].framing) if has_floor else None
+        level = eye_level(description, actors, main, paths[-1].framing) if has_floor else None
         if level is not None:
             paths[-1] = come(times, level)
         if _begins_and_ends_outside(paths[-1], main, aspect):
             break
     return paths[-1]
-
-
-_EYE_M = 3.0
-"""Height of a camera that shows small things on the ground with a large or high subject."""
-_LOWEST_RAD = -0.6
-
-
-def _eye_level(
-    description: SceneDescription,
-    actors: Sequence[Actor],
-    main: Actor,
-    framing: Framing,
-) -> float | None:
-    """Elevation of a camera at eye level, where one higher up would see no ground that is near.
-
-    Only beside a large or high subject, and where smaller things on the ground are to be seen.
-    """
-    if description.shot.view is not None or framing.position[2] <= 1.1 * _EYE_M:
-        return None
-    smaller = [
-        actor
-        for actor in actors
-        if actor.noun.habitat == "ground" and actor.size_m < 0.4 * main.size_m
-    ]
-    if not smaller:
-        return None
-    rise = (_EYE_M - float(framing.target[2])) / framing.distance_m
-    return max(math.asin(min(max(rise, -1.0), 1.0)), _LOWEST_RAD)
 
 
 _LANDMARKS = TOGETHER | {"through", "past", "from", "towards", "away from"}

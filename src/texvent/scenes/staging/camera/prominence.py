@@ -109,11 +109,11 @@ def come_near(
         nearest = path_of(framing)
         if prominence(nearest) <= prominence(path):
             continue
-        path = _between(path, nearest, prominence, goal, is_clear)
+        path = between(path, nearest, prominence, goal, is_clear)
     return path
 
 
-def _between(
+def between(
     wide: CameraPath, near: CameraPath, prominence: Callable[[CameraPath], float], goal: float,
     is_clear: Callable[[CameraPath], bool],
 ) -> CameraPath:  # fmt: skip

@@ -1,4 +1,4 @@
-"""Small things that the prompt puts nowhere: on a table before the people, not on the floor."""
+"""Small things that the prompt puts nowhere: in a hand or on a table, not on the floor."""
 
 from __future__ import annotations
 
@@ -10,16 +10,21 @@ from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.placement.fitting import extent
+from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
 _FAMILIES = (
     "objects kitchen food", "objects kitchen tableware", "objects home electronics",
     "objects home personal", "objects home small things", "objects household",
-    "objects work tools", "objects play toys", "objects home screens", "objects kitchen appliances",
+    "objects work tools", "objects play toys", "objects home screens",
+    "objects kitchen appliances", "objects sport gear", "objects home lights",
 )  # fmt: skip
 _SMALL = frozenset(noun.name for name in _FAMILIES for noun in FAMILIES[name])
 _LARGEST_M = 0.45
-_NOT_ON_TABLES = frozenset({"campfire", "torch", "soap bubble", "paper plane", "water balloon",
-                            "feather", "toy train", "poster", "sign", "rope", "chain"})  # fmt: skip
+_NOT_ON_TABLES = frozenset({
+    "campfire", "torch", "soap bubble", "paper plane", "water balloon", "feather", "toy train",
+    "rubber duck", "paper boat", "dart", "ice skate", "roller skate", "poster", "sign", "rope",
+    "chain",
+})  # fmt: skip
 TABLES = ("table", "desk", "chest of drawers")
 """What small things are put on, the first that is there."""
 _MOST = 6
@@ -29,29 +34,39 @@ _LOOSE = frozenset({"beside", "with", "past", "towards", "from", "away from"})
 
 
 def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """The description with small things on a table, in scenes with people.
+    """The description with small things in a hand or on a table, in scenes with people.
 
-    A table that the prompt names takes them, else one is added at the end of the objects, before
-    the first of the people. Things that move, that a relation places or that an act uses stay as
-    they are.
+    A single thing goes into the hand of who is named before it, and who has nothing in hand. Others
+    go on a table: the first that the prompt names, else one that is added at the end of the
+    objects, before the first of the people. What is on or in another small thing stays there.
+    Things that move, that a relation places or that an act uses stay as they are.
     """
     objects = description.objects
     people = [n for n, one in enumerate(objects) if one.noun in PERSON_NOUNS]
-    bound = {
-        index
-        for one in description.relations
-        if one.kind not in _LOOSE
-        for index in (one.subject, *one.targets)
-    }
-    bound |= {one.source for one in description.effects if one.source is not None}
-    loose = [n for n, one in enumerate(objects) if n not in bound and _is_small(one, nouns)]
-    if not people or not loose or _has_way(objects[people[0]]):
+    loose = _list_loose(description, nouns)
+    if not people or any(move.kind == "travel" for move in description.shot.moves):
         return description
-    if (
-        any(move.kind == "travel" for move in description.shot.moves)
-        or "table" in description.absent
-    ):
+    loaded = {i for one in description.relations for i in (one.subject, *one.targets)}
+    held: list[Relation] = []
+    for index in loose:
+        person = max((n for n in people if n < index), default=None)
+        taken = loaded | {one.subject for one in held}
+        if person is None or person in taken or index in taken:
+            continue
+        if objects[index].count == objects[person].count == 1 and _has_free_hands(objects[person]):
+            held.append(Relation("hold", person, (index,)))
+    description = replace(description, relations=(*description.relations, *held))
+    in_hand = {one.targets[0] for one in held}
+    rest = [index for index in loose if index not in in_hand]
+    if not rest or _has_way(objects[people[0]]) or "table" in description.absent:
         return description
+    return _add_table(description, rest, people[0])
+
+
+def _add_table(
+    description: SceneDescription, loose: Sequence[int], person: int
+) -> SceneDescription:
+    objects = description.objects
     chosen: list[int] = []
     for index in loose:
         if sum(objects[n].count for n in (*chosen, index)) <= _MOST:
@@ -60,10 +75,33 @@ def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     added: tuple[Relation, ...] = ()
     if table is None:
         table, objects = len(objects), (*objects, SceneObject("table"))
-        added = (Relation("front", table, (people[0],)),)
-    kept = [one for one in description.relations if not {one.subject, *one.targets} & set(chosen)]
+        added = (Relation("front", table, (person,)),)
+    kept = [
+        one
+        for one in description.relations
+        if one.kind not in _LOOSE or not {one.subject, *one.targets} & set(chosen)
+    ]
     on = [Relation("on", index, (table,)) for index in chosen]
     return replace(description, objects=objects, relations=(*kept, *added, *on))
+
+
+def _list_loose(description: SceneDescription, nouns: Mapping[str, Noun]) -> list[int]:
+    """Small things that no relation and no act places, but for others that are on or in them."""
+    objects = description.objects
+    small = {n for n, one in enumerate(objects) if _is_small(one, nouns)}
+    bound = {one.source for one in description.effects if one.source is not None}
+    for one in description.relations:
+        if one.kind in _LOOSE:
+            continue
+        ends = {one.subject, *one.targets}
+        is_stack = one.kind in ("on", "in") and ends <= small
+        bound |= {one.subject} if is_stack else ends
+    return sorted(small - bound)
+
+
+def _has_free_hands(one: SceneObject) -> bool:
+    kinds = {motion.kind for motion in (one.motion, *one.then) if motion is not None}
+    return kinds <= {"stand", "walk", "sit", "talk", "run"}
 
 
 def _is_small(one: SceneObject, nouns: Mapping[str, Noun]) -> bool:
@@ -75,7 +113,9 @@ def _is_small(one: SceneObject, nouns: Mapping[str, Noun]) -> bool:
 
 def _has_way(one: SceneObject) -> bool:
     """Whether it moves on: a table would be left behind."""
-    return any(motion is not None and motion.is_moving for motion in (one.motion, *one.then))
+    return any(
+        motion is not None and motion.kind in PATH_KINDS for motion in (one.motion, *one.then)
+    )
 
 
 def _find_table(objects: Sequence[SceneObject]) -> int | None:

@@ -1,0 +1,132 @@
+"""How near and how high the camera is for what is small: things in hands, people by a train."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.framing import Framing, fit
+from texvent.scenes.staging.camera.prominence import Prominence, between
+
+_SMALL = 0.3
+"""Size of a small thing, as a multiple of the subject's, at most."""
+_CLOSE = 1.3
+"""How far from the subject's middle it may be, in the subject's sizes."""
+_WAIST = 0.45
+"""Share of a person's height below which the image may end."""
+_FILL, _FILL_PANNING = 0.9, 0.72
+_PROMINENCE = 0.36
+"""How prominent a small thing should be: a tenth of the image's width and height."""
+_STILL = 0.3
+"""How far, in its sizes, a subject may go whose legs need not be seen."""
+_STAYING = frozenset({"handheld", "static", "follow", "pan"})
+
+
+def come_near_small(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    path: CameraPath,
+    path_of: Callable[[Framing], CameraPath],
+    times: Float64Array,
+    aspect: float,
+) -> CameraPath:
+    """The camera as near as it takes to recognise the small things that the prompt names.
+
+    Args:
+        description: what the prompt says of the camera.
+        actors: its objects.
+        main: the subject.
+        path: the camera that shows the subject.
+        path_of: the camera over the clip from a framing.
+        times: instants at which they must fit, s.
+        aspect: image height over width.
+
+    Returns:
+        The path, from nearer where small things are at a person who stays in place.
+    """
+    shot = description.shot
+    is_open = shot.framing is None and shot.view in (None, "side", "front")
+    if not is_open or any(move.kind not in _STAYING for move in (*shot.moves, *path.moves)):
+        return path
+    small = [actor for actor in actors if _is_small(actor, main, times)]
+    if not small or not _stays(main, times):
+        return path
+    points = np.vstack([_upper_part(main, times), *(_boxes(actor, times) for actor in small)])
+    wide = path.framing
+    near = fit(points, azimuth=wide.azimuth, elevation=wide.elevation, aspect=aspect,
+               fill=_FILL_PANNING if any(m.kind == "pan" for m in path.moves) else _FILL,
+               focal=wide.focal)  # fmt: skip
+    if near.distance_m > 0.95 * wide.distance_m:
+        return path
+    prominences = [
+        Prominence.of([one for one in small if one.object_index == index], times, aspect)
+        for index in {one.object_index for one in small}
+    ]
+
+    def least(some: CameraPath) -> float:
+        return min(prominence(some) for prominence in prominences)
+
+    if least(path) >= _PROMINENCE:
+        return path
+    return between(path, path_of(near), least, _PROMINENCE, lambda _: True)
+
+
+_EYE_M = 3.0
+"""Height of a camera that shows small things on the ground with a large or high subject."""
+_LOWEST_RAD = -0.6
+
+
+def eye_level(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    framing: Framing,
+) -> float | None:
+    """Elevation of a camera at eye level, where one higher up would see no ground that is near.
+
+    Only beside a large or high subject, and where smaller things on the ground are to be seen.
+    """
+    if description.shot.view is not None or framing.position[2] <= 1.1 * _EYE_M:
+        return None
+    smaller = [
+        actor
+        for actor in actors
+        if actor.noun.habitat == "ground" and actor.size_m < 0.4 * main.size_m
+    ]
+    if not smaller:
+        return None
+    rise = (_EYE_M - float(framing.target[2])) / framing.distance_m
+    return max(math.asin(min(max(rise, -1.0), 1.0)), _LOWEST_RAD)
+
+
+def _is_small(actor: Actor, main: Actor, times: Float64Array) -> bool:
+    if actor.object_index == main.object_index or actor.size_m > _SMALL * main.size_m:
+        return False
+    apart = [np.linalg.norm(actor.middle(float(t)) - main.middle(float(t))) for t in times]
+    return float(max(apart)) < _CLOSE * main.size_m
+
+
+def _stays(main: Actor, times: Float64Array) -> bool:
+    if main.noun.name not in PERSON_NOUNS:
+        return False
+    places = [main.middle(float(time)) for time in times]
+    return float(np.ptp(places, axis=0).max()) < _STILL * main.size_m
+
+
+def _upper_part(main: Actor, times: Float64Array) -> Float64Array:
+    corners = _boxes(main, times)
+    low, high = float(corners[:, 2].min()), float(corners[:, 2].max())
+    corners[:, 2] = np.maximum(corners[:, 2], low + _WAIST * (high - low))
+    return corners
+
+
+def _boxes(actor: Actor, times: Float64Array) -> Float64Array:
+    return np.vstack([actor.corners(float(time)) for time in times])
