@@ -96,7 +96,8 @@ def test_what_a_relation_ties_together_moves_as_one() -> None:
     actors[2] = replace(actors[2], trajectory=Stationary((40.0, 1.0, 0.0)))
     on = replace(DESCRIPTION, relations=(Relation("beside", 2, (1,)),))
     shifts = find_shifts(on, actors, path, subject=0, aspect=0.75, duration_s=1.0)
-    assert set(shifts) == {1, 2} and np.array_equal(shifts[1], shifts[2])
+    assert set(shifts) == {1, 2}
+    assert np.array_equal(shifts[1], shifts[2])
 
 
 def test_mountains_stand_far_behind_those_who_ride_near_them() -> None:
