@@ -8,7 +8,8 @@ from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
 from texvent.scenes.language.meaning.acts.doers import add_doings, mount_riders
-from texvent.scenes.language.meaning.acts.fitting import DRINKS, is_plain_past, list_goals
+from texvent.scenes.language.meaning.acts.fitting import is_plain_past
+from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader

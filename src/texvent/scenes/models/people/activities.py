@@ -135,6 +135,8 @@ _DAILY: dict[str, Activity] = {
     "pull": _seen_from_side("pull",),
     "push": _seen_from_side("push", "shove"),
     "fish": _seen_from_side("fish", "go fishing"),
+    "tie shoes": _seen_from_side("tie shoes", "tie shoelaces", "tie laces", "tie boots",
+                                 "tie sneakers", "lace shoes", "lace boots"),
 }  # fmt: skip
 
 _RESTING: dict[str, Activity] = {

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from texvent.scenes.models.people.gestures import Movement, drum, strum
 from texvent.scenes.models.people.posture import ANKLE, Arm, Leg, Posture
-from texvent.scenes.models.people.timing import ease, follow_keys, swing
+from texvent.scenes.models.people.timing import ease, follow_keys, pulse, swing
 from texvent.scenes.models.shapes import Point
 
 _DOWN: Point = (-0.2, 0.5, -1.0)
@@ -241,6 +241,18 @@ def _fish(t: float) -> Posture:
     )  # fmt: skip
 
 
+def _tie_shoes(t: float) -> Posture:
+    """On one knee, both hands at the shoe in front."""
+    apart, up = 0.03 + 0.10 * pulse(t, 0.9), 0.16 + 0.12 * pulse(t, 0.9, 0.2)
+    return Posture(
+        hips=(-0.16, 0.0, 0.42), lean=0.85, nod=0.25,
+        left=Arm((0.36, 0.06 + apart, up), _OUT, True),
+        right=Arm((0.36, 0.06 - apart, up), _OUT, True),
+        left_leg=Leg((0.30, 0.08, ANKLE), (1.0, 0.5, 0.6)),
+        right_leg=Leg((-0.42, 0.10, 0.10), (1.0, 0.1, -0.6), 2.2),
+    )  # fmt: skip
+
+
 DAILY: Mapping[str, Movement] = MappingProxyType(
     {
         "sit": _sit, "sit on ground": _sit_on_ground, "lie": _lie, "kneel": _kneel,
@@ -249,7 +261,7 @@ DAILY: Mapping[str, Movement] = MappingProxyType(
         "play flute": _flute, "write": _write, "read": _read, "eat": _eat, "drink": _drink,
         "phone": _phone, "text": _text, "photograph": _photograph, "sing": _sing, "dig": _dig,
         "sweep": _sweep, "chop wood": _chop, "cook": _stir(1.2, 0.07), "push": _push,
-        "pull": _pull, "fish": _fish,
+        "pull": _pull, "fish": _fish, "tie shoes": _tie_shoes,
     }
 )  # fmt: skip
 """Activity → posture over time."""

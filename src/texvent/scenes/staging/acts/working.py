@@ -127,7 +127,8 @@ def work_at(
     living = target.noun.motion in ("walk", "run", "jump", "swim", "paddle", "fly")
     lies_free = support is None and target.trajectory.home[2] < 0.4
     is_low = target.model.height < _LOW_M * size and target.size_m < 2.0 * SMALL_M * size
-    is_small = target.size_m < SMALL_M * size or (is_low and work.place == "table")
+    is_small = target.size_m < SMALL_M * size and target.model.height < _LOW_M * size
+    is_small |= is_low and work.place == "table"
     if is_small and not living and lies_free and work.place != "there":
         return _at_own_table(subject, target, (work, reach, tempo), size)
     if support is not None:
@@ -252,7 +253,7 @@ def _stand_at(
     if is_front or (is_flat and is_tall):
         facing = 0.5 * math.pi
         yaw = facing - _TURN
-    elif is_wide and not is_tall and is_flat:
+    elif is_wide and not is_tall and (is_flat or support is not None):
         facing = -0.5 * math.pi
         yaw = facing + (0.15 if high[2] > _LOW_M * size else _TURN)
     else:

@@ -26,14 +26,16 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
     table = _phrases(is_hand)
     said = _list_words(clause)
     lemmas = tuple(_normalise(word.text) for word in said)
-    for length in range(len(said), 0, -1):
+    for length in range(len(said), 1, -1):
         name = table.get(lemmas[:length])
         if name is not None:
-            return name, said[:length], length > 1
-    name = table.get((*lemmas[:1], *lemmas[-1:])) if len(said) > 1 else None
+            return name, said[:length], True
+    last = _normalise(said[-1].text.split()[-1])
+    name = table.get((*lemmas[:1], last)) if len(said) > 1 else None
     if name is not None:
         return name, [said[0], said[-1]], True
-    return None
+    name = table.get(lemmas[:1])
+    return None if name is None else (name, said[:1], False)
 
 
 def _list_words(clause: Clause) -> list[Word]:

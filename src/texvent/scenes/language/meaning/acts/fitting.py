@@ -10,10 +10,7 @@ from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
-from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.people.activities import SEATS
-from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO
 from texvent.scenes.models.protocol import Noun
 
 _ON_GROUND = ("drive", "walk", "run", "jump")
@@ -116,41 +113,6 @@ def choose_act(verb: Verb, doer: Noun, target: Noun) -> str | None:
     if act == "hit":
         return "collide"
     return act if act in _ACTED_BY_ANYTHING else None
-
-
-DRINKS = frozenset({"drink", "lap", "eat", "nibble", "feed", "peck"})
-"""What a mouth does "from" something."""
-_AT = frozenset({"knock", "hammer", "tug", "poke", "pick", "prod", "pound", "tap", "hew"})
-"""Hand work at something: "pounds at a door"."""
-
-
-def list_goals(clause: Clause) -> tuple[str, ...]:
-    """Prepositions before what a verb of hand work is done to, besides its object.
-
-    As in "knocks on a door", "pours milk into a cup"; not "knits on a sofa".
-    """
-    lemma = clause.verb_word.lemma
-    work = HANDWORK[lemma]
-    if work.pattern in ONTO:
-        return ("into", "in", "onto", "on", "over", "to")
-    heads = [group.head for phrase in clause.phrases for group in phrase.groups]
-    nouns = [head.read_as(Role.NOUN) for head in heads if head is not None]
-    if clause.objects or any(one is None or one.value in SEATS for one in nouns):
-        return ()
-    return ("on", "at", "against") if lemma in _AT else ("on",)
-
-
-_STRUCK = ("hit", "strike")
-_BY_HAND = frozenset({*_STRUCK, "lift", "shake"})
-_FLYING = frozenset({"shuttlecock", "frisbee", "puck"})
-
-
-def is_hand_work(verb: Verb, target: Noun) -> bool:
-    """Whether a person does it with the hands at a thing that stays: not "hits a ball"."""
-    if verb.base not in _BY_HAND or verb.base not in HANDWORK:
-        return False
-    flies = "ball" in target.name or target.name in _FLYING
-    return not (flies and verb.base in _STRUCK)
 
 
 def is_plain_past(word: Word) -> bool:

@@ -18,20 +18,25 @@ from texvent.scenes.language.meaning.acts.devices import (
 from texvent.scenes.language.meaning.acts.fitting import (
     choose_act,
     fit_verb,
-    is_hand_work,
     is_played,
+)
+from texvent.scenes.language.meaning.acts.hand_work import is_by_hand, is_of_own_part, work_on
+from texvent.scenes.language.meaning.acts.sequence import (
+    carry_on,
+    comes_next,
+    is_done_in,
+    is_part_of_doer,
 )
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import OWNERS, Referent
+from texvent.scenes.language.meaning.referents import Referent
 from texvent.scenes.language.vocabulary.acts import OF_ONESELF
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS, shown_as
-from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
-from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO
+from texvent.scenes.models.people.work.verbs import HANDWORK
 
 STAND = ObjectMotion("stand")
 _OF_PARTS = ("work", "sway", "wave")
@@ -90,11 +95,11 @@ class ActReader:
         word = clause.verb_word
         verb = word.meaning.value
         is_alive = all(is_living(self._draft.noun(index)) for index in subjects)
-        outer = [one for one in objects if not (is_alive and _is_own(one))]
+        outer = [one for one in objects if not (is_alive and is_part_of_doer(one))]
         if not isinstance(verb, Verb):
             is_done_to = any(one.kind in ("things", "unknown", "part") for one in outer)
             return self._do_alike(clause, word, subjects, targets, is_done_to=is_done_to)
-        if targets and self._is_by_hand(verb, subjects, targets):
+        if targets and is_by_hand(self._draft, verb, subjects, targets):
             return self._work_by_hand(clause, verb, subjects, targets)
         if targets:
             return self._do_to(clause, verb, subjects, targets)
@@ -194,7 +199,7 @@ class ActReader:
         if found is None:
             return []
         name, words, is_exact = found
-        if not is_exact and (self._is_act(clause, objects) or _is_of_own_part(name, objects)):
+        if not is_exact and (self._is_act(clause, objects) or is_of_own_part(name, objects)):
             return []
         added = [self._add_motion(i, ObjectMotion(name), clause) for i in hands or people]
         if not any(added):
@@ -202,23 +207,12 @@ class ActReader:
         self.is_activity = is_exact
         mark_used(words)
         self._draft.link_motion(words, hands or people)
+        if name == _AT_SHOES:
+            shoes = [index for one in objects if one.is_things for index in one.things]
+            self._draft.relate("wear", people, shoes[:1])
         if name in HANDWORK and not is_exact:
-            self._work_on(words[0], people, objects)
+            work_on(self._draft, words[0], people, objects)
         return hands or people
-
-    def _work_on(self, word: Word, people: list[int], objects: Sequence[Referent]) -> None:
-        """Hands at the thing that is named; the word is no such act where that is not shown."""
-        targets = [index for one in objects if one.is_things for index in one.things]
-        work = HANDWORK.get(word.lemma)
-        is_onto = work is not None and work.pattern in ONTO
-        self._draft.relate("work on", people, targets[-1:] if is_onto else targets[:1])
-        if is_onto and len(targets) > 1:
-            self._draft.relate("hold", people, targets[:1])
-        seen = work.shown_as if work is not None else ""
-        if seen:
-            word.shown_as = seen
-        if objects and not targets:
-            word.shown_as = f"{seen or word.lemma} nothing"
 
     def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
         """Whether the verb acts on an object of the scene, or moves in a plain way."""
@@ -258,10 +252,6 @@ class ActReader:
                 self._give(clause, verb, [i for i in targets if is_living(self._draft.noun(i))])
             return movers
         return []
-
-    def _is_by_hand(self, verb: Verb, subjects: list[int], targets: list[int]) -> bool:
-        doer, target = self._draft.noun(subjects[0]), self._draft.noun(targets[0])
-        return is_person(doer) and is_hand_work(verb, target)
 
     def _work_by_hand(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
@@ -401,12 +391,12 @@ class ActReader:
         motion = self._name_kind(index, motion)
         if not motions:
             motions.append(motion)
-        elif order == "same" and _is_done_in(motions[-1].kind, motion.kind):
+        elif order == "same" and is_done_in(motions[-1].kind, motion.kind):
             motions[-1] = motion
-        elif order == "same" and _comes_next(clause) and motion.kind != motions[-1].kind:
+        elif order == "same" and comes_next(clause) and motion.kind != motions[-1].kind:
             motions.append(motion)
         elif order == "after":
-            motions.append(_carry_on(motions[-1], motion))
+            motions.append(carry_on(motions[-1], motion))
         elif order == "before":
             motions.insert(max(len(motions) - 1, 0), motion)
         elif motions[-1].kind in ("sit", "stand", "lie") and motion.kind != motions[-1].kind:
@@ -422,42 +412,9 @@ class ActReader:
         return replace(motion, kind=usual if usual != "stand" else "slide")
 
 
-def _is_of_own_part(name: str, objects: Sequence[Referent]) -> bool:
-    """As in "two men shake hands": no hand work at a thing."""
-    is_part = any(one.kind == "part" for one in objects)
-    return name in HANDWORK and is_part and not any(one.is_things for one in objects)
-
-
-def _comes_next(clause: Clause) -> bool:
-    """As in "a bird perched on a fence flies off": a main clause goes on from what was said."""
-    return clause.opener is None and not clause.is_participle and not clause.is_relative
-
-
-def _is_done_in(posture: str, kind: str) -> bool:
-    """As in "a man standing on a hill waves", "sitting on a bench, reading"."""
-    activity = ACTIVITIES.get(kind)
-    if posture == "sit":
-        return kind in DONE_SEATED or kind in _SEATED
-    return posture == "stand" and activity is not None and not activity.travels
-
-
-def _is_own(one: Referent) -> bool:
-    """As in "wiggles its hind legs": a part of who does it."""
-    determiner, head = one.group.determiner, one.group.head
-    is_part = head is not None and head.read_as(Role.PART) is not None
-    return is_part and determiner is not None and determiner.text in OWNERS
-
-
-def _carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:
-    """What moves on keeps its direction."""
-    keeps = motion.direction is None and before.is_moving and motion.kind == before.kind
-    return replace(motion, direction=before.direction) if keeps else motion
-
-
 _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})
 """Prepositions of who goes somewhere with what it carries."""
-_SEATED = ("type", "play piano", "play drums", "row")
-"""Activities with a seat of their own."""
+_AT_SHOES = "tie shoes"
 _UNSTEADY = ("wobble", "rock", "tilt")
 """How the whole of a thing moves that works in its place: a top, a metronome."""
 _STOPS = ("stop", "halt", "come to a stop", "come to rest")

@@ -56,6 +56,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
      "button unbutton zip unzip arrange decorate"),
     (HandWork("twist", "wrench"), "tighten loosen screw unscrew bolt unbolt repair fix service "
      "assemble disassemble install adjust tinker"),
+    (HandWork("twist", "wrench", shown_as="work on"), "change replace maintain"),
     (HandWork("twist"), "uncork unlock wring squeeze juice unwind"),
     (HandWork("drill", "drill", "there", "front"), "drill bore"),
     (HandWork("hold", "torch"), "weld solder braze"),

@@ -1,0 +1,87 @@
+"""Verbs of hand work: what they are done to, and when they are none."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.capabilities import is_person
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.people.activities import SEATS
+from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO
+from texvent.scenes.models.protocol import Noun
+
+DRINKS = frozenset({"drink", "lap", "eat", "nibble", "feed", "peck"})
+"""What a mouth does "from" something."""
+_AT = frozenset({"knock", "hammer", "tug", "poke", "pick", "prod", "pound", "tap", "hew"})
+"""Hand work at something: "pounds at a door"."""
+
+
+def list_goals(clause: Clause) -> tuple[str, ...]:
+    """Prepositions before what a verb of hand work is done to, besides its object.
+
+    As in "knocks on a door", "pours milk into a cup"; not "knits on a sofa".
+    """
+    lemma = clause.verb_word.lemma
+    work = HANDWORK[lemma]
+    if work.pattern in ONTO:
+        return ("into", "in", "onto", "on", "over", "to")
+    heads = [group.head for phrase in clause.phrases for group in phrase.groups]
+    nouns = [head.read_as(Role.NOUN) for head in heads if head is not None]
+    if clause.objects or any(one is None or one.value in SEATS for one in nouns):
+        return ()
+    return ("on", "at", "against") if lemma in _AT else ("on",)
+
+
+_STRUCK = ("hit", "strike")
+_BY_HAND = frozenset({*_STRUCK, "lift", "shake"})
+_FLYING = frozenset({"shuttlecock", "frisbee", "puck"})
+
+
+def is_hand_work(verb: Verb, target: Noun) -> bool:
+    """Whether a person does it with the hands at a thing that stays: not "hits a ball"."""
+    if verb.base not in _BY_HAND or verb.base not in HANDWORK:
+        return False
+    flies = "ball" in target.name or target.name in _FLYING
+    return not (flies and verb.base in _STRUCK)
+
+
+_BODY = frozenset(
+    {"forehead", "face", "brow", "nose", "eye", "mouth", "hair", "beard", "tooth", "teeth", "hand",
+     "lip", "chin", "sweat", "tear", "head", "neck", "arm", "leg", "foot", "feet", "finger", "nail",
+     "cheek", "body", "back", "belly"}
+)  # fmt: skip
+"""What somebody does something to that is a part of the body."""
+
+
+def is_of_own_part(name: str, objects: Sequence[Referent]) -> bool:
+    """As in "two men shake hands", "wipes her forehead": no hand work at a thing."""
+    if name not in HANDWORK or any(one.is_things for one in objects):
+        return False
+    heads = {one.group.head_word.lemma for one in objects if one.group.head is not None}
+    return any(one.kind == "part" for one in objects) or bool(heads & _BODY)
+
+
+def is_by_hand(draft: Draft, verb: Verb, subjects: Sequence[int], targets: Sequence[int]) -> bool:
+    """Whether a verb of motion is hand work of a person at this thing."""
+    doer, target = draft.noun(subjects[0]), draft.noun(targets[0])
+    return is_person(doer) and is_hand_work(verb, target)
+
+
+def work_on(draft: Draft, word: Word, people: Sequence[int], objects: Sequence[Referent]) -> None:
+    """Relate people to what they work on; the word says less where that is not shown."""
+    targets = [index for one in objects if one.is_things for index in one.things]
+    work = HANDWORK.get(word.lemma)
+    is_onto = work is not None and work.pattern in ONTO
+    draft.relate("work on", people, targets[-1:] if is_onto else targets[:1])
+    if is_onto and len(targets) > 1:
+        draft.relate("hold", people, targets[:1])
+    seen = work.shown_as if work is not None else ""
+    if seen:
+        word.shown_as = seen
+    if objects and not targets:
+        word.shown_as = f"{seen or word.lemma} nothing"
