@@ -16,6 +16,7 @@ from texvent.generate.seen_words.things import judge_outline
 from texvent.generate.seen_words.words import judge_words
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Evidence
+from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.projection import place_in_image, project, ray_directions
 from texvent.scenes.raycast.render import world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
@@ -159,11 +160,13 @@ def find_evidence(
         frozenset(index for index, own in copies.items() if found.still.issuperset(own)),
         {**words, **found.places},
         qualities,
-        tuple(dict.fromkeys(_list_extras(scene, description))),
+        tuple(dict.fromkeys(_list_extras(scene, description, faults))),
     )
 
 
-def _list_extras(scene: ComposedScene, description: SceneDescription) -> list[str]:
+def _list_extras(
+    scene: ComposedScene, description: SceneDescription, faults: Mapping[int, str | None]
+) -> list[str]:
     """What comes with a thing or an act without being said."""
     said = {one.noun for one in description.objects}
     words = set(description.prompt.casefold().split())
@@ -171,6 +174,8 @@ def _list_extras(scene: ComposedScene, description: SceneDescription) -> list[st
              for i in one.targets}  # fmt: skip
     found = [note for noun, note in _EXTRAS.items() if noun in said - laden]
     for actor in scene.actors:
+        if actor.noun.name in LAMPS and faults.get(actor.instance) is not None:
+            found.append(f"light of the {actor.noun.name} may be seen where it is not")
         for prop in actor.props:
             if prop.nouns and not said.intersection(prop.nouns) | words.intersection(prop.nouns):
                 found.append(f"the {actor.noun.name} has a {prop.nouns[0]} for what it does")

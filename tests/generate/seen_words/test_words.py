@@ -38,6 +38,8 @@ def report_of(prompt: str) -> PromptReport:
         ("a boat sails and a man stands at the bow", "bow"),
         ("a pile of boxes in a room", "a pile of"),
         ("a backyard with a dog", "backyard"),
+        ("a dog runs over a field, overhead", "overhead"),
+        ("a motorboat with white sails on the sea", "sails"),
     ],
 )  # fmt: skip
 def test_what_the_picture_does_not_show_is_named(prompt: str, word: str) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 
 from texvent.generate.seen_words.picture import USUAL, Picture
 from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.scene import Float64Array
 
 MOST_RED = 0.04
 """How much more red than blue water may be, as a share of white."""
@@ -51,6 +52,8 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     if needed is not None and not names & set(needed):
         return f"no {' or '.join(needed)}"
     place = description.surroundings.place
+    if claim.value == "sky" and place != "sky":
+        return None if _is_anything_aloft(picture) else "on the ground"
     if claim.word in _WATER_WORDS and place not in (*_WATERS, "underwater"):
         return None if place in ("sky", "space", None) else "no water in view"
     if claim.value in _WATERS and place in _WATERS:
@@ -68,11 +71,13 @@ def _is_one_of(word: str, words: tuple[str, ...]) -> bool:
 def _judge_water(picture: Picture) -> str | None:
     """Water that mirrors a red sky looks like soil: it must be as blue as it is red."""
     for number in USUAL:
-        water, _ = picture.strip(number)
-        if water.mean() >= LEAST_STRIP:
-            red, _, blue = picture.colours(number)[water].mean(axis=0)
-            if blue >= red - MOST_RED:
-                return None
+        water, beside = picture.strip(number)
+        if water.mean() < LEAST_STRIP:
+            continue
+        colours = picture.colours(number)
+        red, _, blue = colours[water].mean(axis=0)
+        if blue >= red - MOST_RED and _differ(colours[water], colours[beside]):
+            return None
     return "not to be told from the ground"
 
 
@@ -83,8 +88,24 @@ def _judge_road(picture: Picture) -> str | None:
         if road.mean() < LEAST_STRIP:
             continue
         colours = picture.colours(number)
-        if not beside.any():
-            return None
-        if np.abs(colours[road].mean(axis=0) - colours[beside].mean(axis=0)).max() >= LEAST_EDGE:
+        if _differ(colours[road], colours[beside]):
             return None
     return "not to be told from the ground"
+
+
+def _differ(strip: Float64Array, beside: Float64Array) -> bool:
+    """Whether water or a road is told from the ground beside it, if there is any."""
+    if not len(beside):
+        return True
+    return bool(np.abs(strip.mean(axis=0) - beside.mean(axis=0)).max() >= LEAST_EDGE)
+
+
+def _is_anything_aloft(picture: Picture) -> bool:
+    """Whether something in view is above the ground by its own height."""
+    for view in picture.views:
+        seen = set(np.unique(view.instance))
+        for actor in picture.scene.actors:
+            height = actor.trajectory.at(view.time_s).position[2]
+            if actor.instance in seen and height > max(actor.model.height, 0.3):
+                return True
+    return False

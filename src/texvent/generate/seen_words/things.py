@@ -10,10 +10,12 @@ from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.picture import USUAL, Picture, View
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
 from texvent.scenes.evidence import MOST_COUNTED
+from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.scene import Float64Array
 
-LEAST_COLOURED = 0.22
-"""Share of a thing's pixels that have the colour that is said of it."""
+LEAST_COLOURED, LEAST_DRESSED = 0.25, 0.12
+"""Share of a thing's pixels that have the colour that is said of it; of a person's, who is dressed
+in it."""
 LEAST_WORN = 0.08
 """The same for what another wears or holds, whose pixels are counted with the wearer's."""
 LEAST_DETAIL = 0.14
@@ -103,6 +105,8 @@ def _judge_colour(picture: Picture, description: SceneDescription, index: int) -
         copies, least = _bearers(picture, description, index), LEAST_WORN
     if named is None or not copies:
         return "not of that colour"
+    if any(is_person(one.noun) for one in picture.scene.actors if one.object_index == index):
+        least = LEAST_DRESSED
     for one in copies:
         best = max(_coloured_share(picture, number, one, named) for number in USUAL)
         if 0.0 <= best < least:
@@ -162,7 +166,8 @@ def _judge_part(
 ) -> str | None:
     if any(effect.source == index for effect in description.effects) and claim.motion is None:
         return "not told apart"
-    if claim.word in _ONE_SIDED:
+    is_lit = "light" in claim.word and description.light.kind in ("night", "moonlight", "dusk")
+    if claim.word in _ONE_SIDED and not is_lit:
         return "not told apart"
     return None if _extent(picture, index) >= LEAST_DETAIL else "too small to tell"
 

@@ -135,6 +135,8 @@ def is_other_sense(group: NounGroup, draft: Draft, preposition: str | None) -> b
     head, determiner = group.head_word, group.determiner
     if head.text in ("wood", "streams") and determiner is None:
         return True
+    if head.written == "Earth":
+        return True
     named = {item.noun for item in draft.objects} | {item.said for item in draft.objects}
     if named & _OTHERWISE_BESIDE.get(head.lemma, frozenset()):
         return True
