@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
-from texvent.scenes.language.meaning.acts.doers import add_doings, mount_riders
+from texvent.scenes.language.meaning.acts.doers import add_doings, give_to_owners, mount_riders
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.meaning.acts.reader import ActReader
@@ -66,6 +66,7 @@ class ClauseMeaning:
         """The description, before defaults are filled in."""
         draft = self._draft
         mount_riders(draft)
+        give_to_owners(draft)
         add_doings(draft)
         lose_owners(draft, self._referents.named)
         surroundings, light = self._surroundings.build()

@@ -44,6 +44,8 @@ class PartialObject:
     motions: list[ObjectMotion] = field(default_factory=list)
     sentence: int = 0
     """Number of the sentence that said its last motion."""
+    owner: str | None = None
+    """Pronoun of whose it is: "her basket"."""
     is_verb_lost: bool = False
     """Whether the prompt says that it does something that is not shown."""
 

@@ -319,6 +319,8 @@ class Referents:
             return Referent("unknown", group, attributes=attributes)
         self._draft.objects[index].said = said or self._draft.objects[index].said
         self._named.append(index)
+        if group.determiner is not None and group.determiner.text in OWNERS:
+            self._draft.objects[index].owner = group.determiner.text
         head.is_used = True
         is_other = meaning.is_substitute or (noun != meaning.value and not is_drinks)
         head.shown_as = noun if is_other else None

@@ -75,6 +75,22 @@ def stow(cast: Cast, relation: Relation, at: int) -> None:
         )
 
 
+def load(cast: Cast, relations: Sequence[Relation]) -> None:
+    """As in "a bicycle with a basket": the vehicle carries it along."""
+    for relation in relations:
+        vehicles = cast.copies(relation.subject)
+        things = cast.copies(relation.targets[0])
+        if relation.kind != "with" or not vehicles or not things:
+            continue
+        name, thing = cast.get(vehicles[0]).noun.name, cast.get(things[0])
+        is_load = thing.noun.motion == "stand" and thing.size_m < _LOAD_M
+        if is_load and (name in LOADS or name in _ON_RACK):
+            stow(cast, relation, vehicles[0])
+
+
+_LOAD_M = 1.0
+
+
 class _Stowage(NamedTuple):
     """Where something is on a vehicle with its own rider, m and radians."""
 

@@ -19,7 +19,7 @@ from texvent.scenes.staging.actors import Actor, Tether, seeded
 from texvent.scenes.staging.acts import colliding, striking
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
-from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, stow
+from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, load, stow
 from texvent.scenes.staging.acts.cargo import take_along
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.crews import put_to_work
@@ -176,7 +176,8 @@ def _implied_acts(objects: list[SceneObject], relations: list[Relation]) -> list
             if ball is not None:
                 holds.append(Relation(act, index, (ball,)))
                 bound.add(ball)
-        for prop in PROPS.get(person.motion.kind, ()):
+        said = (person.motion, *person.then)
+        for prop in (one for motion in said for one in PROPS.get(motion.kind, ())):
             for number, thing in enumerate(objects):
                 if thing.noun in prop.nouns and number not in bound and prop.anchor != "ground":
                     holds.append(Relation("hold", index, (number,)))
@@ -231,6 +232,7 @@ def perform_acts(
         _perform(cast, relation, duration_s)
     board(cast, relations)
     relations = [r for r in relations if r not in towed]
+    load(cast, description.relations)
     for kind in _ORDER:
         if kind == "work on":
             put_to_work(cast, relations, description.relations)

@@ -31,16 +31,23 @@ Holds = Callable[[Actor, Actor, float], bool]
 
 
 def holds_for_all(
-    holds: Holds, subjects: Sequence[Actor], targets: Sequence[Actor], duration_s: float
+    holds: Holds,
+    subjects: Sequence[Actor],
+    targets: Sequence[Actor],
+    duration_s: float,
+    *,
+    always: bool = False,
 ) -> bool:
     """Whether every subject has the relation to one of the targets.
 
-    What moves by itself needs it at some instant, what stays from the start.
+    What moves by itself needs it at some instant, what stays from the start, and what is held or
+    ridden (`always`) all the time.
     """
     times = np.linspace(0.0, duration_s, _INSTANTS)
     for subject in subjects:
         own = times if subject.is_mover or any(t.is_mover for t in targets) else times[:1]
-        if not any(holds(subject, target, float(t)) for t in own for target in targets):
+        found = (any(holds(subject, target, float(t)) for target in targets) for t in own)
+        if not (all(found) if always else any(found)):
             return False
     return True
 

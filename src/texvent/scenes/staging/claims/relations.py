@@ -30,6 +30,7 @@ from texvent.scenes.staging.claims.contact import (
     strikes,
     touches,
 )
+from texvent.scenes.staging.claims.courses import approaches, comes_from, goes_round
 from texvent.scenes.wording import RELATION_WORDS
 
 _INSTANTS = 13
@@ -39,6 +40,9 @@ _PHRASES = {**RELATION_WORDS, "beside": "next to"}
 _SMALL = 0.35
 """Share of a low thing's size up to which what it is "with" stands on it or in it."""
 _LOW_M = 2.0
+
+
+_Course = Callable[[Sequence[Actor], Sequence[Actor], float], bool]
 
 
 class _Body(NamedTuple):
@@ -111,8 +115,12 @@ def _size(body: _Body) -> float:
 
 
 def _is_near(subject: _Body, targets: list[_Body]) -> bool:
-    reach = 1.5 * (_size(subject) + max(_size(target) for target in targets)) + 1.0
+    reach = _BESIDE * max(_size(one) for one in (subject, *targets)) + _BESIDE_M
     return all(float(_gaps(subject, target).min()) < reach for target in targets)
+
+
+_BESIDE, _BESIDE_M = 0.6, 0.6
+"""Gap up to which something is beside another: share of the larger one's size, m."""
 
 
 def _middle(body: _Body) -> Float64Array:
@@ -157,9 +165,11 @@ def _is_among_copies(subject: _Body, target: _Body) -> bool:
     return False
 
 
-def _comes_nearer(subject: _Body, targets: list[_Body]) -> bool:
-    apart = np.linalg.norm(subject.places - targets[0].places, axis=1)
-    return bool(apart[-1] < apart[0])
+def _by_copies(holds: _Course) -> Callable[[_Body, list[_Body]], bool]:
+    """A check of the single copies."""
+    return lambda subject, targets: holds(
+        subject.copies, [copy for one in targets for copy in one.copies], subject.duration_s
+    )
 
 
 def _goes_away(subject: _Body, targets: list[_Body]) -> bool:
@@ -228,6 +238,10 @@ def _is_with(subject: _Body, targets: list[_Body]) -> bool:
     if not _is_near(subject, targets):
         return False
     own, other = subject.copies[0], targets[0].copies[0]
+    if own.is_mover and other.noun.motion == "stand":
+        # What goes along is near all the time.
+        reach = _BESIDE * max(_size(subject), _size(targets[0])) + _BESIDE_M
+        return float(_gaps(subject, targets[0]).max()) < reach
     is_still = own.noun.habitat == "fixed" and other.noun.habitat == "fixed"
     is_load = other.size_m < _SMALL * own.size_m and own.model.height < _LOW_M
     if not (is_still and is_load):
@@ -239,7 +253,7 @@ def _is_touching(subject: _Body, targets: list[_Body]) -> bool:
     """Each target is at one of the subjects: "two people wearing three jackets"."""
     return holds_for_all(
         lambda target, own, t: touches(own, target, t),
-        targets[0].copies, subject.copies, subject.duration_s,
+        targets[0].copies, subject.copies, subject.duration_s, always=True,
     )  # fmt: skip
 
 
@@ -258,12 +272,14 @@ def _is_on_body(subject: _Body, targets: list[_Body], *, least: float) -> bool:
         foot = float(low[2] if target.noun.name not in PERSON_NOUNS else 0.5 * (low + high)[2])
         return touches(own, target, time_s) and foot > base[2] + least * (top[2] - base[2])
 
-    return holds_for_all(is_there, targets[0].copies, subject.copies, subject.duration_s)
+    copies = targets[0].copies
+    return holds_for_all(is_there, copies, subject.copies, subject.duration_s, always=True)
 
 
 def _is_riding(subject: _Body, targets: list[_Body]) -> bool:
     """Every rider is over it and at it, and not on its roof; nobody shares a seat."""
-    return holds_for_all(rides, subject.copies, targets[0].copies, subject.duration_s)
+    riders, mounts = subject.copies, targets[0].copies
+    return holds_for_all(rides, riders, mounts, subject.duration_s, always=True)
 
 
 def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
@@ -294,6 +310,8 @@ def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
     return strikes(subject.copies, targets[0].copies, subject.duration_s, moves=moves)
 
 
+_MOST = 0.5
+"""Share of the clip for which it must be there."""
 _HAND_SAMPLES = 13
 _TOUCH_M = 0.08
 """From the middle of a palm, or the tip of a tool, to a surface that it touches."""
@@ -304,8 +322,8 @@ _BY_CONTACT = frozenset({"on", "in", "with", *ACTS})
 _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     "left of": lambda s, t: bool(_middle(s)[0] < _middle(t[0])[0]),
     "right of": lambda s, t: bool(_middle(s)[0] > _middle(t[0])[0]),
-    "behind": lambda s, t: bool(np.any(s.places[:, 1] > t[0].places[:, 1])),
-    "front": lambda s, t: bool(np.any(s.places[:, 1] < t[0].places[:, 1])),
+    "behind": lambda s, t: bool(np.mean(s.places[:, 1] > t[0].places[:, 1]) > _MOST),
+    "front": lambda s, t: bool(np.mean(s.places[:, 1] < t[0].places[:, 1]) > _MOST),
     "beside": _is_near,
     "with": _is_with,
     "on": _is_on,
@@ -320,15 +338,15 @@ _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     "work on": _is_worked_on,
     **dict.fromkeys(("kick", "hit", "throw"), partial(_is_striking, moves=True)),
     "catch": partial(_is_striking, moves=False),
-    "around": _is_near,
+    "around": _by_copies(goes_round),
     "above": _is_above,
     "under": _is_under,
     "between": _is_between,
     "past": _passes,
     "overtake": _overtakes,
     "through": _goes_through,
-    "towards": _comes_nearer,
-    "from": _goes_away,
+    "towards": _by_copies(approaches),
+    "from": _by_copies(comes_from),
     "away from": _goes_away,
     "follow": _is_behind_in_line,
 }

@@ -8,6 +8,7 @@ from functools import lru_cache
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.motion import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.models.people.activities import ACTIVITIES
@@ -34,6 +35,39 @@ def mount_riders(draft: Draft) -> None:
 def _is_mount(draft: Draft, index: int) -> bool:
     noun = draft.noun(index)
     return is_living(noun) and not is_person(noun) and noun.habitat == "ground"
+
+
+def give_to_owners(draft: Draft) -> None:
+    """As in "her basket", "tips his hat": it is at its owner, unless it is said where it is."""
+    for index, item in enumerate(draft.objects):
+        noun = draft.noun(index)
+        is_placed = any(
+            one.subject == index or (index in one.targets and one.kind not in _LOOSE)
+            for one in draft.relations
+        )
+        if item.owner is None or is_placed or noun.motion != "stand" or item.motions:
+            continue
+        owner = _find_owner(draft, item.owner, index)
+        if owner is None or draft.length_m(index) > _CARRIED_M:
+            continue
+        draft.relations[:] = [one for one in draft.relations if index not in one.targets]
+        draft.relate("wear" if noun.name in WEARABLE else "hold", [owner], [index])
+
+
+_LOOSE = ("with", "beside")
+_CARRIED_M = 1.0
+_OF_WOMEN, _OF_MEN = ("woman", "girl"), ("man",)
+
+
+def _find_owner(draft: Draft, pronoun: str, item: int) -> int | None:
+    """The only person whom the pronoun fits."""
+    others = {"her": _OF_MEN, "his": _OF_WOMEN}.get(pronoun, ())
+    people = [
+        index
+        for index in range(len(draft.objects))
+        if index != item and is_person(draft.noun(index)) and draft.noun(index).name not in others
+    ]
+    return people[0] if len(people) == 1 and pronoun in ("her", "his", "their") else None
 
 
 def add_doings(draft: Draft) -> None:
