@@ -208,9 +208,14 @@ ACTIVE = frozenset({"push", "pull", "kick", "hit", "throw", "catch", "collide"})
 """Acts in which something moves."""
 
 
+_FLOWING = ("waterfall", "sprinkler")
+"""Nouns that water flows from, whatever they do."""
+
+
 def _is_moving(scene_object: SceneObject) -> bool:
     return (
         scene_object.blink_hz is not None
+        or scene_object.noun in _FLOWING
         or bool(scene_object.then)
         or (
             scene_object.motion is not None

@@ -95,8 +95,9 @@ EFFECTS: Mapping[str, EffectWords] = MappingProxyType({
     "fountain": EffectWords(
         ("fountain", "water fountain", "geyser"), ("spout",), needs_source=False
     ),
+    "falling water": EffectWords(("falling water", "cascading water")),
     "spray": EffectWords(
-        ("spray", "sea spray", "water spray", "sprinkler"), ("spray", "squirt"), ("spraying",),
+        ("spray", "sea spray", "water spray"), ("spray", "squirt"), ("spraying",),
         needs_source=False,
     ),
     "dust": EffectWords(

@@ -41,11 +41,11 @@ from texvent.scenes.models.objects.home import (
     small_things,
 )
 from texvent.scenes.models.objects.kitchen import appliances, food, tableware
-from texvent.scenes.models.objects.outdoors import street_furniture, structures, wild
+from texvent.scenes.models.objects.outdoors import flowing, street_furniture, structures, wild
 from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, gear
-from texvent.scenes.models.objects.work import machines, rare_vehicles, tools
+from texvent.scenes.models.objects.work import escalator, machines, rare_vehicles, tools
 from texvent.scenes.models.people import hand, person, wearables
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
@@ -88,6 +88,8 @@ _MODULES = (
     music,
     tools,
     machines,
+    escalator,
+    flowing,
     street_furniture,
     structures,
     wild,

@@ -96,6 +96,8 @@ class ClauseMeaning:
         self._referents.verb = clause.verb.lemma if clause.verb is not None else ""
         subjects = [self._referents.resolve(group) for group in clause.subjects]
         self._referents.verb = ""
+        if self._leaves_behind(clause, subjects):
+            subjects = [Referent("things", _NOBODY, list(self._draft.subjects))]
         if self._shots.is_about(clause, subjects):
             self._read_camera(clause, subjects)
         elif subjects and all(one.kind in OF_SCENE for one in subjects):
@@ -106,6 +108,12 @@ class ClauseMeaning:
             self._read_subjectless(clause)
         else:
             self._read_objects(clause, subjects)
+
+    def _leaves_behind(self, clause: Clause, subjects: Sequence[Referent]) -> bool:
+        """As in "a truck drives on a road, leaving dust": the truck leaves it, not the road."""
+        is_place = bool(subjects) and all(one.kind == "place" for one in subjects)
+        is_it = clause.verb is not None and clause.verb.lemma in _GIVES_OFF
+        return is_place and is_it and clause.is_participle and bool(self._draft.subjects)
 
     @staticmethod
     def _take_partners(clause: Clause) -> None:
@@ -321,7 +329,9 @@ class ClauseMeaning:
             self._surroundings.read_referent(one, is_negated=False)
             self._cross(one, clause, scope)
         elif one.kind == "effect":
-            self._around.add_effect(one, scope)
+            is_added = self._around.add_effect(one, scope)
+            if is_added and clause.verb is not None and clause.verb.lemma in _GIVES_OFF:
+                clause.verb.is_used = True
         elif one.kind == "part" and scope.is_verb_shown:
             self._around.parts.read_own(one, scope.subjects)
         self._around.read_group_phrases(one, Scope(one.things, [], not one.things, has_verb=False))
@@ -392,6 +402,11 @@ def _is_water(one: Referent) -> bool:
 
 
 _OF_SURROUNDINGS = (Role.LIGHT, Role.WEATHER, Role.CLOUDS, Role.PLACE)
+_GIVES_OFF = frozenset(
+    {"blow", "make", "release", "leave", "raise", "spray", "send", "emit", "throw", "create",
+     "produce", "shoot", "scatter", "kick"}
+)  # fmt: skip
+"""Verbs of who makes smoke, bubbles, dust."""
 _JUGGLE = "juggle"
 _BALLS_JUGGLED = 3
 _NOBODY = NounGroup()

@@ -36,6 +36,10 @@ from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.kinds.people import TRAFFIC
 
 PERSON = "person"
+AIRBORNE = frozenset({"blow", "fall", "swirl", "fly", "drift", "float", "flutter", "whirl"})
+"""What leaves and feathers do in the air."""
+DRIFTING = {"leaf": "leaves", "feather": "feathers", "soap bubble": "bubbles"}
+"""Noun → the effect that many of them in the air are."""
 OUR = ("our", "my")
 """Owners that make a vehicle the camera's: "our car leaves a tunnel"."""
 _KINDS = {
@@ -161,10 +165,8 @@ class Referents:
             mark_used([head])
             return Referent("things", group, [signal], attributes=attributes)
         role = self._choose_role(head, preposition, group)
-        if role is Role.NOUN and (head.read_as(Role.NOUN) or head.meaning).value in TRAFFIC:
-            return self._read_traffic(group, attributes)
         if role is Role.NOUN:
-            return self._read_thing(group, attributes, preposition)
+            return self._read_noun(group, attributes, preposition)
         return self._read_no_thing(group, role, attributes)
 
     @staticmethod
@@ -325,6 +327,30 @@ class Referents:
         is_other = meaning.is_substitute or (noun != meaning.value and not is_drinks)
         head.shown_as = noun if is_other else None
         return Referent("things", group, [index], attributes=attributes)
+
+    def _read_noun(
+        self, group: NounGroup, attributes: Attributes, preposition: str | None
+    ) -> Referent:
+        """A thing, many of them in the air, or traffic."""
+        head = group.head_word
+        drifting = self._find_drifting(group)
+        if drifting is not None:
+            return Referent("effect", group, value=drifting, attributes=attributes)
+        if (head.read_as(Role.NOUN) or head.meaning).value in TRAFFIC:
+            return self._read_traffic(group, attributes)
+        return self._read_thing(group, attributes, preposition)
+
+    def _find_drifting(self, group: NounGroup) -> str | None:
+        """As in "leaves blow in the wind", "soap bubbles": many that drift through the air."""
+        meaning = group.head_word.read_as(Role.NOUN)
+        if meaning is None or not meaning.is_plural:
+            return None
+        said = [word for word in group.modifiers if word.lemma in AIRBORNE]
+        if meaning.value != "soap bubble" and self.verb not in AIRBORNE and not said:
+            return None
+        kind = DRIFTING.get(str(meaning.value))
+        mark_used(said if kind is not None else ())
+        return kind
 
     def _read_traffic(self, group: NounGroup, attributes: Attributes) -> Referent:
         """As in "highway traffic": vehicles that drive both ways."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence, Set
 
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
+from texvent.scenes.language.meaning.circumstances.reader import WINDS, CircumstanceReader
 from texvent.scenes.language.meaning.referents import Referent, Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
@@ -17,6 +17,9 @@ from texvent.scenes.language.words.word import Word, mark_used
 _SUN = {"set": "dusk", "rise": "dawn"}
 _OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
 _SWITCHES = ("switch", "turn", "go", "flick", "click", "toggle")
+_FLOWS = frozenset({"run", "flow", "gush", "trickle", "stream", "come", "shoot"})
+_OUT_OF = ("from", "out of")
+_IN_THE_WIND = frozenset({"leaves", "petals", "confetti", "feathers", "smoke", "sand", "dust"})
 _BENDS = ("curve", "wind", "bend", "twist")
 _SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
 _FALLING = frozenset(
@@ -72,6 +75,8 @@ class SceneClauses:
     def _read_water(self, clause: Clause, word: Word, subjects: Sequence[Referent]) -> bool:
         """As in "water drips from a tap": an effect, not a place."""
         kind = EFFECT_BY_VERB.get(word.lemma)
+        if word.lemma in _FLOWS and any(one.preposition.text in _OUT_OF for one in clause.phrases):
+            kind = "pour"
         heads = [one.group.head for one in subjects if one.group.head is not None]
         if kind not in _OF_WATER or any(head.text != "water" for head in heads):
             return False
@@ -118,6 +123,11 @@ class SceneClauses:
                     self._around.read_phrase(phrase, Scope([], []))
                 self._around.read_group_phrases(found, Scope(found.things, []))
         added = [self._around.add_effect(one, Scope(sources[:1], [])) for one in subjects]
+        kinds = {str(one.value) for one in subjects}
+        for phrase in clause.phrases if kinds & _IN_THE_WIND else ():
+            for group in phrase.groups:
+                if group.head is not None and group.head.text in WINDS:
+                    mark_used([phrase.preposition, group.head])
         word = clause.verb
         if (
             word is not None

@@ -53,6 +53,15 @@ SIMILAR_MOTIONS: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Motion → verbs it stands for, for what is not a person."""
 
+JOBS: dict[str, tuple[frozenset[str], str]] = {
+    "robot vacuum": (frozenset({"clean", "vacuum", "sweep"}), "slide"),
+    "waterfall": (
+        frozenset({"fall", "plunge", "cascade", "pour", "flow", "drop", "crash", "rush", "tumble"}),
+        "stand",
+    ),
+    "excavator": (frozenset({"dig", "work", "excavate", "scoop"}), "work"),
+}
+"""Machine → verbs of what it is there for, and the motion that shows it."""
 BOARDS = frozenset(
     {"skateboard", "surfboard", "snowboard", "scooter", "skis", "wave", "sled", "carousel horse"}
 )

@@ -66,7 +66,7 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "mountain": ("canyon", "cliff", "crater", "ridge", "gorge", "summit", "peak"),
     "sea": ("harbor", "harbour", "marina", "bay", "port", "lagoon", "fjord"),
     "lake": ("swimming pool", "pool", "water hole", "waterhole", "swamp", "marsh"),
-    "river": ("waterfall", "rapids", "ditch"),
+    "river": ("rapids", "ditch"),
     "forest": ("park trail", "bamboo grove", "swamp forest"),
     "indoor": (
         "corridor", "studio", "museum", "church", "theatre", "theater", "auditorium", "stage",

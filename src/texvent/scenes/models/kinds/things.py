@@ -272,7 +272,7 @@ THING_KINDS: dict[str, str] = {
     "caterpillar": "centipede, millipede, silkworm",
     "dinosaur": "velociraptor, raptor, allosaurus",
     "windmill": "watermill",
-    "stairs": "escalator, fire escape",
+    "stairs": "fire escape",
     "scooter": "segway",
     "doll": "marionette, nutcracker, action figure",
     "pear": "avocado",

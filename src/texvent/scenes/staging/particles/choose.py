@@ -20,14 +20,17 @@ from texvent.scenes.staging.particles.body_lights import (
 )
 from texvent.scenes.staging.particles.bursts import Fireball, Fireworks, Pieces, Splash
 from texvent.scenes.staging.particles.clouds import PLUMES, Plume, make_bank
+from texvent.scenes.staging.particles.falling_water import FallingWater
 from texvent.scenes.staging.particles.flakes import FLAKES, Falling
 from texvent.scenes.staging.particles.jets import JETS, WATER, Dripping, Jet
 from texvent.scenes.staging.particles.light_shows import Lasers, Lightning, StageLights
 from texvent.scenes.staging.particles.motion import Source
 from texvent.scenes.staging.particles.shapes import ParticleEffect
+from texvent.scenes.staging.particles.window_drops import WindowDrops
 from texvent.scenes.staging.weather import WEATHERS
 
-OF_NOUNS = {"campfire": "fire", "fireplace": "fire", "torch": "fire", "volcano": "smoke"}
+OF_NOUNS = {"campfire": "fire", "fireplace": "fire", "torch": "fire", "volcano": "smoke",
+            "sprinkler": "spray", "waterfall": "falling water"}  # fmt: skip
 """Noun → effect that it always has, unless it is said not to be lit."""
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
@@ -49,6 +52,7 @@ _ANCHORS: dict[tuple[str, str], tuple[float, float, float]] = {
     ("smoke", "house"): (0.3, 0.35, 1.0),
     ("smoke", "ship"): (0.1, 0.0, 1.0),
     ("smoke", "volcano"): (0.0, 0.0, 0.58),
+    ("spray", "sprinkler"): (0.0, 0.0, 1.0),
     ("fire", "torch"): (0.0, 0.0, 0.72),
     ("fire", "fireplace"): (0.1, 0.0, 0.1),
     **{(kind, "faucet"): (0.7, -0.92, 0.6) for kind in ("drip", "pour")},
@@ -81,7 +85,7 @@ _USUAL_ANCHOR: dict[str, tuple[float, float, float]] = {
 _SIZES: dict[str, float] = {"fire": 0.75, "smoke": 0.32, "steam": 0.7, "dust": 0.55, "drip": 0.35,
                             "pour": 0.6, "fountain": 0.9, "sparks": 0.6}  # fmt: skip
 """Size of an effect by that of the object it comes from."""
-_NOUN_SIZES = {("fire", "fireplace"): 0.3, ("fire", "torch"): 0.9}
+_NOUN_SIZES = {("fire", "fireplace"): 0.3, ("fire", "torch"): 0.9, ("spray", "sprinkler"): 2.5}
 """The same for some objects of their own."""
 _ALONE: dict[str, float] = {"smoke": 0.15, "steam": 0.12, "fire": 0.2, "dust": 0.2, "drip": 0.16,
                             "pour": 0.3, "fountain": 0.42, "sparks": 0.3, "embers": 0.25,
@@ -159,6 +163,9 @@ def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEf
     if said.weather is not None and said.weather in WEATHERS:
         rng = seeded(setting.seed, said.weather)
         made.append(WEATHERS[said.weather](base, 1.4 * framing.distance_m, rng))
+    for actor in setting.actors if said.weather == "rain" else ():
+        if actor.noun.name == "window":
+            made.append(WindowDrops.of(actor, seeded(setting.seed, "pane", actor.instance)))
     if said.has_dust:
         for actor in setting.actors:
             if actor.is_mover and actor.noun.habitat == "ground":
@@ -217,6 +224,10 @@ def _make_stream(
     kind, reach = effect.kind, setting.framing.distance_m
     colour = None if effect.colour is None else effect.colour.rgb
     source = _source(kind, actor, setting)
+    if kind == "falling water" and actor is not None:
+        return [FallingWater.of(actor, rng)]
+    if kind == "drip" and actor is not None and actor.noun.name == "window":
+        return [WindowDrops.of(actor, rng)]
     if kind == "drip":
         start = source.at(np.zeros(1))[0]
         height = max(float(start[2]), 0.05) if np.isfinite(setting.floor_m) else reach

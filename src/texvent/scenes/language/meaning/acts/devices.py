@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import SPIN_RATE_HZ, Effect
+from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import Referent
-from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB
+from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB, JOBS
 from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.word import Word, mark_used
@@ -34,7 +34,23 @@ def give_effect(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
 
 def switch(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     """What lamps and traffic lights do by themselves."""
-    return switch_signal(draft, clause, subjects) or switch_lamps(draft, clause, subjects)
+    return (
+        switch_signal(draft, clause, subjects)
+        or switch_lamps(draft, clause, subjects)
+        or do_job(draft, clause, subjects)
+    )
+
+
+def do_job(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
+    """As in "a robot vacuum cleans the floor", "an excavator digs"."""
+    lemma = clause.verb_word.lemma
+    doers = [i for i in subjects if lemma in JOBS.get(draft.objects[i].noun, ((), ""))[0]]
+    for index in doers:
+        item = draft.objects[index]
+        if not item.motions:
+            item.motions.append(ObjectMotion(JOBS[item.noun][1]))
+    clause.verb_word.is_used = clause.verb_word.is_used or bool(doers)
+    return bool(doers)
 
 
 def switch_signal(draft: Draft, clause: Clause, subjects: list[int]) -> bool:

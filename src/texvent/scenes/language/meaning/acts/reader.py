@@ -333,7 +333,7 @@ class ActReader:
         word = clause.verb_word
         things = [self._mount(index) for index in things]
         nouns = [self._draft.noun(index) for index in things]
-        is_by_itself = verb.kind in ("wave", "fly", "sway") and verb.base not in _UNSTEADY
+        is_by_itself = verb.kind in ("wave", "fly", "sway", "turn") and verb.base not in _UNSTEADY
         if is_by_itself and any(noun.is_working for noun in nouns):
             verb = replace(verb, kind="work")
         if verb.kind == "swim" and nouns and all(noun.habitat == "air" for noun in nouns):

@@ -45,6 +45,10 @@ _OF_THINGS = (Role.DIRECTION, Role.PACE, Role.SIDE, Role.STILL)
 _MOTION_BY_PREPOSITION = {"across": "across", "up": "up", "down": "down"}
 
 
+WINDS = frozenset({"wind", "breeze", "gust", "gusts", "winds"})
+"""Nouns of moving air."""
+
+
 class CircumstanceReader:
     """Reads what a clause says besides subject, verb and object."""
 
@@ -251,6 +255,7 @@ class CircumstanceReader:
         elif one.kind == "part":
             self.parts.read_part(word, one, scope)
         elif one.kind == "unknown":
+            self._read_wind(word, one, scope)
             self._read_worn_colour(phrase, one, scope)
         elif one.kind in ("camera", "function"):
             self._read_camera_or_style(word, one, scope)
@@ -293,6 +298,15 @@ class CircumstanceReader:
             item = self._draft.objects[index]
             if item.side is None and self._draft.noun(index).motion != "drive":
                 item.side = "lane"
+
+    def _read_wind(self, word: Word, one: Referent, scope: Scope) -> None:
+        """As in "a flag waves in the wind": shown where what is said moves so."""
+        is_wind = one.group.head is not None and one.group.head.text in WINDS
+        for index in scope.subjects if is_wind else ():
+            item, noun = self._draft.objects[index], self._draft.noun(index)
+            kinds = {motion.kind for motion in item.motions}
+            if kinds & {"work", "sway"} or (noun.is_working and not kinds):
+                mark_used([word, *one.group.words[-1:]])
 
     def _read_worn_colour(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
         """As in "A defender in white": the colour of the clothes."""
