@@ -567,3 +567,33 @@ def test_mountains_around_are_a_backdrop_and_no_objects() -> None:
     lake = parse_prompt("a sailboat on a lake surrounded by mountains")
     assert [one.noun for one in lake.objects] == ["sailboat"]
     assert lake.surroundings.backdrops == ("mountain",)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kinds"),
+    [
+        ("thunderstorm with lightening at night", ["lightning"]),
+        ("a singer under changing spotlights", ["stage lights"]),
+        ("a house with blinking lights", ["blinking lights"]),
+        ("a van with blue flashing lights", ["beacon"]),
+        ("leaves blowing in the wind", ["leaves"]),
+        ("a child blows soap bubbles", ["bubbles"]),
+        ("a truck drives on a dirt road leaving a cloud of dust", ["dust"]),
+        ("water runs from a tap", ["pour"]),
+        ("a shirt with vertical stripes", []),
+    ],
+)
+def test_what_moves_by_itself_is_an_effect(prompt: str, kinds: list[str]) -> None:
+    assert [effect.kind for effect in parse_prompt(prompt).effects] == kinds
+
+
+def test_patterns_are_read_beside_what_they_are_part_of() -> None:
+    def nouns(prompt: str) -> list[str]:
+        return [one.noun for one in parse_prompt(prompt).objects]
+
+    assert nouns("a black square moving on a white background") == ["square"]
+    assert nouns("people crossing a square") == ["person"]
+    assert nouns("a disc with black and white stripes spins") == ["spinning disc"]
+    assert nouns("an expanding white ring") == ["expanding ring"]
+    assert nouns("eye blinking close up") == ["eye"]
+    assert nouns("a man closes his eyes") == ["man"]
