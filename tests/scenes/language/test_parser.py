@@ -397,3 +397,11 @@ def test_no_word_of_the_lexicon_is_lost() -> None:
     """Each word of a prompt of known words ends up understood, reported, or is a stop word."""
     description = parse_prompt("gibberish1 car blorp drives flurb left")
     assert description.not_understood == ("gibberish", "blorp", "flurb")
+
+
+def test_a_verb_after_a_comma_and_a_word_after_an_object_are_no_nouns() -> None:
+    thrown = parse_prompt("a woman tosses the ball high")
+    assert [one.noun for one in thrown.objects] == ["woman", "ball"]
+    assert thrown.not_understood == ("high",)
+    bent = parse_prompt("a woman throws a ball, arches her back and walks left")
+    assert [one.noun for one in bent.objects] == ["woman", "ball"]

@@ -130,7 +130,7 @@ class _Tagger:
     def _decide(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos:
         if len(by_pos) == 1:
             return next(iter(by_pos))
-        for rule in (self._closed_class, self._verb_or_not, self._open_class):
+        for rule in (self._closed_class, self._verb_or_not, self._after_object, self._open_class):
             found = rule(index, by_pos)
             if found is not None:
                 return found
@@ -192,11 +192,21 @@ class _Tagger:
         is_adverb = adverb is not None and adverb.role is not Role.UNKNOWN
         if is_adverb and (verb.role is Role.UNKNOWN or verb.form is VerbForm.PAST):
             return None
+        if self._goes_on(index, verb):
+            return Pos.VERB
         noun = by_pos.get(Pos.NOUN)
         is_noun = verb.role is Role.UNKNOWN and noun is not None and noun.role is not Role.UNKNOWN
         if is_noun and self._before() in _OPENS_NOUN | {None, Pos.PREPOSITION, Pos.SIGN}:
             return None
         return self._verb_by_context(index, verb, others)
+
+    def _goes_on(self, index: int, verb: Meaning) -> bool:
+        """As "arches" in "tosses the ball, arches her back": one more verb, and its object."""
+        after = self._after(index)
+        is_next = self._before() in (Pos.SIGN, Pos.CONJUNCTION) and verb.form is VerbForm.THIRD
+        return (
+            is_next and bool(after) and after <= _ONLY_OPENS and self._last_verb_form() is verb.form
+        )
 
     def _verb_by_context(
         self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]
@@ -318,6 +328,17 @@ class _Tagger:
             if meaning.pos is Pos.VERB and meaning.form in (VerbForm.THIRD, VerbForm.BASE):
                 return meaning.form
         return None
+
+    def _after_object(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos | None:
+        """As "high" in "throws the ball high", which is no noun of "ball"."""
+        is_known = any(one.role is not Role.UNKNOWN for one in by_pos.values())
+        if is_known or Pos.ADVERB not in by_pos or self._after(index) & _NOMINAL:
+            return None
+        group = [one.pos for one in self._chosen]
+        while group and group[-1] in _NOMINAL | {Pos.DETERMINER}:
+            group.pop()
+        is_object = self._before() is Pos.NOUN and group and group[-1] is Pos.VERB
+        return Pos.ADVERB if is_object else None
 
     def _open_class(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos | None:
         """Nouns, adjectives and adverbs."""
