@@ -247,8 +247,8 @@ def _set_camera(
     path = place_camera(
         description, actors, place, seed=seed, aspect=aspect, duration_s=duration_s, travel=travel
     )
-    if travel is None and PLACES[place].ground is not Ground.NONE:
-        subject = choose_main(description, actors).object_index if actors else None
+    if actors and PLACES[place].ground is not Ground.NONE:
+        subject = None if travel else choose_main(description, actors).object_index
         shifts = find_shifts(
             description, actors, path, subject=subject, aspect=aspect, duration_s=duration_s
         )

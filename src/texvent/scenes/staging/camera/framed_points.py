@@ -22,10 +22,12 @@ WHOLE = 3.5
 INSTANTS = 13
 _FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
                  "crane": 0.7, "handheld": 0.78, "roll": 0.7, "dolly zoom": 0.6}  # fmt: skip
-_LARGE_IN_WIDE = 0.6
+_LARGE_IN_WIDE = 0.75
 """How much less prominent the subject is in a wide shot."""
 _LARGE_AIM = 1.3
 """Prominence of what a camera moves in on, at least."""
+_HARDLY_SEEN = 0.4
+"""Prominence below which even what belongs to the subject may leave the image in part."""
 _WIDE_FILL = 0.7
 _FAR_FILL = 1.3
 """The same at the near end of a move in: at the far end all fits."""
@@ -89,7 +91,8 @@ def list_views(
         pieces = _pieces_of(description, [a for a in partners if a not in kept], main, times)
         choices = [choices[0], *(np.vstack([points, *pieces]) for points in choices[1:])]
     least = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
-    goals = (1.0, *GOALS)
+    choices.append(_points_of(description, group, main, times, tying))
+    goals = (1.0, *GOALS, _HARDLY_SEEN)[: len(choices)]
     return [View(points, fill, least * goal) for points, goal in zip(choices, goals, strict=True)]
 
 

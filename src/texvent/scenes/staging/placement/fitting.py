@@ -62,8 +62,10 @@ _LARGER = 1.8
 """Most by which a small thing is enlarged; see docs/prompts.md."""
 _LARGER_WORN = 1.3
 """The same of what is worn."""
-_SMALL_M = 0.35
-"""Size up to which things are enlarged, m."""
+_LARGER_BIRD = 1.5
+"""The same of what flies."""
+_SMALL_M, _SMALL_BIRD_M = 0.35, 1.2
+"""Size up to which things, and what flies, are enlarged, m."""
 _MUCH_SMALLER = 4.0
 
 
@@ -77,11 +79,14 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
     worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
     sizes = [extent(one, nouns) for one in objects]
     for index, (one, size) in enumerate(zip(objects, sizes, strict=True)):
-        is_fixed = nouns[one.noun].habitat == "fixed" or nouns[one.noun].name in _BY_HAND
-        if not is_fixed or one.scale < 1.0 or max(sizes) < _MUCH_SMALLER * size:
+        noun = nouns[one.noun]
+        is_bird = noun.habitat == "air" and noun.name not in _BY_HAND
+        if not (noun.habitat in ("fixed", "air") or noun.name in _BY_HAND) or one.scale < 1.0:
             continue
-        most = _LARGER_WORN if index in worn else _LARGER
-        factor = min(max(_SMALL_M / size, 1.0), most)
+        if max(sizes) < _MUCH_SMALLER * size:
+            continue
+        most = _LARGER_WORN if index in worn else _LARGER_BIRD if is_bird else _LARGER
+        factor = min(max((_SMALL_BIRD_M if is_bird else _SMALL_M) / size, 1.0), most)
         objects[index] = replace(one, scale=one.scale * factor)
     return replace(description, objects=tuple(objects))
 

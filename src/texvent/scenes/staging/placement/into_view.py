@@ -17,7 +17,11 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framed_points import is_backdrop, may_stand_back
 
-_INSTANTS = 5
+_INSTANTS, _EYES = 5, 33
+_ROUTE_REACH_M = 60.0
+"""What counts as the subject's distance along a route, m."""
+_CLEAR_M = 0.4
+"""How far from a thing the camera stays, m."""
 _ACROSS = (0.3, -0.3, 0.2, -0.2, 0.38, -0.38, 0.1, -0.1, 0.0)
 """Where a thing may be, in image widths from the middle."""
 _DOWN = (0.0, -0.2, 0.15, -0.1)
@@ -71,6 +75,8 @@ class _Stage(NamedTuple):
     room_m: float
     reach_m: float
     """Distance to what the camera looks at."""
+    eyes: Float64Array
+    """[k, 3] places of the camera over the clip, m."""
 
 
 def find_shifts(
@@ -100,12 +106,15 @@ def find_shifts(
     stage = _Stage(
         [path.at(float(t)) for t in times],
         np.array([[actor.corners(float(t)) for actor in actors] for t in times]),
-        aspect, path.room_m, path.framing.distance_m,
+        aspect, path.room_m,
+        path.framing.distance_m if path.journey is None else _ROUTE_REACH_M,
+        np.array([path.at(float(t)).position for t in np.linspace(0.0, duration_s, _EYES)]),
     )  # fmt: skip
     shifts: dict[int, Float64Array] = {}
     for tied in _list_tied(description, actors, subject):
         own = [n for n, actor in enumerate(actors) if actor.object_index in tied]
-        if any(not _may_move(actors[n], description) for n in own):
+        is_route = path.journey is not None
+        if any(not _may_move(actors[n], description, is_route=is_route) for n in own):
             continue
         shift = _improve(stage, actors, own)
         if shift is not None:
@@ -114,8 +123,11 @@ def find_shifts(
     return shifts
 
 
-def _may_move(actor: Actor, description: SceneDescription) -> bool:
+def _may_move(actor: Actor, description: SceneDescription, *, is_route: bool) -> bool:
+    """Whether the prompt leaves open where it is; along a route only what stands moves."""
     is_placed = description.objects[actor.object_index].side is not None
+    if is_route and actor.is_mover:
+        return False
     return not (is_placed or actor.enters or actor.leaves or actor.goes_across)
 
 
@@ -269,9 +281,9 @@ def _is_free(
     low, high = corners[:, own].min(axis=2), corners[:, own].max(axis=2)
     if np.isfinite(stage.room_m) and max(-low[..., :2].min(), high[..., :2].max()) > stage.room_m:
         return False
-    for camera, near, far in zip(stage.cameras, low, high, strict=True):
-        eye = np.asarray(camera.position)
-        if np.any(np.all((near - 0.15 < eye) & (eye < far + 0.15), axis=1)):
+    eyes = stage.eyes[:, None]
+    for near, far in zip(low, high, strict=True):
+        if np.any(np.all((near - _CLEAR_M < eyes) & (eyes < far + _CLEAR_M), axis=2)):
             return False
     if not others:
         return True
