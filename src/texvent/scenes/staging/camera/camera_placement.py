@@ -146,9 +146,6 @@ def _fit_path(
         others = [actor for actor in actors if actor.object_index not in known]
         is_clear = partial(has_clear_view, main=main, others=others, times=times, aspect=aspect)
         path = come_near(framings, path_of, prominence, goals, is_clear)
-        if prominence(path) < _TINY:
-            # Rather something in front of it now and then than hardly a subject.
-            path = come_near(framings, path_of, prominence, [_SMALL * goal for goal in goals])
         return come_near_small(description, actors, main, path, path_of, times, aspect)
 
     paths: list[CameraPath] = []
