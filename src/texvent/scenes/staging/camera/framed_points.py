@@ -86,13 +86,12 @@ def list_views(
     if main.is_mover:
         others = [actor for actor in others if actor in kept or _goes(actor, times)]
     views = [list(actors), [*group, *others], [*group, *kept]]
-    choices = [_points_of(description, some, main, times, tying) for some in views]
+    choices = [_points_of(description, some, main, times, tying) for some in (*views, group)]
     if not tying:
         pieces = _pieces_of(description, [a for a in partners if a not in kept], main, times)
         choices = [choices[0], *(np.vstack([points, *pieces]) for points in choices[1:])]
     least = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
-    choices.append(_points_of(description, group, main, times, tying))
-    goals = (1.0, *GOALS, _HARDLY_SEEN)[: len(choices)]
+    goals = (1.0, *GOALS, _HARDLY_SEEN)
     return [View(points, fill, least * goal) for points, goal in zip(choices, goals, strict=True)]
 
 
