@@ -153,8 +153,8 @@ _ON_FOOT: dict[str, Activity] = {
 }
 
 ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
-    {**_ON_FOOT, **_RESTING, **_GESTURES, **_SPORTS, **_DAILY,
-     **{verb: _seen_from_side(verb) for verb in HANDWORK if verb not in _DAILY}}
+    {**{verb: _seen_from_side(verb) for verb in HANDWORK},
+     **_ON_FOOT, **_RESTING, **_GESTURES, **_SPORTS, **_DAILY}
 )  # fmt: skip
 """What a person can do: name → activity."""
 

@@ -277,8 +277,11 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
 """Activity → what is drawn with it."""
 
 
-def list_props(kind: str) -> tuple[Prop, ...]:
-    """What comes with an activity; hand work that nothing is named for has a table or a board."""
+def list_props(kind: str, size: float = 1.0) -> tuple[Prop, ...]:
+    """What comes with an activity; hand work that nothing is named for has a table or a board.
+
+    `size` is that of the body, relative to an adult.
+    """
     work = HANDWORK.get(kind)
     if kind in PROPS or work is None:
         return PROPS.get(kind, ())
@@ -286,7 +289,9 @@ def list_props(kind: str) -> tuple[Prop, ...]:
     if work.place == "hands":
         return tool
     ahead = usual_bench(work).spot[0]
-    return (*tool, _panel(ahead) if work.side == "front" else table(ahead - _INSET_M, TABLE_M))
+    if work.side == "front":
+        return (*tool, _panel(ahead, size))
+    return (*tool, table(size * (ahead - _INSET_M), size * TABLE_M))
 
 
 def hand_tool(name: str) -> Prop:
@@ -294,10 +299,11 @@ def hand_tool(name: str) -> Prop:
     return Prop("right hand", _still(*TOOLS[name].parts))
 
 
-def _panel(ahead: float) -> Prop:
-    """An upright board before the body: how far its face is, m."""
-    board = box(Material((0.62, 0.60, 0.55)), (ahead + 0.02, 0.0, 1.15), (0.03, 1.1, 0.9))
-    legs = (rod(WOOD, (ahead + 0.06, y, 0.0), (ahead + 0.06, y, 1.5), 0.025) for y in (0.5, -0.5))
+def _panel(ahead: float, size: float) -> Prop:
+    """An upright board before the body: how far its face is for an adult, m."""
+    x, high = size * ahead, size * 1.15
+    board = box(Material((0.62, 0.60, 0.55)), (x + 0.02, 0.0, high), (0.03, 1.1, 0.9))
+    legs = (rod(WOOD, (x + 0.06, y, 0.0), (x + 0.06, y, 1.3 * high), 0.025) for y in (0.5, -0.5))
     return Prop("ground", _still(board, *legs))
 
 

@@ -155,6 +155,11 @@ def place_in_hold(hold: Hold, holder: Actor, thing: Actor) -> tuple[str, Affine,
     """
     size, model = size_of(holder.model), thing.model
     lift = 0.5 * model.height if thing.is_centred else 0.0
+    if holder.trajectory.at(0.0).activity == "lift":
+        # A barbell lies across both hands and goes up with them.
+        turn = rotation(0.5 * math.pi if model.length > model.width else 0.0, 0.0, 0.0)
+        place = np.array([0.03, 0.0, lift - 0.5 * model.height])
+        return "hands", np.column_stack([turn, place]), True, ()
     if hold.style == "tool":
         grips = (("right hand", _scaled(_RAISED, size)),)
         return "right hand", along_tool(thing, lift), False, grips

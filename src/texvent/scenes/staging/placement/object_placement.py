@@ -317,7 +317,8 @@ class ObjectPlacer:
         shown = {scene_object.noun for scene_object in self._description.objects}
         said = (group.scene_object.motion or STANDING, *group.scene_object.then)
         kinds = dict.fromkeys(motion.kind for motion in said)
-        props = [prop for kind in kinds for prop in list_props(kind)]
+        size = float(getattr(group.models[0], "scale", 1.0))
+        props = [prop for kind in kinds for prop in list_props(kind, size)]
         return tuple(
             prop for prop in props if prop.anchor == "ground" or not shown.intersection(prop.nouns)
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.capabilities import is_person
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import Referent
 from texvent.scenes.language.vocabulary.motion import Verb
@@ -38,13 +38,14 @@ def list_goals(clause: Clause) -> tuple[str, ...]:
 
 
 _STRUCK = ("hit", "strike")
+_WEIGHTS = frozenset({"barbell", "dumbbell", "kettlebell"})
 _BY_HAND = frozenset({*_STRUCK, "lift", "shake"})
 _FLYING = frozenset({"shuttlecock", "frisbee", "puck"})
 
 
 def is_hand_work(verb: Verb, target: Noun) -> bool:
     """Whether a person does it with the hands at a thing that stays: not "hits a ball"."""
-    if verb.base not in _BY_HAND or verb.base not in HANDWORK:
+    if verb.base not in _BY_HAND or verb.base not in HANDWORK or target.name in _WEIGHTS:
         return False
     flies = "ball" in target.name or target.name in _FLYING
     return not (flies and verb.base in _STRUCK)
@@ -77,6 +78,9 @@ def work_on(draft: Draft, word: Word, people: Sequence[int], objects: Sequence[R
     targets = [index for one in objects if one.is_things for index in one.things]
     work = HANDWORK.get(word.lemma)
     is_onto = work is not None and work.pattern in ONTO
+    if work is not None and work.pattern == "scribble":
+        # Who draws a cat has a pen on paper, not on the cat.
+        targets = [index for index in targets if not is_living(draft.noun(index))]
     draft.relate("work on", people, targets[-1:] if is_onto else targets[:1])
     if is_onto and len(targets) > 1:
         draft.relate("hold", people, targets[:1])

@@ -13,7 +13,7 @@ from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.people.activities import ACTIVITIES
+from texvent.scenes.models.people.activities import ACTIVITIES, SEATS
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
@@ -54,7 +54,7 @@ class RelationReader:
             word.is_lost = scope.is_lost
             return
         is_used, before = False, len(self._draft.relations)
-        kind = self._relation_kind(word, things)
+        kind = self._at_bench(self._relation_kind(word, things), things, scope)
         if word.text in _FULL:
             is_used = self._fill(phrase, things, scope)
         elif scope.has_verb and not scope.is_verb_shown:
@@ -77,6 +77,18 @@ class RelationReader:
             is_used = self._relate(kind, subjects, things)
         word.is_used, word.is_lost = is_used, not is_used
         word.relations = tuple(self._draft.relations[before:])
+
+    def _at_bench(self, kind: str | None, things: list[int], scope: Scope) -> str | None:
+        """As in "kneads dough on a table", of which the dough is not shown: hands at the table."""
+        motions = [self._draft.objects[index].motions[-1:] for index in scope.movers]
+        works = bool(motions) and all(one and one[0].kind in HANDWORK for one in motions)
+        is_seat = self._draft.noun(things[0]).name in SEATS if things else True
+        if kind != "on" or not works or is_seat:
+            return kind
+        is_busy = any(
+            one.kind == "work on" and one.subject in scope.movers for one in self._draft.relations
+        )
+        return kind if is_busy else "work on"
 
     def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
         """As in "zebras with a giraffe behind them": the giraffe is behind them.

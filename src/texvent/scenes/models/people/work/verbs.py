@@ -82,7 +82,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("offer", "food", "there"), "feed"),
     (HandWork("reach", "", "there"), "pick pluck harvest gather collect"),
     (HandWork("reach", "", "table", "front", "reach for"), "open close unlatch"),
-    (HandWork("dig", "trowel", "there"), "plant weed till hoe bury transplant rake"),
+    (HandWork("dig", "trowel", "there"), "plant weed till hoe bury transplant"),
     (HandWork("spray", "can", "there", "front"), "spray hose"),
 )  # fmt: skip
 
