@@ -115,6 +115,10 @@ def test_where_on_the_body_it_is_carried(prompt: str, relation: tuple[str, str, 
     assert parse_prompt(prompt).not_understood == ()
 
 
+def test_a_place_on_a_part_of_something_is_reported() -> None:
+    assert "on" in parse_prompt("a man sits on the roof of a car").not_understood
+
+
 def test_under_which_arm_it_is_carried_is_reported() -> None:
     assert "under" in parse_prompt("a boy carries a ball under his arm").not_understood
 

@@ -143,6 +143,9 @@ class CircumstanceReader:
         for one in found:
             if not one.is_things:
                 self._read_other(phrase, one, scope)
+            if one.kind == "part" and scope.subjects and not phrase.preposition.is_used:
+                # As in "sits on the roof of a car": where on it is not shown.
+                phrase.preposition.is_lost = True
             self.read_group_phrases(one, scope)
 
     def _is_likeness(self, phrase: PrepPhrase, scope: Scope) -> bool:
