@@ -77,6 +77,8 @@ def light_up(draft: Draft, one: Referent, things: Sequence[int]) -> bool:
             said = said if colour is None or colour.name.split()[-1] in BEACONED_HUES else []
         elif noun.motion == "drive" and flicker is not None:
             draft.effects.append(Effect("beacon", index, colour))
+            if one.group.head is not None:
+                one.group.head.shown_as = "two lights on its roof that flash in turn"
         elif noun.name in LAMPS:
             item.is_lit = True
             item.blink_hz = DEFAULT_BLINK_HZ if flicker is not None else item.blink_hz
