@@ -56,7 +56,7 @@ def test_every_alias_is_a_synonym_or_a_kind_of_one_noun() -> None:
             assert word == word.lower()
             assert owner.setdefault(word, noun) == noun, word
             assert word not in WORDS, f"{word} is a synonym too"
-    assert len(owner) > 1700
+    assert len(owner) > 1500
     assert {word: find_kind(word) for word in owner} == owner
 
 
@@ -77,8 +77,8 @@ def test_a_synonym_is_no_substitution(noun: str) -> None:
 OTHERS = (
     "jaguar", "leopard", "banjo", "mandolin", "toad", "alligator", "sea lion", "tarantula",
     "wasp", "vulture", "puppy", "calf", "crystal ball", "comet", "bracelet", "moped", "rowboat",
-    "cathedral", "viaduct", "bass guitar", "dreidel", "gramophone", "hoodie", "tepee", "crayon",
-    "rugby ball", "toddler", "athlete", "tourist", "businesswoman", "geese", "oxen",
+    "cathedral", "viaduct", "bass guitar", "dreidel", "gramophone", "tepee", "crayon",
+    "rugby ball", "athlete", "businesswoman", "geese", "oxen",
     "birds of prey", "sunglasses",
 )  # fmt: skip
 """What somebody who sees the model of its noun would call another thing."""

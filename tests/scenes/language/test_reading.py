@@ -125,7 +125,7 @@ def test_speeds_change_and_begin_when_they_are_said_to() -> None:
         ("an excavator swings its arm", ["excavator"], ("swings", "arm")),
         ("a hedgehog curls into a ball", ["hedgehog"], ("curls", "ball")),
         ("two men shake hands", ["man"], ("shake", "hands")),
-        ("a baker slides a peel into an oven", ["person"], ("slides", "peel", "oven")),
+        ("a baker slides a peel into an oven", ["baker"], ("slides", "peel", "oven")),
     ],
 )
 def test_what_is_not_shown_is_reported_and_does_nothing_else(
@@ -139,9 +139,9 @@ def test_what_is_not_shown_is_reported_and_does_nothing_else(
 
 
 def test_kinds_are_shown_as_what_they_are_kinds_of_and_named() -> None:
-    description = parse_prompt("a chef waves in a laboratory")
+    description = parse_prompt("a barista waves in an attic")
     pairs = [(one.said, one.shown) for one in description.substituted]
-    assert pairs == [("chef", "person"), ("laboratory", "office")]
+    assert pairs == [("barista", "person"), ("attic", "indoor")]
     assert "waves" in description.shown
 
 
@@ -286,14 +286,14 @@ def test_who_does_what_in_everyday_sentences(prompt: str, lines: list[str]) -> N
         ("a bowl of apples stands", ["bowl", "apple"], ()),
         ("a camel caravan of five animals crosses a dune", ["camel"], ()),
         ("a man saws the trunk of a birch", ["man", "tree"], ("trunk",)),
-        ("a potter with clay-covered hands sits", ["person"], ("clay", "covered")),
+        ("a potter with clay-covered hands sits", ["potter"], ("clay", "covered")),
         ("a three-legged dog runs", ["dog"], ("three", "legged")),
         ("an elephant walks, a calf follows", ["elephant", "elephant"], ()),
         ("a boy juggles three oranges", ["child"], ()),
         ("the red team's goal stands", ["goal"], ("red", "team")),
         ("a van with flashing lights drives", ["van"], ()),
         ("a bowl of tomato soup stands", ["bowl"], ("soup",)),
-        ("a waiter serves a cake", ["person", "cake"], ("serves",)),
+        ("a waiter serves a cake", ["waiter", "cake"], ("serves",)),
         ("a door painted orange opens", ["door"], ("painted",)),
         ("a plane taxis on a runway", ["airplane"], ("taxis",)),
     ],
@@ -309,7 +309,7 @@ def test_no_part_count_second_act_or_other_sense_is_invented(
 @pytest.mark.parametrize(
     ("prompt", "nouns"),
     [
-        ("a batter waits while the catcher crouches behind him", ["person", "person"]),
+        ("a batter waits while the catcher crouches behind him", ["baseball batter", "catcher"]),
         ("a collie barks and the dog runs", ["dog"]),
         ("a flock of sheep stands, then the sheep run", ["sheep"]),
         ("people and stalls slide by", ["person"]),
@@ -439,7 +439,7 @@ def test_what_is_rounded_or_turned_is_noted(prompt: str, note: str) -> None:
 @pytest.mark.parametrize(
     ("prompt", "noun"),
     [
-        ("a pitcher throws a baseball", "person"),
+        ("a pitcher throws a baseball", "baseball player"),
         ("a woman pours from a pitcher", "jug"),
         ("a tray of glasses", "glass"),
         ("a man with glasses", "glasses"),
@@ -460,7 +460,7 @@ def test_the_glass_of_a_window_is_no_vessel() -> None:
 
 def test_hands_of_a_person_are_that_person() -> None:
     description = parse_prompt("gloved hands of a surgeon tie a suture")
-    assert [one.noun for one in description.objects] == ["person"]
+    assert [one.noun for one in description.objects] == ["surgeon"]
     assert "suture" in description.not_understood
     assert "tie → tie nothing" in map(str, description.substituted)
 

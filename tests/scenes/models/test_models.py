@@ -138,7 +138,8 @@ def test_habitat_motion_and_speed_agree() -> None:
         else:
             assert noun.speed_m_s > 0.0
             assert noun.motion in {"walk", "run", "drive", "fly", "float", "swim", "sail", "paddle",
-                                   "roll", "slide"}  # fmt: skip
+                                   "roll", "slide", "ski", "snowboard", "skate",
+                                   "crawl"}  # fmt: skip
     assert {"boat", "sailboat", "duck"} <= AFLOAT
     assert all(NOUNS[name].habitat == "water" for name in AFLOAT)
 

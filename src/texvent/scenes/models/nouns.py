@@ -47,6 +47,8 @@ from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, gear
 from texvent.scenes.models.objects.work import escalator, machines, rare_vehicles, tools
 from texvent.scenes.models.people import hand, person, wearables
+from texvent.scenes.models.people.roles import clothes
+from texvent.scenes.models.people.roles import nouns as roles
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
 
@@ -58,8 +60,10 @@ _MODULES = (
     boats,
     construction,
     person,
+    roles,
     hand,
     wearables,
+    clothes,
     quadrupeds,
     more_quadrupeds,
     other_bodies,

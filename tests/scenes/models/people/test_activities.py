@@ -21,6 +21,8 @@ from texvent.scenes.models.people.hand_gestures import HAND_MOVEMENTS
 from texvent.scenes.models.people.outfit import ADULT
 from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
 from texvent.scenes.models.people.props import PROPS
+from texvent.scenes.models.people.roles import nouns
+from texvent.scenes.models.people.roles.held import HOLDS
 from texvent.scenes.models.people.sports import KICK_FOOT, SINGLE_ACTS
 from texvent.scenes.models.people.timing import ease, follow_keys, pulse
 from texvent.scenes.models.people.work.verbs import HANDWORK
@@ -222,4 +224,10 @@ def test_ease_and_pulse_by_hand() -> None:
 
 
 def test_people_nouns_are_those_with_limbs() -> None:
-    assert {noun.name for noun in person.NOUNS} == PERSON_NOUNS
+    assert {noun.name for noun in (*person.NOUNS, *nouns.NOUNS)} == PERSON_NOUNS
+
+
+def test_what_roles_hold_is_of_roles_and_is_left_out_where_the_act_has_it() -> None:
+    assert set(HOLDS) <= PERSON_NOUNS
+    skiing = {prop.anchor for prop in PROPS["ski"]}
+    assert {prop.anchor for prop in HOLDS["skier"]} == skiing

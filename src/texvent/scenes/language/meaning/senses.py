@@ -97,10 +97,12 @@ _BESIDE: dict[str, tuple[tuple[frozenset[str], str], ...]] = {
 
 
 _DOERS: dict[str, tuple[frozenset[str], str]] = {
-    "pitcher": (_words("throw pitch toss hurl wind wind up fling release deliver catch"), "person"),
-    "batter": (_words("hit swing strike bunt run stand wait miss"), "person"),
+    "pitcher": (
+        _words("throw pitch toss hurl wind wind up fling release deliver catch"),
+        "baseball player",
+    ),
     "fan": (_words("wave cheer clap sing jump celebrate shout chant watch scream sit"), "person"),
-    "bowler": (_words("throw bowl run roll"), "person"),
+    "bowler": (_words("throw bowl run roll"), "cricketer"),
 }
 """Word → verbs whose subject is a person of that name."""
 _GLAZED = frozenset(

@@ -248,7 +248,9 @@ def _list_people_groups() -> Iterator[tuple[str, Meaning]]:
         for text in texts:
             yield text, Meaning(Role.NOUN, Pos.NOUN, kind, can_be_both=True)
     for text, count in PEOPLE_GROUPS.items():
-        yield text, Meaning(Role.NOUN, Pos.NOUN, "person", is_substitute=True, count=count)
+        noun = "elderly person" if text.split()[0] in ("elderly", "old") else "person"
+        is_shown = text.endswith("couple")
+        yield text, Meaning(Role.NOUN, Pos.NOUN, noun, is_substitute=not is_shown, count=count)
 
 
 def _list_place_kinds() -> Iterator[tuple[str, Meaning]]:

@@ -219,7 +219,24 @@ DONE_SEATED = frozenset(
 SEATED = "sit and "
 """Begins the name of what is done sitting, as "sit and read"."""
 
-PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "girl", "runner", "worker"})
+_ROLES = """
+    surfer, skier, snowboarder, skateboarder, ice skater, hockey player, goalkeeper, baseball
+    batter, baseball player, catcher, cricketer, golfer, tennis player, football player,
+    basketball player, american football player, boxer, fencer, archer, scuba diver, swimmer,
+    referee, jockey, sumo wrestler, climber, hiker, racing driver, chef, baker,
+    butcher, waiter, waitress, potter, farmer, gardener, fisherman, shepherd, cowboy,
+    firefighter, police officer, soldier, sailor, pilot, astronaut, doctor, scientist,
+    technician, surgeon, nurse, mechanic, plumber, carpenter, welder, blacksmith, glassblower,
+    miner, lumberjack, painter, janitor, postman, courier, businessman, priest, monk,
+    nun, photographer, tourist, lifeguard, guitarist, violinist, conductor, singer,
+    flamenco dancer, ballerina, bride, groom, king, queen, princess, knight, samurai, pirate,
+    wizard, witch, ninja, clown, magician, santa claus, superhero, angel, elderly man,
+    elderly person, elderly
+    woman, baby, toddler, teenager, schoolboy, schoolgirl, student
+"""
+PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "girl", "runner", "worker"}).union(
+    " ".join(name.split()) for name in _ROLES.split(",")
+)
 """Nouns whose models take every posture of `ACTIVITIES`."""
 HAND_NOUNS = frozenset({"hand"})
 """Nouns whose models take every posture of `HAND_GESTURES`."""

@@ -17,11 +17,14 @@ from texvent.scenes.models.people.posture import (
     THIGH,
     Skeleton,
 )
+from texvent.scenes.models.people.roles.garments import GARMENTS
+from texvent.scenes.models.people.roles.hats import HATS, HEAD_SIZE
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import Point, ball, limb, moved, part_way, spike
+from texvent.scenes.models.shapes import Point, ball, limb, moved, part_way, shift, spike
 
-HEAD_SIZE = 0.23
-"""Height of an adult's head, m."""
+__all__ = ["HEAD_SIZE", "draw_arm", "draw_figure", "draw_head", "draw_leg", "draw_torso",
+           "foot_point"]  # fmt: skip
+
 _KNEE: Point = (1.0, 0.0, 0.35)
 
 
@@ -35,6 +38,8 @@ def draw_figure(kind: PersonKind, outfit: Outfit, joints: Skeleton) -> list[Mode
         parts += draw_arm(outfit, joints.shoulders[side], joints.elbows[side], joints.hands[side])
     for side in (0, 1):
         parts += _leg(outfit, joints, side)
+    for name, material in outfit.garments:
+        parts += GARMENTS[name](material, joints)
     return parts
 
 
@@ -79,7 +84,13 @@ def draw_head(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
         yellow = Material(YELLOW)
         parts.append(ball(yellow, (x + 0.01, y, middle + 0.30 * size), (0.28, 0.25, 0.22)))
         parts.append(ball(yellow, (x + 0.05, y, middle + 0.34 * size), (0.38, 0.30, 0.05)))
+    elif kind.hat and outfit.hat is not None:
+        material = outfit.hair if kind.hat in _OF_HAIR else outfit.hat
+        parts += moved(HATS[kind.hat](material, size), shift(x, y, z))
     return parts
+
+
+_OF_HAIR = ("beard", "bun", "pigtails", "ponytail")
 
 
 def draw_torso(kind: PersonKind, outfit: Outfit, hips: Point, neck: Point) -> list[ModelPart]:
@@ -88,10 +99,10 @@ def draw_torso(kind: PersonKind, outfit: Outfit, hips: Point, neck: Point) -> li
     collar = (neck[0], neck[1], neck[2] - 0.10)
     low = (hips[0], hips[1], hips[2] + 0.02)
     pelvis = outfit.shirt if kind.dress == "skirt" else outfit.legs
-    belt = part_way(hips, neck, 0.22)
+    belt, b = part_way(hips, neck, 0.22), outfit.bulk
     parts = [
-        limb(pelvis, (low[0], low[1], low[2] - 0.06), belt, 0.115, side_radius=0.165),
-        limb(outfit.shirt, low, collar, 0.128, side_radius=0.178),
+        limb(pelvis, (low[0], low[1], low[2] - 0.06), belt, 0.115 * b, side_radius=0.165 * b),
+        limb(outfit.shirt, low, collar, 0.128 * b, side_radius=0.178 * b),
         ball(outfit.shirt, (neck[0], neck[1], neck[2] - 0.12), (0.22, 0.43, 0.24)),
     ]
     if kind.hat == "helmet":
@@ -104,10 +115,11 @@ def draw_arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list
     """Sleeve, forearm and hand; `palm` is the middle of the palm."""
     wrist = part_way(elbow, palm, FOREARM / LOWER_ARM)
     tips = part_way(elbow, palm, 1.16)
+    thick = outfit.bulk
     return [
-        limb(outfit.shirt, shoulder, elbow, 0.055),
-        limb(outfit.skin, elbow, wrist, 0.040),
-        limb(outfit.skin, wrist, tips, 0.042, side_radius=0.034),
+        limb(outfit.shirt, shoulder, elbow, 0.055 * thick),
+        limb(outfit.forearms or outfit.skin, elbow, wrist, 0.040 * thick),
+        limb(outfit.hands or outfit.skin, wrist, tips, 0.042, side_radius=0.034),
     ]
 
 
@@ -128,9 +140,10 @@ def _draw_leg(
     hip, knee, ankle = chain
     heel = foot_point(ankle, pitch, heading, -0.05)
     toe = foot_point(ankle, pitch, heading, 0.13)
+    thick = outfit.bulk
     return [
-        limb(outfit.legs, hip, knee, 0.085),
-        limb(outfit.shins, knee, ankle, 0.058),
+        limb(outfit.legs, hip, knee, 0.085 * thick),
+        limb(outfit.shins, knee, ankle, 0.058 * thick),
         limb(outfit.shoes, heel, toe, 0.044),
     ]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from texvent.scenes.models.materials import (
@@ -31,10 +32,25 @@ class PersonKind:
     """ "trousers", "skirt", "shorts"."""
     long_hair: bool = False
     hat: str = ""
-    """ "", "helmet"."""
+    """ "", "helmet" or a name of `roles.hats.HATS`."""
+    hat_colour: Colour = (0.03, 0.10, 0.45)
     runs: bool = False
     """Whether it runs unless told otherwise."""
     shirts: tuple[Colour, ...] = CLOTH_COLOURS
+    hair: Colour | None = None
+    """None = as the seed has it."""
+    trousers: Colour | None = None
+    """None = dark; of a wetsuit the colour of its legs."""
+    has_sleeves: bool = False
+    """Whether the shirt covers the forearms."""
+    gloves: Colour | None = None
+    shoes: Colour | None = None
+    garments: tuple[tuple[str, Colour | None], ...] = ()
+    """Names of `roles.garments.GARMENTS` with their colours; None = as the shirt."""
+    stoop: float = 0.0
+    """How far the torso is bent forward at any time, radians."""
+    bulk: float = 1.0
+    """Thickness of torso and limbs relative to an adult's."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +63,13 @@ class Outfit:
     legs: Material
     shins: Material
     shoes: Material
+    forearms: Material | None = None
+    """None = the skin."""
+    hands: Material | None = None
+    """None = the skin."""
+    hat: Material | None = None
+    garments: Sequence[tuple[str, Material]] = ()
+    bulk: float = 1.0
 
 
 ADULT = PersonKind()
@@ -61,13 +84,20 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfi
     """Choose skin, hair and clothes."""
     flesh = skin(choose(seed, "skin", SKIN_TONES))
     shirt = cloth(paint(colour, seed, "shirt", kind.shirts))
-    trousers = cloth(choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05))))
-    legs = shirt if kind.dress == "skirt" else trousers
+    usual = choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05)))
+    trousers = cloth(usual if kind.trousers is None else kind.trousers)
+    is_skirt = kind.dress == "skirt"
+    shoes = DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58))
     return Outfit(
         skin=flesh,
-        hair=fur(choose(seed, "hair", HAIR_COLOURS)),
+        hair=fur(choose(seed, "hair", HAIR_COLOURS) if kind.hair is None else kind.hair),
         shirt=shirt,
-        legs=flesh if kind.dress == "skirt" else legs,
+        legs=flesh if is_skirt else trousers,
         shins=trousers if kind.dress == "trousers" else flesh,
-        shoes=DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58)),
+        shoes=shoes if kind.shoes is None else Material(kind.shoes),
+        forearms=shirt if kind.has_sleeves else None,
+        hands=Material(kind.gloves) if kind.gloves is not None else None,
+        hat=cloth(kind.hat_colour),
+        garments=[(name, shirt if hue is None else cloth(hue)) for name, hue in kind.garments],
+        bulk=kind.bulk,
     )

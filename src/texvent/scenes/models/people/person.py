@@ -82,6 +82,13 @@ def pose_joints(pose: Pose, kind: PersonKind = ADULT) -> Skeleton:
 
 def choose_posture(kind: PersonKind, pose: Pose) -> Posture:
     """The complete posture at an instant: of an activity, or between two."""
+    posture = _choose_over_time(kind, pose)
+    if kind.stoop == 0.0 or posture.lean > kind.stoop or posture.lean < -0.2:
+        return posture
+    return replace(posture, lean=kind.stoop, nod=posture.nod - 0.6 * kind.stoop)
+
+
+def _choose_over_time(kind: PersonKind, pose: Pose) -> Posture:
     if pose.before is None:
         return _choose_posture(kind, pose)
     first = _choose_posture(kind, replace(pose, activity=pose.before, before=None))
@@ -213,14 +220,17 @@ NOUNS = (
     ),
     Noun(
         "man", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("guy", "gentleman"),
+        ("guy", "gentleman", "father", "dad", "husband", "brother", "uncle", "young man",
+         "dude", "bloke"),
     ),
-    Noun("woman", partial(build_person, WOMAN), "ground", 1.3, "walk", ("lady",)),
+    Noun("woman", partial(build_person, WOMAN), "ground", 1.3, "walk",
+         ("lady", "mother", "mom", "mum", "aunt", "wife", "young woman"), ("ladies", "wives")),
     Noun(
         "child", partial(build_person, CHILD), "ground", 1.1, "walk",
-        ("kid", "boy"), ("children",),
+        ("kid", "boy", "son", "little boy", "young boy", "youngster"), ("children",),
     ),
-    Noun("girl", partial(build_person, GIRL), "ground", 1.1, "walk"),
+    Noun("girl", partial(build_person, GIRL), "ground", 1.1, "walk",
+         ("daughter", "sister", "little girl", "young girl")),
     Noun(
         "runner", partial(build_person, RUNNER), "ground", 3.5, "run",
         ("jogger", "sprinter", "marathon runner"),

@@ -96,7 +96,7 @@ NOUNS = (
     fixed_noun(
         "coat",
         partial(build_garment, 1.05, False),
-        ("overcoat",),
+        ("overcoat", "raincoat", "trench coat", "lab coat", "laboratory coat", "fur coat"),
     ),
     fixed_noun("dress", partial(build_garment, 1.10, True), ("gown",)),
 )

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
 
+from texvent.scenes.description import Relation
 from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.roles.dressing import DRESSED
 from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import Affine
 from texvent.scenes.models.support_surface import top_heights
@@ -104,8 +106,11 @@ WORN: Mapping[str, Wear] = MappingProxyType(
     }
 )
 """Noun → where it is worn; of a pair of feet or hands, one on each."""
-GARMENTS = frozenset({"shirt", "jacket", "coat", "dress"})
-"""What the body's own clothes show, in its colour."""
+GARMENTS = DRESSED
+"""What the body's own clothes show."""
+IN_ITS_COLOUR = frozenset({"shirt", "jacket", "coat", "dress", "robe", "sweater", "hoodie",
+                           "wetsuit", "suit", "pyjamas"})  # fmt: skip
+"""Those of them that give their colour to the shirt."""
 
 HELD_SCALE: Mapping[str, float] = MappingProxyType(
     {"umbrella": 0.5, "flag": 0.3, "sign": 0.45, "branch": 0.75}
@@ -116,6 +121,15 @@ LARGE_M = 0.36
 _RAISED: Vector = (0.30, -0.24, 1.16)
 """Right hand of who holds something up, adult's body coordinates."""
 _UP_HIGH: Vector = (0.24, -0.24, 1.55)
+
+
+def each_worn(relations: Iterable[Relation]) -> list[Relation]:
+    """Each of several things that one wears with a relation of its own."""
+    found: list[Relation] = []
+    for one in relations:
+        targets = one.targets if one.kind == "wear" else ()
+        found += [replace(one, targets=(target,)) for target in targets] or [one]
+    return found
 
 
 def is_person(actor: Actor) -> bool:

@@ -26,11 +26,13 @@ from texvent.scenes.staging.acts.crews import put_to_work
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
     HELD_SCALE,
+    IN_ITS_COLOUR,
     WORN,
     Hold,
     Wear,
     arm_reach,
     choose_hold,
+    each_worn,
     is_person,
     offset_of_worn,
     place_in_hold,
@@ -72,7 +74,7 @@ def settle_motions(
     objects = list(description.objects)
     stays = {thing for claim in description.claims if claim.word.startswith("stand")
              for thing in claim.things}  # fmt: skip
-    relations = [_mounted(one, objects, nouns, stays) for one in description.relations]
+    relations = [_mounted(one, objects, nouns, stays) for one in each_worn(description.relations)]
     relations = [_thrown_to(relation, relations) for relation in relations]
     relations = _hit_with(objects, relations)
     relations += _implied_acts(objects, relations)
@@ -100,7 +102,7 @@ def settle_motions(
             )
             objects[target] = _still(objects[target])
         elif relation.kind == "wear":
-            if objects[target].noun in GARMENTS and objects[target].colour is not None:
+            if objects[target].noun in IN_ITS_COLOUR and objects[target].colour is not None:
                 objects[subject] = replace(objects[subject], colour=objects[target].colour)
             objects[target] = _still(objects[target])
         else:

@@ -23,6 +23,7 @@ from texvent.scenes.staging.acts.attached import OnEnd, OnPart, Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
+from texvent.scenes.staging.placement.dressing import choose_copy, dressed, usual_holds
 from texvent.scenes.staging.placement.fitting import fit_contents
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
@@ -114,16 +115,18 @@ class ObjectPlacer:
     def build_group(self, index: int) -> ObjectGroup:
         """An object's copies in formation about (0, 0)."""
         scene_object = self._description.objects[index]
-        noun = self._nouns[scene_object.noun]
+        noun = dressed(self._description, index, self._nouns)
         rng = seeded(self._seed, "thing", index, scene_object.noun)
         colour = scene_object.colour.rgb if scene_object.colour is not None else None
         models: list[Model] = [
             in_material(
-                noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))),
+                choose_copy(noun, number, self._nouns).build(
+                    colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))
+                ),
                 scene_object.material,
                 colour,
             )
-            for _ in range(scene_object.count)
+            for number in range(scene_object.count)
         ]
         if noun.name in OPENED and self._holds_something(index):
             models = [OpenedModel(one, noun.name) for one in models]
@@ -319,6 +322,7 @@ class ObjectPlacer:
         kinds = dict.fromkeys(motion.kind for motion in said)
         size = float(getattr(group.models[0], "scale", 1.0))
         props = [prop for kind in kinds for prop in list_props(kind, size)]
+        props += usual_holds(self._description, group, props)
         return tuple(
             prop for prop in props if prop.anchor == "ground" or not shown.intersection(prop.nouns)
         )

@@ -1,0 +1,78 @@
+"""What people wear and have with them in a scene: by their role, and as the prompt says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.props import Prop
+from texvent.scenes.models.people.roles.dressing import DRESSED, dress
+from texvent.scenes.models.people.roles.held import HOLDS
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.staging.placement.object_groups import ObjectGroup
+
+_BOTH_HANDS = ("right hand", "left hand", "hands")
+_BUSY: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("hold", "carry", "push", "throw", "catch", "hit"), _BOTH_HANDS),
+    "pull": ("right hand",),
+    "ride": (*_BOTH_HANDS, "ground", "torso"),
+}
+"""Act → places of the body that it needs."""
+
+
+def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
+    """The noun of an object, a person in what the prompt says that it wears."""
+    objects = description.objects
+    noun = nouns[objects[index].noun]
+    if noun.name not in PERSON_NOUNS:
+        return noun
+    worn = [
+        (objects[target].noun, colour.rgb if colour is not None else None)
+        for one in description.relations
+        if one.kind == "wear" and one.subject == index
+        for target in one.targets
+        for colour in (objects[target].colour,)
+        if objects[target].noun in DRESSED
+    ]
+    return dress(noun, worn) if worn else noun
+
+
+def choose_copy(noun: Noun, number: int, nouns: Mapping[str, Noun]) -> Noun:
+    """Who the copy with that number, from 0, is: of people every second one is a woman."""
+    other = _OTHERS.get(noun.name)
+    if number % 2 == 0 or other is None or noun != nouns[noun.name]:
+        return noun
+    return replace(noun, build=nouns[other].build)
+
+
+_OTHERS = {"person": "woman", "elderly person": "elderly woman"}
+"""People of any kind → what every second one of several is."""
+
+
+def usual_holds(
+    description: SceneDescription, group: ObjectGroup, props: Sequence[Prop]
+) -> list[Prop]:
+    """What a role has with it, where hands and feet are free for it.
+
+    Args:
+        description: the scene, whose acts keep hands busy.
+        group: copies of a person.
+        props: what its activities need.
+    """
+    own = [one for one in description.relations if one.subject == group.index]
+    busy = {place for one in own for place in _BUSY.get(one.kind, ())}
+    busy |= {prop.anchor for prop in props}
+    if group.carrier is not None:
+        busy.add("ground")
+    if busy & {"left hand", "right hand"}:
+        busy.add("hands")
+    if "hands" in busy:
+        busy |= {"left hand", "right hand"}
+    used = {noun for prop in props for noun in prop.nouns}
+    return [
+        prop
+        for prop in HOLDS.get(group.noun.name, ())
+        if prop.anchor not in busy and not used.intersection(prop.nouns)
+    ]
