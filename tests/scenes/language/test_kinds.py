@@ -75,8 +75,8 @@ def test_a_synonym_is_no_substitution(noun: str) -> None:
 
 
 OTHERS = (
-    "jaguar", "leopard", "banjo", "mandolin", "toad", "alligator", "sea lion", "tarantula",
-    "wasp", "vulture", "puppy", "calf", "crystal ball", "comet", "bracelet", "moped", "rowboat",
+    "banjo", "mandolin", "toad", "alligator", "sea lion", "tarantula",
+    "wasp", "vulture", "crystal ball", "comet", "bracelet", "moped", "rowboat",
     "cathedral", "viaduct", "bass guitar", "dreidel", "gramophone", "tepee", "crayon",
     "rugby ball", "athlete", "businesswoman", "geese", "oxen",
     "birds of prey", "sunglasses",

@@ -117,6 +117,11 @@ _NOUNS: tuple[str, ...] = (
     "woolly hat", "apron", "skirt", "robe", "cape", "tutu", "overalls", "wetsuit", "suit",
     "pyjamas", "spacesuit", "sweater", "hoodie", "trousers", "shorts",
     "elderly person",
+    "golden retriever", "labrador", "dalmatian", "husky", "german shepherd", "border collie",
+    "dachshund", "corgi", "poodle", "chihuahua", "beagle", "bulldog", "puppy", "tabby",
+    "ginger cat", "siamese", "kitten", "calf", "bull", "foal", "pony", "piglet", "lamb",
+    "kid goat", "fawn", "lioness", "lion cub", "tiger cub", "bear cub", "leopard", "panther",
+    "bison", "reindeer",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

@@ -12,6 +12,7 @@ from types import MappingProxyType
 
 from texvent.scenes.models import solids
 from texvent.scenes.models.animals import (
+    breeds,
     crawlers,
     flying_birds,
     more_quadrupeds,
@@ -66,6 +67,7 @@ _MODULES = (
     clothes,
     quadrupeds,
     more_quadrupeds,
+    breeds,
     other_bodies,
     night_animals,
     crawlers,

@@ -52,8 +52,8 @@ def build_animal(
     coat_fur = fur(hue)
     trunk, limbs = coat_fur, coat_fur
     if animal.pattern == "stripes":
-        trunk = striped(hue, animal.second_colour, 4.5)
-        limbs = striped(hue, animal.second_colour, 3.0)
+        trunk = striped(hue, animal.second_colour, 2.5)
+        limbs = striped(hue, animal.second_colour, 2.0)
     elif animal.pattern == "checks":
         trunk = checked(hue, animal.second_colour, animal.checks)
     dark = animal.dark if animal.dark is not None else shade(hue, 0.45)

@@ -6,62 +6,55 @@ ANIMAL_KINDS: dict[str, str] = {
     "dog": """
         spaniel, cocker spaniel, springer spaniel, japanese spaniel, blenheim spaniel,
         clumber, brittany spaniel, welsh springer spaniel, english springer, sussex
-        spaniel, cavalier, irish water spaniel, retriever, golden retriever, labrador
-        retriever, labrador, flat coated retriever, curly coated retriever, chesapeake bay
-        retriever, chihuahua, maltese dog, maltese, pekinese, pekingese, shih tzu,
-        papillon, terrier, toy terrier, bull terrier, bullterrier, staffordshire
-        bullterrier, staffordshire terrier, pit bull, american staffordshire terrier,
-        bedlington terrier, border terrier, kerry blue terrier, irish terrier, norfolk
-        terrier, norwich terrier, yorkshire terrier, yorkie, fox terrier, wire haired fox
-        terrier, lakeland terrier, sealyham terrier, airedale, cairn, australian terrier,
-        dandie dinmont, scotch terrier, scottish terrier, tibetan terrier, silky terrier,
-        soft coated wheaten terrier, jack russell, jack russell terrier, west highland
-        white terrier, lhasa, boston bull, boston terrier, rhodesian ridgeback, ridgeback,
-        afghan hound, basset, basset hound, beagle, bloodhound, bluetick, coonhound, black
-        and tan coonhound, walker hound, foxhound, english foxhound, redbone, borzoi,
-        wolfhound, irish wolfhound, greyhound, italian greyhound, whippet, ibizan hound,
-        norwegian elkhound, elkhound, otterhound, saluki, deerhound, scottish deerhound,
-        weimaraner, hound, pup, doggy, mutt, mongrel, schnauzer, miniature schnauzer,
-        giant schnauzer, standard schnauzer, pointer dog, german short haired pointer,
-        vizsla, setter, english setter, irish setter, gordon setter, kuvasz, schipperke,
-        groenendael, malinois, briard, kelpie, komondor, sheepdog, old english sheepdog,
-        shetland sheepdog, collie, border collie, bouvier des flandres, rottweiler, german
-        shepherd, alsatian, doberman, pinscher, miniature pinscher, greater swiss mountain
-        dog, mountain dog, bernese mountain dog, appenzeller, entlebucher, boxer dog,
-        mastiff, bull mastiff, tibetan mastiff, bulldog, french bulldog, english bulldog,
-        great dane, saint bernard, st bernard, eskimo dog, malamute, alaskan malamute,
-        siberian husky, dalmatian, affenpinscher, basenji, pug, leonberg, newfoundland
-        dog, great pyrenees, samoyed, pomeranian, chow, chow chow, keeshond, brabancon
-        griffon, pembroke, corgi, welsh corgi, poodle, toy poodle, miniature poodle,
-        standard poodle, mexican hairless, dachshund, shiba inu, akita, service dog, guide
-        dog, police dog, stray dog, sled dog, lapdog, dingo, dhole, african hunting dog,
-        puppy""",
+        spaniel, cavalier, irish water spaniel, flat coated retriever, curly coated
+        retriever, chesapeake bay retriever, maltese dog, maltese, pekinese, pekingese,
+        shih tzu, papillon, terrier, toy terrier, bull terrier, bullterrier,
+        staffordshire bullterrier, staffordshire terrier, pit bull, american
+        staffordshire terrier, bedlington terrier, border terrier, kerry blue terrier,
+        irish terrier, norfolk terrier, norwich terrier, yorkshire terrier, yorkie, fox
+        terrier, wire haired fox terrier, lakeland terrier, sealyham terrier, airedale,
+        cairn, australian terrier, dandie dinmont, scotch terrier, scottish terrier,
+        tibetan terrier, silky terrier, soft coated wheaten terrier, jack russell, jack
+        russell terrier, west highland white terrier, lhasa, boston bull, boston
+        terrier, rhodesian ridgeback, ridgeback, afghan hound, basset, bloodhound,
+        bluetick, coonhound, black and tan coonhound, walker hound, english foxhound,
+        redbone, borzoi, wolfhound, irish wolfhound, greyhound, italian greyhound,
+        whippet, ibizan hound, norwegian elkhound, elkhound, otterhound, saluki,
+        deerhound, scottish deerhound, weimaraner, doggy, mutt, mongrel, schnauzer,
+        miniature schnauzer, giant schnauzer, standard schnauzer, pointer dog, german
+        short haired pointer, vizsla, setter, english setter, irish setter, gordon
+        setter, kuvasz, schipperke, groenendael, malinois, briard, kelpie, komondor, old
+        english sheepdog, shetland sheepdog, bouvier des flandres, rottweiler, doberman,
+        pinscher, miniature pinscher, greater swiss mountain dog, mountain dog, bernese
+        mountain dog, appenzeller, entlebucher, boxer dog, mastiff, bull mastiff,
+        tibetan mastiff, english bulldog, great dane, saint bernard, st bernard, eskimo
+        dog, affenpinscher, basenji, leonberg, newfoundland dog, great pyrenees,
+        samoyed, pomeranian, chow, chow chow, keeshond, brabancon griffon, pembroke,
+        miniature poodle, mexican hairless, shiba inu, akita, service dog, guide dog,
+        stray dog, lapdog, dingo, dhole, african hunting dog""",
     "cat": """
-        tabby, tabby cat, tiger cat, persian cat, siamese cat, siamese, egyptian cat,
-        maine coon, british shorthair, ginger cat, house cat, tomcat, stray cat, calico
-        cat, sphynx, bengal cat, pussycat, kitten""",
+        persian cat, egyptian cat, maine coon, british shorthair, house cat, tomcat,
+        stray cat, calico cat, sphynx, bengal cat, pussycat""",
     "fox": "red fox, kit fox, arctic fox, grey fox, gray fox, fennec, vixen",
     "wolf": """
-        timber wolf, grey wolf, gray wolf, white wolf, red wolf, coyote, jackal, werewolf,
-        husky, hyena""",
-    "lion": "lioness, lion cub, african lion, cougar, puma, mountain lion",
-    "tiger": "tigress, siberian tiger, bengal tiger, tiger cub",
-    "cheetah": "leopard, snow leopard, jaguar, panther, ocelot, lynx, bobcat, serval",
-    "bear": "black bear, american black bear, sloth bear, grizzly bear, bear cub, grizzly",
+        timber wolf, grey wolf, gray wolf, white wolf, red wolf, coyote, jackal,
+        werewolf, hyena""",
+    "lion": "african lion, cougar, puma, mountain lion",
+    "tiger": "tigress, siberian tiger, bengal tiger",
+    "cheetah": "snow leopard, lynx, bobcat, serval",
+    "bear": "black bear, american black bear, sloth bear, grizzly bear, grizzly",
     "polar bear": "ice bear",
     "horse": """
-        colt, pony, racehorse, mustang, sorrel, thoroughbred, arabian horse, draft horse,
-        workhorse, shetland pony, wild horse, foal""",
+        racehorse, mustang, sorrel, thoroughbred, arabian horse, draft horse, workhorse,
+        wild horse""",
     "donkey": "mule, burro, ass",
-    "cow": """
-        ox, heifer, steer, buffalo, water buffalo, bison, dairy cow, yak, holstein,
-        longhorn, bull, calf""",
-    "sheep": "ram, bighorn, mouflon, bighorn sheep, lamb",
-    "goat": "billy goat, kid goat, ibex, mountain goat, chamois, nanny goat",
-    "pig": "hog, boar, wild boar, warthog, sow, swine, hogget, piglet, tapir",
+    "cow": "heifer, water buffalo, dairy cow, yak, holstein, longhorn",
+    "sheep": "ram, bighorn, mouflon, bighorn sheep",
+    "goat": "billy goat, ibex, mountain goat, chamois, nanny goat",
+    "pig": "hog, boar, wild boar, warthog, sow, swine, hogget, tapir",
     "deer": """
-        doe, fawn, buck, elk, moose, reindeer, caribou, antelope, gazelle, impala,
-        hartebeest, white tailed deer, roe deer, gnu, wildebeest""",
+        doe, buck, elk, moose, antelope, gazelle, impala, hartebeest, white tailed deer,
+        roe deer, gnu, wildebeest""",
     "camel": "arabian camel, bactrian camel, dromedary, llama, alpaca",
     "elephant": "indian elephant, african elephant, tusker, elephant calf, mammoth",
     "rabbit": "hare, wood rabbit, angora, cottontail, jackrabbit",
