@@ -159,7 +159,8 @@ _CATS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
     ("tabby", replace(CAT, colours=((0.40, 0.30, 0.20),), pattern="stripes",
                       second_colour=(0.05, 0.035, 0.025)), 1.0, ("tabby cat", "tiger cat")),
     ("ginger cat", replace(CAT, colours=((0.66, 0.30, 0.06),), pattern="stripes",
-                           second_colour=(0.42, 0.14, 0.02)), 1.0, ("orange tabby", "marmalade cat")),
+                           second_colour=(0.42, 0.14, 0.02)), 1.0,
+     ("orange tabby", "marmalade cat")),
     ("siamese", replace(CAT, colours=((0.70, 0.60, 0.46),), dark=(0.05, 0.03, 0.02),
                         leg_colour=(0.05, 0.03, 0.02)), 1.0, ("siamese cat",)),
     ("kitten", _young(CAT), 0.55, ("kitty cat",)),
@@ -180,7 +181,8 @@ _PANTHER = replace(
 _LIONESS = replace(quadrupeds.LION, build=replace(quadrupeds.LION.build, mane=""))
 
 _OTHERS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
-    ("calf", _young(replace(quadrupeds.COW, colours=((0.45, 0.22, 0.09),)), dark=(0.30, 0.15, 0.07)),
+    ("calf", _young(replace(quadrupeds.COW, colours=((0.45, 0.22, 0.09),)),
+                    dark=(0.30, 0.15, 0.07)),
      0.55, ()),
     ("bull", _BULL, 1.1, ("ox", "steer")),
     ("foal", _young(HORSE, dark=(0.06, 0.03, 0.02)), 0.58, ("colt", "filly")),
