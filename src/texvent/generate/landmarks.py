@@ -11,6 +11,7 @@ from texvent.scenes.description import SceneDescription
 from texvent.scenes.inflection import list_plurals
 from texvent.scenes.language.vocabulary.scene import PLACES, STEEP
 from texvent.scenes.scene import Environment, Float64Array, Ground
+from texvent.scenes.staging.built_places import BUILT_MARKS
 from texvent.scenes.staging.road import RoadLine
 from texvent.scenes.staging.scenery_tables import SCENERY
 
@@ -28,7 +29,8 @@ _CITY_WORDS = frozenset({"city", "town", "downtown", "urban"})
 _ROOMS = ("living room", "kitchen", "bedroom", "office", "workshop", "warehouse", "gym",
           "construction site")  # fmt: skip
 _GROUNDS = {
-    "sea": WATER, "river": WATER, "lake": WATER, "road": ROAD, "dirt road": ROAD, "space": SKY,
+    "sea": WATER, "river": WATER, "lake": WATER, "road": ROAD,
+        "dirt road": ROAD, "space": SKY,
 }  # fmt: skip
 
 
@@ -69,6 +71,8 @@ def _marks_of(place: str, *, is_empty: bool) -> frozenset[str]:
         return frozenset({_GROUNDS[place]})
     if is_empty:
         return frozenset()
+    if place in BUILT_MARKS:
+        return BUILT_MARKS[place]
     if place in _ROOMS:
         return frozenset(rule.noun for rule in SCENERY.get(place, ()))
     return _NOUNS.get(place, frozenset())

@@ -78,7 +78,7 @@ OTHERS = (
     "banjo", "mandolin", "toad", "alligator", "sea lion", "tarantula",
     "wasp", "vulture", "crystal ball", "comet", "bracelet", "moped", "rowboat",
     "cathedral", "viaduct", "bass guitar", "dreidel", "gramophone", "tepee", "crayon",
-    "rugby ball", "athlete", "businesswoman", "geese", "oxen",
+    "rugby ball", "athlete", "businesswoman", "geese",
     "birds of prey", "sunglasses",
 )  # fmt: skip
 """What somebody who sees the model of its noun would call another thing."""

@@ -35,7 +35,7 @@ def named(scene: ComposedScene, noun: str) -> list[Actor]:
         ("two boys on a bicycle", "bicycle", "child", 1),
         ("a worker drives a tractor", "tractor", "worker", 1),
         ("a man pulls a sled with a child on it", "sled", "child", 1),
-        ("a woman pushes a stroller with a baby in it", "stroller", "child", 1),
+        ("a woman pushes a stroller with a baby in it", "stroller", "baby", 1),
     ],
 )
 def test_all_of_a_crew_are_aboard(prompt: str, mount: str, rider: str, count: int) -> None:

@@ -19,11 +19,18 @@ _GROUNDS = ("grass", "savanna", "gravel", "soil", "sand", "snow", "construction 
 _ROADS = ("road", "dirt road", "city")
 _FLAT = "the ground is flat"
 _LACKS: dict[str, tuple[str, ...]] = {
-    _FLAT: ("slope", "hillside", "mountainside", "mountain side", "mountain slope", "hill"),
-    "the sand is flat": ("dune", "sand dune"),
+    _FLAT: (
+        "slope",
+        "mountainside",
+        "mountain side",
+        "mountain slope",
+        "ski slope",
+        "snowy slope",
+        "hillside",
+    ),
     "sand without the sea": ("beach", "shore", "coast"),
     "the water is calm": ("surf",),
-    "a plain road": ("motorway", "highway", "freeway", "avenue"),
+    "a plain road": ("avenue",),
     "a wood of firs and broadleaf trees": ("jungle", "rainforest"),
     "no furrows": ("ploughed field", "plowed field"),
     "as wide as a lake": ("pond",),
@@ -32,7 +39,8 @@ _LACKS: dict[str, tuple[str, ...]] = {
 }
 """What a place is shown as, or lacks → its words."""
 _NEEDS: dict[str, tuple[str, ...]] = {
-    "backyard": ("house", "fence"), "yard": ("house", "fence"), "garden": ("flower", "fence"),
+    **dict.fromkeys(("backyard", "yard"), ("house", "fence", "wooden house", "garden fence")),
+    "garden": ("flower", "fence", "garden fence"),
 }  # fmt: skip
 """Word → things one of which makes a lawn such a place."""
 _WATERS = ("river", "lake", "sea")

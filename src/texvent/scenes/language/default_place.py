@@ -43,7 +43,8 @@ _OUTDOORS = frozenset(
      "temple", "church", "tractor", "taxi"}
 )  # fmt: skip
 """Nouns that are not found in a room."""
-_INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", "gym")
+_INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", "gym",
+           "laboratory")  # fmt: skip
 
 
 def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:

@@ -122,6 +122,20 @@ _NOUNS: tuple[str, ...] = (
     "ginger cat", "siamese", "kitten", "calf", "bull", "foal", "pony", "piglet", "lamb",
     "kid goat", "fawn", "lioness", "lion cub", "tiger cub", "bear cub", "leopard", "panther",
     "bison", "reindeer",
+    "lab bench", "flask", "beaker", "test tube", "petri dish", "centrifuge", "school desk",
+    "wall blackboard", "large painting", "display case", "church pew", "altar", "stained glass",
+    "stage curtain", "operating table", "operating lamp", "medical monitor", "subway train",
+    "platform edge", "train seat", "train window", "grocery shelf", "restaurant table",
+    "bar counter", "factory machine", "tyre stack", "car lift", "rink boards", "car wash brush",
+    "stalagmite", "cell bars", "disco lights", "hall mirror", "hall column", "market stall",
+    "grandstand", "floodlight mast", "guard rail", "motorway sign", "runway light",
+    "runway markings", "control tower", "hangar", "tennis court net", "high net",
+    "tennis court", "basketball court", "pitch lines", "running lanes", "hurdle",
+    "boxing ring ropes", "park path", "railway track", "parking lines", "sun lounger",
+    "diving board", "lane rope", "mooring post", "crop row", "corn row", "vine row",
+    "gravestone", "slalom gate", "ski lift", "sand dune", "green hill", "cliff", "canyon wall",
+    "waterfall", "lava flow", "wooden house", "garden fence", "corral fence", "bowling lane",
+    "barrier tape",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

@@ -69,6 +69,11 @@ def needles(colour: Colour, *, scale: float = 1.0) -> Material:
     return made_of(Texture.NEEDLES, colour, scale=scale)
 
 
+def grass_like(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Blades of a meadow or of grain."""
+    return made_of(Texture.GRASS, colour, shade(colour, 1.7), scale=scale)
+
+
 def stone(colour: Colour, *, scale: float = 1.0) -> Material:
     """Rock with cracks and lichen."""
     return made_of(Texture.STONE, colour, scale=scale)

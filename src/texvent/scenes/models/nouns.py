@@ -43,6 +43,7 @@ from texvent.scenes.models.objects.home import (
 )
 from texvent.scenes.models.objects.kitchen import appliances, food, tableware
 from texvent.scenes.models.objects.outdoors import flowing, street_furniture, structures, wild
+from texvent.scenes.models.objects.places import grounds, rooms
 from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, gear
@@ -105,6 +106,8 @@ _MODULES = (
     tableware,
     small_things,
     rare_vehicles,
+    rooms,
+    grounds,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}

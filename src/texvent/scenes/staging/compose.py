@@ -318,7 +318,7 @@ def _describe_view(
     return ViewClearance(
         [path.at(t) for t in times], points, path.framing.distance_m,
         PLACES[place].road_half_width if has_road else None, road,
-        path.room_m, has_shore=place == "lake",
+        path.room_m, has_shore=PLACES[place].ground is Ground.LAKE,
     )  # fmt: skip
 
 

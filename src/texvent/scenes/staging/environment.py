@@ -19,6 +19,8 @@ from texvent.scenes.scene import (
     Ground,
     Texture,
 )
+from texvent.scenes.staging.built_places import BUILT_GROUNDS
+from texvent.scenes.staging.ground_appearance import GroundAppearance, room
 from texvent.scenes.staging.lightning import STROKE_HZ, lightning_level
 from texvent.scenes.staging.road import RoadLine
 
@@ -36,27 +38,6 @@ TIMELAPSE = 60.0
 """How much faster the sky goes in a time lapse."""
 _SUN_RAD_S = 2.0 * math.pi / 600.0
 """How fast the sun goes in a time lapse, per second of sky time."""
-
-
-@dataclass(frozen=True)
-class GroundAppearance:
-    """What the ground is like."""
-
-    ground: Ground
-    colour: Colour
-    second_colour: Colour
-    road_half_width: float = 3.4
-    surface: Texture | None = None
-    """Material of the ground; None = the usual one of `ground`."""
-    walls: Texture = Texture.PLASTER
-    """Material of a room's walls."""
-    wall_colour: Colour = (0.75, 0.69, 0.61)
-
-
-def _room(
-    surface: Texture, floor: tuple[Colour, Colour], walls: Texture, wall_colour: Colour
-) -> GroundAppearance:
-    return GroundAppearance(Ground.FLOOR, *floor, 3.4, surface, walls, wall_colour)
 
 
 _SNOW: Colour = (0.78, 0.82, 0.88)
@@ -89,36 +70,36 @@ PLACES: dict[str, GroundAppearance] = {
     "sand": GroundAppearance(Ground.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),
     "snow": GroundAppearance(Ground.SNOW, (0.66, 0.70, 0.75), (0.76, 0.79, 0.83)),
     "mountain": GroundAppearance(Ground.GRASS, (0.10, 0.13, 0.05), (0.22, 0.20, 0.12)),
-    "indoor": _room(Texture.BOARDS, _OAK, Texture.PLASTER, (0.75, 0.69, 0.61)),
-    "living room": _room(Texture.BOARDS, _OAK, Texture.WALLPAPER, (0.62, 0.60, 0.48)),
-    "bedroom": _room(
+    "indoor": room(Texture.BOARDS, _OAK, Texture.PLASTER, (0.75, 0.69, 0.61)),
+    "living room": room(Texture.BOARDS, _OAK, Texture.WALLPAPER, (0.62, 0.60, 0.48)),
+    "bedroom": room(
         Texture.CARPET,
         ((0.30, 0.27, 0.33), (0.42, 0.38, 0.42)),
         Texture.WALLPAPER,
         (0.55, 0.62, 0.70),
     ),
-    "kitchen": _room(
+    "kitchen": room(
         Texture.TILES, ((0.62, 0.60, 0.55), (0.30, 0.29, 0.28)), Texture.TILES, (0.74, 0.74, 0.72)
     ),
-    "office": _room(
+    "office": room(
         Texture.CARPET,
         ((0.12, 0.14, 0.18), (0.20, 0.22, 0.26)),
         Texture.PLASTER,
         (0.72, 0.72, 0.70),
     ),
-    "workshop": _room(
+    "workshop": room(
         Texture.CONCRETE,
         ((0.30, 0.29, 0.28), (0.22, 0.21, 0.20)),
         Texture.BRICK,
         (0.36, 0.15, 0.10),
     ),
-    "warehouse": _room(
+    "warehouse": room(
         Texture.CONCRETE,
         ((0.36, 0.36, 0.35), (0.27, 0.27, 0.26)),
         Texture.CONCRETE,
         (0.46, 0.45, 0.43),
     ),
-    "gym": _room(
+    "gym": room(
         Texture.BOARDS,
         ((0.50, 0.33, 0.16), (0.58, 0.40, 0.21)),
         Texture.BRICK,
@@ -129,6 +110,7 @@ PLACES: dict[str, GroundAppearance] = {
     "construction site": GroundAppearance(
         Ground.SAND, (0.36, 0.27, 0.18), (0.44, 0.34, 0.23), surface=Texture.SOIL
     ),
+    **BUILT_GROUNDS,
     "plain": GroundAppearance(Ground.PLAIN, (0.42, 0.42, 0.42), (0.48, 0.48, 0.48)),
 }
 """Ground of every place the grammar knows."""

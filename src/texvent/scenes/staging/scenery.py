@@ -41,6 +41,8 @@ class ViewClearance:
     """Whether water lies to the left of the road's line."""
 
 
+_BANK_M = 1.0
+"""Land that scenery leaves free beside water, m."""
 _USUAL_DISTANCE_M = 16.0
 ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
@@ -57,6 +59,8 @@ class SceneryItem:
     height_m: float = 0.0
     """Of its origin, m."""
     is_at_wall: bool = False
+    is_flat: bool = False
+    """Whether it is paint on the ground, on which others stand."""
 
     @property
     def radius_m(self) -> float:
@@ -136,6 +140,10 @@ def _find_place(
     items: Sequence[SceneryItem],
     rng: np.random.Generator,
 ) -> SceneryItem | None:
+    if rule.is_under:
+        middle = bodies[:, :2].mean(axis=0) if len(bodies) else np.zeros(2)
+        place = (float(middle[0]), float(middle[1]))
+        return SceneryItem(rule.noun, model, place, view.road.angle, is_flat=True)
     for _ in range(ATTEMPTS):
         camera = view.cameras[int(rng.integers(len(view.cameras)))]
         if rule.is_at_wall:
@@ -150,9 +158,9 @@ def _find_place(
         right = np.array([forward[1], -forward[0]])
         spot = camera.position[:2] + reach * (forward + share / camera.focal * right)
         item = SceneryItem(
-            rule.noun, model, (float(spot[0]), float(spot[1])), _face(rule, view, rng)
+            rule.noun, model, (float(spot[0]), float(spot[1])), _face(rule, view, rng, -forward)
         )
-        if _is_free(item, view, bodies, items):
+        if _is_free(item, view, bodies, items, is_afloat=rule.is_afloat):
             return item
     return None
 
@@ -189,15 +197,27 @@ def _draw_reach(
     return flat * (1.0 + float(rng.uniform(near, far)))
 
 
-def _face(rule: ScatterRule, view: ViewClearance, rng: np.random.Generator) -> float:
-    """Street furniture and houses stand square to the road; the rest as it grows."""
+def _face(
+    rule: ScatterRule, view: ViewClearance, rng: np.random.Generator, back: Float64Array
+) -> float:
+    """Street furniture and houses stand square to the road; the rest as it grows.
+
+    `back` leads over the ground to the camera.
+    """
+    if rule.faces_camera:
+        return math.atan2(float(back[1]), float(back[0])) + float(rng.uniform(-0.2, 0.2))
     if rule.noun in ("building", "house", "barrier", "street lamp", "building frame"):
         return view.road.angle - 0.5 * math.pi
     return float(rng.uniform(0.0, 2.0 * math.pi))
 
 
 def _is_free(
-    item: SceneryItem, view: ViewClearance, bodies: Float64Array, items: Sequence[SceneryItem]
+    item: SceneryItem,
+    view: ViewClearance,
+    bodies: Float64Array,
+    items: Sequence[SceneryItem],
+    *,
+    is_afloat: bool = False,
 ) -> bool:
     spot, radius = np.array(item.position), item.radius_m
     if view.road_half_width is not None:
@@ -207,12 +227,16 @@ def _is_free(
     room = view.room_m + (radius if item.is_at_wall else 0.0)
     if np.max(np.abs(spot)) + radius > room:
         return False
-    if view.has_shore and view.road.across(spot) > -radius - 1.0:
+    if is_afloat and not (view.has_shore and view.road.across(spot) > radius + 0.5):
+        return False
+    if view.has_shore and not is_afloat and view.road.across(spot) > -radius - _BANK_M:
         return False
     if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < bodies[:, 2] + radius + 0.4):
         return False
     for other in items:
-        if np.hypot(*(spot - other.position)) < 0.8 * (radius + other.radius_m):
+        if not other.is_flat and np.hypot(*(spot - other.position)) < 0.8 * (
+            radius + other.radius_m
+        ):
             return False
     return not _hides(spot, radius, view)
 

@@ -2,37 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from texvent.scenes.scene import Colour
+from texvent.scenes.staging.built_places import BUILT_SCENERY
+from texvent.scenes.staging.scatter_rule import ScatterRule
+from texvent.scenes.staging.scatter_rule import along_walls as _along_walls
 
-
-@dataclass(frozen=True)
-class ScatterRule:
-    """How many of one noun to scatter, in a band of distances from the camera."""
-
-    noun: str
-    count: int
-    near: float
-    """Nearest distance, in camera distances behind what the camera looks at."""
-    far: float
-    scale: tuple[float, float] = (0.8, 1.2)
-    colours: tuple[Colour | None, ...] = (None,)
-    fits_view: bool = False
-    """Whether its size follows the camera distance, so that it neither towers nor vanishes."""
-    is_metres: bool = False
-    """Whether `near` and `far` are metres from the camera instead."""
-    is_at_wall: bool = False
-    """Whether it stands against a wall of the room; `near` and `far` do not count."""
-
-
-def _along_walls(*furniture: tuple[str, int]) -> tuple[ScatterRule, ...]:
-    """Furniture against the walls; nouns that there is no model of are left out."""
-    return tuple(
-        ScatterRule(noun, count, 0.0, 0.0, (0.95, 1.1), is_at_wall=True)
-        for noun, count in furniture
-    )
-
+__all__ = ["BACKDROPS", "SCENERY", "ScatterRule"]
 
 _PINK: Colour = (0.75, 0.25, 0.30)
 _CORAL: tuple[Colour, ...] = (_PINK, (0.80, 0.40, 0.12), (0.55, 0.20, 0.50), (0.75, 0.65, 0.20))
@@ -41,6 +16,7 @@ _DRY: Colour = (0.25, 0.22, 0.06)
 _MOUNTAINS = ScatterRule("mountain", 7, 190.0, 330.0, (0.9, 1.5), is_metres=True)
 
 SCENERY: dict[str, tuple[ScatterRule, ...]] = {
+    **BUILT_SCENERY,
     "road": (
         ScatterRule("house", 1, 1.6, 2.6, (1.0, 1.2)),
         ScatterRule("tree", 5, 0.5, 3.5, (0.8, 1.3)),

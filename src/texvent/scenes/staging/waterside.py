@@ -12,7 +12,7 @@ from texvent.scenes.staging.road import RoadLine
 
 STRIPS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY, Ground.RIVER)
 """Grounds with a strip that scenery keeps off."""
-WATERSIDE = ("river", "lake")
+WATERSIDE = ("river", "lake", "harbour", "swimming pool")
 """Places with water beside land."""
 _GAP = 0.22
 """Land between what the camera looks at and the water, as a share of the camera's distance."""

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
+from texvent.scenes.language.vocabulary.built_places import BUILT_PLACES
+
 PLACES: dict[str, tuple[str, ...]] = {
-    "road": (
-        "road", "highway", "motorway", "freeway", "lane", "asphalt", "country road", "paved road",
-        "avenue road",
-    ),
+    "road": ("road", "lane", "asphalt", "country road", "paved road", "avenue road"),
     "dirt road": ("dirt road", "dirt track", "gravel road", "trail", "dirt path", "path", "mud"),
     "city": (
         "city", "street", "town", "downtown", "urban", "avenue", "sidewalk", "pavement",
         "city street", "intersection", "crossing", "crossroads", "junction", "square",
         "street crossing", "road junction", "street corner",
     ),
-    "grass": (
-        "grass", "field", "meadow", "lawn", "park", "garden", "pasture", "yard", "grassy field",
-        "countryside", "backyard",
-    ),
+    "grass": ("grass", "field", "meadow", "lawn", "pasture", "grassy field", "countryside"),
     "savanna": ("savanna", "savannah", "grassland", "plain", "prairie", "steppe", "grasslands"),
     "forest": ("forest", "wood", "jungle", "rainforest", "woodland", "grove", "pine forest"),
     "sea": ("sea", "ocean", "water", "open water", "open sea", "surf"),
@@ -25,11 +21,10 @@ PLACES: dict[str, tuple[str, ...]] = {
     "gravel": ("gravel",),
     "soil": ("soil", "dirt", "ploughed field", "plowed field", "earth", "clay ground"),
     "underwater": ("seabed", "reef", "coral reef", "coral", "deep sea"),
-    "sand": ("beach", "sand", "desert", "dune", "sand dune", "shore", "coast"),
+    "sand": ("beach", "sand", "shore", "coast"),
     "snow": ("snowy field", "snowfield", "arctic", "snow covered ground"),
     "mountain": (
         "mountain", "mountain slope", "mountain side", "mountainside", "alps", "valley", "slope",
-        "hillside",
     ),
     "indoor": ("room", "house interior", "interior", "hall", "floor"),
     "living room": ("living room", "lounge", "sitting room"),
@@ -44,48 +39,40 @@ PLACES: dict[str, tuple[str, ...]] = {
         "construction site", "building site", "construction zone", "construction work",
         "construction", "roadworks", "work site",
     ),
+    **BUILT_PLACES,
     "plain": ("plain background", "background", "backdrop", "empty background", "plain ground"),
 }  # fmt: skip
 """Place → words for it, in the singular (regular plurals are understood too)."""
 
 PLACE_KINDS: dict[str, tuple[str, ...]] = {
-    "road": ("race track", "racetrack", "airport", "runway", "airfield", "track"),
+    "road": ("race track", "racetrack"),
     "city": (
-        "market", "market place", "marketplace", "plaza", "parking lot", "car park", "london",
-        "paris", "new york", "tokyo", "village", "campus", "bus station", "railroad crossing",
-        "railway crossing", "alley", "neighborhood", "neighbourhood", "suburb", "crowded market",
+        "plaza", "london", "paris", "new york", "tokyo", "campus", "bus station",
+        "railroad crossing", "railway crossing", "alley",
     ),
     "grass": (
-        "stadium", "pitch", "football field", "soccer field", "baseball field", "farm", "orchard",
-        "vineyard", "zoo", "cemetery", "golf course", "playground", "hill", "riverbank",
-        "hilltop", "campsite", "campground", "picnic area", "clearing", "tennis court",
+        "orchard", "zoo", "golf course", "riverbank", "campsite", "campground", "picnic area",
+        "clearing",
     ),
-    "soil": ("farmland", "vegetable patch", "crop field", "paddock"),
-    "sand": ("arena", "island", "oasis", "sandpit", "sandbox", "quarry"),
-    "snow": ("ice rink", "rink", "ski slope", "piste", "glacier", "ice", "frozen lake", "tundra"),
-    "mountain": ("canyon", "cliff", "crater", "ridge", "gorge", "summit", "peak"),
-    "sea": ("harbor", "harbour", "marina", "bay", "port", "lagoon", "fjord"),
-    "lake": ("swimming pool", "pool", "water hole", "waterhole", "swamp", "marsh"),
+    "soil": ("farmland", "vegetable patch", "crop field"),
+    "sand": ("island", "oasis", "sandpit", "sandbox"),
+    "snow": ("glacier", "ice", "frozen lake", "tundra"),
+    "mountain": ("cliff", "ridge", "summit", "peak"),
+    "sea": ("bay", "lagoon", "fjord"),
+    "lake": ("water hole", "waterhole", "swamp", "marsh"),
     "river": ("rapids", "ditch"),
     "forest": ("park trail", "bamboo grove", "swamp forest"),
     "indoor": (
-        "corridor", "studio", "museum", "church", "theatre", "theater", "auditorium", "stage",
-        "basement", "attic", "cave", "lobby", "gallery", "palace", "ballroom", "concert hall",
-        "club", "night club",
-        "disco", "discotheque", "dance club", "court", "basketball court", "bowling alley",
-        "nightclub", "circus",
+        "corridor", "studio", "church", "basement", "attic", "lobby", "palace", "court", "circus",
+        "club",
     ),
-    "living room": ("apartment", "flat", "cafe", "coffee shop", "bar", "pub", "hotel lobby"),
-    "kitchen": ("bathroom", "restaurant", "bakery", "restaurant kitchen", "canteen", "diner"),
+    "living room": ("apartment", "flat", "bar", "hotel lobby"),
+    "kitchen": ("bakery", "restaurant kitchen", "canteen"),
     "bedroom": ("hotel room", "nursery", "dormitory"),
-    "office": (
-        "classroom", "laboratory", "lab", "library", "hospital", "clinic", "operating room",
-        "operating theatre", "shop", "store", "school", "waiting room", "bookshop",
-    ),
-    "workshop": ("garage", "factory", "factory hall", "forge", "assembly hall", "car wash"),
-    "warehouse": ("supermarket", "hangar", "train station", "railway station", "subway station",
-                  "station", "mall", "barn", "depot"),
-    "gym": ("dojo", "dance studio", "boxing ring", "yoga studio"),
+    "office": ("school", "waiting room"),
+    "workshop": ("forge",),
+    "warehouse": ("hangar", "station", "mall", "barn", "depot"),
+    "gym": ("dojo", "dance studio", "yoga studio"),
     "underwater": ("aquarium", "fish tank"),
 }  # fmt: skip
 """Place → words for places that are shown as it, and reported so."""

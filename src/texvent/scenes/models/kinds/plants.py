@@ -59,7 +59,7 @@ FOOD_AND_PLANT_KINDS: dict[str, str] = {
     "egg": "easter egg, boiled egg",
     "wine glass": "champagne glass, champagne flute, cocktail glass, goblet, chalice, red wine",
     "beer glass": "beer, ale, lager, eggnog, cider",
-    "glass": "juice, orange juice, milk, lemonade, cocktail, shot glass, beaker",
+    "glass": "juice, orange juice, milk, lemonade, cocktail, shot glass",
     "mug": "latte, cappuccino, hot chocolate, cocoa",
     "cup": "espresso, tea",
 }

@@ -20,9 +20,9 @@ THING_KINDS: dict[str, str] = {
         snowplow, tipper, monster truck, food truck, cement truck""",
     "bus": "trolleybus, school bus, double decker, shuttle bus, coach, omnibus",
     "train": """
-        streetcar, tram, metro, subway train, bullet train, high speed train, locomotive,
-        electric locomotive, steam locomotive, steam train, freight train, passenger
-        train, freight car, passenger car, monorail, commuter train, railcar""",
+        streetcar, tram, bullet train, high speed train, locomotive, electric
+        locomotive, steam locomotive, steam train, freight train, passenger train,
+        freight car, passenger car, monorail, commuter train, railcar""",
     "tractor": """
         harvester, combine harvester, thresher, combine, farm vehicle, steamroller""",
     "excavator": "bulldozer, loader, wheel loader, backhoe, earthmover, construction vehicle",
@@ -53,7 +53,7 @@ THING_KINDS: dict[str, str] = {
     "traffic cone": "pylon cone",
     "house": """
         villa, bungalow, mansion, residence, boathouse, lodge, hostel, manor, tile roof
-        house, cottage, farmhouse, cabin""",
+        house, farmhouse, cabin""",
     "building": """
         apartment block, office building, hospital, school, library, factory building,
         office block, restaurant, bank building, prison, cinema, theater, theatre, shop,
@@ -66,7 +66,7 @@ THING_KINDS: dict[str, str] = {
     "mosque": "stupa, minaret",
     "hut": "shack, yurt, thatched hut, wooden hut, kiosk, thatch",
     "barn": "shed, stable, lumbermill, farm building, garage",
-    "tower": "control tower, turret, campanile, silo, watchtower, bell tower, clock tower",
+    "tower": "turret, campanile, silo, watchtower, bell tower, clock tower",
     "power pylon": """
         telephone pole, utility pole, telegraph pole, radio tower, cell tower,
         transmission tower, power line, mast, power lines""",
@@ -80,7 +80,6 @@ THING_KINDS: dict[str, str] = {
     "column": "pedestal, plinth, totem pole",
     "statue": "bust, figurine, monument, gargoyle, mannequin",
     "tent": "marquee, teepee, tipi, tepee, wigwam",
-    "bench": "pew",
     "chair": """
         furniture, seat, folding chair, dining chair, high chair, barber chair, throne,
         deck chair, garden chair, lawn chair""",
@@ -99,7 +98,7 @@ THING_KINDS: dict[str, str] = {
         box, lunchbox""",
     "barrel": "rain barrel, oil drum, vat",
     "rug": "yoga mat, mat, doormat, prayer rug",
-    "curtain": "window shade, shower curtain, theater curtain, theatre curtain, shoji",
+    "curtain": "window shade, shower curtain, shoji",
     "blind": "shutter, window shutter",
     "door": "sliding door, revolving door, glass door, garage door, doorway, elevator",
     "pillow": "quilt",
@@ -131,7 +130,7 @@ THING_KINDS: dict[str, str] = {
     "cup": "espresso cup, measuring cup",
     "bottle": """
         beer bottle, pop bottle, water bottle, plastic bottle, pill bottle, milk bottle,
-        whiskey jug, perfume bottle, flask, soda bottle, medicine bottle, cocktail shaker,
+        whiskey jug, perfume bottle, soda bottle, medicine bottle, cocktail shaker,
         thermos, thermos flask, vacuum flask""",
     "jug": "milk can, pitcher, carafe, decanter",
     "urn": "amphora",
@@ -190,7 +189,7 @@ THING_KINDS: dict[str, str] = {
     "satellite": "space station, space probe, orbiter",
     "planet": "mars, jupiter, venus, mercury, exoplanet, neptune, uranus",
     "rock": "pebble, megalith, mineral, cobblestone",
-    "mountain": "alp, peak, hilltop, cliff",
+    "mountain": "alp, peak, hilltop",
     "cloud": "storm cloud, cumulus, rain cloud",
     "leaf": "autumn leaf, maple leaf, foliage leaf",
     "log": "lumber, firewood",

@@ -14,7 +14,7 @@ from texvent.scenes.raycast.shading.value_noise import box_coverage, lattice
 from texvent.scenes.raycast.vectors import Vector, scaled, triple
 from texvent.scenes.scene import Colour
 
-_PLASTER = 33
+_PLASTER, _STONE, _CLOTH = 33, 31, 43
 _HANGING_EVERY_M = 2.3
 _FRAME_M = 0.05
 _FRAME = (0.70, 0.69, 0.66)
@@ -83,7 +83,7 @@ def wall_look(
 ) -> tuple[Colour, Vector]:
     """Reflectance and normal of a room's wall or ceiling.
 
-    Walls have a skirting board, windows and pictures.
+    Walls have a skirting board, windows and pictures; those of rock or drapery have no windows.
     """
     instant = world.instant[0]
     right, down = patch
@@ -101,7 +101,9 @@ def wall_look(
     sample = sample_material(instant, instant.wall_surface, point[a], point[b], axes, 1.0)
     look = painted(sample, plain, scaled(plain, 0.72), 1.0)
     feet = (abs(right[a]) + abs(down[a]), abs(right[2]) + abs(down[2]), 0.0)
-    colour = _hang(instant, look[0], (point[a], point[2]), feet, 2 * face + int(side > 0.0))
+    colour = look[0]
+    if instant.wall_surface not in (_STONE, _CLOTH):
+        colour = _hang(instant, colour, (point[a], point[2]), feet, 2 * face + int(side > 0.0))
     colour = mix(colour, _SKIRTING, box_coverage(point[2], 0.0, 0.14, feet[1]))
     if face == 0:
         return colour, (side, -look[1], -look[2])

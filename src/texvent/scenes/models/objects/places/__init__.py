@@ -1,0 +1,1 @@
+"""What places are known by: furniture of rooms, structures of grounds, lines of courts."""

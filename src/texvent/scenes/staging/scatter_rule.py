@@ -1,0 +1,40 @@
+"""How scenery is scattered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from texvent.scenes.scene import Colour
+
+
+@dataclass(frozen=True)
+class ScatterRule:
+    """How many of one noun to scatter, in a band of distances from the camera."""
+
+    noun: str
+    count: int
+    near: float
+    """Nearest distance, in camera distances behind what the camera looks at."""
+    far: float
+    scale: tuple[float, float] = (0.8, 1.2)
+    colours: tuple[Colour | None, ...] = (None,)
+    fits_view: bool = False
+    """Whether its size follows the camera distance, so that it neither towers nor vanishes."""
+    is_metres: bool = False
+    """Whether `near` and `far` are metres from the camera instead."""
+    is_at_wall: bool = False
+    """Whether it stands against a wall of the room; `near` and `far` do not count."""
+    is_under: bool = False
+    """Whether it lies flat under what the camera looks at: the lines of a court."""
+    is_afloat: bool = False
+    """Whether it lies in the water beside the land."""
+    faces_camera: bool = False
+    """Whether its front is turned to the camera."""
+
+
+def along_walls(*furniture: tuple[str, int]) -> tuple[ScatterRule, ...]:
+    """Furniture against the walls; nouns that there is no model of are left out."""
+    return tuple(
+        ScatterRule(noun, count, 0.0, 0.0, (0.95, 1.1), is_at_wall=True)
+        for noun, count in furniture
+    )
