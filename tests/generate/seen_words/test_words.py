@@ -23,7 +23,6 @@ def report_of(prompt: str) -> PromptReport:
     ("prompt", "word"),
     [
         ("a dog runs up a steep slope", "slope"),
-        ("a camel walks over a sand dune", "sand dune"),
         ("a kingfisher flies over a field, backlit by the rising sun", "rising sun"),
         ("a car drives along a road with long shadows at noon", "long shadows"),
         ("a cat sits in a room at sunset", "sunset"),

@@ -161,7 +161,7 @@ def test_camera(prompt: str, moves: list[tuple[str, str | None]], view: str | No
 @pytest.mark.parametrize(
     ("prompt", "place", "light", "weather"),
     [
-        ("a car on a highway at night", "road", "night", None),
+        ("a car on a highway at night", "motorway", "night", None),
         ("a dog on a dirt road at sunset", "dirt road", "dusk", None),
         ("cars in a city street by moonlight", "city", "moonlight", None),
         ("sharks in the ocean", "underwater", None, None),

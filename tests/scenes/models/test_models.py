@@ -35,6 +35,13 @@ POSES = [
 ]
 
 
+MOUNDS = {"hangar", "dune mound", "green hill", "waterfall", "lava flow"}
+"""Scenery whose lower half is in the ground."""
+HUNG = {"wall blackboard", "large painting", "train window", "stained glass", "hall mirror"}
+"""Scenery that hangs on a wall."""
+LINES = {"runway markings", "tennis court lines", "basketball court lines", "pitch lines",
+         "parking lines"}  # fmt: skip
+"""White paint on the ground."""
 INSECTS = {"bee", "housefly", "mosquito", "dragonfly", "moth", "butterfly"}
 
 
@@ -193,7 +200,7 @@ def test_scale_scales_everything(noun: Noun) -> None:
 
 @for_every_noun
 def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
-    if noun.habitat not in ("ground", "fixed"):
+    if noun.habitat not in ("ground", "fixed") or noun.name in MOUNDS | HUNG:
         return
     model = build(noun, seed=1)
     for pose in POSES:
@@ -238,6 +245,8 @@ def test_a_seed_fixes_every_detail(noun: Noun) -> None:
 
 @for_every_noun
 def test_a_colour_word_shows(noun: Noun) -> None:
+    if noun.name in LINES:
+        return
     violet = (0.31, 0.02, 0.47)
     pose = Pose(0.3, 0.4, 1.0)
     painted = noun.build(colour=violet, scale=1.0, seed=0).parts(pose)

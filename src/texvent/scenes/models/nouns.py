@@ -15,6 +15,7 @@ from texvent.scenes.models.animals import (
     breeds,
     crawlers,
     flying_birds,
+    more_birds,
     more_quadrupeds,
     night_animals,
     other_bodies,
@@ -42,12 +43,14 @@ from texvent.scenes.models.objects.home import (
     small_things,
 )
 from texvent.scenes.models.objects.kitchen import appliances, food, tableware
+from texvent.scenes.models.objects.more import nature as more_nature
+from texvent.scenes.models.objects.more import science, table_and_play
 from texvent.scenes.models.objects.outdoors import flowing, street_furniture, structures, wild
 from texvent.scenes.models.objects.places import grounds, rooms
 from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, gear
-from texvent.scenes.models.objects.work import escalator, machines, rare_vehicles, tools
+from texvent.scenes.models.objects.work import escalator, machines, more_vehicles, rare_vehicles, tools
 from texvent.scenes.models.people import hand, person, wearables
 from texvent.scenes.models.people.roles import clothes
 from texvent.scenes.models.people.roles import nouns as roles
@@ -106,6 +109,11 @@ _MODULES = (
     tableware,
     small_things,
     rare_vehicles,
+    more_vehicles,
+    more_birds,
+    more_nature,
+    science,
+    table_and_play,
     rooms,
     grounds,
 )

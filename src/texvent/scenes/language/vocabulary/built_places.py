@@ -46,7 +46,7 @@ BUILT_PLACES: dict[str, tuple[str, ...]] = {
     "backyard": ("backyard", "yard", "front yard", "garden", "suburban garden"),
     "park": ("park", "city park", "public park", "park path"),
     "playground": ("playground",),
-    "railway": ("railway", "railroad", "rails"),
+    "railway": ("railway", "railroad"),
     "parking lot": ("parking lot", "car park", "parking space"),
     "hills": ("hill", "hillside", "hilltop", "rolling hills", "grassy hill", "green hillside"),
     "dunes": ("dune", "sand dune", "desert dune"),

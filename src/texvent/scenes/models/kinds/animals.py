@@ -88,12 +88,11 @@ ANIMAL_KINDS: dict[str, str] = {
         tortoise, loggerhead, leatherback, leatherback turtle, mud turtle, terrapin, box
         turtle, snapping turtle""",
     "bird": """
-        sparrow, swallow, robin, finch, goldfinch, house finch, brambling, junco, bulbul,
-        indigo bunting, bunting, jay, magpie, chickadee, water ouzel, titmouse, tit,
-        blackbird, crow, raven, thrush, starling, wren, lark, nightingale, canary, cuckoo,
-        coucal, bee eater, jacamar, hummingbird, kingfisher, woodpecker, pigeon, dove,
+        sparrow, swallow, finch, house finch, brambling, junco, bulbul, indigo bunting,
+        bunting, jay, magpie, chickadee, water ouzel, titmouse, tit, thrush, starling,
+        wren, lark, nightingale, cuckoo, coucal, bee eater, jacamar, woodpecker,
         songbird, warbler, oriole, cardinal bird, passerine, swift, partridge, quail,
-        house sparrow, blue jay, wagtail, mockingbird, rook, jackdaw""",
+        house sparrow, wagtail, mockingbird, jackdaw""",
     "parrot": """
         macaw, cockatoo, sulphur crested cockatoo, lorikeet, african grey, parakeet,
         budgie, budgerigar, toucan, hornbill""",
@@ -103,16 +102,16 @@ ANIMAL_KINDS: dict[str, str] = {
     "owl": "great grey owl, snowy owl, owlet, barn owl",
     "gull": "albatross, tern, petrel, sea bird, gannet",
     "duck": """
-        mallard, drake, merganser, red breasted merganser, goose, teal, gosling, american
-        coot, coot, moorhen, duckling, cormorant, loon""",
+        mallard, drake, merganser, red breasted merganser, goose, teal, american coot,
+        coot, moorhen, cormorant, loon""",
     "swan": "black swan, cygnet, mute swan, pelican",
     "chicken": """
-        chick, ptarmigan, black grouse, ruffed grouse, grouse, prairie chicken, fowl,
-        pheasant, poultry, guinea fowl""",
+        ptarmigan, black grouse, ruffed grouse, grouse, prairie chicken, fowl, pheasant,
+        poultry, guinea fowl""",
     "rooster": "cock, cockerel",
     "flamingo": """
-        heron, little blue heron, egret, american egret, stork, white stork, black stork,
-        spoonbill, ibis, wading bird, crane bird, bittern""",
+        little blue heron, american egret, white stork, black stork, spoonbill, ibis,
+        wading bird, bittern""",
     "ostrich": "emu, rhea, cassowary",
     "penguin": "king penguin, emperor penguin, puffin",
     "fish": """

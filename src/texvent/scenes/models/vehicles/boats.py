@@ -141,6 +141,6 @@ NOUNS = (
     ),
     Noun(
         "ship", build_ship, "water", 6.0, "sail",
-        ("cargo ship", "container ship", "freighter", "vessel"),
+        ("vessel",),
     ),
 )  # fmt: skip

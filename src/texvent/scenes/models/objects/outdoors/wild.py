@@ -162,7 +162,7 @@ _GARDEN = placed("grass", (
                     thickness=(0.0, 0.0, 0.004)) for a in (0.0, 1.26, 2.51, 3.77, 5.03))],
                     swinging("x", 0.05, 0.3)),)),
     thing("grass tuft", _GREENS, nothing,
-        ("tuft of grass", "tall grass", "blade of grass"),
+        ("tuft of grass", "tall grass"),
         moving=tuple(Moving(_tuft(0.4 * k), swinging("x" if k % 2 else "y", 0.10, 0.3 + 0.05 * k))
             for k in range(4))),
     thing("leaf", _GREENS,

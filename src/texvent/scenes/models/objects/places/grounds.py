@@ -173,16 +173,13 @@ NOUNS = (
         *(box(p, (8.1, y, 3.2), (0.2, 0.3, 6.4)) for y in (-3.0, 0.0, 3.0))], ("aircraft hangar",)),
     thing("tennis court net", (INK.colour,), lambda p: _net(p, 11.0, 1.0, 0.0, 30)),
     thing("high net", (INK.colour,), lambda p: _net(p, 9.0, 2.4, 1.4, 24), ()),
-    thing("tennis court", (PALE.colour,), lambda p: [
+    thing("tennis court lines", (PALE.colour,), lambda p: [
         box(Material((0.03, 0.16, 0.32)), (0.0, 0.0, 0.004), (26.0, 13.0, 0.008)),
-        *_court((23.8, 10.9), 8.2), *_net(INK, 11.6, 1.0, 0.0, 26)], ("badminton court",)),
-    thing("basketball court", (PALE.colour,), lambda p: [
-        *_court((24.0, 14.0), 4.6), *(part for s in (1.0, -1.0) for part in (
-            rod(IRON, (12.6 * s, 0.0, 0.0), (12.6 * s, 0.0, 3.2), 0.10),
-            box(PALE, (11.9 * s, 0.0, 3.5), (0.06, 1.8, 1.1)),
-            box(RED_PAINT, (11.85 * s, 0.0, 3.3), (0.04, 0.6, 0.06)),
-            rod(RED_PAINT, (11.5 * s, -0.001, 3.05), (11.5 * s, 0.001, 3.05), 0.02),
-            rod(IRON, (12.6 * s, 0.0, 3.2), (11.9 * s, 0.0, 3.4), 0.08)))]),
+        *_court((23.8, 10.9), 8.2), *_net(INK, 11.6, 1.0, 0.0, 26)], ()),
+    thing("basketball court lines", (PALE.colour,), lambda p: [
+        *_court((5.6, 5.2), 2.0), *(limb(_LINE, (0.9 * math.cos(a), 0.9 * math.sin(a), 0.0),
+            (0.9 * math.cos(a + 0.42), 0.9 * math.sin(a + 0.42), 0.0), 0.03)
+            for a in (0.42 * k for k in range(15)))]),
     thing("pitch lines", (PALE.colour,), lambda p: [
         *_court((60.0, 40.0), 18.0), *(_line(18.0 * s, 0.0, 0.12, 18.0) for s in (1.0, -1.0)),
         *(_line(9.0 * math.cos(a), 9.0 * math.sin(a), 0.1, 0.1) for a in (0.0, 1.57)),
@@ -196,17 +193,17 @@ NOUNS = (
         *(rod(STEEL_POST, (0.0, y, 0.0), (0.0, y, 0.95), 0.025) for y in (-0.55, 0.55)),
         *(rod(STEEL_POST, (0.0, y, 0.03), (-0.5, y, 0.03), 0.025) for y in (-0.55, 0.55)),
         *(box(c, (0.0, -0.45 + 0.3 * k, 0.95), (0.03, 0.3, 0.10)) for k, c in enumerate(
-            (PALE, RED_PAINT, PALE, RED_PAINT)))], ("track hurdle",)),
+            (p, RED_PAINT, p, RED_PAINT)))], ("track hurdle",)),
     thing("boxing ring ropes", (PALE.colour,), lambda p: [
         box(Material((0.10, 0.25, 0.50)), (0.0, 0.0, 0.006), (5.4, 5.4, 0.012)),
         *(rod(RED_PAINT, (2.6 * a, 2.6 * b, 0.0), (2.6 * a, 2.6 * b, 1.4), 0.09)
           for a in (1, -1) for b in (1, -1)),
         *(rod(p, (-2.6, 2.6, z), (2.6, 2.6, z), 0.025) for z in (0.45, 0.85, 1.25)),
         *(rod(p, (2.6 * s, -2.6, z), (2.6 * s, 2.6, z), 0.025) for z in (0.45, 0.85, 1.25)
-          for s in (1, -1))], ("boxing ring",)),
-    thing("park path", ((0.48, 0.40, 0.28),), lambda p: [
+          for s in (1, -1))]),
+    thing("gravel path lines", ((0.48, 0.40, 0.28),), lambda p: [
         box(mottled(p.colour), (0.0, 0.0, 0.006), (60.0, 2.4, 0.012)),
-        *(box(STONE, (0.0, 1.25 * s, 0.03), (60.0, 0.12, 0.06)) for s in (1, -1))], ("footpath",)),
+        *(box(STONE, (0.0, 1.25 * s, 0.03), (60.0, 0.12, 0.06)) for s in (1, -1))], ()),
     thing("railway track", ((0.16, 0.09, 0.05),), lambda p: [
         box(mottled((0.30, 0.28, 0.26), contrast=0.5, scale=30.0), (0.0, 0.0, 0.03), (40.0, 3.2,
             0.06)),
@@ -262,22 +259,22 @@ NOUNS = (
         box(p, (0.0, 0.0, 0.45), (0.16, 0.7, 0.9)), disc(p, (0.0, 0.9), 0.35, 0.16),
         bar(INK, (0.0, 0.55), (0.0, 1.05), 0.06, 0.20), bar(INK, (-0.16, 0.85), (0.16, 0.85),
             0.06, 0.20)],
-        ("tombstone", "grave", "headstone", "gravestones")),
+        ("tombstone", "grave", "headstone", )),
     thing("slalom gate", ((0.60, 0.03, 0.02),), lambda p: [
         *(rod(p, (0.0, y, 0.0), (0.0, y, 1.9), 0.04) for y in (-0.9, 0.9)),
         box(p, (0.0, 0.0, 1.45), (0.02, 1.8, 0.6))], ("ski gate",)),
-    thing("ski lift", (INK.colour,), lambda p: [
+    thing("ski lift", (RED,), lambda p: [
         rod(IRON, (0.0, 0.0, 0.0), (0.0, 0.0, 8.0), 0.25), box(IRON, (0.0, 0.0, 7.8), (0.3, 4.0,
             0.3)),
         *(rod(INK, (-20.0, y, 7.6), (20.0, y, 7.6), 0.03) for y in (-1.8, 1.8)),
         *(part for x, y in ((-9.0, 1.8), (6.0, -1.8), (12.0, 1.8)) for part in (
-            rod(IRON, (x, y, 7.6), (x, y, 5.6), 0.05), box(RED_PAINT, (x, y, 5.3), (0.5, 1.6,
+            rod(IRON, (x, y, 7.6), (x, y, 5.6), 0.05), box(p, (x, y, 5.3), (0.5, 1.6,
                 0.5))))],
         ("chairlift", "chair lift")),
-    thing("sand dune", ((0.62, 0.46, 0.24),), lambda p: [
+    thing("dune mound", ((0.62, 0.46, 0.24),), lambda p: [
         ball(mottled(p.colour, contrast=0.12), (0.0, 0.0, 0.0), (14.0, 24.0, 7.0)),
         ball(mottled((0.50, 0.36, 0.18), contrast=0.12), (1.6, 3.0, -0.2), (13.0, 15.0, 6.0))],
-        ("dune",)),
+        ()),
     thing("green hill", ((0.09, 0.20, 0.03),), lambda p: [
         ball(grass_like(p.colour), (0.0, 0.0, 0.0), (26.0, 44.0, 15.0)),
         ball(grass_like((0.07, 0.16, 0.025)), (-5.0, 13.0, 0.0), (24.0, 30.0, 19.0))],
@@ -297,8 +294,7 @@ NOUNS = (
         *(limb(glowing((0.9, 0.16, 0.01), 0.9), (-6.5 + 2.2 * k, 0.7 * math.sin(1.4 * k), 0.42),
                (-4.3 + 2.2 * k, 0.7 * math.sin(1.4 * k + 1.4), 0.40), 0.36) for k in range(5)),
         *(ball(glowing((1.0, 0.35, 0.02), 1.2), (-5.0 + 2.6 * k, 0.5 * math.sin(2.0 * k), 0.6),
-               (0.9, 0.5, 0.3)) for k in range(4))], ("lava", "lava stream", "stream of lava",
-                   "magma")),
+               (0.9, 0.5, 0.3)) for k in range(4))], ("lava", "lava stream", "magma")),
     thing("wooden house", ((0.62, 0.58, 0.46),), lambda p: [
         box(p, (0.0, 0.0, 1.5), (5.0, 7.0, 3.0)), *(plank(ROOF, (2.9 * s, 0.0, 2.8), (0.0, 0.0,
             4.8), chord=(
@@ -316,17 +312,17 @@ NOUNS = (
         *(rod(p, (0.06, -2.2, z), (0.06, 2.2, z), 0.055) for z in (0.5, 0.95, 1.35))],
             ("rail fence",)),
     thing("bowling lane", ((0.55, 0.34, 0.15),), lambda p: [
-        box(p, (0.0, 0.0, 0.010), (16.0, 1.1, 0.02)), *(box(INK, (0.0, 0.66 * s, 0.006), (16.0,
+        box(p, (0.0, 0.0, 0.010), (6.0, 1.1, 0.02)), *(box(INK, (0.0, 0.66 * s, 0.006), (16.0,
             0.22, 0.012))
                                                           for s in (1, -1)),
-        *(part for x, y in ((6.6, 0.0), (6.9, 0.17), (6.9, -0.17), (7.2, 0.34), (7.2, 0.0), (7.2,
+        *(part for x, y in ((1.7, 0.0), (2.0, 0.17), (2.0, -0.17), (2.3, 0.34), (2.3, 0.0), (2.3,
             -0.34),
-                            (7.5, 0.5), (7.5, 0.17), (7.5, -0.17), (7.5, -0.5)) for part in (
+                            (2.6, 0.5), (2.6, 0.17), (2.6, -0.17), (2.6, -0.5)) for part in (
             ball(PALE, (x, y, 0.15), (0.15, 0.15, 0.28)), ball(PALE, (x, y, 0.36), (0.09, 0.09,
                 0.16)),
             post(RED_PAINT, (x, y, 0.28), (0.075, 0.075, 0.04))))], ("bowling alley lane",)),
     thing("barrier tape", (RED,), lambda p: [
         *(rod(striped(RED, WHITE, 3.0), (0.0, y, 0.0), (0.0, y, 1.0), 0.05) for y in (-1.5, 1.5)),
-        *(box(RED_PAINT if k % 2 else PALE, (0.0, -1.35 + 0.3 * k, 0.9), (0.02, 0.3, 0.12))
+        *(box(p if k % 2 else PALE, (0.0, -1.35 + 0.3 * k, 0.9), (0.02, 0.3, 0.12))
           for k in range(10))], ("police tape",)),
 )  # fmt: skip

@@ -53,7 +53,9 @@ def flask(at: Point, size: float, liquid: Material) -> list[ModelPart]:
     ]
 
 
-def tube_rack(at: Point, wide: float, count: int = 6) -> list[ModelPart]:
+def tube_rack(
+    at: Point, wide: float, count: int = 6, first: Material = _LIQUIDS[0]
+) -> list[ModelPart]:
     """Test tubes in a row, in a wooden rack."""
     x, y, z = at
     wood = Material(PALE_WOOD)
@@ -66,7 +68,7 @@ def tube_rack(at: Point, wide: float, count: int = 6) -> list[ModelPart]:
     ]  # fmt: skip
     for k in range(count):
         tube_y = y + wide * (0.84 * (k + 0.5) / count - 0.42)
-        parts.append(post(_LIQUIDS[k % 4], (x, tube_y, z + 0.12 * wide), (
+        parts.append(post(_LIQUIDS[k % 4] if k else first, (x, tube_y, z + 0.12 * wide), (
             0.09 * wide, 0.09 * wide, 0.18 * wide)))  # fmt: skip
         parts.append(
             post(_CLEAR, (x, tube_y, z + 0.26 * wide), (0.1 * wide, 0.1 * wide, 0.12 * wide))
@@ -120,8 +122,8 @@ NOUNS = (
                                                              (0.104, 0.104, 0.05)),
         *(box(INK, (0.05, 0.0, z), (0.004, 0.03, 0.003)) for z in (0.04, 0.07, 0.10))],
         ("glass beaker",)),
-    thing("test tube", ((0.10, 0.45, 0.15),), lambda p: tube_rack((0.0, 0.0, 0.0), 0.24, 6),
-          ("test tube rack", "rack of test tubes", "glass vial", "vial", "pipette rack")),
+    thing("test tube", ((0.10, 0.45, 0.15),), lambda p: tube_rack((0.0, 0.0, 0.0), 0.24, 6, p),
+          ("test tube rack", "glass vial", "vial", "pipette rack")),
     thing("petri dish", ((0.55, 0.20, 0.15),), lambda p: [
         post(_CLEAR, (0.0, 0.0, 0.008), (0.10, 0.10, 0.016)), post(p, (0.0, 0.0, 0.016),
                                                                    (0.09, 0.09, 0.004)),
@@ -266,7 +268,7 @@ NOUNS = (
     thing("tyre stack", ((0.03, 0.03, 0.03),), lambda p: [
         part for k in range(4) for part in ring(p, (0.0, 0.0, 0.12 + 0.22 * k), (0.26, 0.26), 0.11,
                                                 axis="z", pieces=10)], ("tire stack",
-                        "stack of tyres")),
+                        )),
     thing("car lift", ((0.60, 0.05, 0.03),), lambda p: [
         *(box(p, (0.0, 1.5 * s, 1.4), (0.35, 0.3, 2.8)) for s in (1.0, -1.0)),
         *(box(p, (0.3 * d, 0.9 * s, 0.5), (1.0, 1.0, 0.10)) for s in (1.0, -1.0) for d in (1.0,)),
@@ -289,9 +291,9 @@ NOUNS = (
         peak(p, (0.0, 0.0, 0.7), (0.7, 0.7, 1.4)), peak(p, (0.3, 0.4, 0.4), (0.5, 0.5, 0.8)),
         peak(p, (-0.2, -0.4, 0.28), (0.4, 0.4, 0.56))], ("stalactite",)),
     thing("cell bars", (SILVERY,), lambda p: [
-        *(rod(IRON, (0.0, -1.2 + 0.2 * k, 0.0), (0.0, -1.2 + 0.2 * k, 2.4),
+        *(rod(p, (0.0, -1.2 + 0.2 * k, 0.0), (0.0, -1.2 + 0.2 * k, 2.4),
             0.025) for k in range(13)),
-        box(IRON, (0.0, 0.0, 2.4), (0.06, 2.5, 0.08)), box(IRON, (0.0, 0.0, 1.2), (0.06, 2.5,
+        box(p, (0.0, 0.0, 2.4), (0.06, 2.5, 0.08)), box(p, (0.0, 0.0, 1.2), (0.06, 2.5,
             0.06))]),
     thing("disco lights", ((0.10, 0.10, 0.11),), lambda p: [
         rod(p, (0.0, -1.2, 2.4), (0.0, 1.2, 2.4), 0.05), *(rod(p, (0.0, 1.1 * s, 0.0), (0.0,

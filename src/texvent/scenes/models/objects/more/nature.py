@@ -1,0 +1,185 @@
+"""Plants of water and woods, leaves, bodies of the sky: what nature is written about with."""
+
+from __future__ import annotations
+
+import math
+
+from texvent.scenes.models.materials import BARK, Material, foliage, glowing, mottled
+from texvent.scenes.models.objects.figures import (
+    Moving,
+    nothing,
+    placed,
+    ring,
+    swinging,
+    thing,
+    toned,
+)
+from texvent.scenes.models.objects.palette import EARTH, LEAF, PALE, WATER
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.shapes import Point, ball, blade, limb, peak, post, rod, spike
+
+_CLEAR = Material((0.70, 0.82, 0.86), emission=0.15)
+_AUTUMN = (Material((0.62, 0.16, 0.02)), Material((0.70, 0.38, 0.03)), Material((0.42, 0.10, 0.03)),
+           Material((0.72, 0.55, 0.06)))  # fmt: skip
+
+
+def _leaf(skin: Material, at: Point, angle: float, size: float) -> ModelPart:
+    x, y, z = at
+    tip = (x + size * math.cos(angle), y + size * math.sin(angle), z + 0.12 * size)
+    return blade(skin, at, tip, chord=(-0.55 * size * math.sin(angle),
+        0.55 * size * math.cos(angle),
+                                       0.1 * size), thickness=(0.0, 0.0, 0.03 * size))  # fmt: skip
+
+
+def _crown(trunk: Material, crown: Material, tall: float) -> list[ModelPart]:
+    return [
+        rod(trunk, (0.0, 0.0, 0.0), (0.0, 0.0, 0.55 * tall), 0.035 * tall),
+        *(limb(trunk, (0.0, 0.0, 0.4 * tall), (0.22 * tall * math.cos(a),
+            0.22 * tall * math.sin(a), 0.66 * tall),
+               0.02 * tall) for a in (0.3, 2.2, 4.3)),
+        *(ball(crown, (0.24 * tall * math.cos(a), 0.24 * tall * math.sin(a), 0.70 * tall), (
+            0.42 * tall, 0.42 * tall, 0.34 * tall)) for a in (0.0, 1.26, 2.51, 3.77, 5.03)),
+        ball(crown, (0.0, 0.0, 0.84 * tall), (0.5 * tall, 0.5 * tall, 0.34 * tall)),
+    ]  # fmt: skip
+
+
+def _bare(p: Material) -> list[ModelPart]:
+    parts = [rod(p, (0.0, 0.0, 0.0), (0.0, 0.0, 2.6), 0.20)]
+    for k in range(7):
+        a, z = 2.4 * k, 1.7 + 0.35 * k
+        mid = (0.9 * math.cos(a), 0.9 * math.sin(a), z + 0.8)
+        parts.append(limb(p, (0.0, 0.0, z), mid, 0.07))
+        for turn in (0.5, -0.5):
+            tip = (
+                mid[0] + 0.7 * math.cos(a + turn),
+                mid[1] + 0.7 * math.sin(a + turn),
+                mid[2] + 0.7,
+            )
+            parts.append(limb(p, mid, tip, 0.035))
+    return [*parts, limb(p, (0.0, 0.0, 2.4), (0.1, 0.1, 4.6), 0.09)]
+
+
+def _coral(p: Material) -> list[ModelPart]:
+    parts = [post(toned(p, 0.6), (0.0, 0.0, 0.04), (0.5, 0.5, 0.08))]
+    for k in range(8):
+        a = 0.785 * k
+        fork = (0.14 * math.cos(a), 0.18 * math.sin(a), 0.30)
+        parts.append(limb(p, (0.0, 0.0, 0.0), fork, 0.035))
+        for turn in (0.5, -0.4):
+            parts.append(
+                limb(p, fork, (0.30 * math.cos(a + turn), 0.34 * math.sin(a + turn), 0.58), 0.028)
+            )
+    return parts
+
+
+_WEED = Moving(lambda p: [part for k in range(7) for part in (
+    limb(p, (0.10 * math.cos(2.4 * k), 0.10 * math.sin(2.4 * k), 0.0), (
+        0.16 * math.cos(2.4 * k) + 0.06, 0.16 * math.sin(2.4 * k), 0.5), 0.035),
+    limb(p, (0.16 * math.cos(2.4 * k) + 0.06, 0.16 * math.sin(2.4 * k), 0.5), (
+        0.20 * math.cos(2.4 * k) - 0.05, 0.20 * math.sin(2.4 * k), 1.0), 0.03),
+    limb(p, (0.20 * math.cos(2.4 * k) - 0.05, 0.20 * math.sin(2.4 * k), 1.0), (
+        0.24 * math.cos(2.4 * k) + 0.08, 0.22 * math.sin(2.4 * k), 1.4), 0.022))],
+    swinging("y", 0.14, 0.4))  # fmt: skip
+
+NOUNS = (
+    *placed("underwater", (
+        thing("coral branch", ((0.80, 0.25, 0.22), (0.75, 0.45, 0.08), (0.55, 0.20, 0.55)), _coral,
+              ("staghorn coral", "branching coral", "sea fan")),
+        thing("seaweed", ((0.05, 0.20, 0.04),), nothing, ("kelp", "algae", "sea grass"),
+            moving=(_WEED,)),
+        thing("anemone", ((0.75, 0.25, 0.45),), nothing, ("sea anemone",),
+            moving=(Moving(lambda p: [
+            post(toned(p, 0.6), (0.0, 0.0, 0.08), (0.30, 0.30, 0.16)), *(limb(p,
+                (0.08 * math.cos(0.52 * k), 0.08 * math.sin(
+                0.52 * k), 0.14), (0.22 * math.cos(0.52 * k), 0.22 * math.sin(0.52 * k), 0.40),
+                    0.022) for k in range(12)),
+            *(limb(p, (0.0, 0.0, 0.14), (0.1 * math.cos(k), 0.1 * math.sin(k), 0.44),
+                0.02) for k in range(6))],
+            swinging("x", 0.12, 0.5)),)),
+    )),
+    *placed("lake", (
+        thing("lily pad", ((0.07, 0.26, 0.05),), lambda p: [
+            *(post(toned(p, 0.8 + 0.1 * (k % 3)), (x, y, 0.02), (w, w, 0.03)) for k, (x, y,
+                w) in enumerate((
+                (0.0, 0.0, 0.6), (0.5, 0.35, 0.45), (-0.45, 0.4, 0.5), (0.15, -0.55, 0.5)))),
+            *(_leaf(Material((0.85, 0.55, 0.65)), (0.05, 0.0, 0.08), 0.785 * k,
+                0.2) for k in range(8)),
+            ball(Material((0.8, 0.6, 0.1)), (0.05, 0.0, 0.12), (0.09, 0.09, 0.07))],
+            ("water lily", "lotus", "lily", "lotus flower"), plurals=("water lilies", "lilies")),
+        thing("reed", ((0.20, 0.28, 0.06),), nothing, ("cattail", "bulrush"), plurals=("reeds",),
+            moving=(Moving(lambda p: [
+            part for k in range(9) for part in (limb(p, (0.3 * math.cos(2.4 * k),
+                0.3 * math.sin(2.4 * k), 0.0), (
+                0.34 * math.cos(2.4 * k), 0.34 * math.sin(2.4 * k), 1.5 + 0.1 * (k % 3)), 0.018),
+                    limb(Material((0.16, 0.07, 0.03)), (
+                    0.34 * math.cos(2.4 * k), 0.34 * math.sin(2.4 * k), 1.4),
+                        (0.34 * math.cos(2.4 * k), 0.34 * math.sin(2.4 * k), 1.62), 0.04))],
+            swinging("y", 0.06, 0.5)),)),
+    )),
+    *placed("grass", (
+        thing("leaf pile", ((0.35, 0.12, 0.03),), lambda p: [ball(mottled((0.35, 0.12, 0.03),
+            contrast=0.5, scale=8.0), (0.0, 0.0, 0.17), (
+            1.6, 1.8, 0.34)), *(_leaf(_AUTUMN[k % 4], (0.75 * math.cos(2.4 * k) * (k % 5) / 4,
+                0.85 * math.sin(2.4 * k) * (k % 5) / 4,
+                                                      0.36 - 0.06 * (k % 5)), 1.7 * k,
+                        0.22) for k in range(36))],
+              ("dry leaves", "fallen leaves", "autumn leaves",
+                  ), plurals=("dry leaves",)),
+        thing("autumn tree", ((0.66, 0.26, 0.03),), lambda p: _crown(BARK, foliage(p.colour), 6.0),
+              ("maple tree", "maple", "golden tree", "fall tree")),
+        thing("cherry tree", ((0.82, 0.48, 0.56),), lambda p: _crown(BARK, foliage(p.colour), 5.0),
+              ("cherry blossom", "cherry blossom tree", "blossoming tree", "sakura",
+                  "blossom tree")),
+        thing("bare tree", ((0.12, 0.08, 0.05),), _bare, ("dead tree", "leafless tree",
+            "winter tree", "dead birch")),
+        thing("bamboo", ((0.16, 0.34, 0.06),), lambda p: [part for k in range(7) for part in (
+            rod(p, (0.5 * math.cos(2.4 * k), 0.5 * math.sin(2.4 * k), 0.0),
+                (0.55 * math.cos(2.4 * k), 0.55 * math.sin(2.4 * k), 4.0), 0.05),
+            *(post(toned(p, 0.6), (0.52 * math.cos(2.4 * k), 0.52 * math.sin(2.4 * k), z), (0.12,
+                0.12, 0.03)) for z in (1.0, 2.0, 3.0)),
+            *(_leaf(LEAF, (0.54 * math.cos(2.4 * k), 0.54 * math.sin(2.4 * k), z), 2.0 * k + z,
+                0.6) for z in (2.6, 3.6)))],
+            ("bamboo stalk", "bamboo grove")),
+        thing("fern", ((0.06, 0.26, 0.04),), lambda p: [_leaf(p, (0.0, 0.0,
+            0.05 + 0.02 * (k % 4)), 0.52 * k, 0.7 - 0.08 * (k % 3)) for k in range(24)]),
+        thing("grass blade", ((0.08, 0.30, 0.03),), lambda p: [
+            *(limb(p, (0.006 * k, 0.012 * (k - 3), 0.0), (0.006 * k + 0.01 * ((k * 5) % 3),
+                0.014 * (k - 3), 0.10 + 0.015 * (k % 3)), 0.0025,
+                   side_radius=0.001) for k in range(7)), limb(p, (0.0, 0.0, 0.0), (0.02, 0.0,
+                       0.16), 0.006, side_radius=0.002),
+            *(ball(_CLEAR, (0.004 + 0.004 * k, 0.002, 0.03 + 0.03 * k), (0.012, 0.012,
+                0.012)) for k in range(5))],
+            ("blade of grass", "grass stalk", "stalk of grass", "dewy grass"),
+                plurals=("blades of grass",)),
+        thing("anthill", ((0.28, 0.16, 0.08),), lambda p: [peak(mottled(p.colour, contrast=0.3,
+            scale=8.0), (0.0, 0.0, 0.25), (0.9, 0.9, 0.5)),
+                                                     ball(Material((0.02, 0.015, 0.01)), (0.0,
+                        0.0, 0.48), (0.12, 0.12, 0.06))], ("termite mound",)),
+        thing("puddle", ((0.20, 0.30, 0.38),), lambda p: [ball(p, (0.0, 0.0, 0.0), (1.6, 1.1,
+            0.03)), ball(p, (0.6, 0.4, 0.0), (0.9, 0.7, 0.03))],
+              ("rain puddle", )),
+        thing("seedling", ((0.08, 0.36, 0.04),), lambda p: [ball(EARTH, (0.0, 0.0, 0.0), (0.18,
+            0.18, 0.05)), limb(p, (0.0, 0.0, 0.0), (0.0, 0.0, 0.10), 0.005),
+            *(_leaf(p, (0.0, 0.0, 0.10), a, 0.07) for a in (0.4, 3.5, 2.0))], ("sprout",
+                "sapling", "young plant")),
+    )),
+    *placed("sky", (
+        thing("rainbow", ((0.70, 0.05, 0.05),), lambda p: [part for k, c in enumerate(((0.75,
+            0.05, 0.04), (0.80, 0.32, 0.02), (0.80, 0.70, 0.05),
+            (0.08, 0.50, 0.10), (0.06, 0.20, 0.70), (0.30, 0.06,
+                0.50))) for part in ring(glowing(c, 0.4), (0.0, 0.0, 0.0), (
+                10.0 - 0.5 * k, 9.0 - 0.5 * k), 0.28, span=(0.0, 180.0), pieces=9)], goes=("air",
+                    "float", 0.2)),
+        thing("moon", ((0.80, 0.79, 0.72),), lambda p: [ball(Material(p.colour, emission=0.8),
+            (0.0, 0.0, 0.0), (4.0, 4.0, 4.0)),
+            *(ball(Material((0.55, 0.55, 0.52), emission=0.4), (1.5, y, z), (1.0, w, w)) for y,
+                z, w in ((0.5, 0.6, 1.1), (-0.7, 0.2, 0.8), (0.1, -0.8, 0.9)))],
+            ("crescent moon",), goes=("air", "float", 0.3)),
+    )),
+    thing("dripping icicle", ((0.72, 0.82, 0.88),), lambda p: [spike(p, (0.12 * k,
+        0.16 * (k - 3), 1.0), (0.12 * k, 0.16 * (k - 3), 0.5 - 0.07 * (k % 3)), 0.05)
+        for k in range(7)] + [ball(PALE, (0.3, 0.0, 1.05), (1.0, 1.4, 0.16))], ("icicle",)),
+    thing("ice block", ((0.62, 0.76, 0.84),), lambda p: [ball(p, (0.0, 0.0, 0.25), (0.66, 0.66,
+        0.5)), blade(WATER, (-0.3, 0.0, 0.2), (0.3, 0.1, 0.42), chord=(
+        0.0, 0.5, 0.0), thickness=(0.0, 0.0, 0.02))], ()),
+)  # fmt: skip
