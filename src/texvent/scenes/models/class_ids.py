@@ -153,6 +153,8 @@ _NOUNS: tuple[str, ...] = (
     "ironing board", "christmas tree", "goldfish bowl", "clothesline", "pinata", "bird feeder",
     "gift", "handbell", "table tennis table", "pool table", "table football", "bowling pins",
     "lifeguard tower",
+    "square", "disc", "triangle", "vertical bar", "grating", "expanding ring", "looming disc",
+    "eye",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}
