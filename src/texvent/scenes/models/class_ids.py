@@ -155,6 +155,8 @@ _NOUNS: tuple[str, ...] = (
     "lifeguard tower",
     "square", "disc", "triangle", "vertical bar", "grating", "expanding ring", "looming disc",
     "eye",
+    "escalator", "sprinkler",
+    "rock waterfall",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

@@ -50,7 +50,13 @@ from texvent.scenes.models.objects.places import grounds, rooms
 from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, gear
-from texvent.scenes.models.objects.work import escalator, machines, more_vehicles, rare_vehicles, tools
+from texvent.scenes.models.objects.work import (
+    escalator,
+    machines,
+    more_vehicles,
+    rare_vehicles,
+    tools,
+)
 from texvent.scenes.models.people import hand, person, wearables
 from texvent.scenes.models.people.roles import clothes
 from texvent.scenes.models.people.roles import nouns as roles

@@ -192,7 +192,7 @@ BUILT_SCENERY: dict[str, tuple[ScatterRule, ...]] = {
     "volcanic land": (ScatterRule("volcano", 2, 90.0, 170.0, (0.9, 1.2), is_metres=True),
                       ScatterRule("lava flow", 3, 0.4, 1.6), ScatterRule("rock", 7, 0.2, 2.0,
                         (0.4, 1.0))),
-    "falls": (_stands("waterfall", 1, 0.6, 1.2), _stands("cliff", 3, 1.2, 2.5, 0.6),
+    "falls": (_stands("rock waterfall", 1, 0.6, 1.2), _stands("cliff", 3, 1.2, 2.5, 0.6),
               ScatterRule("rock", 6, 0.2, 1.2, (0.4, 1.0)), ScatterRule("tree", 4, 1.0, 2.5)),
     "wheat field": (_stands("crop row", 14, 0.1, 1.8), ScatterRule("tree", 3, 2.0, 4.5)),
     "cornfield": (_stands("corn row", 16, 0.1, 1.8), ScatterRule("tree", 3, 2.0, 4.5)),

@@ -283,12 +283,12 @@ NOUNS = (
           ("cliff face", "rock face", "crag", "bluff")),
     thing("canyon wall", ((0.56, 0.24, 0.10),), lambda p: _rock_wall(p, (10.0, 24.0, 20.0), 8),
           ("mesa", "butte", "red cliff")),
-    thing("waterfall", ((0.34, 0.32, 0.29),), lambda p: [
+    thing("rock waterfall", ((0.34, 0.32, 0.29),), lambda p: [
         *_rock_wall(p, (4.0, 12.0, 9.0), 5)[:5],
         *(limb(_HAZE, (1.9 - 0.05 * k, -1.2 + 0.4 * k, 0.2), (1.4, -1.0 + 0.34 * k, 8.8), 0.42)
           for k in range(7)),
         *(ball(_HAZE, (2.6, -1.6 + 0.8 * k, 0.3), (1.6, 1.4, 1.0)) for k in range(5)),
-        ball(WATER, (4.0, 0.0, 0.0), (6.0, 8.0, 0.12))], ("cascade", "falls")),
+        ball(WATER, (4.0, 0.0, 0.0), (6.0, 8.0, 0.12))], ()),
     thing("lava flow", ((0.05, 0.04, 0.04),), lambda p: [
         ball(mottled(p.colour), (0.0, 0.0, 0.0), (14.0, 5.0, 0.9)),
         *(limb(glowing((0.9, 0.16, 0.01), 0.9), (-6.5 + 2.2 * k, 0.7 * math.sin(1.4 * k), 0.42),
