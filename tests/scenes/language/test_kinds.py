@@ -76,7 +76,7 @@ def test_a_synonym_is_no_substitution(noun: str) -> None:
 
 OTHERS = (
     "banjo", "mandolin", "toad", "alligator", "sea lion", "tarantula",
-    "wasp", "vulture", "crystal ball", "comet", "bracelet", "moped", "rowboat",
+    "wasp", "vulture", "crystal ball", "comet", "bracelet", "moped",
     "cathedral", "viaduct", "bass guitar", "dreidel", "gramophone", "tepee", "crayon",
     "rugby ball", "athlete", "businesswoman", "geese",
     "birds of prey", "sunglasses",
@@ -104,7 +104,6 @@ def test_what_misleads_is_neither_noun_nor_kind() -> None:
         ("a monarch butterfly flies", "butterfly", "monarch butterfly"),
         ("a bald eagle soars", "eagle", "bald eagle"),
         ("a magnolia sways", "tree", "magnolia"),
-        ("a catamaran sails", "sailboat", "catamaran"),
         ("a trombone", "trumpet", "trombone"),
         ("a convertible drives left", "car", "convertible"),
         ("a vegetable", "carrot", "vegetable"),

@@ -239,7 +239,7 @@ def test_crossings_and_bends_of_roads() -> None:
          ["kicking 1 ball", "1 ball, stands still", "catching 1 ball"]),
         ("A girl holds a balloon, which rises. She jumps.", ["1 girl, jumps", "1 balloon"]),
         ("A man sits on a bench near pigeons. They all fly up. He waves.",
-         ["then waves", "1 bench", "3 birds, fly up"]),
+         ["then waves", "1 bench", "3 pigeons, fly up"]),
         ("A drone hovers. It then flies forward and lands.", ["then flies forward, then sinks"]),
         ("Two dogs chase a cat. It jumps.", ["2 dogs, run", "1 cat, jumps"]),
         ("A dog chases a ball and catches it.", ["catching 1 ball", "1 ball"]),

@@ -37,7 +37,8 @@ POSES = [
 
 MOUNDS = {"hangar", "dune mound", "green hill", "waterfall", "lava flow"}
 """Scenery whose lower half is in the ground."""
-HUNG = {"wall blackboard", "large painting", "train window", "stained glass", "hall mirror"}
+HUNG = {"dripping icicle", "fern", "filament printer", "wall blackboard", "large painting", "train window",
+        "stained glass", "hall mirror"}  # fmt: skip
 """Scenery that hangs on a wall."""
 LINES = {"runway markings", "tennis court lines", "basketball court lines", "pitch lines",
          "parking lines"}  # fmt: skip

@@ -117,8 +117,8 @@ NOUNS = (
             swinging("y", 0.06, 0.5)),)),
     )),
     *placed("grass", (
-        thing("leaf pile", ((0.35, 0.12, 0.03),), lambda p: [ball(mottled((0.35, 0.12, 0.03),
-            contrast=0.5, scale=8.0), (0.0, 0.0, 0.17), (
+        thing("leaf pile", ((0.35, 0.12, 0.03),), lambda p: [ball(mottled(p.colour, contrast=0.5,
+            scale=8.0), (0.0, 0.0, 0.17), (
             1.6, 1.8, 0.34)), *(_leaf(_AUTUMN[k % 4], (0.75 * math.cos(2.4 * k) * (k % 5) / 4,
                 0.85 * math.sin(2.4 * k) * (k % 5) / 4,
                                                       0.36 - 0.06 * (k % 5)), 1.7 * k,
@@ -140,8 +140,9 @@ NOUNS = (
             *(_leaf(LEAF, (0.54 * math.cos(2.4 * k), 0.54 * math.sin(2.4 * k), z), 2.0 * k + z,
                 0.6) for z in (2.6, 3.6)))],
             ("bamboo stalk", "bamboo grove")),
-        thing("fern", ((0.06, 0.26, 0.04),), lambda p: [_leaf(p, (0.0, 0.0,
-            0.05 + 0.02 * (k % 4)), 0.52 * k, 0.7 - 0.08 * (k % 3)) for k in range(24)]),
+        thing("fern", ((0.06, 0.26, 0.04),), lambda p: [rod(p, (0.0, 0.0, 0.0), (0.0, 0.0, 0.12),
+            0.02)] + [_leaf(p, (0.0, 0.0,
+            0.12 + 0.02 * (k % 4)), 0.52 * k, 0.7 - 0.08 * (k % 3)) for k in range(24)]),
         thing("grass blade", ((0.08, 0.30, 0.03),), lambda p: [
             *(limb(p, (0.006 * k, 0.012 * (k - 3), 0.0), (0.006 * k + 0.01 * ((k * 5) % 3),
                 0.014 * (k - 3), 0.10 + 0.015 * (k % 3)), 0.0025,

@@ -181,10 +181,11 @@ _SCIENCE = (
         moving=tuple(Moving(_gear(y, z, r), spinning("x", f, (0.03, y, z)))
             for y, z, r, f in ((0.05, 0.26, 0.085, 0.4), (-0.085, 0.17, 0.06, -0.6),
                 (0.07, 0.11, 0.045, 0.9)))),
-    thing("3d printer", (INK.colour,), lambda p: [*rectangle(p, (0.0, 0.28), (0.5, 0.56), 0.05,
+    thing("filament printer", (INK.colour,), lambda p: [*rectangle(p, (0.0, 0.28), (0.5, 0.56),
+        0.05,
         0.4), box(SILVER, (0.0, 0.0, 0.08), (0.36, 0.36, 0.02)),
         peak(Material((0.75, 0.30, 0.02)), (0.0, 0.0, 0.17), (0.16, 0.16, 0.16))],
-            ("three d printer",), moving=(Moving(lambda p: [
+            (), moving=(Moving(lambda p: [
             box(RED_PAINT, (0.0, 0.0, 0.32), (0.08, 0.10, 0.10)), peak(BRASS, (0.0, 0.0, 0.26),
                 (0.03, 0.03, 0.03))], lambda pose: shift(y=0.14 * math.sin(2.0 * pose.time_s))),)),
 )  # fmt: skip

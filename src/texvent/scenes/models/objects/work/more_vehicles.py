@@ -159,7 +159,7 @@ _LAND = placed("road", (
         spike(p, (-0.4, 0.0, 0.75), (-1.8, 0.0, 0.5), 0.26), ball(YELLOW_PAINT, (-0.1, 0.0,
             0.72), (0.32, 0.3, 0.3)),
         ball(_PANE, (0.05, 0.0, 0.72), (0.12, 0.26, 0.12))],
-        ("formula one car", "formula 1 car", "race car", "f1 car", "go kart", "kart"),
+        ("formula one car", "race car", "go kart", "kart"),
         wheels=_wheels((1.6, -1.6), 0.75, 0.34, 0.34), goes=("ground", "drive", 25.0)),
     thing("steamroller", (YELLOW_PAINT.colour,), lambda p: [
         box(p, (-0.6, 0.0, 1.3), (2.2, 1.4, 0.8)), box(p, (0.2, 0.0, 2.6), (2.0, 1.5, 0.1)),
