@@ -405,3 +405,19 @@ def test_a_verb_after_a_comma_and_a_word_after_an_object_are_no_nouns() -> None:
     assert thrown.not_understood == ("high",)
     bent = parse_prompt("a woman throws a ball, arches her back and walks left")
     assert [one.noun for one in bent.objects] == ["woman", "ball"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [
+        ("hands peeling an orange", "person"),
+        ("fingers playing the piano", "person"),
+        ("a hand waving", "hand"),
+        ("a hand opens and closes", "hand"),
+        ("hands clapping", "person"),
+    ],
+)
+def test_hands_at_work_are_those_of_a_person(prompt: str, noun: str) -> None:
+    description = parse_prompt(prompt)
+    assert description.objects[0].noun == noun
+    assert bool(description.report().substituted) == (noun == "person")

@@ -151,7 +151,7 @@ _NOUNS: tuple[str, ...] = (
     "spinning wheel", "pancake", "popcorn", "fried egg", "noodles", "steak", "sushi",
     "croissant", "onion", "peach", "coconut", "cabbage", "cocktail", "yarn ball",
     "ironing board", "christmas tree", "goldfish bowl", "clothesline", "pinata", "bird feeder",
-    "gift", "handbell", "table tennis table", "pool table", "table football", "ten pins",
+    "gift", "handbell", "table tennis table", "pool table", "table football",
     "lifeguard tower",
     "square", "disc", "triangle", "vertical bar", "grating", "expanding ring", "looming disc",
     "eye",

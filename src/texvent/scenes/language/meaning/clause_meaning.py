@@ -9,7 +9,7 @@ from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
 from texvent.scenes.language.meaning.acts.doers import add_doings, give_to_owners, mount_riders
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
-from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
+from texvent.scenes.language.meaning.acts.hand_work import DRINKS, give_bodies, list_goals
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
@@ -189,6 +189,7 @@ class ClauseMeaning:
         subjects = self._split_scene(subjects)
         things = [index for one in subjects if one.is_things for index in one.things]
         is_lost = bool(subjects) and not things
+        give_bodies(self._draft, clause, subjects)
         if clause.verb is not None and clause.verb.lemma == _JUGGLE:
             self._take_in_hand(clause)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.acts.activities import find_activity
+from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.meaning.referents import PERSON, Referent
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
@@ -35,6 +36,26 @@ def list_goals(clause: Clause) -> tuple[str, ...]:
     if clause.objects or any(one is None or one.value in SEATS for one in nouns):
         return ()
     return ("on", "at", "against") if lemma in _AT else ("on",)
+
+
+def give_bodies(draft: Draft, clause: Clause, subjects: Sequence[Referent]) -> None:
+    """As in "hands knead dough": hands at work are those of a person."""
+    word = clause.verb
+    gesture = find_activity(clause, is_hand=True) if word is not None else None
+    is_at_keys = gesture is not None and gesture[0] == "type" and (clause.objects or clause.phrases)
+    if word is None or (gesture is not None and not is_at_keys):
+        return
+    if word.lemma not in HANDWORK and find_activity(clause, is_hand=False) is None:
+        return
+    for one in subjects:
+        for index in one.things if one.is_things else ():
+            if is_hand(draft.noun(index)):
+                item = draft.objects[index]
+                item.noun, item.count = PERSON, 1
+                one.group.head_word.shown_as = "person at work"
+                for count in one.group.words:
+                    if count.role is Role.COUNT:
+                        count.is_used, count.is_lost = False, True
 
 
 _STRUCK = ("hit", "strike")

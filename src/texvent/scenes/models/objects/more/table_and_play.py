@@ -192,12 +192,6 @@ _PLAY = placed("indoor", (
                 0.2)), *_legs(IRON, 0.7, 1.2, 0.7, 0.08),
         ball(PALE, (0.1, 0.02, 0.92), (0.05, 0.05, 0.05))], ("foosball table", "foosball",
             "table soccer")),
-    thing("ten pins", (PALE.colour,), lambda p: [part for x, y in ((0.6, 0.0), (0.3, 0.17),
-        (0.3, -0.17), (0.0, 0.34), (0.0, 0.0), (0.0, -0.34), (-0.3, 0.5), (-0.3, 0.17), (-0.3,
-            -0.17), (-0.3, -0.5)) for part in (
-        ball(p, (x, y, 0.13), (0.13, 0.13, 0.26)), ball(p, (x, y, 0.32), (0.075, 0.075, 0.15)),
-            post(RED_PAINT, (x, y, 0.25), (0.07, 0.07, 0.03)))], ("skittles",),
-                plurals=("pins",)),
     thing("lifeguard tower", (RED_PAINT.colour, YELLOW_PAINT.colour), lambda p: [*(rod(_WOOD, (x,
         y, 0.0), (0.8 * x, 0.8 * y, 2.2), 0.08) for x in (0.9, -0.9) for y in (0.9, -0.9)),
             box(_WOOD, (0.0, 0.0, 2.2), (2.4, 2.4, 0.1)),
