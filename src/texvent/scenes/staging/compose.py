@@ -187,28 +187,14 @@ def compose_scene(
     first_free = len(actors) + 1
     placed = [item.place(0) for item in items]
     placed += [item.place(first_free + number) for number, (_, item) in enumerate(surrounding)]
-    names = {actor.instance: actor.noun.name for actor in actors}
-    names.update({first_free + number: item.noun for number, (_, item) in enumerate(surrounding)})
-    object_of = {
-        actor.instance: actor.object_index
-        for actor in actors
-        if actor.object_index < len(said.objects)
-    }
-    object_of.update({first_free + n: index for n, (index, _) in enumerate(surrounding)})
+    names, object_of = _name_bodies(actors, surrounding, len(said.objects))
     distance = camera_path.framing.distance_m
     animated_environment = build_environment(
         description, place=place, road=view.road,
         distance_m=distance, room_m=camera_path.room_m if ground is Ground.FLOOR else 9.0,
     )  # fmt: skip
-    surroundings = animated_environment.at(0.0)
-    stage = Stage(
-        replace(said, objects=description.objects),
-        actors,
-        camera_path,
-        surroundings,
-        place,
-        duration_s,
-    )
+    staged = replace(said, objects=description.objects)
+    stage = Stage(staged, actors, camera_path, animated_environment.at(0.0), place, duration_s)
     missing += list_acts_not_shown(stage)
     missing += list_moves_not_shown(description.shot, camera_path, duration_s)
     strength = choose_lighting(place, description.light).lamps
@@ -222,6 +208,19 @@ def compose_scene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
     )  # fmt: skip
+
+
+def _name_bodies(
+    actors: Sequence[Actor], surrounding: Sequence[tuple[int, SceneryItem]], objects: int
+) -> tuple[dict[int, str], dict[int, int]]:
+    """Instance → noun, and instance → object of the prompt, of which there are `objects`."""
+    names = {actor.instance: actor.noun.name for actor in actors}
+    object_of = {
+        actor.instance: actor.object_index for actor in actors if actor.object_index < objects
+    }
+    for instance, (index, item) in enumerate(surrounding, len(actors) + 1):
+        names[instance], object_of[instance] = item.noun, index
+    return names, object_of
 
 
 def _set_camera(

@@ -293,23 +293,16 @@ def build_environment(
     said = description.surroundings
     colour, second = _ground_colours(ground, said)
     is_white = said.has_snow and ground.ground in _SNOWED_OVER
-    sky_top, horizon = lighting.sky_top, lighting.sky_horizon
-    if said.sky is not None:
-        sky_top, horizon = said.sky.rgb, mix(said.sky.rgb, horizon, 0.5)
-    clouds = lighting.clouds if said.clouds is None else said.clouds
-    if place == "plain" and said.sky is None:
-        # A backdrop: the same all around, without a horizon to speak of.
+    is_backdrop = place == "plain" and said.sky is None
+    has_lightning = any(effect.kind == "lightning" for effect in description.effects)
+    sky_top, horizon, clouds = _choose_sky(description, lighting, has_lightning=has_lightning)
+    if is_backdrop:
+        # The same all around, without a horizon to speak of.
         sky_top = horizon = mix(colour, second, 0.5)
-        clouds = said.clouds or 0.0
         if description.objects and all(one.noun in FACING for one in description.objects):
             ground = replace(ground, ground=Ground.NONE)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
-    if description.is_timelapse:
-        clouds = max(clouds, 0.5)
-    if any(effect.kind == "lightning" for effect in description.effects):
-        clouds = max(clouds, 0.9)
     if said.weather in ("rain", "snow"):
-        clouds = max(clouds, 0.8)
         lighting = replace(lighting, sun=mix(lighting.sun, (0.0, 0.0, 0.0), 0.4))
     sun = np.array(lighting.sun_direction)
     base = Environment(
@@ -342,9 +335,25 @@ def build_environment(
     light = description.light
     return AnimatedEnvironment(
         base, light.flicker_hz, light.wave,
-        has_lightning=any(effect.kind == "lightning" for effect in description.effects),
+        has_lightning=has_lightning,
         time_scale=TIMELAPSE if description.is_timelapse else 1.0,
     )  # fmt: skip
+
+
+def _choose_sky(
+    description: SceneDescription, lighting: Lighting, *, has_lightning: bool
+) -> tuple[Colour, Colour, float]:
+    """Colours of the zenith and of the horizon, and the share of clouds."""
+    said = description.surroundings
+    top, horizon = lighting.sky_top, lighting.sky_horizon
+    if said.sky is not None:
+        top, horizon = said.sky.rgb, mix(said.sky.rgb, horizon, 0.5)
+    is_backdrop = said.place == "plain" and said.sky is None
+    usual = 0.0 if is_backdrop else lighting.clouds
+    least = [usual if said.clouds is None else said.clouds]
+    least += [0.5] * description.is_timelapse + [0.9] * has_lightning
+    least += [0.8] * (said.weather in ("rain", "snow"))
+    return top, horizon, max(least)
 
 
 def _ground_colours(ground: GroundAppearance, said: Surroundings) -> tuple[Colour, Colour]:
