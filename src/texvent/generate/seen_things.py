@@ -160,7 +160,7 @@ def find_evidence(
         frozenset(index for index, own in copies.items() if found.still.issuperset(own)),
         {**words, **found.places},
         qualities,
-        tuple(dict.fromkeys(_list_extras(scene, description, faults))),
+        tuple(dict.fromkeys([*scene.notes, *_list_extras(scene, description, faults)])),
     )
 
 

@@ -7,6 +7,8 @@ from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription, Substitution
 from texvent.scenes.inflection import list_plurals
+from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
+from texvent.scenes.language.vocabulary.place_cues import ENCLOSED
 from texvent.scenes.language.vocabulary.scene import PLACES
 from texvent.scenes.models.protocol import Noun
 
@@ -43,15 +45,38 @@ _OUTDOORS = frozenset(
      "temple", "church", "tractor", "taxi"}
 )  # fmt: skip
 """Nouns that are not found in a room."""
+_NEUTRAL = ("grass", "plain")
+"""Places that say nothing where the program chose them."""
+_UNREMARKABLE = (*_NEUTRAL, "sky", "indoor", "road")
+"""Places that need no note where the program chose them: vehicles are on roads anyway."""
+_NAMES = {"snow": "snow", "sand": "sand", "hills": "hills", "underwater": "under water",
+          "sea": "the sea", "soil": "bare soil"}  # fmt: skip
+"""Place → its name in a sentence, where that is not the word itself with "a"."""
 _INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", "gym",
            "laboratory")  # fmt: skip
 
 
-def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
+def choose_place(
+    description: SceneDescription, nouns: Mapping[str, Noun], cues: PlaceCues = NO_CUES
+) -> str:
     """The place of the scene: as stated, or the usual one for its objects.
 
-    Fish "in the sea" are shown under water, and a house "by the sea" beside a lake.
+    Fish "in the sea" are shown under water, and a house "by the sea" beside a lake. What is not
+    stated is never inside where a word tells of outdoors, and never outdoors where one tells of a
+    room; where words tell of both, the objects decide.
     """
+    usual = _choose_by_objects(description, nouns)
+    if description.surroundings.place is not None:
+        return usual
+    if cues.is_outdoors and cues.outdoor and (usual in ENCLOSED or usual in _NEUTRAL):
+        return cues.outdoor
+    if cues.is_indoors and cues.indoor and (usual not in ENCLOSED or usual == "indoor"):
+        return cues.indoor
+    return usual
+
+
+def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
+    """The place as stated, or where its objects usually are."""
     said = description.surroundings
     carried = {
         target
@@ -111,7 +136,15 @@ def _choose_sea(habitats: Set[str], *, is_submerged: bool, is_in_water: bool) ->
 
 
 def report_place(description: SceneDescription, place: str) -> SceneDescription:
-    """The description where the sea that the prompt names is shown as a lake, and says so."""
+    """The description with a note where the program chose the place.
+
+    Where the sea that the prompt names is shown as a lake, the description says so too.
+    """
+    if description.surroundings.place is None and place not in _UNREMARKABLE:
+        article = "an" if place[0] in "aeiou" else "a"
+        name = _NAMES.get(place, f"{article} {place}")
+        note = f"no place is said: {name} is chosen"
+        description = replace(description, notes=(*description.notes, note))
     if description.surroundings.place != "sea" or place != SHORE:
         return description
     said = (word for word in PLACES["sea"] if "water" not in word)

@@ -14,6 +14,7 @@ from texvent.scenes.description import (
 )
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.default_place import choose_place, report_place
+from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
@@ -24,7 +25,7 @@ SLOW_PAN = CameraMove("pan", "right", 0.8)
 
 
 def complete_description(
-    description: SceneDescription, nouns: Mapping[str, Noun]
+    description: SceneDescription, nouns: Mapping[str, Noun], cues: PlaceCues = NO_CUES
 ) -> SceneDescription:
     """The description with every object's motion decided and something that moves.
 
@@ -40,7 +41,7 @@ def complete_description(
     description = _move_followed(replace(description, objects=objects), nouns)
     objects = description.objects
     description = _darken(description)
-    place = choose_place(description, nouns)
+    place = choose_place(description, nouns, cues)
     description = report_place(description, place)
     said = replace(description.surroundings, place=place)
     description = _give_usual_work(replace(description, surroundings=said))

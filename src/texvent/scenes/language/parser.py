@@ -17,6 +17,7 @@ from texvent.scenes.description import SceneDescription, Substitution
 from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
+from texvent.scenes.language.place_cues import find_cues, read_outsides
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.word_claims import SILENT_PREPOSITIONS, list_claims, says_something
 from texvent.scenes.language.words.english import Pos, list_readings
@@ -68,6 +69,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
             f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
             "write it in English, or use a model that takes any text (texvent generators)"
         )
+    cues = find_cues(words, is_outside=read_outsides(words))
     meaning = ClauseMeaning(nouns)
     for clause in read_clauses(words[:MOST_WORDS]):
         meaning.read(clause)
@@ -91,7 +93,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         claims=list_claims(words),
         notes=(*notes, *description.notes),
     )
-    return complete_description(description, nouns)
+    return complete_description(description, nouns, cues)
 
 
 def _is_foreign(words: Sequence[Word]) -> bool:

@@ -81,6 +81,8 @@ class ComposedScene:
     """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
+    notes: tuple[str, ...] = ()
+    """What is added that the prompt does not say, as sentences."""
 
     def list_scenery(self) -> list[str]:
         """Noun of each shape of the scene that is scenery, "" for those of actors before it."""
@@ -207,6 +209,7 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
+        notes=tuple(one for one in description.notes if one not in said.notes),
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from texvent.scenes.description import Relation, SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.staging.environment import is_room
 from texvent.scenes.staging.placement.fitting import extent
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
@@ -38,8 +39,9 @@ def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
 
     A single thing goes into the hand of who is named before it, and who has nothing in hand. Others
     go on a table: the first that the prompt names, else one that is added at the end of the
-    objects, before the first of the people. What is on or in another small thing stays there.
-    Things that move, that a relation places or that an act uses stay as they are.
+    objects, before the first of the people, but only inside: outdoors they lie on the ground. What
+    is on or in another small thing stays there. Things that move, that a relation places or that
+    an act uses stay as they are.
     """
     objects = description.objects
     people = [n for n, one in enumerate(objects) if one.noun in PERSON_NOUNS]
@@ -59,6 +61,9 @@ def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     in_hand = {one.targets[0] for one in held}
     rest = [index for index in loose if index not in in_hand]
     if not rest or _has_way(objects[people[0]]) or "table" in description.absent:
+        return description
+    is_inside = is_room(description.surroundings.place or "grass")
+    if _find_table(objects) is None and not is_inside:
         return description
     return _add_table(description, rest, people[0])
 
@@ -82,7 +87,11 @@ def _add_table(
         if one.kind not in _LOOSE or not {one.subject, *one.targets} & set(chosen)
     ]
     on = [Relation("on", index, (table,)) for index in chosen]
-    return replace(description, objects=objects, relations=(*kept, *added, *on))
+    notes = description.notes
+    if added:
+        names = ", ".join(dict.fromkeys(objects[index].noun for index in chosen))
+        notes = (*notes, f"a table is added, on which is: {names}")
+    return replace(description, objects=objects, relations=(*kept, *added, *on), notes=notes)
 
 
 def _list_loose(description: SceneDescription, nouns: Mapping[str, Noun]) -> list[int]:

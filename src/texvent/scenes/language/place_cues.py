@@ -1,0 +1,108 @@
+"""What the nouns of a prompt tell of its place: seen from outside, inside or outdoors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from texvent.scenes.language.vocabulary.place_cues import (
+    APPROACHES,
+    BUILDINGS,
+    ENCLOSED,
+    INDOOR_CUES,
+    OUTDOOR_CUES,
+    OUTSIDE,
+    OWN_GROUND,
+)
+from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.lexicon import Meaning, Role
+from texvent.scenes.language.words.word import Word
+
+_FARTHEST = 6
+"""Most words between a preposition and the place that it is about: "past a row of shops"."""
+_BETWEEN = (Pos.DETERMINER, Pos.ADJECTIVE, Pos.NOUN, Pos.NUMBER)
+
+
+@dataclass(frozen=True)
+class PlaceCues:
+    """What the words tell of a place that the prompt does not say."""
+
+    outdoor: str | None = None
+    """The outdoor place that they tell of; None = none."""
+    indoor: str | None = None
+    """The enclosed place that they tell of; None = none."""
+
+    @property
+    def is_outdoors(self) -> bool:
+        """Whether all that is told is outdoors."""
+        return self.outdoor is not None and self.indoor is None
+
+    @property
+    def is_indoors(self) -> bool:
+        """Whether all that is told is inside."""
+        return self.indoor is not None and self.outdoor is None
+
+
+NO_CUES = PlaceCues()
+
+
+def read_outsides(words: Sequence[Word]) -> bool:
+    """Read enclosed places that are seen from outside as things, or not at all.
+
+    As in "past a row of shops", "outside a cafe", "leaves the station"; and all in the plural,
+    because a scene is in one of them. The words change.
+
+    Returns:
+        Whether a building is seen from outside.
+    """
+    is_any = False
+    for index, word in enumerate(words):
+        place = word.read_as(Role.PLACE)
+        if place is None or place.value not in ENCLOSED:
+            continue
+        is_plural = word.text != word.lemma and word.text.endswith("s")
+        if not is_plural and (word.lemma in OWN_GROUND or not _is_outside(words, index)):
+            continue
+        is_any = is_any or place.value in BUILDINGS
+        thing = word.read_as(Role.NOUN)
+        word.others = tuple(
+            one for one in (word.meaning, *word.others)
+            if one.role is not Role.PLACE and one is not thing
+        )  # fmt: skip
+        word.meaning = thing or Meaning(Role.UNKNOWN, Pos.NOUN, None)
+    return is_any
+
+
+def _is_outside(words: Sequence[Word], index: int) -> bool:
+    for word in reversed(words[max(index - _FARTHEST, 0) : index]):
+        if word.text in OUTSIDE or (word.pos is Pos.VERB and word.lemma in APPROACHES):
+            return True
+        if word.pos not in _BETWEEN and word.text != "of":
+            return False
+    return False
+
+
+def find_cues(words: Sequence[Word], *, is_outside: bool) -> PlaceCues:
+    """What the nouns tell of the place.
+
+    Args:
+        words: the prompt.
+        is_outside: whether a building is seen from outside.
+    """
+    said = {word.lemma for word in words if word.pos in (Pos.NOUN, Pos.ADVERB, Pos.ADJECTIVE)}
+    said |= {word.lemma for word in words if word.read_as(Role.NOUN) and word.pos is not Pos.VERB}
+    is_fair = any(word.role in (Role.WEATHER, Role.SKY, Role.CLOUDS) for word in words)
+    is_fair = is_fair or any(
+        word.role is Role.LIGHT and word.meaning.value in ("sunny", "moonlight") for word in words
+    )
+    if "window" in said:
+        # As in "rain on a window": seen from either side.
+        said, is_fair = said - OUTDOOR_CUES["grass"], False
+    outdoor = _find(said, OUTDOOR_CUES)
+    if outdoor in (None, "grass") and is_outside:
+        outdoor = "city"
+    return PlaceCues(outdoor or ("grass" if is_fair else None), _find(said, INDOOR_CUES))
+
+
+def _find(said: set[str], cues: dict[str, frozenset[str]]) -> str | None:
+    return next((place for place, nouns in cues.items() if said & nouns), None)

@@ -1,0 +1,65 @@
+"""A place that the prompt does not say fits its nouns; buildings passed are no setting."""
+
+from __future__ import annotations
+
+import pytest
+
+from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.language.vocabulary.place_cues import BUILDINGS, ENCLOSED, ROOMS
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.staging.environment import PLACES, is_room
+from texvent.scenes.staging.placement.tabletop import set_on_table
+
+
+def test_enclosed_places_are_those_with_walls() -> None:
+    assert not ROOMS & BUILDINGS
+    assert {place for place in PLACES if is_room(place)} == ENCLOSED
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "A city bus drives past a row of shops.",
+        "Two men play chess outside a cafe.",
+        "A dog sits in front of a shop.",
+        "A fire truck leaves the station.",
+        "A woman walks past the library.",
+        "A monkey peels a banana while sitting on a branch.",
+        "A woman reads a book under the sun.",
+        "A referee blows his whistle during a match.",
+        "A street musician plays the guitar.",
+        "Candles in the wind.",
+        "A surfer rides along a big wave.",
+    ],
+)
+def test_what_is_outdoors_is_in_no_room(prompt) -> None:
+    assert parse_prompt(prompt).surroundings.place not in ENCLOSED
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("A man peels a potato over a sink.", "kitchen"),
+        ("A cat sleeps on a carpet.", "indoor"),
+        ("A girl dances in a studio.", "indoor"),
+        ("A cup rolls over the floor.", "indoor"),
+        ("A man hammers on an anvil.", "workshop"),
+        ("A man buys bread in a shop.", "supermarket"),
+    ],
+)
+def test_what_is_inside_is_in_a_room(prompt, place) -> None:
+    assert parse_prompt(prompt).surroundings.place == place
+
+
+def test_a_place_that_the_program_chose_is_noted() -> None:
+    notes = parse_prompt("A monkey sits on a branch.").notes
+    assert "no place is said: a forest is chosen" in notes
+    said = parse_prompt("A monkey sits on a branch in a forest.").notes
+    assert not any("no place" in note for note in said)
+
+
+def test_a_table_is_added_only_inside_and_noted() -> None:
+    inside = set_on_table(parse_prompt("A woman stands in a kitchen. Three tomatoes."), NOUNS)
+    assert "a table is added, on which is: tomato" in inside.notes
+    outside = set_on_table(parse_prompt("A woman stands in a field. Three tomatoes."), NOUNS)
+    assert "table" not in {one.noun for one in outside.objects}
