@@ -13,6 +13,7 @@ import numpy as np
 from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
 from texvent.generate.seen_words.picture import Picture, View
 from texvent.generate.seen_words.things import judge_outline
+from texvent.generate.seen_words.verbs import judge_verbs
 from texvent.generate.seen_words.words import judge_words
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Evidence
@@ -158,7 +159,7 @@ def find_evidence(
         scene.unmet,
         {index: [faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},
         frozenset(index for index, own in copies.items() if found.still.issuperset(own)),
-        {**words, **found.places},
+        {**judge_verbs(picture, description), **words, **found.places},
         qualities,
         tuple(dict.fromkeys([*scene.notes, *_list_extras(scene, description, faults)])),
     )

@@ -171,12 +171,12 @@ def test_what_rises_rises() -> None:
     assert unmoved([body(0, "balloon", at(z=1.0))], ObjectMotion("rise")) == ["balloon rises"]
 
 
-def test_who_crosses_a_road_goes_from_side_to_side() -> None:
+def test_who_crosses_a_road_goes_over_its_middle() -> None:
     across = ObjectMotion("walk", "across")
     along_y = going(0.5 * np.pi, 6.0)
     person = body(0, "person", along_y)
     assert unmoved([person], across, place="city", road=RoadLine()) == []
-    short = body(0, "person", going(0.5 * np.pi, 2.0))
+    short = body(0, "person", going(0.5 * np.pi, 1.0))
     found = unmoved([short], across, place="city", road=RoadLine())
     assert found == ["person walks across the road"]
 

@@ -35,6 +35,8 @@ _CLEAR = 0.15
 _CARRIED = frozenset({"on", "in", "above", "with", "hold", "around", "wear", "through", "under"})
 """Relations that may keep a body off the ground."""
 _ON_GROUND = frozenset({"drive", "walk", "run", "roll", "crawl", "stand"})
+_LEAST_CROSSED = 0.25
+"""Share of a road's width that who crosses it goes at least, over its middle."""
 _GOING = PATH_KINDS | {"enter", "leave", "reverse", "throw"}
 _NO_GROUND = ("sky", "space", "underwater")
 _ON_WATER = ("sea",)
@@ -178,13 +180,13 @@ def _goes(
 
 
 def _crosses(stage: Stage, actor: Actor) -> bool:
-    """From one side of a road to the other, where there is one."""
+    """Over the middle of a road, where there is one, by a clear share of its width."""
     if stage.place not in _ROADS:
         return True
     line = _road_of(stage)
     start, end = (line.across(actor.middle(t)[:2]) for t in (0.0, stage.duration_s))
-    side = 0.8 * stage.environment.road_half_width
-    return start * end < 0.0 and min(abs(start), abs(end)) > side
+    width = 2.0 * stage.environment.road_half_width
+    return start * end < 0.0 and abs(end - start) > _LEAST_CROSSED * width
 
 
 def _is_on_road(stage: Stage, actor: Actor) -> bool:

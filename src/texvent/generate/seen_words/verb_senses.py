@@ -1,0 +1,69 @@
+"""Verbs whose sense is another one than the act that the scene has for them."""
+
+from __future__ import annotations
+
+import re
+
+from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.staging.trajectories.phases import PATH_KINDS
+
+_PARTICLES = frozenset({"over", "out", "off", "apart", "away", "back", "down", "up", "together"})
+"""Words after a verb that may give it another sense: "knocks over", "calls out"."""
+_FREE = PATH_KINDS | {"rise", "fall", "sink", "jump", "bounce", "turn", "stand", "sit", "lie",
+                      "spin", "swing", "enter", "leave", "hover", "look", "point"}  # fmt: skip
+"""Motions that such a word does not change: "runs over the bridge"."""
+_OBJECTS = frozenset({"it", "him", "her", "them"})
+_DETERMINERS = frozenset({"his", "her", "its", "their", "the", "a", "an"})
+_AFTER_OBJECT = re.compile(
+    r"^($|[.,;!?]|once|twice|again|around|round|slowly|quickly|gently|and|then|while|as|in|on|over"
+    r"|under|with|to|into|between|by|at|before|across|through)"
+)
+_TURNING = re.compile(r"(twirl|spin|turn|rotat|whirl|swing|roll|flip)\w*")
+_HERDING = re.compile(r"(driv|drove|herd|lead|led|walk|push|pull)\w*")
+
+
+def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
+    """Why the act shown for a verb is not what the verb says, or None.
+
+    Args:
+        claim: a verb of an object.
+        description: the prompt as it was understood.
+    """
+    kinds = {_kind(description, index, claim.motion) for index in claim.things}
+    ridden = [one for one in claim.relations if one.kind == "ride"]
+    if ridden and _HERDING.fullmatch(claim.word):
+        mount = description.objects[ridden[0].targets[0]].noun
+        if mount in NOUNS and NOUNS[mount].motion in ("walk", "run"):
+            return f"rides the {mount}"
+    for rest in _rests(claim.word, description.prompt.casefold()):
+        first, _, after = rest.partition(" ")
+        word = first.strip(".,;!?")
+        is_new_sense = word in _PARTICLES and word in description.not_understood
+        if is_new_sense and not kinds & _FREE:
+            return f'without "{word}"'
+        is_turning = not claim.relations and _TURNING.fullmatch(claim.word) is not None
+        if is_turning and _is_alive(claim, description):
+            is_done_to = word in _OBJECTS and (word != "her" or _AFTER_OBJECT.match(after))
+            if is_done_to or ("spin" in kinds and word in _DETERMINERS):
+                return "nobody does it to " + (word if is_done_to else after.split(" ")[0])
+    return None
+
+
+def _is_alive(claim: Claim, description: SceneDescription) -> bool:
+    nouns = [description.objects[index].noun for index in claim.things]
+    return any(noun in NOUNS and NOUNS[noun].motion in ("walk", "run") for noun in nouns)
+
+
+def _kind(description: SceneDescription, index: int, number: int | None) -> str:
+    said = description.objects[index]
+    if said.motion is None:
+        return "stand"
+    motions = (said.motion, *said.then)
+    return motions[min(number or 0, len(motions) - 1)].kind
+
+
+def _rests(word: str, prompt: str) -> list[str]:
+    """What follows a word, at each place where the prompt has it."""
+    pattern = re.compile(rf"\b{re.escape(word.casefold())}\b\s*")
+    return [" ".join(prompt[found.end() :].split()) for found in pattern.finditer(prompt)]

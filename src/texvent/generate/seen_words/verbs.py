@@ -1,0 +1,273 @@
+"""Verbs, words of speed and of movement are shown only where the picture moves as they say."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from texvent.generate.seen_words.image_motion import ImageMotion, measure_motion
+from texvent.generate.seen_words.picture import Picture
+from texvent.generate.seen_words.verb_senses import judge_sense
+from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
+from texvent.scenes.language.vocabulary.motion import PACE_ADJECTIVES, PACES
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.claims.bodies import part_boxes
+from texvent.scenes.staging.claims.contact import is_in, is_on
+from texvent.scenes.staging.trajectories.phases import PATH_KINDS, Phase, schedule
+
+LEAST_WAY = 0.25
+"""Share of its size that what goes somewhere goes at least, or grows or shrinks by."""
+LEAST_CHANGE = 0.05
+"""Share of its size that a part moves at least of what acts in its place."""
+LEAST_SWAY = 0.04
+"""The same for what sways or works."""
+LEAST_LIFT = 0.10
+"""Share of its size that what stands up or lies down rises or falls at least."""
+LEAST_IN_PICTURE, LEAST_ACT = 0.03, 0.03
+"""The same as shares of the picture's width: of what goes, and of a part of what acts."""
+FAST, FAST_FOR_SIZE, FAST_AT_LEAST = 0.35, 1.5, 0.25
+"""Fast is from so many picture widths per second on, or sizes per second and widths per second."""
+SLOW = 3.0
+"""Sizes per second up to which something is slow."""
+ACTING_FAST = 0.2
+"""Share of its size that a part moves at least of what acts fast in its place."""
+OFF_GROUND = 0.35
+"""Share of its height that what takes off or lands may be above the ground at that end."""
+HARDLY = "hardly moves"
+_STILL = frozenset(
+    {"stand", "sit", "lie", "hover", "kneel", "crouch", "lean", "hold", "point", "look", "read",
+     "phone", "watch", "rest", "pose", "ride", "carry", "float", "thumbs up", "thumbs down",
+     "victory", "ok", "fist", "sleep"}
+)  # fmt: skip
+"""What is shown without a motion."""
+_GOING = PATH_KINDS | {"enter", "leave", "reverse", "zigzag", "orbit", "appear"}
+_REACTING = frozenset({"push", "pull", "kick", "hit", "throw"})
+"""Relations whose target must move."""
+_SWAYING = frozenset({"sway", "work", "talk", "laugh", "sing", "eat", "chew", "graze", "drink"})
+_GETTING = re.compile(
+    r"(stand|stood|get|got|sit|sat|lie|lying|lay|kneel|knelt|crouch|squat|climb)\w* (up|down)"
+)
+_TAKING_OFF = re.compile(r"(t[ao]k|lift|blast)\w* off|launch\w*")
+_LANDING = re.compile(r"land(s|ed|ing)?|touch\w* down|settle\w*")
+_ENDS = re.compile(r"onto|into|off|out of")
+_PACE = {word: pace for table in (PACES, PACE_ADJECTIVES) for pace, words in table.items()
+         for word in words if pace != 1.0}  # fmt: skip
+_PACE |= {"racing": 1.7, "rushing": 1.7, "slow motion": 0.3}
+NOTHING_MOVES = "nothing moves"
+
+
+def judge_verbs(picture: Picture, description: SceneDescription) -> dict[str, str]:
+    """What words say of motion that the picture does not show.
+
+    Args:
+        picture: of the staged scene.
+        description: what it was staged from.
+
+    Returns:
+        Word → why it is not seen.
+    """
+    judge = _Judge(picture, description)
+    faults: dict[str, str] = {}
+    for claim in description.claims:
+        fault = judge.judge(claim)
+        if fault is not None:
+            faults.setdefault(claim.word, fault)
+    return faults
+
+
+class _Judge:
+    """Words of one description, against one picture."""
+
+    def __init__(self, picture: Picture, description: SceneDescription) -> None:
+        self.picture, self.description = picture, description
+        self.duration_s = max(view.time_s for view in picture.views)
+        self._known: dict[tuple[float, float], dict[int, ImageMotion]] = {}
+
+    def judge(self, claim: Claim) -> str | None:
+        """Why what a word says of motion is not seen, or None."""
+        if any(one.kind in ("on", "in") for one in claim.relations):
+            ends = self._judge_ends(claim)
+            if ends is not None:
+                return ends
+        pace = _PACE.get(claim.word)
+        if pace is not None and claim.aspect in ("motion", "quality"):
+            return None if claim.move is not None else self._judge_pace(claim, pace)
+        if claim.aspect != "motion" or claim.move is not None:
+            return None
+        if not claim.things:
+            index = self._find_doer(claim)
+            if index is not None and not self._moves(index):
+                return f"{self.description.objects[index].noun} {HARDLY}"
+            is_seen = self._is_camera_moving() or self.picture.scene.particles.kinds
+            return None if is_seen else NOTHING_MOVES
+        sense = judge_sense(claim, self.description)
+        if sense is not None:
+            return sense
+        idle = self._judge_targets(claim)
+        if idle is not None:
+            return idle
+        found = [self._judge_motion(claim, index) for index in claim.things]
+        return None if None in found else found[0]
+
+    def _judge_motion(self, claim: Claim, index: int) -> str | None:
+        """Why an object is not seen to do what a verb says, or None."""
+        noun = self.description.objects[index].noun
+        is_part = index not in self.picture.scene.object_of.values()
+        for phase in self._phases(index, claim.motion):
+            if is_part and phase.motion.kind in _GOING:
+                return f"{noun} {HARDLY}"
+            moves = self._measure(index, phase)
+            if not moves:
+                continue
+            if _GETTING.fullmatch(claim.word) and phase.motion.kind != "climb":
+                lift = max(abs(one.lift) for one in moves)
+                if lift < LEAST_LIFT:
+                    return f"{noun} does so all the time"
+            fault = self._judge_air(claim, index, phase)
+            if fault is not None:
+                return fault
+            if not any(_is_seen_moving(phase, one) for one in moves):
+                return f"{noun} {HARDLY}"
+        return None
+
+    def _judge_targets(self, claim: Claim) -> str | None:
+        """What is pushed, kicked or thrown must move itself."""
+        whole = Phase(ObjectMotion("move"), 0.0, self.duration_s)
+        for relation in claim.relations if set(claim.things) else ():
+            if relation.kind not in _REACTING:
+                continue
+            for target in relation.targets:
+                moves = self._measure(target, whole)
+                if moves and max(max(one.shift, one.change) for one in moves) < LEAST_WAY:
+                    return f"{self.description.objects[target].noun} {HARDLY}"
+        return None
+
+    def _find_doer(self, claim: Claim) -> int | None:
+        """The object whose name stands right before a verb that was read for the scene."""
+        prompt = self.description.prompt.casefold()
+        for other in self.description.claims:
+            if other.aspect == "name" and other.things and f"{other.word} {claim.word}" in prompt:
+                return other.things[0]
+        return None
+
+    def _moves(self, index: int) -> bool:
+        """Whether an object does what it is to do, and is seen to."""
+        if any(one.motion is not None and one.motion[0] == index
+               for one in self.picture.scene.unmet):  # fmt: skip
+            return False
+        phases = [one for one in self._phases(index, None) if one.motion.kind not in _STILL]
+        return any(_is_seen_moving(one, it) for one in phases for it in self._measure(index, one))
+
+    def _judge_air(self, claim: Claim, index: int, phase: Phase) -> str | None:
+        """What takes off begins on the ground, or on something; what lands ends there."""
+        is_start = _TAKING_OFF.fullmatch(claim.word) is not None
+        is_end = _LANDING.fullmatch(claim.word) is not None
+        actor = next((one for one in self._actors(index)), None)
+        if actor is None or not (is_start or is_end):
+            return None
+        if self.picture.ground_share() == 0.0 and len(self.picture.scene.actors) == 1:
+            return "no ground in view"
+        low, high = part_boxes(actor, phase.start_s if is_start else phase.end_s).hull
+        if low[2] <= OFF_GROUND * (high[2] - low[2]):
+            return None
+        name = actor.noun.name
+        return f"{name} is in the air from the start" if is_start else f"{name} stays in the air"
+
+    def _judge_ends(self, claim: Claim) -> str | None:
+        """Words such as "onto" and "out of" need another state before than after."""
+        if not _ENDS.fullmatch(claim.word):
+            return None
+        is_leaving = claim.word in ("off", "out of")
+        for relation in claim.relations:
+            holds = is_on if relation.kind == "on" else is_in
+            targets = [one for n in relation.targets for one in self._actors(n)]
+            for actor in self._actors(relation.subject)[:1] if targets else ():
+                before, after = (
+                    any(holds(actor, one, t) for one in targets) for t in (0.0, self.duration_s)
+                )
+                if before and not is_leaving:
+                    return f"{actor.noun.name} is there from the start"
+                if is_leaving and (after or not before):
+                    return f"{actor.noun.name} does not leave it"
+        return None
+
+    def _judge_pace(self, claim: Claim, pace: float) -> str | None:
+        """Words of speed need something that moves, and as fast."""
+        indices = claim.things or tuple(range(len(self.description.objects)))
+        is_any = False
+        for index in indices:
+            if claim.things and not self._moves(index):
+                continue
+            for phase in self._phases(index, claim.motion):
+                moves = self._measure(index, phase)
+                moving = [one for one in moves if _is_seen_moving(phase, one)]
+                is_any = is_any or bool(moving)
+                if phase.motion.kind in _STILL or not moving:
+                    continue
+                if any(_fits(pace, phase.motion, one) for one in moving):
+                    return None
+        if not claim.things:
+            is_seen = is_any or self.picture.scene.particles.kinds or self._is_camera_moving()
+            return None if is_seen else NOTHING_MOVES
+        noun = self.description.objects[indices[0]].noun
+        if not is_any:
+            return f"{noun} {HARDLY}"
+        return f"{noun} is not fast in the picture" if pace > 1.0 else f"{noun} {HARDLY}"
+
+    def _phases(self, index: int, number: int | None) -> Sequence[Phase]:
+        """When an object makes a motion; without a number, all that it makes."""
+        said = self.description.objects[index]
+        if said.motion is None:
+            return ()
+        motions = (said.motion, *said.then)
+        wanted = motions if number is None else motions[number : number + 1]
+        times = schedule(motions, self.duration_s)
+        return [one for one in times if any(one.motion is motion for motion in wanted)]
+
+    def _measure(self, index: int, phase: Phase) -> list[ImageMotion]:
+        """What the copies of an object do in a phase, those that are seen."""
+        key = (phase.start_s, phase.end_s)
+        if key not in self._known:
+            every = sorted(self.picture.scene.object_of)
+            self._known[key] = measure_motion(self.picture, every, *key)
+        known = self._known[key]
+        copies = [one for one, of in self.picture.scene.object_of.items() if of == index]
+        return [known[one] for one in copies if one in known]
+
+    def _actors(self, index: int) -> list[Actor]:
+        return [one for one in self.picture.scene.actors if one.object_index == index]
+
+    def _is_camera_moving(self) -> bool:
+        first, last = self.picture.views[0].camera, self.picture.views[-1].camera
+        return not (
+            np.allclose(first.position, last.position, atol=1e-2)
+            and np.allclose(first.rotation, last.rotation, atol=1e-2)
+        )
+
+
+def _is_seen_moving(phase: Phase, found: ImageMotion) -> bool:
+    """Whether a motion is to be seen."""
+    kind = phase.motion.kind
+    if kind in _STILL:
+        return True
+    if kind in _GOING:
+        share = min(1.0, phase.duration_s)
+        way = max(found.shift, found.growth)
+        return way >= LEAST_WAY * share and way * found.size >= LEAST_IN_PICTURE * share
+    if kind == "throw":
+        return found.change >= LEAST_WAY
+    least, of_picture = (LEAST_SWAY, 0.0) if kind in _SWAYING else (LEAST_CHANGE, LEAST_ACT)
+    return found.change >= least and found.change * found.size >= of_picture
+
+
+def _fits(pace: float, motion: ObjectMotion, found: ImageMotion) -> bool:
+    """Whether what is seen to move is fast, or slow."""
+    if motion.kind not in _GOING:
+        return pace < 1.0 or found.change >= ACTING_FAST
+    speed = found.speed + found.growth
+    if pace < 1.0:
+        return speed <= SLOW
+    in_picture = speed * found.size
+    return in_picture >= FAST or (speed >= FAST_FOR_SIZE and in_picture >= FAST_AT_LEAST)
