@@ -29,7 +29,7 @@ from texvent.io.ros.messages import (
     open_event_packet,
 )
 
-PROMPT = "a red ball rolls left past a tree, handheld camera"
+PROMPT = "a red ball rolls left past a bush, handheld camera"
 OPTIONS = {
     "stereo": 0.1,
     "sensor": "64x48",
@@ -76,7 +76,7 @@ def test_native_folder_holds_all_and_says_how_it_was_made(native: Path) -> None:
         assert cv2.imread(str(native / name / rows[0]["file"])).shape == (48, 64, 3)
         truth = texvent.load_truth(native / name / "truth")
         np.testing.assert_array_equal(events.instance, truth.event_instance)
-        assert set(truth.instances.values()) == {"ball", "tree"}
+        assert set(truth.instances.values()) == {"ball", "bush"}
     assert len(set(facts["pixel_seeds"].values())) == 2
 
 

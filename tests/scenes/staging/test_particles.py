@@ -151,8 +151,9 @@ def test_smoke_comes_from_where_its_source_was():
 
 
 def test_what_burns_has_flames_unless_it_is_out():
-    for noun in OF_NOUNS:
-        assert len(staged(objects=(SceneObject(noun),)).environment(0.0).puffs)
+    for noun, kind in OF_NOUNS.items():
+        puffs = staged(objects=(SceneObject(noun),)).environment(0.0).puffs
+        assert len(puffs) or kind == "falling water"  # of solid drops
         out = staged(objects=(SceneObject(noun, is_lit=False),))
         assert not len(out.environment(0.0).puffs)
 

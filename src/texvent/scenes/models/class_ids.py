@@ -174,8 +174,8 @@ def class_ids_of(names: Iterable[str]) -> dict[str, int]:
         Name → class id.
 
     Example:
-        >>> class_ids_of(["zeppelin", "airship"])
-        {'airship': 1001, 'zeppelin': 1002}
+        >>> class_ids_of(["zeppelin", "dirigible"])
+        {'dirigible': 1001, 'zeppelin': 1002}
     """
     asked = set(names)
     others = enumerate(sorted(asked - CLASS_IDS.keys()), start=FIRST_OTHER)
