@@ -68,7 +68,8 @@ def choose_place(
     usual = _choose_by_objects(description, nouns)
     if description.surroundings.place is not None:
         return usual
-    if cues.is_outdoors and cues.outdoor and (usual in ENCLOSED or usual in _NEUTRAL):
+    is_open = usual in _NEUTRAL or (usual == SHORE and cues.outdoor == "sea")
+    if cues.is_outdoors and cues.outdoor and (usual in ENCLOSED or is_open):
         return cues.outdoor
     if cues.is_indoors and cues.indoor and (usual not in ENCLOSED or usual == "indoor"):
         return cues.indoor

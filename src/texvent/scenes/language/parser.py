@@ -22,8 +22,10 @@ from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.word_claims import SILENT_PREPOSITIONS, list_claims, says_something
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Role
+from texvent.scenes.language.words.sense_cues import choose_senses
 from texvent.scenes.language.words.tagging import tag_words
 from texvent.scenes.language.words.tokens import tokenize_prompt
+from texvent.scenes.language.words.viewpoint import mark_viewpoints
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
@@ -69,8 +71,10 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
             f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
             "write it in English, or use a model that takes any text (texvent generators)"
         )
+    choose_senses(words, known)
+    is_carried = mark_viewpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))
-    meaning = ClauseMeaning(nouns)
+    meaning = ClauseMeaning(nouns, is_carried=is_carried)
     for clause in read_clauses(words[:MOST_WORDS]):
         meaning.read(clause)
     description = meaning.build(prompt)

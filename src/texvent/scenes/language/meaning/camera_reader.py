@@ -35,8 +35,13 @@ _TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truc
 class CameraReader:
     """Collects camera moves, view and framing."""
 
-    def __init__(self) -> None:
-        self._moves: list[CameraMove] = []
+    def __init__(self, *, is_carried: bool = False) -> None:
+        """Start a shot.
+
+        Args:
+            is_carried: whether the camera rides in or on something that the prompt names.
+        """
+        self._moves: list[CameraMove] = [_OWN_TRAVEL] if is_carried else []
         self._view: str | None = None
         self._framing: str | None = None
         self._target: int | None = None

@@ -145,6 +145,9 @@ class Referents:
         if head.pos is Pos.NEGATION or head.text in NOBODY:
             return self._exclude(group, PERSON)
         head = _find_head(group)
+        if head.is_viewpoint:
+            head.is_used, head.shown_as = True, "the camera's view from it"
+            return Referent("camera", group, attributes=read_attributes(group.modifiers))
         herd = None if read_young(group, self._draft) else read_herd(group, self._draft)
         head = group.head_word
         attributes = read_attributes(group.modifiers)

@@ -39,6 +39,9 @@ _PARTS = frozenset({"trunk", "bow", "boot", "hood", "crown", "bark", "palm", "na
                     "head", "hand", "spring", "key", "drum", "crane", "mouse", "bat"})  # fmt: skip
 """What is a part of the thing that "of" names, and no thing by itself."""
 
+_LIKE_PARTS = _words("face head back foot arm hand mouth leg eye neck nose tongue finger")
+"""Parts of bodies that other things are said to have: "the foot of the hill"."""
+
 _KIN = frozenset({"mother", "father", "parent", "brother", "sister", "friend"})
 """Whom an animal has too: "its mother" is no woman."""
 
@@ -60,8 +63,17 @@ def is_figurative(group: NounGroup, preposition: str | None) -> bool:
         return True
     for phrase in group.phrases:
         if phrase.preposition.text == "of" and phrase.groups:
+            if name in _LIKE_PARTS and _is_unshown(phrase.groups[0].head):
+                return True
             return _is_made_of(head, name, phrase.groups[0])
     return False
+
+
+def _is_unshown(inner: Word | None) -> bool:
+    """As in "the face of a wave": of nothing that has a body or is seen."""
+    if inner is None or inner.pos is Pos.PRONOUN:
+        return False
+    return inner.read_as(Role.NOUN) is None and inner.role in (Role.UNKNOWN, Role.PLACE)
 
 
 def _is_made_of(head: Word, name: str, content: NounGroup) -> bool:

@@ -8,8 +8,8 @@ PLACES: dict[str, tuple[str, ...]] = {
     "road": ("road", "lane", "asphalt", "country road", "paved road", "avenue road"),
     "dirt road": ("dirt road", "dirt track", "gravel road", "trail", "dirt path", "path", "mud"),
     "city": (
-        "city", "street", "town", "downtown", "urban", "avenue", "sidewalk", "pavement",
-        "city street", "intersection", "crossing", "crossroads", "junction", "square",
+        "city", "street", "town", "downtown", "urban", "sidewalk", "pavement",
+        "city street", "intersection", "crossing", "crossroads", "junction",
         "street crossing", "road junction", "street corner",
     ),
     "grass": ("grass", "field", "meadow", "lawn", "pasture", "grassy field", "countryside"),
@@ -47,8 +47,8 @@ PLACES: dict[str, tuple[str, ...]] = {
 PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "road": ("race track", "racetrack"),
     "city": (
-        "plaza", "london", "paris", "new york", "tokyo", "campus", "bus station",
-        "railroad crossing", "railway crossing", "alley",
+        "plaza", "square", "avenue", "london", "paris", "new york", "tokyo", "campus",
+        "bus station", "railroad crossing", "railway crossing", "alley",
     ),
     "grass": (
         "orchard", "zoo", "golf course", "riverbank", "campsite", "campground", "picnic area",

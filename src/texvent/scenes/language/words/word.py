@@ -34,6 +34,8 @@ class Word:
     """Relations of objects that it stands for."""
     motion: int | None = None
     """Which motion of its first object it is about, from 0."""
+    is_viewpoint: bool = False
+    """Whether it carries the camera, and so is not in the picture."""
 
     @property
     def pos(self) -> Pos:

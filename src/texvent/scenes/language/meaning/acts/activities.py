@@ -23,6 +23,8 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
         Name of the activity, the words that say it, and whether more than the verb says it; None
         if the clause names none.
     """
+    if clause.verb_word.is_lost:
+        return None
     table = _phrases(is_hand)
     said = _list_words(clause)
     lemmas = tuple(_normalise(word.text) for word in said)

@@ -1,0 +1,76 @@
+"""Nouns with several senses, verbs with particles, and what carries the camera."""
+
+from __future__ import annotations
+
+import pytest
+
+from texvent.scenes.language.parser import parse_prompt
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word"),
+    [
+        ("A child stacks wooden blocks until the tower falls over.", "tower"),
+        ("A boy builds a tower of cards.", "tower"),
+        ("Vendors with tomatoes call out to shoppers.", "call"),
+        ("People in the lobby shrink to dots.", "dots"),
+        ("A man walks, the floors slide downward.", "floors"),
+        ("A surfer rides along the face of a wave.", "face"),
+        ("A blacksmith hammers a glowing iron bar.", "bar"),
+        ("A swimmer glides down the lane of a pool.", "lane"),
+        ("A crane spreads its wings and lifts its beak.", "crane"),
+        ("A train crosses flat farmland.", "flat"),
+    ],
+)
+def test_what_a_word_does_not_mean_here_is_not_shown(prompt, word) -> None:
+    found = parse_prompt(prompt)
+    assert word not in found.shown
+    assert word in found.not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [
+        ("A baseball player swings a bat.", "baseball bat"),
+        ("A golfer swings a club.", "golf club"),
+        ("A surfer stands on his board.", "surfboard"),
+        ("A stone tower on a hill.", "tower"),
+        ("A crane lifts a beam.", "crane"),
+    ],
+)
+def test_other_words_tell_the_sense(prompt, noun) -> None:
+    assert noun in {one.noun for one in parse_prompt(prompt).objects}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("A woman throws a bowling ball down the lane.", "bowling alley"),
+        ("A tennis player runs on a clay court.", "tennis court"),
+        ("A train rolls along the track.", "railway"),
+    ],
+)
+def test_other_words_tell_the_place(prompt, place) -> None:
+    assert parse_prompt(prompt).surroundings.place == place
+
+
+@pytest.mark.parametrize(
+    ("prompt", "carrier"),
+    [
+        ("A drone flies through gates. The view is from the drone itself.", "drone"),
+        ("View from the window of a train crossing farmland.", "train"),
+        ("A city street filmed from the back seat of a taxi.", "taxi"),
+    ],
+)
+def test_what_carries_the_camera_is_not_in_the_picture(prompt, carrier) -> None:
+    found = parse_prompt(prompt)
+    assert carrier not in {one.noun for one in found.objects}
+    assert {one.shown_as for one in found.substituted if one.said == carrier} == {
+        "the camera's view from it"
+    }
+    assert found.shot.moves[0].kind == "travel"
+
+
+def test_who_looks_from_a_window_carries_no_camera() -> None:
+    found = parse_prompt("A woman looks from the window of a car.")
+    assert {"woman", "car"} <= {one.noun for one in found.objects}
