@@ -18,7 +18,7 @@ from texvent.scenes.language.parser import parse_prompt
         ("A surfer rides along the face of a wave.", "face"),
         ("A blacksmith hammers a glowing iron bar.", "bar"),
         ("A swimmer glides down the lane of a pool.", "lane"),
-        ("A crane spreads its wings and lifts its beak.", "crane"),
+        ("A crane spreads its wings beside a lake.", "crane"),
         ("A train crosses flat farmland.", "flat"),
     ],
 )
@@ -65,7 +65,7 @@ def test_other_words_tell_the_place(prompt, place) -> None:
 def test_what_carries_the_camera_is_not_in_the_picture(prompt, carrier) -> None:
     found = parse_prompt(prompt)
     assert carrier not in {one.noun for one in found.objects}
-    assert {one.shown_as for one in found.substituted if one.said == carrier} == {
+    assert {one.shown for one in found.substituted if one.said == carrier} == {
         "the camera's view from it"
     }
     assert found.shot.moves[0].kind == "travel"
