@@ -36,7 +36,7 @@ def report_of(prompt: str) -> PromptReport:
     [
         ("a man stands up", "stands up", "man does so all the time"),
         ("a dog lies down", "lies down", "dog does so all the time"),
-        ("hands typing on a keyboard", "typing", "hand hardly moves"),
+        ("hands typing on a keyboard", "typing", "person hardly moves"),
         ("a cat jumps onto a table", "onto", "cat is there from the start"),
         ("pigeons taking off from a square", "taking off", "pigeon is in the air from the start"),
         ("a helicopter takes off", "takes off", "no ground in view"),
