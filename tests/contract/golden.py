@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import tempfile
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -146,14 +147,28 @@ def sample_events() -> texvent.EventStream:
 
 
 def file_digest(path: Path) -> str:
-    """A hash of a file, or of the files of a folder."""
+    """A hash of a file, or of the files of a folder.
+
+    Of an archive, of what is in it: the headers around that differ between versions of Python.
+    """
     files = sorted(path.rglob("*")) if path.is_dir() else [path]
     hashed = hashlib.sha256()
     for file in files:
         if file.is_file():
             hashed.update(file.relative_to(path.parent).as_posix().encode())
-            hashed.update(file.read_bytes())
+            for part in _contents(file):
+                hashed.update(part)
     return hashed.hexdigest()[:24]
+
+
+def _contents(file: Path) -> Iterator[bytes]:
+    if not zipfile.is_zipfile(file):
+        yield file.read_bytes()
+        return
+    with zipfile.ZipFile(file) as archive:
+        for member in archive.infolist():
+            yield f"{member.filename} {member.date_time} {member.compress_type}".encode()
+            yield archive.read(member)
 
 
 def main() -> None:
