@@ -74,3 +74,33 @@ def test_what_carries_the_camera_is_not_in_the_picture(prompt, carrier) -> None:
 def test_who_looks_from_a_window_carries_no_camera() -> None:
     found = parse_prompt("A woman looks from the window of a car.")
     assert {"woman", "car"} <= {one.noun for one in found.objects}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "lost"),
+    [
+        ("the camera is locked on a tripod while a dog runs left", "tripod"),
+        ("a woman is putting on makeup", "putting"),
+        ("a man runs his thumb along a knife", "runs"),
+        ("a circle of friends", "circle"),
+        ("a coach shouts while the players run", "coach"),
+    ],
+)
+def test_words_in_another_sense_show_nothing(prompt: str, lost: str) -> None:
+    assert lost in parse_prompt(prompt).not_understood
+
+
+def test_a_telescope_has_its_tripod() -> None:
+    assert {one.noun for one in parse_prompt("a telescope on a tripod").objects} == {
+        "telescope", "tripod"
+    }  # fmt: skip
+
+
+def test_a_drone_that_looks_down_is_not_in_the_picture() -> None:
+    description = parse_prompt("a drone looking straight down at a road with cars")
+    assert [one.noun for one in description.objects] == ["car"]
+
+
+def test_what_stands_on_the_ground_is_not_in_the_sky() -> None:
+    assert parse_prompt("a windmill turns, music hangs in the air").surroundings.place != "sky"
+    assert parse_prompt("birds in the air").surroundings.place == "sky"

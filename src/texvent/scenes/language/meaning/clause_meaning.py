@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
@@ -70,6 +71,8 @@ class ClauseMeaning:
         add_doings(draft)
         lose_owners(draft, self._referents.named)
         surroundings, light = self._surroundings.build()
+        if surroundings.place == "sky" and any(map(self._is_grounded, draft.objects)):
+            surroundings = replace(surroundings, place=None)
         return SceneDescription(
             prompt=prompt,
             objects=tuple(item.build(draft.tempo) for item in draft.objects),
@@ -81,6 +84,11 @@ class ClauseMeaning:
             absent=tuple(draft.absent),
             notes=tuple(draft.notes),
         )
+
+    def _is_grounded(self, item: PartialObject) -> bool:
+        """Whether it stands on the ground, whatever else is "in the air"."""
+        is_fixed = self._draft.nouns[item.noun].habitat == "fixed"
+        return is_fixed and all(one.kind in ("stand", "work", "turn") for one in item.motions)
 
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""

@@ -67,6 +67,9 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "flat": (_sense("flat"),),
     "pitch": (_sense("throw pitcher voice"),),
     "plant": (_sense("power nuclear factory chemical"),),
+    "tripod": (_sense("camera shot filmed film view recording"),),
+    "coach": (_sense("team player match game school child kid practice training whistle soccer"),),
+    "carton": (_sense("milk juice cream egg"),),
 }  # fmt: skip
 """Noun → its senses other than the usual one; the first whose cue is said counts."""
 PARTICLES: dict[str, frozenset[str]] = {
@@ -77,9 +80,16 @@ PARTICLES: dict[str, frozenset[str]] = {
     "break": frozenset({"into"}),
     "fish": frozenset({"out"}),
     "bear": frozenset({"down"}),
+    "put": frozenset({"on", "away", "down", "out", "up"}),
+    "putt": frozenset({"on", "away", "down", "out", "up"}),
+    "push": frozenset({"out"}),
 }
 """Verb → particles with which it is none of what the word shows alone."""
 
+_SHAPES = frozenset({"circle", "ring", "square", "triangle", "disc", "line"})
+"""What "of" makes an arrangement: "a circle of friends"."""
+_RUN_ALONG = frozenset({"thumb", "hand", "finger", "fingertip", "palm", "eye", "brush", "tongue"})
+"""What somebody runs over something, and does not run then."""
 _BECOMING = frozenset({"shrink", "dwindle", "reduce", "fade", "melt", "blur"})
 """Verbs of what comes to look like something that is not there: "shrink to dots"."""
 
@@ -98,21 +108,27 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
             _forget(word, Pos.VERB)
         if word.lemma in _BECOMING and follower is not None and follower.text in ("to", "into"):
             _forget_result(words[index + 2 :])
-        if word.pos is not Pos.NOUN or word.lemma not in SENSES:
-            continue
-        if word.lemma == "flat":
-            if follower is not None and follower.pos is Pos.NOUN:
-                _forget(word, Pos.ADJECTIVE)
-            continue
-        others = said - {word.lemma, word.text}
-        sense = next((one for one in SENSES[word.lemma] if one.cues & others), None)
-        if sense is None:
-            continue
-        found = known.find(sense.phrase.split())[1] if sense.phrase is not None else []
-        if not found:
+        if word.lemma == "run" and _RUN_ALONG & {one.lemma for one in words[index + 1 : index + 4]}:
+            _forget(word, Pos.VERB)
+        if word.lemma in _SHAPES and follower is not None and follower.text == "of":
             _forget(word, Pos.NOUN)
-        else:
-            word.meaning, word.others = found[0], tuple(found[1:])
+        if word.pos is Pos.NOUN and word.lemma in SENSES:
+            _choose_noun(word, follower, said - {word.lemma, word.text}, known)
+
+
+def _choose_noun(word: Word, follower: Word | None, others: set[str], known: Lexicon) -> None:
+    if word.lemma == "flat":
+        if follower is not None and follower.pos is Pos.NOUN:
+            _forget(word, Pos.ADJECTIVE)
+        return
+    sense = next((one for one in SENSES[word.lemma] if one.cues & others), None)
+    if sense is None:
+        return
+    found = known.find(sense.phrase.split())[1] if sense.phrase is not None else []
+    if not found:
+        _forget(word, Pos.NOUN)
+    else:
+        word.meaning, word.others = found[0], tuple(found[1:])
 
 
 def _forget_result(after: Sequence[Word]) -> None:

@@ -13,6 +13,7 @@ _CARRIERS = frozenset(
 )  # fmt: skip
 _SEATS = frozenset({"seat", "cockpit", "cab"})
 _VIEWING = frozenset({"see", "film", "shoot", "view", "record", "shot", "footage", "video"})
+_LOOKING = frozenset({"look", "point", "face", "aim"})
 _NEAR = 3
 """Words before "from" of which one says that it is a view."""
 _WINDOW = "window"
@@ -26,6 +27,8 @@ def mark_viewpoints(words: Sequence[Word]) -> bool:
         Whether there is such a carrier.
     """
     for index, word in enumerate(words):
+        if word.lemma in _CARRIERS and _looks_down(words[index + 1 :]):
+            _mark([word], {word.lemma})
         if word.text != "from" or not _is_view(words[:index]):
             continue
         after = _take_phrase(words[index + 1 :])
@@ -49,6 +52,12 @@ def _take_phrase(words: Sequence[Word]) -> list[Word]:
             break
         found.append(word)
     return found
+
+
+def _looks_down(after: Sequence[Word]) -> bool:
+    """As in "a drone looking straight down at a roundabout"."""
+    texts = [one.text for one in after[:_NEAR]]
+    return bool(after) and after[0].lemma in _LOOKING and "down" in texts
 
 
 def _is_view(before: Sequence[Word]) -> bool:

@@ -247,7 +247,7 @@ _INDOOR = placed("indoor", (
                 rod(SILVER, (-0.48, -0.24, 0.95), (-0.48, 0.24, 0.95), 0.018),
                 box(Material((0.38, 0.23, 0.11)), (0.10, 0.0, 0.40), (0.46, 0.44, 0.34)),
                 box(Material((0.60, 0.48, 0.30)), (0.10, 0.0, 0.40), (0.47, 0.06, 0.35))],
-                ("hand cart", "handcart", "dolly", "platform trolley"),
+                ("hand cart", "handcart", "platform trolley"),
           wheels=_cart_wheels(0.34, 0.22, 0.085, 0.05),
                     goes=("ground", "roll", 1.2)),
     thing("wheelchair", (INK.colour, (0.03, 0.12, 0.40)),
