@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from texvent.scenes.description import Effect, ObjectMotion
+from texvent.scenes.description import Effect
 from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.meaning.adjectives import Attributes, read_attributes
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.crowds import add_traffic, find_drifting
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.meaning.parts_shown import BODY_PARTS, list_parts_shown, shows_part
 from texvent.scenes.language.meaning.senses import (
     choose_pattern,
     choose_sense,
@@ -21,7 +23,6 @@ from texvent.scenes.language.meaning.senses import (
     read_herd,
     read_young,
 )
-from texvent.scenes.language.vocabulary import scene as vocabulary_scene
 from texvent.scenes.language.vocabulary.function import (
     DEFINITE,
     NOBODY,
@@ -36,10 +37,6 @@ from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.kinds.people import TRAFFIC
 
 PERSON = "person"
-AIRBORNE = frozenset({"blow", "fall", "swirl", "fly", "drift", "float", "flutter", "whirl"})
-"""What leaves and feathers do in the air."""
-DRIFTING = {"leaf": "leaves", "feather": "feathers", "soap bubble": "bubbles"}
-"""Noun → the effect that many of them in the air are."""
 OUR = ("our", "my")
 """Owners that make a vehicle the camera's: "our car leaves a tunnel"."""
 _KINDS = {
@@ -288,7 +285,7 @@ class Referents:
 
     def _comes_with_a_part(self, part: str) -> bool:
         """As in "a bicycle with no wheel": the model has one all the same."""
-        return any(_shows(self._draft, i, part) for i in range(len(self._draft.objects)))
+        return any(shows_part(self._draft, i, part) for i in range(len(self._draft.objects)))
 
     def _read_thing(
         self, group: NounGroup, attributes: Attributes, preposition: str | None
@@ -336,37 +333,13 @@ class Referents:
     ) -> Referent:
         """A thing, many of them in the air, or traffic."""
         head = group.head_word
-        drifting = self._find_drifting(group)
+        drifting = find_drifting(group, self.verb)
         if drifting is not None:
             return Referent("effect", group, value=drifting, attributes=attributes)
         if (head.read_as(Role.NOUN) or head.meaning).value in TRAFFIC:
-            return self._read_traffic(group, attributes)
+            found = add_traffic(self._draft, head)
+            return Referent("things" if found else "unknown", group, found, attributes=attributes)
         return self._read_thing(group, attributes, preposition)
-
-    def _find_drifting(self, group: NounGroup) -> str | None:
-        """As in "leaves blow in the wind", "soap bubbles": many that drift through the air."""
-        meaning = group.head_word.read_as(Role.NOUN)
-        if meaning is None or not meaning.is_plural:
-            return None
-        said = [word for word in group.modifiers if word.lemma in AIRBORNE]
-        if meaning.value != "soap bubble" and self.verb not in AIRBORNE and not said:
-            return None
-        kind = DRIFTING.get(str(meaning.value))
-        mark_used(said if kind is not None else ())
-        return kind
-
-    def _read_traffic(self, group: NounGroup, attributes: Attributes) -> Referent:
-        """As in "highway traffic": vehicles that drive both ways."""
-        head = group.head_word
-        kind = str((head.read_as(Role.NOUN) or head.meaning).value)
-        found = []
-        for noun, count, way in TRAFFIC[kind] if "car" in self._draft.nouns else ():
-            motion = ObjectMotion("drive", way)
-            index = self._draft.add(PartialObject(noun, count, count > 1, motions=[motion]))
-            if index is not None:
-                found.append(index)
-        head.is_used = bool(found)
-        return Referent("things" if found else "unknown", group, found, attributes=attributes)
 
     def _count_last(self) -> int:
         """As in "five camels, each rider": one for each of those named last."""
@@ -445,19 +418,4 @@ _NEVER = {
 }
 """Pronoun → people whom it does not mean."""
 _OF_ONE_PERSON = ("he", "she", "him", "her")
-BODY_PARTS = frozenset({"hand", "finger", "fist", "arm", "head", "leg", "foot", "tail", "wing"})
 OWNERS = ("its", "their", "his", "her")
-
-
-def list_parts_shown(draft: Draft, things: Sequence[int], part: str) -> bool:
-    """Whether the models of all these objects show a part in any case."""
-    return bool(things) and all(_shows(draft, index, part) for index in things)
-
-
-def _shows(draft: Draft, index: int, part: str) -> bool:
-    noun = draft.noun(index)
-    for category, parts in vocabulary_scene.PARTS_SHOWN.items():
-        names = (noun.motion, noun.name, PERSON if is_person(noun) else "")
-        if category in names and part in parts:
-            return True
-    return False

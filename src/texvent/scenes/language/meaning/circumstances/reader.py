@@ -17,7 +17,8 @@ from texvent.scenes.language.meaning.circumstances.relations import (
     RelationReader,
 )
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents, list_parts_shown
+from texvent.scenes.language.meaning.parts_shown import list_parts_shown
+from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE

@@ -1,0 +1,49 @@
+"""Nouns that mean many things at once: what drifts through the air, and traffic."""
+
+from __future__ import annotations
+
+from texvent.scenes.description import ObjectMotion
+from texvent.scenes.language.grammar.syntax import NounGroup
+from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.models.kinds.people import TRAFFIC
+
+AIRBORNE = frozenset({"blow", "fall", "swirl", "fly", "drift", "float", "flutter", "whirl"})
+"""What leaves and feathers do in the air."""
+DRIFTING = {"leaf": "leaves", "feather": "feathers", "soap bubble": "bubbles"}
+"""Noun → the effect that many of them in the air are."""
+
+
+def find_drifting(group: NounGroup, verb: str) -> str | None:
+    """As in "leaves blow in the wind", "soap bubbles": many that drift through the air.
+
+    Args:
+        group: what is named.
+        verb: verb of its clause.
+
+    Returns:
+        The effect; None where they are things.
+    """
+    meaning = group.head_word.read_as(Role.NOUN)
+    if meaning is None or not meaning.is_plural:
+        return None
+    said = [word for word in group.modifiers if word.lemma in AIRBORNE]
+    if meaning.value != "soap bubble" and verb not in AIRBORNE and not said:
+        return None
+    kind = DRIFTING.get(str(meaning.value))
+    mark_used(said if kind is not None else ())
+    return kind
+
+
+def add_traffic(draft: Draft, head: Word) -> list[int]:
+    """As in "highway traffic": vehicles that drive both ways; returns the new objects."""
+    kind = str((head.read_as(Role.NOUN) or head.meaning).value)
+    found = []
+    for noun, count, way in TRAFFIC[kind] if "car" in draft.nouns else ():
+        motion = ObjectMotion("drive", way)
+        index = draft.add(PartialObject(noun, count, count > 1, motions=[motion]))
+        if index is not None:
+            found.append(index)
+    head.is_used = bool(found)
+    return found
