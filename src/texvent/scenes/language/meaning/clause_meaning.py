@@ -10,12 +10,13 @@ from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
 from texvent.scenes.language.meaning.acts.doers import add_doings, give_to_owners, mount_riders
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
-from texvent.scenes.language.meaning.acts.hand_work import DRINKS, give_bodies, list_goals
+from texvent.scenes.language.meaning.acts.hand_work import give_bodies
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
+from texvent.scenes.language.meaning.clause_rewrites import take_juggled, take_partners, turn_views
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.owners import lose_owners
 from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
@@ -25,7 +26,7 @@ from texvent.scenes.language.meaning.surroundings_reader import SurroundingsRead
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS, WEATHER_VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm
-from texvent.scenes.language.words.lexicon import Meaning, Role
+from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.people.work.verbs import HANDWORK
 from texvent.scenes.models.protocol import Noun
@@ -92,7 +93,7 @@ class ClauseMeaning:
 
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
-        self._turn_views(clause)
+        turn_views(clause)
         self._camera.read_phrases(clause.adverbs)
         if clause.opener is not None:
             clause.opener.is_used = True
@@ -122,36 +123,6 @@ class ClauseMeaning:
         is_place = bool(subjects) and all(one.kind == "place" for one in subjects)
         is_it = clause.verb is not None and clause.verb.lemma in _GIVES_OFF
         return is_place and is_it and clause.is_participle and bool(self._draft.subjects)
-
-    @staticmethod
-    def _take_partners(clause: Clause) -> None:
-        """As in "crashes into a wall", "collide with each other": what they meet is the object."""
-        verb = clause.verb.meaning.value if clause.verb is not None else None
-        prepositions: tuple[str, ...] = ()
-        if isinstance(verb, Verb) and verb.act == "collide":
-            prepositions = ("into", "with", "against")
-        elif clause.verb is not None and clause.verb.lemma in HANDWORK:
-            prepositions = list_goals(clause)
-        elif clause.verb is not None and clause.verb.lemma in DRINKS and not clause.objects:
-            prepositions = ("from", "out of")
-        for phrase in list(clause.phrases):
-            if phrase.preposition.text in prepositions:
-                phrase.preposition.is_used = True
-                clause.objects.extend(phrase.groups)
-                clause.phrases.remove(phrase)
-
-    @staticmethod
-    def _turn_views(clause: Clause) -> None:
-        """As in "a ball drops from above": the ball does, not the camera."""
-        if clause.verb is None:
-            return
-        verb = clause.verb.meaning.value
-        is_vertical = isinstance(verb, Verb) and verb.kind in _VERTICAL
-        if not is_vertical and clause.verb.lemma not in _POURED:
-            return
-        for word in clause.adverbs:
-            if word.role is Role.VIEW and word.text in _FROM:
-                word.meaning = Meaning(Role.DIRECTION, word.pos, _FROM[word.text])
 
     def _read_subjectless(self, clause: Clause) -> None:
         """As in "Driving through a tunnel", "juggling three oranges"."""
@@ -198,11 +169,10 @@ class ClauseMeaning:
         things = [index for one in subjects if one.is_things for index in one.things]
         is_lost = bool(subjects) and not things
         give_bodies(self._draft, clause, subjects)
-        if clause.verb is not None and clause.verb.lemma == _JUGGLE:
-            self._take_in_hand(clause)
+        take_juggled(clause)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         self._referents.doers = things
-        self._take_partners(clause)
+        take_partners(clause)
         objects = [self._referents.resolve(group) for group in clause.objects]
         if clause.verb is not None:
             self._referents.acted_on = [i for one in objects if one.is_things for i in one.things]
@@ -260,16 +230,6 @@ class ClauseMeaning:
         owners = [one.group.owner for one in objects if one.group.owner is not None]
         inner += [self._referents.resolve(owner) for owner in owners]
         return [*objects, *(one for one in inner if one.is_things)]
-
-    @staticmethod
-    def _take_in_hand(clause: Clause) -> None:
-        """As in "juggles three oranges": three balls, which the juggler has, and no others."""
-        for group in clause.objects:
-            for word in group.words:
-                word.is_used = word is group.head or word.meaning.value == _BALLS_JUGGLED
-            if group.head is not None and "ball" not in group.head.text:
-                group.head.shown_as = "ball"
-        clause.objects = []
 
     def _read_named_activity(self, clause: Clause) -> bool:
         """As in "jumping jacks", "right arm clockwise", "thumbs up"."""
@@ -416,15 +376,6 @@ _GIVES_OFF = frozenset(
      "produce", "shoot", "scatter", "kick"}
 )  # fmt: skip
 """Verbs of who makes smoke, bubbles, dust."""
-_JUGGLE = "juggle"
-_BALLS_JUGGLED = 3
 _NOBODY = NounGroup()
 _ASPECTS = ("start", "begin", "keep")
 """Auxiliaries that say something even where no verb follows: "a car starts"."""
-_VERTICAL = frozenset({"fall", "sink", "rise", "fly", "jump", "topple"})
-_POURED = frozenset(
-    {"sprinkle", "pour", "drizzle", "scatter", "dust", "drip", "shine", "light", "illuminate",
-     "shower", "spray", "dangle", "hang", "lower", "attack", "reach", "land", "descend"}
-)  # fmt: skip
-"""Verbs of things that come from above, besides those of motion."""
-_FROM = {"from above": "down", "from below": "up"}

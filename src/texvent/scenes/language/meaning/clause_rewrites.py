@@ -1,0 +1,61 @@
+"""Words of a clause that mean something else where they stand, put right before it is read."""
+
+from __future__ import annotations
+
+from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.words.lexicon import Meaning, Role
+from texvent.scenes.models.people.work.verbs import HANDWORK
+
+_JUGGLE = "juggle"
+_BALLS_JUGGLED = 3
+_VERTICAL = frozenset({"fall", "sink", "rise", "fly", "jump", "topple"})
+_POURED = frozenset(
+    {"sprinkle", "pour", "drizzle", "scatter", "dust", "drip", "shine", "light", "illuminate",
+     "shower", "spray", "dangle", "hang", "lower", "attack", "reach", "land", "descend"}
+)  # fmt: skip
+"""Verbs of things that come from above, besides those of motion."""
+_FROM = {"from above": "down", "from below": "up"}
+
+
+def take_partners(clause: Clause) -> None:
+    """As in "crashes into a wall", "collide with each other": what they meet is the object."""
+    verb = clause.verb.meaning.value if clause.verb is not None else None
+    prepositions: tuple[str, ...] = ()
+    if isinstance(verb, Verb) and verb.act == "collide":
+        prepositions = ("into", "with", "against")
+    elif clause.verb is not None and clause.verb.lemma in HANDWORK:
+        prepositions = list_goals(clause)
+    elif clause.verb is not None and clause.verb.lemma in DRINKS and not clause.objects:
+        prepositions = ("from", "out of")
+    for phrase in list(clause.phrases):
+        if phrase.preposition.text in prepositions:
+            phrase.preposition.is_used = True
+            clause.objects.extend(phrase.groups)
+            clause.phrases.remove(phrase)
+
+
+def turn_views(clause: Clause) -> None:
+    """As in "a ball drops from above": the ball does, not the camera."""
+    if clause.verb is None:
+        return
+    verb = clause.verb.meaning.value
+    is_vertical = isinstance(verb, Verb) and verb.kind in _VERTICAL
+    if not is_vertical and clause.verb.lemma not in _POURED:
+        return
+    for word in clause.adverbs:
+        if word.role is Role.VIEW and word.text in _FROM:
+            word.meaning = Meaning(Role.DIRECTION, word.pos, _FROM[word.text])
+
+
+def take_juggled(clause: Clause) -> None:
+    """As in "juggles three oranges": three balls, which the juggler has, and no others."""
+    if clause.verb is None or clause.verb.lemma != _JUGGLE:
+        return
+    for group in clause.objects:
+        for word in group.words:
+            word.is_used = word is group.head or word.meaning.value == _BALLS_JUGGLED
+        if group.head is not None and "ball" not in group.head.text:
+            group.head.shown_as = "ball"
+    clause.objects = []
