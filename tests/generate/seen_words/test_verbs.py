@@ -40,7 +40,7 @@ def report_of(prompt: str) -> PromptReport:
         ("a cat jumps onto a table", "onto", "cat is there from the start"),
         ("pigeons taking off from a square", "taking off", "pigeon is in the air from the start"),
         ("a helicopter takes off", "takes off", "no ground in view"),
-        ("a man twirls her", "twirls", "nobody does it to her"),
+        ("a man twirls her", "twirls", "it is not done to her"),
         ("a child knocks over a tower of blocks", "knocks", 'without "over"'),
         ("a shepherd drives his sheep along the lane", "drives", "rides the sheep"),
     ],
@@ -127,7 +127,7 @@ def test_motion_is_measured_in_sizes_of_the_thing() -> None:
         ("a man runs over a bridge", "runs", None),
         ("a man spins once", "spins", None),
         ("a man knocks", "knocks", None),
-        ("a man spins him around", "spins", "nobody does it to him"),
+        ("a man spins him around", "spins", "it is not done to him"),
     ],
 )
 def test_words_after_a_verb_may_change_its_sense(prompt: str, word: str, fault: str | None) -> None:

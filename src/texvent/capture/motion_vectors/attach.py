@@ -98,7 +98,7 @@ def own_motion(source: Any) -> Path | None:
         if has_images and any((folder / OWN_FOLDER).glob("*.exr")):
             return folder / OWN_FOLDER
         images = sorted(folder.glob("*.exr"))
-    except (OSError, ValueError, RuntimeError):  # no path, or the home of nobody
+    except (OSError, ValueError, RuntimeError):  # no path, or the home of an unknown user
         return None
     if not images:
         return None

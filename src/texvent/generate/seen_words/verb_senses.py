@@ -46,7 +46,7 @@ def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
         if is_turning and _is_alive(claim, description):
             is_done_to = word in _OBJECTS and (word != "her" or _AFTER_OBJECT.match(after))
             if is_done_to or ("spin" in kinds and word in _DETERMINERS):
-                return "nobody does it to " + (word if is_done_to else after.split(" ")[0])
+                return "it is not done to " + (word if is_done_to else after.split(" ")[0])
     return None
 
 

@@ -267,7 +267,7 @@ def _sits_down(description: SceneDescription, subject: SceneObject, target: Scen
 
 
 _AT_REST = frozenset({"bell"})
-"""Nouns with moving parts that rest until somebody moves them."""
+"""Nouns with moving parts that rest until a person moves them."""
 
 
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:

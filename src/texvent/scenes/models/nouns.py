@@ -13,9 +13,9 @@ from types import MappingProxyType
 from texvent.scenes.models import solids
 from texvent.scenes.models.animals import (
     breeds,
+    coloured_birds,
     crawlers,
     flying_birds,
-    more_birds,
     more_quadrupeds,
     night_animals,
     other_bodies,
@@ -37,23 +37,28 @@ from texvent.scenes.models.objects import (
 from texvent.scenes.models.objects.home import (
     electronics,
     furnishing,
+    house_and_games,
     lights,
     personal,
     screens,
     small_things,
 )
-from texvent.scenes.models.objects.kitchen import appliances, food, tableware
-from texvent.scenes.models.objects.more import nature as more_nature
-from texvent.scenes.models.objects.more import science, table_and_play
-from texvent.scenes.models.objects.outdoors import flowing, street_furniture, structures, wild
+from texvent.scenes.models.objects.kitchen import appliances, dishes, food, tableware
+from texvent.scenes.models.objects.outdoors import (
+    flowing,
+    street_furniture,
+    structures,
+    vegetation,
+    wild,
+)
 from texvent.scenes.models.objects.places import grounds, rooms
 from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, gear
 from texvent.scenes.models.objects.work import (
     escalator,
+    experiments,
     machines,
-    more_vehicles,
     rare_vehicles,
     tools,
 )
@@ -61,7 +66,16 @@ from texvent.scenes.models.people import hand, person, wearables
 from texvent.scenes.models.people.roles import clothes
 from texvent.scenes.models.people.roles import nouns as roles
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
+from texvent.scenes.models.vehicles import (
+    aircraft,
+    boats,
+    cars,
+    construction,
+    cycles,
+    heavy,
+    ships_and_planes,
+    trucks_and_carriages,
+)
 
 _MODULES = (
     cars,
@@ -115,11 +129,13 @@ _MODULES = (
     tableware,
     small_things,
     rare_vehicles,
-    more_vehicles,
-    more_birds,
-    more_nature,
-    science,
-    table_and_play,
+    trucks_and_carriages,
+    ships_and_planes,
+    coloured_birds,
+    vegetation,
+    experiments,
+    dishes,
+    house_and_games,
     rooms,
     grounds,
 )

@@ -29,7 +29,7 @@ def mime_bundle(
     include: Collection[str] | None = None,
     exclude: Collection[str] | None = None,
 ) -> dict[str, str]:
-    """What `_repr_mimebundle_` gives: text always, HTML where somebody can see it.
+    """What `_repr_mimebundle_` gives: text always, HTML where it can be seen.
 
     Args:
         shown: the value.

@@ -55,7 +55,7 @@ class CameraReader:
 
     @property
     def is_first_person(self) -> bool:
-        """Whether the camera is somebody's eyes."""
+        """Whether the camera is the eyes of a person."""
         return self._view == "first person"
 
     def read_word(self, word: Word) -> bool:

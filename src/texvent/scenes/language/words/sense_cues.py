@@ -89,7 +89,7 @@ PARTICLES: dict[str, frozenset[str]] = {
 _SHAPES = frozenset({"circle", "ring", "square", "triangle", "disc", "line"})
 """What "of" makes an arrangement: "a circle of friends"."""
 _RUN_ALONG = frozenset({"thumb", "hand", "finger", "fingertip", "palm", "eye", "brush", "tongue"})
-"""What somebody runs over something, and does not run then."""
+"""Objects with which "run" is no running: "runs his thumb along the edge"."""
 _BECOMING = frozenset({"shrink", "dwindle", "reduce", "fade", "melt", "blur"})
 """Verbs of what comes to look like something that is not there: "shrink to dots"."""
 

@@ -277,7 +277,7 @@ class _Tagger:
         return at > 1 and self._chosen[-1].role is Role.COLOUR and self._texts[at - 2] == "in"
 
     def _perceives(self) -> bool:
-        """As in "watches a fish swim": the last verb says that somebody sees or hears it."""
+        """As in "watches a fish swim": the last verb says that it is seen or heard."""
         for number in range(len(self._chosen) - 1, -1, -1):
             if self._chosen[number].pos is Pos.VERB:
                 text = self._texts[number]

@@ -61,7 +61,7 @@ def _looks_down(after: Sequence[Word]) -> bool:
 
 
 def _is_view(before: Sequence[Word]) -> bool:
-    """Whether it is seen or filmed from there, and nobody jumps from there."""
+    """Whether it is seen or filmed from there, unlike "jumps from there"."""
     return any(one.lemma in _VIEWING for one in before[-_NEAR:])
 
 

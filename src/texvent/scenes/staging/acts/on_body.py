@@ -1,4 +1,4 @@
-"""What somebody has on the head, a shoulder, the back or the lap."""
+"""What a person or an animal has on the head, a shoulder, the back or the lap."""
 
 from __future__ import annotations
 

@@ -248,7 +248,7 @@ def perform_acts(
 
 
 def _tied_to_ground(actor: Actor) -> Actor:
-    """A kite that nobody holds is flown by somebody out of the picture."""
+    """A kite that no person holds is flown from out of the picture."""
     if actor.noun.name != "kite" or actor.tether is not None:
         return actor
     x, y, z = actor.trajectory.at(0.0).position
@@ -257,7 +257,7 @@ def _tied_to_ground(actor: Actor) -> Actor:
 
 
 def _take_off_doubles(cast: Cast, actors: list[Actor]) -> None:
-    """A piano, a desk or a board that comes with what somebody does is not shown twice."""
+    """A piano, a desk or a board that comes with an activity is not shown twice."""
     for number, actor in enumerate(actors):
         nouns = {noun for prop in cast.props(number) if prop.anchor == "ground"
                  for noun in prop.nouns}  # fmt: skip

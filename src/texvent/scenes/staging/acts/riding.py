@@ -90,7 +90,7 @@ SEATS_OF: Mapping[str, Seats] = MappingProxyType(
                              for side in (0.7, -0.7))),
     }
 )  # fmt: skip
-"""Noun → seats in or on it; of what is closed nobody is seen."""
+"""Noun → seats in or on it; riders of closed vehicles are not seen."""
 LOADS: Mapping[str, Vector] = MappingProxyType(
     {
         "forklift": (1.05, 0.0, 0.27), "pickup": (-1.75, 0.0, 1.0), "golf cart": (-0.95, 0.0, 0.58),

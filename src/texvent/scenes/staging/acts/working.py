@@ -46,7 +46,7 @@ _TURN = 1.1
 _LEAST_SIZE_M, _MOST_LARGER = 0.34, 1.7
 """What is worked on at a table is enlarged to that size, by at most this factor."""
 _WAIST_M = 0.60
-"""What is below need not be in the picture where somebody works on a small thing, m."""
+"""What is below need not be in the picture where a person works on a small thing, m."""
 _ROOM = 0.75
 """Share of its height that a worker takes along a wide thing."""
 _LOW_M = 0.5
@@ -95,7 +95,7 @@ class Handled:
 
 
 def find_work(actor: Actor) -> HandWork | None:
-    """The hand work that somebody does in one place; None if it is none."""
+    """The hand work that a person does in one place; None if it is none."""
     path = actor.trajectory
     if not isinstance(path, Stationary) or not is_person(actor):
         return None
@@ -197,7 +197,7 @@ def _put(subject: Actor, target: Actor, worker: WorkingAt, rest: BodyState) -> t
 
 
 def _to_edge(target: Actor, support: Actor) -> Actor:
-    """What lies on something, nearer to its edge behind or to the left, where somebody works."""
+    """What lies on something, nearer to its edge behind or to the left, where a person works."""
     surface = sample_surface(support, 0.0)
     low, high = surface.points.min(axis=0), surface.points.max(axis=0)
     path = target.trajectory

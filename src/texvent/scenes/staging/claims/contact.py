@@ -61,7 +61,7 @@ def is_on(subject: Actor, target: Actor, time_s: float) -> bool:
     if 0.5 * (low[2] + high[2]) < base[2] + 0.2 * (top[2] - base[2]) - _TOUCH_M:
         return False
     if subject.noun.name in PERSON_NOUNS:
-        # The legs of who sits lie below the seat; a telephone carries nobody.
+        # The legs of who sits lie below the seat; a telephone carries no person.
         return float(np.max(top - base)) > _LEAST_STAND * float(np.max(high - low))
     surface = top_below(target, time_s, 0.5 * (low[:2] + high[:2]))
     return bool(surface < low[2] + _SUNK_SHARE * (high[2] - low[2]) + _TOUCH_M)

@@ -277,7 +277,7 @@ def _is_on_body(subject: _Body, targets: list[_Body], *, least: float) -> bool:
 
 
 def _is_riding(subject: _Body, targets: list[_Body]) -> bool:
-    """Every rider is over it and at it, and not on its roof; nobody shares a seat."""
+    """Every rider is over it and at it, and not on its roof; no two share a seat."""
     riders, mounts = subject.copies, targets[0].copies
     return holds_for_all(rides, riders, mounts, subject.duration_s, always=True)
 

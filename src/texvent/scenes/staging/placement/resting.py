@@ -140,7 +140,7 @@ _TALL_M = 1.45
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
-    """Whether somebody sits there: on a seat, unless the prompt has them stand, lie or jump."""
+    """Whether a person sits there: on a seat, unless the prompt has them stand, lie or jump."""
     if group.noun.name not in PERSON_NOUNS:
         return False
     kind = group.plan.motion.kind

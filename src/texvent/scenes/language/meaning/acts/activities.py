@@ -58,7 +58,7 @@ def _plain(group: NounGroup) -> list[Word]:
 
 
 def name_activity(words: Sequence[Word]) -> tuple[str, str] | None:
-    """Who does what, where words name an activity and nobody: "jumping jacks", "thumbs up".
+    """Who does what, where words name an activity alone: "jumping jacks", "thumbs up".
 
     Returns:
         Noun and activity; None if they name none.

@@ -77,7 +77,7 @@ _BODY = frozenset(
      "lip", "chin", "sweat", "tear", "head", "neck", "arm", "leg", "foot", "feet", "finger", "nail",
      "cheek", "body", "back", "belly"}
 )  # fmt: skip
-"""What somebody does something to that is a part of the body."""
+"""Objects of hand work that are parts of the own body."""
 
 
 def is_of_own_part(name: str, objects: Sequence[Referent]) -> bool:

@@ -66,7 +66,7 @@ class PartReader:
         return True
 
     def _find(self, items: list[int]) -> Relation | None:
-        """How somebody has the things, as the prompt has said."""
+        """How a person has the things, as the prompt has said."""
         for relation in reversed(self._draft.relations):
             if relation.kind in _HAVING and set(relation.targets) == set(items):
                 return relation

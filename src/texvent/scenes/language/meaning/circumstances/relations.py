@@ -129,7 +129,7 @@ class RelationReader:
         if kind is None or word.text not in _RESTING or scope.has_object:
             return False
         if kind == "on" and self._draft.noun(things[0]).name in _LEANT_ON:
-            # As in "leans on a fence": nobody stands on its top.
+            # As in "leans on a fence": they stand at it, not on its top.
             kind = "beside"
         return self._relate(kind, scope.subjects, things)
 

@@ -1,4 +1,4 @@
-"""More birds, told by colours and fans, and their young."""
+"""Birds told by their colours, a peacock with its fan, and young birds."""
 
 from __future__ import annotations
 

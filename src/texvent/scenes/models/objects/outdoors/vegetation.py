@@ -1,4 +1,4 @@
-"""Plants of water and woods, leaves, bodies of the sky: what nature is written about with."""
+"""Plants of water and woods, leaves, the moon and a rainbow."""
 
 from __future__ import annotations
 
