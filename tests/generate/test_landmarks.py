@@ -8,8 +8,8 @@ import pytest
 from texvent.generate.landmarks import ROAD, SKY, WATER, is_marked, list_landmarks
 from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.report import Substitution
-from texvent.scenes.staging.environment import build_environment
-from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.surroundings.environment import build_environment
+from texvent.scenes.staging.surroundings.road import RoadLine
 
 
 def landmarks(place: str, *shown: str, **said) -> dict[str, frozenset[str]]:

@@ -25,8 +25,8 @@ from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.bodies import boxes_of, gap, part_boxes
 from texvent.scenes.staging.claims.relations import list_not_shown
 from texvent.scenes.staging.claims.shots import list_moves_not_shown
-from texvent.scenes.staging.environment import build_environment
-from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.surroundings.environment import build_environment
+from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.trajectory import Stationary, Straight, Trajectory
 
 DURATION_S = 2.0

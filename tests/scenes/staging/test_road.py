@@ -16,7 +16,7 @@ from texvent.scenes.description import (
     Surroundings,
 )
 from texvent.scenes.staging.compose import compose_scene
-from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize
 
 

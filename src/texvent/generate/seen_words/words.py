@@ -11,7 +11,7 @@ from texvent.generate.seen_words.things import judge_thing
 from texvent.generate.seen_words.views import judge_camera
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.raycast.trace import GROUND
-from texvent.scenes.staging.environment import is_room
+from texvent.scenes.staging.surroundings.environment import is_room
 
 _OF_THINGS = frozenset({"name", "colour", "size", "material", "part", "side", "count"})
 _OF_SCENE = ("light", "weather", "effect", "dust")

@@ -28,13 +28,6 @@ from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
 from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.relations import list_not_shown
 from texvent.scenes.staging.claims.shots import list_moves_not_shown
-from texvent.scenes.staging.environment import (
-    PLACES,
-    AnimatedEnvironment,
-    build_environment,
-    choose_lighting,
-)
-from texvent.scenes.staging.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.particles.choose import (
     Setting,
     Staged,
@@ -48,11 +41,18 @@ from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
 from texvent.scenes.staging.placement.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
-from texvent.scenes.staging.road_choice import find_road
-from texvent.scenes.staging.scenery import SceneryItem, ViewClearance, scatter
-from texvent.scenes.staging.scenery_along import line_route
-from texvent.scenes.staging.scenery_tables import BACKDROPS, SCENERY, ScatterRule
-from texvent.scenes.staging.waterside import STRIPS, WATERSIDE, water_line
+from texvent.scenes.staging.surroundings.environment import (
+    PLACES,
+    AnimatedEnvironment,
+    build_environment,
+    choose_lighting,
+)
+from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
+from texvent.scenes.staging.surroundings.road_choice import find_road
+from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
+from texvent.scenes.staging.surroundings.scenery_along import line_route
+from texvent.scenes.staging.surroundings.scenery_tables import BACKDROPS, SCENERY, ScatterRule
+from texvent.scenes.staging.surroundings.waterside import STRIPS, WATERSIDE, water_line
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7

@@ -7,7 +7,7 @@ import pytest
 
 from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
 from texvent.scenes.language.parser import parse_prompt
-from texvent.scenes.staging.acts.working import work_at
+from texvent.scenes.staging.acts.hand_work.working import work_at
 from texvent.scenes.staging.claims.contact import touches
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize

@@ -9,8 +9,8 @@ import numpy as np
 
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.hand_work.surface_points import sample_surface
 from texvent.scenes.staging.acts.holding import is_person, size_of
-from texvent.scenes.staging.acts.surface_points import sample_surface
 from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector, ahead
 
 _REACH_M = 0.27

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from texvent.scenes.description import Relation
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.climbing import climb_at
-from texvent.scenes.staging.acts.holding import is_person
-from texvent.scenes.staging.acts.working import (
+from texvent.scenes.staging.acts.hand_work.working import (
     SMALL_M,
     before_mouth,
     moved_with,
     shortened,
     work_at,
 )
+from texvent.scenes.staging.acts.holding import is_person
 
 
 def put_to_work(cast: Cast, relations: Sequence[Relation], every: Sequence[Relation]) -> None:

@@ -23,6 +23,7 @@ from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, load, 
 from texvent.scenes.staging.acts.cargo import take_along
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.crews import put_to_work
+from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
     HELD_SCALE,
@@ -41,7 +42,6 @@ from texvent.scenes.staging.acts.holding import (
 )
 from texvent.scenes.staging.acts.on_body import ON_BODY, put_on_body
 from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
-from texvent.scenes.staging.acts.working import WorkingAt
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _ORDER = (

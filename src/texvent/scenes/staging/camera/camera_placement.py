@@ -24,7 +24,7 @@ from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
 from texvent.scenes.staging.camera.view_angles import choose_angles
-from texvent.scenes.staging.environment import is_room
+from texvent.scenes.staging.surroundings.environment import is_room
 
 SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""

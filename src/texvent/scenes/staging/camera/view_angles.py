@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.environment import is_room
+from texvent.scenes.staging.surroundings.environment import is_room
 
 FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""

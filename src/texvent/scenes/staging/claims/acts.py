@@ -16,7 +16,7 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
-from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS, Phase, schedule
 from texvent.scenes.wording import describe_motion
 

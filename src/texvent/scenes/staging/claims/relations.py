@@ -17,9 +17,9 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.acts.climbing import ClimbingAt
+from texvent.scenes.staging.acts.hand_work.surface_points import sample_surface
+from texvent.scenes.staging.acts.hand_work.working import WorkingAt, tool_tip
 from texvent.scenes.staging.acts.holding import WORN
-from texvent.scenes.staging.acts.surface_points import sample_surface
-from texvent.scenes.staging.acts.working import WorkingAt, tool_tip
 from texvent.scenes.staging.claims.bodies import part_boxes
 from texvent.scenes.staging.claims.contact import (
     holds_for_all,

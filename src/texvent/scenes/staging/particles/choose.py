@@ -27,7 +27,7 @@ from texvent.scenes.staging.particles.light_shows import Lasers, Lightning, Stag
 from texvent.scenes.staging.particles.motion import Source
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.particles.window_drops import WindowDrops
-from texvent.scenes.staging.weather import WEATHERS
+from texvent.scenes.staging.surroundings.weather import WEATHERS
 
 OF_NOUNS = {"campfire": "fire", "fireplace": "fire", "torch": "fire", "volcano": "smoke",
             "sprinkler": "spray", "waterfall": "falling water"}  # fmt: skip

@@ -9,7 +9,6 @@ import numpy as np
 
 from texvent.scenes.models.lamps import Lamp
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array
-from texvent.scenes.staging.lamps import wave_at
 from texvent.scenes.staging.particles.motion import (
     GRAVITY,
     Lives,
@@ -19,6 +18,7 @@ from texvent.scenes.staging.particles.motion import (
     turbulence,
 )
 from texvent.scenes.staging.particles.shapes import PuffEffect, puff_rows
+from texvent.scenes.staging.surroundings.lamps import wave_at
 
 _FLAME = Lamp(1.0, wave="flame")
 _FLAME_HZ = 6.0

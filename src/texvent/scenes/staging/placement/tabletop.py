@@ -9,12 +9,13 @@ from texvent.scenes.description import Relation, SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.staging.environment import is_room
 from texvent.scenes.staging.placement.fitting import extent
+from texvent.scenes.staging.surroundings.environment import is_room
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
 _FAMILIES = (
-    "objects kitchen food", "objects kitchen tableware", "objects home electronics",
+    "objects kitchen food", "objects kitchen dishes", "objects kitchen tableware",
+    "objects home electronics",
     "objects home personal", "objects home small things", "objects household",
     "objects work tools", "objects play toys", "objects home screens",
     "objects kitchen appliances", "objects sport gear", "objects home lights",

@@ -22,10 +22,9 @@ from texvent.scenes.language.meaning.acts.fitting import (
 )
 from texvent.scenes.language.meaning.acts.hand_work import is_by_hand, is_of_own_part, work_on
 from texvent.scenes.language.meaning.acts.sequence import (
-    carry_on,
-    comes_next,
-    is_done_in,
+    add_motion,
     is_part_of_doer,
+    name_kind,
 )
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
@@ -140,7 +139,7 @@ class ActReader:
             is_able = (
                 bool(kinds) and can_do(noun, kinds[0]) and is_played(kinds[0], clause, self._draft)
             )
-            if is_able and self._add_motion(index, ObjectMotion(kinds[0]), clause):
+            if is_able and add_motion(self._draft, index, ObjectMotion(kinds[0]), clause):
                 is_act = kinds[0] in ANIMAL_ACTS
                 word.shown_as = shown_as(kinds[0], word.lemma) if is_act else kinds[0]
                 moved.append(index)
@@ -185,7 +184,7 @@ class ActReader:
             return []
         word.is_used = negation.is_used = True
         for index in subjects:
-            self._add_motion(index, STAND, clause)
+            add_motion(self._draft, index, STAND, clause)
         return subjects
 
     def _read_activity(
@@ -201,7 +200,7 @@ class ActReader:
         name, words, is_exact = found
         if not is_exact and (self._is_act(clause, objects) or is_of_own_part(name, objects)):
             return []
-        added = [self._add_motion(i, ObjectMotion(name), clause) for i in hands or people]
+        added = [add_motion(self._draft, i, ObjectMotion(name), clause) for i in hands or people]
         if not any(added):
             return []
         self.is_activity = is_exact
@@ -258,7 +257,7 @@ class ActReader:
     ) -> list[int]:
         """As in "hits a drum with a stick", "lifts a box": hands at what stays in its place."""
         motion = ObjectMotion(verb.base, pace=verb.pace)
-        movers = [index for index in subjects if self._add_motion(index, motion, clause)]
+        movers = [index for index in subjects if add_motion(self._draft, index, motion, clause)]
         if movers:
             clause.verb_word.is_used = self._draft.relate("work on", movers, targets[:1])
         return movers
@@ -310,7 +309,7 @@ class ActReader:
         goes = {phrase.preposition.text for phrase in clause.phrases} & _GOING
         if act in ("push", "pull") or (act == "carry" and goes):
             for index in subjects:
-                self._add_motion(index, ObjectMotion("move", pace=verb.pace), clause)
+                add_motion(self._draft, index, ObjectMotion("move", pace=verb.pace), clause)
         return subjects
 
     def _ride(
@@ -322,7 +321,7 @@ class ActReader:
             kind = "work"
         motion = ObjectMotion(kind, verb.direction, verb.pace)
         for index in targets:
-            self._add_motion(index, motion, clause)
+            add_motion(self._draft, index, motion, clause)
         for index in subjects:
             if not self._draft.objects[index].motions:
                 self._draft.objects[index].motions.append(ObjectMotion("sit"))
@@ -348,7 +347,7 @@ class ActReader:
                 continue
             self._set_off(index, verb, clause)
             motion = ObjectMotion(fitting.kind, verb.direction, verb.pace, end_pace=verb.end_pace)
-            if self._add_motion(index, self._fall_over(index, motion, clause), clause):
+            if add_motion(self._draft, index, self._fall_over(index, motion, clause), clause):
                 added.append(index)
                 if fitting is not verb and verb.relation != "follow":
                     word.shown_as = noun.motion if fitting.kind == "move" else fitting.kind
@@ -362,7 +361,7 @@ class ActReader:
         if verb.base not in _STOPS or item.motions or is_resting or noun.is_working:
             return
         if noun.motion != "stand":
-            item.motions.append(self._name_kind(index, ObjectMotion("move")))
+            item.motions.append(name_kind(self._draft, index, ObjectMotion("move")))
             clause.order = "after"
 
     def _fall_over(self, index: int, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
@@ -380,36 +379,6 @@ class ActReader:
             if relation.kind == "ride" and relation.subject == index:
                 return relation.targets[0]
         return index
-
-    def _add_motion(self, index: int, motion: ObjectMotion, clause: Clause) -> bool:
-        """Add a motion after those that the object has; False if it comes at the same time."""
-        item = self._draft.objects[index]
-        motions, order = item.motions, clause.order
-        if order == "same" and item.sentence < clause.sentence:
-            order = "after"
-        item.sentence = clause.sentence
-        motion = self._name_kind(index, motion)
-        if not motions:
-            motions.append(motion)
-        elif order == "same" and is_done_in(motions[-1].kind, motion.kind):
-            motions[-1] = motion
-        elif order == "same" and comes_next(clause) and motion.kind != motions[-1].kind:
-            motions.append(motion)
-        elif order == "after":
-            motions.append(carry_on(motions[-1], motion))
-        elif order == "before":
-            motions.insert(max(len(motions) - 1, 0), motion)
-        elif motions[-1].kind in ("sit", "stand", "lie") and motion.kind != motions[-1].kind:
-            return False
-        else:
-            return motions[-1].kind == motion.kind
-        return True
-
-    def _name_kind(self, index: int, motion: ObjectMotion) -> ObjectMotion:
-        if motion.kind != "move":
-            return motion
-        usual = self._draft.noun(index).motion
-        return replace(motion, kind=usual if usual != "stand" else "slide")
 
 
 _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})

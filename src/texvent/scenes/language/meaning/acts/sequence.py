@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import OWNERS, Referent
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
@@ -38,3 +39,36 @@ def carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:
     """What moves on keeps its direction."""
     keeps = motion.direction is None and before.is_moving and motion.kind == before.kind
     return replace(motion, direction=before.direction) if keeps else motion
+
+
+def add_motion(draft: Draft, index: int, motion: ObjectMotion, clause: Clause) -> bool:
+    """Add a motion after those that the object has; False if it comes at the same time."""
+    item = draft.objects[index]
+    motions, order = item.motions, clause.order
+    if order == "same" and item.sentence < clause.sentence:
+        order = "after"
+    item.sentence = clause.sentence
+    motion = name_kind(draft, index, motion)
+    if not motions:
+        motions.append(motion)
+    elif order == "same" and is_done_in(motions[-1].kind, motion.kind):
+        motions[-1] = motion
+    elif order == "same" and comes_next(clause) and motion.kind != motions[-1].kind:
+        motions.append(motion)
+    elif order == "after":
+        motions.append(carry_on(motions[-1], motion))
+    elif order == "before":
+        motions.insert(max(len(motions) - 1, 0), motion)
+    elif motions[-1].kind in ("sit", "stand", "lie") and motion.kind != motions[-1].kind:
+        return False
+    else:
+        return motions[-1].kind == motion.kind
+    return True
+
+
+def name_kind(draft: Draft, index: int, motion: ObjectMotion) -> ObjectMotion:
+    """What "moves" means for the object: a car drives."""
+    if motion.kind != "move":
+        return motion
+    usual = draft.noun(index).motion
+    return replace(motion, kind=usual if usual != "stand" else "slide")

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from texvent.scenes.scene import Colour
-from texvent.scenes.staging.built_places import BUILT_SCENERY
-from texvent.scenes.staging.scatter_rule import ScatterRule
-from texvent.scenes.staging.scatter_rule import along_walls as _along_walls
+from texvent.scenes.staging.surroundings.built_places import BUILT_SCENERY
+from texvent.scenes.staging.surroundings.scatter_rule import ScatterRule
+from texvent.scenes.staging.surroundings.scatter_rule import along_walls as _along_walls
 
 __all__ = ["BACKDROPS", "SCENERY", "ScatterRule"]
 

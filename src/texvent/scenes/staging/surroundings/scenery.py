@@ -17,8 +17,8 @@ from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.journey import TravelPlan
-from texvent.scenes.staging.road import RoadLine
-from texvent.scenes.staging.scenery_tables import ScatterRule
+from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.scenery_tables import ScatterRule
 from texvent.scenes.staging.trajectories.trajectory import BodyState
 
 

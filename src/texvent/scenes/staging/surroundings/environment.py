@@ -19,10 +19,10 @@ from texvent.scenes.scene import (
     Ground,
     Texture,
 )
-from texvent.scenes.staging.built_places import BUILT_GROUNDS
-from texvent.scenes.staging.ground_appearance import GroundAppearance, room
-from texvent.scenes.staging.lightning import STROKE_HZ, lightning_level
-from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.surroundings.built_places import BUILT_GROUNDS
+from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance, room
+from texvent.scenes.staging.surroundings.lightning import STROKE_HZ, lightning_level
+from texvent.scenes.staging.surroundings.road import RoadLine
 
 FLICKER_DEPTH = 0.8
 """Share of the light that a flicker takes away at its darkest."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.placement.lanes import FEWEST, find_lanes
-from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 

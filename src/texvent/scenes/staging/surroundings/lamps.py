@@ -17,7 +17,7 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.shapes import along
-from texvent.scenes.staging.scenery import SceneryItem
+from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
 WARM = (1.0, 0.72, 0.40)
 MAINS_HZ = 20.0

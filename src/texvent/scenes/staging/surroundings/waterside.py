@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from texvent.scenes.scene import Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
-from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.surroundings.road import RoadLine
 
 STRIPS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY, Ground.RIVER)
 """Grounds with a strip that scenery keeps off."""

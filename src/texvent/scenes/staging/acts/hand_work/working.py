@@ -21,9 +21,9 @@ from texvent.scenes.models.people.work.tools import TOOLS
 from texvent.scenes.models.people.work.verbs import HANDWORK, HandWork
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.enlarged import Enlarged
+from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged
+from texvent.scenes.staging.acts.hand_work.surface_points import sample_surface
 from texvent.scenes.staging.acts.holding import is_person, size_of
-from texvent.scenes.staging.acts.surface_points import sample_surface
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
     Stationary,

@@ -1,0 +1,1 @@
+"""Hands at work on a thing: where they touch it, and how large it is drawn."""

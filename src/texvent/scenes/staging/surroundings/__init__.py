@@ -1,0 +1,1 @@
+"""What is around the objects: place, ground, roads, scenery, weather, light."""
