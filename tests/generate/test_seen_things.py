@@ -12,9 +12,12 @@ from texvent.errors import InputError, TexventWarning
 from texvent.generate.landmarks import SKY, Landmark
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.generate.seen_things import find_evidence, image_points, look_for_things
+from texvent.generate.sights import Glimpse, Sight
 from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.evidence import report_on
+from texvent.scenes.models.materials import Material
 from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.shapes import rod
 from texvent.scenes.report import PromptReport
 from texvent.scenes.scene import Camera, Shape
 from texvent.scenes.staging import compose
@@ -131,6 +134,51 @@ def test_a_thing_that_is_hardly_seen_is_named_with_the_reason(discs, reported):
     scene = Discs(*discs)
     scene.class_names = {disc[0]: Discs.class_names[disc[0]] for disc in discs}
     assert look_for_things(scene, SIZE, 0.0).faults[1] == reported
+
+
+def test_what_flits_by_is_in_view_too_briefly():
+    told, out = Glimpse(200, 200, 0.3, 1.0), Glimpse(0, 0, 0.0, 0.0)
+    for count, reported in ((1, "in view too briefly"), (2, None)):
+        sight = Sight([*[told] * count, *[out] * (9 - count)])
+        assert sight.fault(4000, 90_000) == reported
+
+
+def test_a_string_counts_as_little_as_it_covers():
+    """A rod of 3 cm across that goes 12 m up, and a plate of 2 m at its end, above the image."""
+    scene = Discs((1, 0.0, 1.0, 10.0))
+    scene.class_names = {1: "plate"}
+    plain = scene.primitives
+
+    def flown(time_s):
+        at = np.array([0.0, 10.0, 4.6])
+        plate = ModelPart(
+            Shape.ELLIPSOID, np.column_stack([np.diag([1.0, 0.01, 1.0]), at]), (0.5, 0.5, 0.5)
+        )
+        parts = [plate, rod(Material((0.5, 0.5, 0.5)), (-8.0, 10.0, -4.4), tuple(at), 0.015)]
+        return assemble([PlacedModel(parts, np.eye(4)[:3], 1)])
+
+    scene.primitives = flown
+    assert look_for_things(scene, SIZE, 0.0).faults == {1: "cut off"}
+    scene.primitives = plain
+    assert look_for_things(scene, SIZE, 0.0).faults == {1: None}
+
+
+@pytest.mark.parametrize(
+    ("lowered", "reported"), [(0.0, None), (0.45, "head out of view"), (-0.3, None)]
+)
+def test_a_person_without_a_head_is_not_told(lowered, reported):
+    """The camera goes down by a share of the man's height."""
+    description = SceneDescription("a man", objects=(SceneObject("man"),))
+    scene = compose.compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
+    camera, height = scene.camera(0.0), scene.actors[0].model.height
+    place = camera.position + lowered * height * np.asarray(camera.rotation)[1]
+
+    class Moved(type(scene)):
+        def camera(self, time_s):
+            return replace(camera, position=np.asarray(place))
+
+    evidence = find_evidence(Moved(**vars(scene)), description, SIZE, 1.0)
+    assert evidence.faults[0] == [reported]
 
 
 def test_what_fills_a_few_pixels_of_a_coarse_sensor_is_too_small():

@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
+from texvent.generate.seen_words.people import judge_head
 from texvent.generate.seen_words.picture import Picture, View
 from texvent.generate.seen_words.things import judge_outline
 from texvent.generate.seen_words.verbs import judge_verbs
 from texvent.generate.seen_words.words import judge_words
+from texvent.generate.sights import Glimpse, Sight
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Evidence
 from texvent.scenes.models.lamps import LAMPS
@@ -36,16 +37,6 @@ NO_ROOM = "no room for it"
 """Why an object without a body is not shown."""
 MOST_POINTS = 4000
 """Image points that are looked at per instant."""
-LEAST_SIZE = 0.025
-"""Share of the picture's width or height below which a thing is a speck."""
-SPECKS = ((0.1, 0.005), (0.2, 0.003), (0.3, 0.002))
-"""Sizes of what is seen, and shares of the picture's points below which that is a speck."""
-LEAST_PIXELS = 12
-"""Pixels below which nothing can be told of a thing."""
-LEAST_SEEN = 0.45
-"""Share of a thing's silhouette of which less is hardly seen."""
-LARGE_AREA = 0.12
-"""Share of the picture's points from which on a thing is seen, however far it reaches beyond."""
 LEAST_MARK, LEAST_GROUND = 0.003, 0.02
 """Share of the picture's points that what a place is known by covers at least: things; water, a
 road or mountains."""
@@ -55,57 +46,6 @@ LEAST_MOTION_PX = 1.0
 """Way in the image, over the clip, below which a thing stands still."""
 _EXTRAS = {"conveyor belt": "parcels ride on the conveyor belt"}
 """Noun → what its model shows besides."""
-
-
-@dataclass
-class _Sight:
-    """The most that is seen of a thing at any instant."""
-
-    points: int = 0
-    alone: int = 0
-    """Points that would show it if nothing stood before it."""
-    extent: float = 0.0
-    """Of what lies in the image: share of the image's width or height, the greater one."""
-    unhidden: float = 0.0
-    """Share of what lies in the image that nothing hides."""
-    inside: float = 0.0
-    """Share of it that lies in the image, at the same instant."""
-    seen: float = 0.0
-    """Product of both, at the best instant."""
-    most_inside: float = 0.0
-    moved_px: float = 0.0
-    """Way of the part that goes furthest, in the image of a camera that stands still, pixels."""
-
-    def add(self, points: int, alone: int, extent: float, inside: float) -> None:
-        """Take an instant into account.
-
-        Args:
-            points: image points that show it.
-            alone: those that would if nothing stood before it.
-            extent: of its part in the image, as a share of the image's width or height.
-            inside: which share of it lies in the image.
-        """
-        unhidden = points / max(alone, 1)
-        self.points = max(self.points, points)
-        self.alone = max(self.alone, alone)
-        self.extent = max(self.extent, extent)
-        self.most_inside = max(self.most_inside, inside)
-        if unhidden * inside > self.seen:
-            self.seen, self.unhidden, self.inside = unhidden * inside, unhidden, inside
-
-    def fault(self, all_points: int, pixels: int) -> str | None:
-        """Why it is not shown, or None; of so many points and pixels of the image."""
-        share = self.points / all_points
-        if not self.points and self.most_inside < LEAST_SEEN:
-            return "out of view"
-        if not self.points:
-            return "hidden" if self.alone else "too small"
-        is_speck = any(self.extent < size and share < area for size, area in SPECKS)
-        if self.extent < LEAST_SIZE or is_speck or share * pixels < LEAST_PIXELS:
-            return "too small"
-        if self.seen < LEAST_SEEN and share < LARGE_AREA:
-            return "mostly hidden" if self.unhidden < self.inside else "cut off"
-        return None
 
 
 class Findings(NamedTuple):
@@ -154,7 +94,11 @@ def find_evidence(
                 copies[index] = copies[index] or whole
     picture = Picture(scene, size, image_points(size), found.views)
     words, qualities = judge_words(picture, description)
-    faults = {one: fault or judge_outline(picture, one) for one, fault in found.faults.items()}
+    bodies = {actor.instance: actor for actor in scene.actors}
+    faults = {
+        one: fault or judge_outline(picture, one) or judge_head(picture, bodies.get(one))
+        for one, fault in found.faults.items()
+    }
     return Evidence(
         scene.unmet,
         {index: [faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},
@@ -203,7 +147,7 @@ def look_for_things(
     Returns:
         Why things and places are not shown, and what does not move.
     """
-    sights = {one: _Sight() for one in scene.class_names}
+    sights = {one: Sight() for one in scene.class_names}
     marks: Counter[str] = Counter()
     points = image_points(size)
     views: list[View] = []
@@ -240,7 +184,7 @@ def _look(
     time_s: float,
     size: SensorSize,
     points: Float64Array,
-    sights: Mapping[int, _Sight],
+    sights: Mapping[int, Sight],
 ) -> View:
     """Notes what is seen of each thing at an instant."""
     world, shapes = world_and_shapes(scene, time_s, size)
@@ -254,7 +198,8 @@ def _look(
     count_unoccluded(world, owner, points, alone)
     places = _place_in_frame(view, count)
     for one, sight in sights.items():
-        sight.add(int(seen[one]), int(alone[one]), *(float(v) for v in places[one]))
+        extent, inside = (float(value) for value in places[one])
+        sight.glimpses.append(Glimpse(int(seen[one]), int(alone[one]), extent, inside))
     return view
 
 
@@ -276,7 +221,7 @@ def _count_marks(
     return marks
 
 
-def _follow(before: View, after: View, sights: Mapping[int, _Sight]) -> None:
+def _follow(before: View, after: View, sights: Mapping[int, Sight]) -> None:
     """Add the way of each thing's parts that are seen, for a camera that stays where it was.
 
     A mesh that deforms, a lamp and a surface that change are motion too.
@@ -314,8 +259,8 @@ def _follow(before: View, after: View, sights: Mapping[int, _Sight]) -> None:
 def _place_in_frame(view: View, count: int) -> Float64Array:
     """[count, 2] of each instance: its extent within the image, and which share lies there.
 
-    From the boxes around its shapes: the extent is a share of the image's width or height, the
-    greater one.
+    From the boxes around its shapes, which count by the area of their silhouettes: the extent is a
+    share of the image's width or height, the greater one.
     """
     shapes, owner, camera, size = view.shapes, view.owner, view.camera, view.size
     axes = np.asarray(camera.rotation)
@@ -331,15 +276,29 @@ def _place_in_frame(view: View, count: int) -> Float64Array:
     edge = np.array([size.width, size.height], dtype=np.float64)
     inner_low, inner_high = np.clip(low, 0.0, edge), np.clip(high, 0.0, edge)
     whole, inner = np.prod(high - low, axis=1), np.prod(inner_high - inner_low, axis=1)
+    share = inner / np.maximum(whole, 1e-12)
+    silhouette = _project_areas(linear[known], middle[known])
     one = owner[known]
     is_in = inner > 0.0
     first, last = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
     np.minimum.at(first, one[is_in], inner_low[is_in])
     np.maximum.at(last, one[is_in], inner_high[is_in])
     found[:, 0] = np.maximum((last - first) / edge, 0.0).max(axis=1)
-    areas = np.bincount(one, whole, count)
-    found[:, 1] = np.bincount(one, inner, count) / np.where(areas > 0.0, areas, 1.0)
+    areas = np.bincount(one, silhouette, count)
+    found[:, 1] = np.bincount(one, share * silhouette, count) / np.where(areas > 0.0, areas, 1.0)
     return found
+
+
+def _project_areas(linear: Float64Array, middle: Float64Array) -> Float64Array:
+    """[k] areas that boxes have in the image, about: a long string has next to none.
+
+    Args:
+        linear: [k, 3, 3] half axes of the boxes along the camera's axes, in columns, m.
+        middle: [k, 3] their middles, m.
+    """
+    x, y = linear[:, 0] / middle[:, 2:], linear[:, 1] / middle[:, 2:]
+    pairs = [(0, 1), (0, 2), (1, 2)]
+    return np.asarray(sum(np.abs(x[:, a] * y[:, b] - x[:, b] * y[:, a]) for a, b in pairs))
 
 
 def image_points(size: SensorSize) -> Float64Array:
