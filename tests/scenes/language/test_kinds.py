@@ -90,6 +90,18 @@ def test_another_thing_is_named_as_shown_by_its_noun(word: str) -> None:
     assert substituted == {word: nouns[0]}
 
 
+@pytest.mark.parametrize(
+    "word",
+    ["windowsill", "bath mat", "garlic", "coffee", "marker", "crowbar", "gripper", "bus driver",
+     "flight attendant", "heavy bag", "ticket gate", "pipette", "apartment building", "ski boots",
+     "moving walkway", "mural", "sponge", "shampoo", "rice", "honey", "trainer", "florist"],
+)  # fmt: skip
+def test_an_everyday_word_is_shown_as_what_it_is_like(word: str) -> None:
+    nouns, substituted, lost = read(f"the {word}")
+    assert substituted == {word: nouns[0]}
+    assert lost == ()
+
+
 def test_what_misleads_is_neither_noun_nor_kind() -> None:
     kinds = {word for words in KINDS.values() for word in words}
     assert not set(OPAQUE_COMPOUNDS) & (set(WORDS) | kinds)

@@ -9,13 +9,24 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from texvent.scenes.models.kinds.animals import ANIMAL_KINDS
+from texvent.scenes.models.kinds.indoors import INDOOR_KINDS
+from texvent.scenes.models.kinds.outdoors import OUTDOOR_KINDS
 from texvent.scenes.models.kinds.people import PEOPLE_KINDS
 from texvent.scenes.models.kinds.plants import FOOD_AND_PLANT_KINDS
 from texvent.scenes.models.kinds.things import THING_KINDS
+from texvent.scenes.models.kinds.work import WORK_KINDS
 
 __all__ = ["KINDS", "find_kind"]
 
-_TABLES = (PEOPLE_KINDS, ANIMAL_KINDS, FOOD_AND_PLANT_KINDS, THING_KINDS)
+_TABLES = (
+    PEOPLE_KINDS,
+    ANIMAL_KINDS,
+    FOOD_AND_PLANT_KINDS,
+    THING_KINDS,
+    INDOOR_KINDS,
+    OUTDOOR_KINDS,
+    WORK_KINDS,
+)
 
 
 def _list_words(text: str) -> list[str]:

@@ -31,7 +31,9 @@ ANIMAL_KINDS: dict[str, str] = {
         dog, affenpinscher, basenji, leonberg, newfoundland dog, great pyrenees,
         samoyed, pomeranian, chow, chow chow, keeshond, brabancon griffon, pembroke,
         miniature poodle, mexican hairless, shiba inu, akita, service dog, guide dog,
-        stray dog, lapdog, dingo, dhole, african hunting dog""",
+        stray dog, lapdog, dingo, dhole, african hunting dog, pug dog, police hound,
+        hunting dog, sled hound, street dog, greyhound racer, collie mix, spitz,
+        cockapoo, labradoodle, hound dog, puggle, doodle, boxer puppy""",
     "cat": """
         persian cat, egyptian cat, maine coon, british shorthair, house cat, tomcat,
         stray cat, calico cat, sphynx, bengal cat, pussycat""",
@@ -42,11 +44,14 @@ ANIMAL_KINDS: dict[str, str] = {
     "lion": "african lion, cougar, puma, mountain lion",
     "tiger": "tigress, siberian tiger, bengal tiger",
     "cheetah": "snow leopard, lynx, bobcat, serval",
-    "bear": "black bear, american black bear, sloth bear, grizzly bear, grizzly",
+    "bear": """
+        black bear, american black bear, sloth bear, grizzly bear, grizzly, spectacled
+        bear, kodiak, anteater, wombat""",
     "polar bear": "ice bear",
     "horse": """
         racehorse, mustang, sorrel, thoroughbred, arabian horse, draft horse, workhorse,
-        wild horse""",
+        wild horse, racing horse, white horse, carthorse, warhorse, palomino, appaloosa,
+        clydesdale""",
     "donkey": "mule, burro, ass",
     "cow": "heifer, water buffalo, dairy cow, yak, holstein, longhorn",
     "sheep": "ram, bighorn, mouflon, bighorn sheep",
@@ -54,7 +59,8 @@ ANIMAL_KINDS: dict[str, str] = {
     "pig": "hog, boar, wild boar, warthog, sow, swine, hogget, tapir",
     "deer": """
         doe, buck, elk, moose, antelope, gazelle, impala, hartebeest, white tailed deer,
-        roe deer, gnu, wildebeest""",
+        roe deer, gnu, wildebeest, stag deer, sika deer, okapi, oryx, red deer,
+        springbok, eland, muskox, kudu""",
     "camel": "arabian camel, bactrian camel, dromedary, llama, alpaca",
     "elephant": "indian elephant, african elephant, tusker, elephant calf, mammoth",
     "rabbit": "hare, wood rabbit, angora, cottontail, jackrabbit",
@@ -92,7 +98,9 @@ ANIMAL_KINDS: dict[str, str] = {
         bunting, jay, magpie, chickadee, water ouzel, titmouse, tit, thrush, starling,
         wren, lark, nightingale, cuckoo, coucal, bee eater, jacamar, woodpecker,
         songbird, warbler, oriole, cardinal bird, passerine, swift, partridge, quail,
-        house sparrow, wagtail, mockingbird, jackdaw""",
+        house sparrow, wagtail, mockingbird, jackdaw, hoopoe, tern bird, skylark,
+        waxwing, nuthatch, bullfinch, weaver bird, plover, sandpiper, roadrunner,
+        lapwing, sand martin, oriole bird""",
     "parrot": """
         macaw, cockatoo, sulphur crested cockatoo, lorikeet, african grey, parakeet,
         budgie, budgerigar, toucan, hornbill""",
@@ -118,8 +126,9 @@ ANIMAL_KINDS: dict[str, str] = {
         goldfish, carp, koi, tench, salmon, coho, tuna, trout, cod, herring, sardine,
         bass, perch, clownfish, anemone fish, rock beauty, angelfish, barracouta,
         barracuda, sturgeon, mackerel, minnow, guppy, tropical fish, reef fish, piranha,
-        catfish, snapper, mullet, betta, siamese fighting fish, gar, stingray, manta ray,
-        pufferfish, blowfish, swordfish""",
+        catfish, snapper, mullet, betta, siamese fighting fish, gar, stingray, manta
+        ray, pufferfish, blowfish, swordfish, tadpole, piranha fish, sunfish, flounder,
+        anglerfish, lionfish, aquarium fish""",
     "shark": """
         great white shark, white shark, tiger shark, hammerhead, hammerhead shark, reef
         shark, bull shark, whale shark, nurse shark, great white""",
@@ -140,7 +149,8 @@ ANIMAL_KINDS: dict[str, str] = {
     "beetle": """
         ground beetle, tiger beetle, long horned beetle, leaf beetle, dung beetle,
         rhinoceros beetle, weevil, stag beetle, scarab, cockroach, bug, june bug,
-        grasshopper, locust""",
+        grasshopper, locust, cricket, praying mantis, mantis, stick insect, water
+        strider""",
     "ladybug": "ladybird, lady beetle, ladybird beetle",
     "housefly": "fly, fruit fly, horsefly, bluebottle",
     "bee": "wasp, hornet, honey bee, yellowjacket, bumblebee",
@@ -149,8 +159,11 @@ ANIMAL_KINDS: dict[str, str] = {
         butterfly, swallowtail""",
     "dragonfly": "damselfly, darner",
     "worm": "flatworm, nematode, maggot, larva",
-    "snail": "garden snail, sea snail, land snail",
-    "fruit bat": "bat, flying fox, vampire bat",
+    "snail": "garden snail, sea snail, land snail, slug, sea slug",
+    "fruit bat": "bat, flying fox, vampire bat, pterodactyl, pteranodon",
     "sauropod": "brontosaurus, diplodocus, brachiosaurus",
+    "rhino": "triceratops",
+    "rat": "platypus, shrew, mole, opossum, possum",
+    "dinosaur": "allosaur, godzilla, spinosaurus, monster",
 }
 """Noun of the models → kinds of it, separated by commas."""

@@ -12,14 +12,63 @@ PEOPLE_KINDS: dict[str, str] = {
         librarian, secretary, employee, manager, boss, detective, spy, robber, zombie,
         human being, figure, passer by, bystander, stranger, adult, individual, someone,
         volleyball player, lamplighter, apprentice, hurdler, rower, paddler, rider,
-        friend, couple member, toreador, bullfighter""",
-    "woman": "actress, housewife, businesswoman, bridesmaid, cheerleader, stewardess",
-    "man": "prince",
-    "child": "twin, youth",
-    "girl": "teenage girl",
+        friend, couple member, toreador, bullfighter, programmer, architect, florist,
+        hairdresser, bus driver, taxi driver, truck driver, train driver, flight
+        attendant, reporter, journalist, writer, author, dj, karate fighter, martial
+        artist, trainer, personal trainer, instructor, coach person, horseback rider,
+        skydiver, parachutist, bodybuilder, weightlifter, yoga instructor, yogi, beggar,
+        homeless man, homeless person, busker, stuntman, scout, kayaker, breakdancer,
+        break dancer, mime, beekeeper, tightrope walker, makeup artist, hotel guest,
+        receptionist, clerk, host, presenter, speaker at a lectern, scholar, poet,
+        politician, president, mayor, announcer, volunteer, competitor, contestant,
+        opponent, teammate, winner, champion, rival, owner, assistant, intern,
+        inspector, surveyor, craftsman, artisan, cobbler, shoemaker, watchmaker,
+        jeweller, jeweler, locksmith, goldsmith, roofing worker, window cleaner, window
+        washer, chimney sweep, truck loader, dockworker, docker, porter, bellhop,
+        doorman, bouncer, crossing guard, train conductor, ticket inspector, attendant,
+        colleague, coworker, roommate, tenant, resident, villager, citizen, immigrant,
+        refugee, prisoner, inmate, criminal, burglar, hostage, witness, victim, suspect,
+        assassin, sniper, gunman, gangster, warrior, hero, heroine, villain, vampire,
+        elf, dwarf, hobbit, goblin, ghost hunter, influencer, blogger, gamer, video
+        gamer, rapper, rock singer, backup dancer, hip hop dancer, ballroom dancer,
+        tango dancer, tap dancer, belly dancer, trapeze artist, fire breather, fire
+        eater, contortionist, puppeteer, hypnotist, fortune teller, caricaturist, tattoo
+        artist, illustrator, designer, fashion model, seamstress, weaver, knitter,
+        calligrapher, monk in robes, pilgrim, nomad, hermit, explorer, adventurer,
+        camper person, birdwatcher, forager, beachgoer, sunbather, bather, partygoer,
+        concertgoer, clubber, moviegoer, shopper, diner guest, patron, drinker, eater,
+        smoker, sleeper, caregiver, carer, babysitter, nanny, midwife, therapist,
+        physiotherapist, psychologist, optician, pharmacist assistant, radiologist,
+        anesthetist, orderly, caretaker, groundskeeper, zookeeper, zoo keeper, animal
+        trainer, dog walker, dog trainer, horse trainer, stable boy, ranch hand,
+        milkmaid, beekeeper in a veil, winemaker, brewer, cheesemaker, fishmonger,
+        greengrocer, grocer, confectioner, chocolatier, pastry cook, line cook,
+        dishwasher person, caterer, performer""",
+    "woman": """
+        actress, housewife, businesswoman, bridesmaid, cheerleader, stewardess, ballroom
+        lady, nurse midwife, saleswoman, female runner, pregnant woman, hostess,
+        business woman, policewoman in plain clothes, goddess, landlady, grandaunt,
+        niece, girlfriend, schoolmistress, mermaid""",
+    "man": """
+        prince, boyfriend, businessperson, nephew, landlord, grandson, bearded man, bald
+        man, middle aged man, mister, lad, chap, cousin""",
+    "child": "twin, youth, kindergartner, kid in a costume, preschooler, orphan, boy scout",
+    "girl": "teenage girl, girl scout, girl in a dress, mermaid girl",
     "worker": """
         lineman, road worker, roofer, bricklayer, ground crew member, warehouse worker,
-        factory worker, labourer, laborer""",
+        factory worker, labourer, laborer, demolition worker, dock worker, sewage
+        worker, rail worker, railway worker, steelworker, construction laborer, mason,
+        painter and decorator, plasterer, tiler, scaffolder, crane operator, forklift
+        driver, forklift operator, machine operator, excavator operator, machinist,
+        assembler, foreman, site manager, farmhand, farm worker, cleaning worker, oil
+        worker, power line worker, garbage collector, garbage man""",
+    "knight": "viking, gladiator, crusader, roman soldier, spartan, warrior in armor, swordsman",
+    "teenager": "teenage boy, highschooler, high schooler, youngster in a hoodie",
+    "angel": "fairy, cupid, tooth fairy",
+    "soldier": """
+        paratrooper, marine, guardsman, sentry, sniper in camouflage, commando, swat
+        officer, hunter in camouflage""",
+    "witch": "sorceress, enchantress",
 }
 """Noun of the models → kinds of it, separated by commas."""
 

@@ -25,41 +25,87 @@ FOOD_AND_PLANT_KINDS: dict[str, str] = {
     "grass tuft": "wheat, weed, barley, rice plant",
     "cactus": "prickly pear, saguaro, succulent, aloe",
     "potted plant": """
-        monstera, ficus, rubber plant, aloe vera, herb, basil plant, bonsai tree, plant""",
+        monstera, ficus, rubber plant, aloe vera, herb, basil plant, bonsai tree, plant,
+        basil, mint, rosemary, thyme, parsley, venus flytrap, snake plant, spider plant,
+        cilantro""",
     "mushroom": "agaric, fly agaric, bolete, fungus, champignon, chanterelle, shiitake",
-    "apple": "granny smith, crabapple, crab apple, quince, plum",
+    "apple": "granny smith, crabapple, crab apple, quince, plum, pomegranate, guava",
     "orange": "tangerine, clementine, mandarin, grapefruit, citrus, kumquat",
-    "lemon": "lime fruit, citron",
-    "watermelon": "melon, honeydew",
+    "lemon": "lime fruit, citron, lime",
+    "watermelon": "melon, honeydew, papaya, cantaloupe",
     "strawberry": "raspberry",
     "cherry": "cranberry",
     "banana": "plantain",
     "broccoli": "cauliflower",
     "tomato": "cherry tomato, persimmon",
-    "cucumber": "zucchini, courgette, gherkin, pickle, eggplant, aubergine",
+    "cucumber": """
+        zucchini, courgette, gherkin, pickle, eggplant, aubergine, okra, green bean, pea
+        pod""",
     "pepper": "chili, chilli, chili pepper, jalapeno, paprika, capsicum",
     "carrot": "parsnip",
-    "potato": "sweet potato, yam",
+    "potato": """
+        sweet potato, yam, ginger, kiwi, kiwi fruit, truffle, ginger root, peanut,
+        almond, pistachio, cashew""",
     "pumpkin": "squash, gourd, halloween pumpkin",
-    "bread": "baguette, french loaf, toast, roll of bread, sourdough, bread roll, bun",
+    "bread": """
+        baguette, french loaf, toast, roll of bread, sourdough, bread roll, bun,
+        breadstick, slice of bread, ciabatta, garlic bread, tortilla, pita, naan,
+        brioche""",
     "donut": "bagel, pretzel",
-    "cookie": "biscuit, cracker",
+    "cookie": """
+        biscuit, cracker, brownie, snack, gingerbread man, gingerbread, shortbread,
+        wafer, rice cracker""",
     "cupcake": "muffin",
-    "cake": "pie, tart, cheesecake, chocolate cake, wedding cake, gateau, dessert",
-    "sandwich": "burger sandwich, toastie, panini, burrito, taco, kebab",
-    "hamburger": "veggie burger",
-    "sausage": "frankfurter, bratwurst, salami",
-    "soup": "consomme, stew, broth, chowder, noodle soup",
-    "salad": "head cabbage, coleslaw, spinach",
-    "ice cream": "gelato, sorbet, sundae, frozen yogurt",
-    "lollipop": "candy, lolly",
-    "cheese": "cheddar, butter",
+    "cake": """
+        pie, tart, cheesecake, chocolate cake, wedding cake, gateau, dessert, sponge
+        cake, apple pie, pumpkin pie, cherry pie, tiramisu, cream cake, panettone,
+        fruitcake""",
+    "sandwich": """
+        burger sandwich, toastie, panini, burrito, taco, kebab, sub sandwich,
+        quesadilla, gyro, shawarma, ham sandwich, grilled cheese, calzone""",
+    "hamburger": "veggie burger, macaron, slider",
+    "sausage": """
+        frankfurter, bratwurst, salami, spring roll, egg roll, meatball, corn dog,
+        chicken nugget, croquette, falafel, sausage roll""",
+    "soup": """
+        consomme, stew, broth, chowder, noodle soup, curry, sauce, gravy, dip, hummus,
+        guacamole, goulash, borscht, tomato sauce, pasta sauce""",
+    "salad": "head cabbage, coleslaw, spinach, fruit salad, caesar salad, poke bowl",
+    "ice cream": "gelato, sorbet, sundae, frozen yogurt, waffle cone, soft serve",
+    "lollipop": "candy, lolly, popsicle, ice lolly, caramel apple, toffee apple, ice pop",
+    "cheese": "cheddar, butter, tofu, feta, mozzarella, brie, fudge, margarine",
     "corn": "maize, ear of corn",
     "egg": "easter egg, boiled egg",
-    "wine glass": "champagne glass, champagne flute, goblet, chalice, red wine",
+    "wine glass": """
+        champagne glass, champagne flute, goblet, chalice, red wine, wine, white wine,
+        sherry, prosecco""",
     "beer glass": "beer, ale, lager, eggnog, cider",
-    "glass": "juice, orange juice, milk, lemonade, shot glass",
-    "mug": "latte, cappuccino, hot chocolate, cocoa",
+    "glass": """
+        juice, orange juice, milk, lemonade, shot glass, smoothie, milkshake, cola, iced
+        tea, iced coffee, soft drink, bubble tea, drink, sparkling water, protein shake,
+        fruit juice, apple juice""",
+    "mug": """
+        latte, cappuccino, hot chocolate, cocoa, coffee, flat white, macchiato, hot
+        cocoa, americano, matcha""",
     "cup": "espresso, tea",
+    "grape": "blueberry, blackberry, olive, currant, berry, raisin",
+    "peach": "lychee, passion fruit",
+    "onion": """
+        garlic, fig, radish, beetroot, beet, turnip, garlic clove, shallot, red onion,
+        fennel""",
+    "cabbage": """
+        kale, celery, leek, asparagus, bok choy, chard, artichoke, brussels sprout, head
+        of lettuce""",
+    "fried egg": "omelette, omelet, scrambled egg, breakfast, poached egg",
+    "steak": """
+        ham, pork chop, roast, ribs, barbecue ribs, lamb chop, roast beef, schnitzel,
+        fillet, grilled chicken, grilled fish, raw meat, dinner, lunch""",
+    "pizza": "pizza slice, slice of pizza, flatbread, quiche, focaccia",
+    "noodles": "lasagna, lasagne, macaroni, udon, pad thai, ravioli, fettuccine",
+    "jar": """
+        honey, jam, mayonnaise, peanut butter, honey jar, pickle jar, spice jar,
+        marmalade, jelly, glass jar, cookie jar""",
+    "sushi": "nigiri, maki, dim sum, sashimi, dumpling, gyoza, wonton, pierogi",
+    "pancake": "flapjack, blini",
 }
 """Noun of the models → kinds of it, separated by commas."""
