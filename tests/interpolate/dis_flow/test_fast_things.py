@@ -5,12 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from texvent.bench.oracle.camera import camera_level
+from texvent.bench.oracle.scenes import panning_texture
+from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.interpolate.dis_flow import flow_cpu
 from texvent.interpolate.dis_flow.definitions import make_pyramid
 from texvent.interpolate.dis_flow.estimator import DisFlow
-from texvent.interpolate.dis_flow.fast_things import follow_fast_things, surroundings
-from texvent.interpolate.dis_flow.missed_shift import correlate_missed
+from texvent.interpolate.dis_flow.fast_things import covered, follow_fast_things, surroundings
+from texvent.interpolate.dis_flow.missed_shift import correlate_missed, wide_detail
 from texvent.interpolate.flow import FlowInterpolator
+from texvent.sensor import SensorSize
 from texvent.video import Frame
 
 WIDTH, HEIGHT = 192, 144
@@ -118,12 +122,44 @@ def test_the_shift_of_missed_details_is_found_and_one_that_repeats_has_a_rival()
     rng = np.random.default_rng(3)
     image = np.zeros((60, 90))
     image[20:32, 30:42] = rng.uniform(0, 200, (12, 12))
+    image -= image.mean()
     missed = (np.ones(image.shape, bool),) * 2
     moved = np.roll(image, (5, -9), (0, 1))
     (shift,) = correlate_missed((image, moved), missed)
     np.testing.assert_allclose(shift, (-9, 5), atol=0.5)
     assert correlate_missed((image, image), missed) == []  # it rests
     assert correlate_missed((image, 0 * image), missed) == []
-    stripes = np.tile(100 + 90 * np.sin(np.arange(300) * np.pi / 5), (60, 1))
+    stripes = np.tile(90 * np.sin(np.arange(300) * np.pi / 5), (60, 1))
     missed = (np.ones(stripes.shape, bool),) * 2
     assert len(correlate_missed((stripes, np.roll(stripes, 5, 1)), missed)) == 2
+
+
+def test_what_is_covered_lies_where_the_other_image_shows_something_confirmed():
+    flow = np.zeros((2, 1, 5), np.float32)
+    flow[0, 0] = [2.0, 0.0, 0.0, 1.4, -9.0]
+    is_open = np.array([[True, False, True, True, True]])
+    there = np.array([[True, True, False, False, False]])
+    # 0 leads to 2, which is confirmed; 1 is confirmed itself; 3 leads to 4; 4 leads outside.
+    np.testing.assert_array_equal(covered(flow, is_open, there), [[True, False, True, True, False]])
+
+
+def test_wide_detail_is_the_difference_from_the_mean_around():
+    image = np.arange(8.0 * 12).reshape(8, 12) ** 2
+    padded = np.pad(image, 1, mode="edge")  # 12 // 4 = 3 px wide
+    around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3)).mean(axis=(2, 3))
+    np.testing.assert_allclose(wide_detail(image), image - around)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 4, 8])
+def test_a_disc_of_one_colour_before_a_moving_texture_is_followed_both_ways(seed):
+    """What it covers is unexplained in either direction: no reason to refuse its motion."""
+    size = SensorSize(96, 72)
+    y, x = np.mgrid[:72, :96]
+    frames = []
+    for seconds, centre in ((0.0, 40), (1 / 24, 57)):
+        image = panning_texture(ValueNoise(seed), size, seconds, (60.0, 10.0))
+        image[np.hypot(x - centre, y - 24) < 6] = 0.9
+        frames.append(camera_level(image).astype(np.float32))
+    forward, backward = DisFlow().both_ways(*frames)
+    np.testing.assert_allclose(np.median(forward[22:27, 38:43], axis=(0, 1)), (17, 0), atol=0.5)
+    np.testing.assert_allclose(np.median(backward[22:27, 55:60], axis=(0, 1)), (-17, 0), atol=0.5)
