@@ -99,7 +99,7 @@ def test_an_empty_prompt_is_refused(prompt: str) -> None:
 def test_a_prompt_becomes_a_moving_video_that_says_what_was_understood() -> None:
     generator = ProceduralGenerator(ProceduralConfig(duration=1.0), seed=3, size=SMALL)
     with pytest.warns(TexventWarning, match="not understood: xylophonically"):
-        video = generator.generate("a red car drives left past two trees, xylophonically")
+        video = generator.generate("a red car drives left past two trees. Xylophonically.")
     assert json.loads(json.dumps(video.metadata)) == video.metadata
     assert video.metadata["generator"] == "procedural"
     assert video.metadata["seed"] == 3

@@ -57,6 +57,8 @@ class Findings(NamedTuple):
     """Instances that do not move in the image."""
     places: dict[str, str]
     """Words of places and of the sky that are not shown → why."""
+    scenery: tuple[str, ...] = ()
+    """Nouns of the scenery that is in view, the largest first."""
     views: tuple[View, ...] = ()
     """What the camera sees at each of `INSTANTS`."""
 
@@ -105,6 +107,7 @@ def find_evidence(
         frozenset(index for index, own in copies.items() if found.still.issuperset(own)),
         {**judge_verbs(picture, description), **words, **found.places},
         qualities,
+        found.scenery,
         tuple(dict.fromkeys([*scene.notes, *_list_extras(scene, description, faults)])),
     )
 
@@ -165,6 +168,11 @@ def look_for_things(
             for landmark in landmarks
             if all(marks[mark] < _least(mark) * len(points) for mark in landmark.marks)
         },
+        tuple(
+            noun
+            for noun, count in marks.most_common()
+            if noun and noun in scenery and count >= LEAST_MARK * len(points)
+        ),
         tuple(views),
     )
 

@@ -234,6 +234,8 @@ class Claim:
     """Kind of the camera's move that it asks for."""
     value: str = ""
     """What it means, where it is a word of the scene: "fog" for "misty"."""
+    lost: tuple[str, ...] = ()
+    """Words that it goes with and that are not understood: "thumb" for "runs his thumb along"."""
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,8 @@ MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 STILL = "no motion to be seen"
 _AT_REST = frozenset({"stand", "sit", "lie"})
+MOST_REASONS = 2
+"""Lost words that are named for a word in doubt."""
 _NAMELESS = frozenset({"relation", "motion"})
 _AMID = frozenset({"surround", "among"})
 """Relations that hold whether or not all of the targets are in view."""
@@ -47,6 +49,8 @@ class Evidence:
     """Words of the scene that are not seen, of its place, light, weather ... → why."""
     qualities: Mapping[tuple[str, int], str] = field(default_factory=dict)
     """Aspect of a claim, such as "colour", and the object → why it is not seen."""
+    scenery: Sequence[str] = ()
+    """Nouns of the scenery that is in view."""
     notes: Sequence[str] = ()
     """What is seen that the prompt does not say, as sentences."""
 
@@ -72,14 +76,29 @@ def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport
             lost[claim.word] = None if is_named else reason or lost.get(claim.word)
     missing |= {f"{word} ({reason})": None for word, reason in lost.items() if reason}
     gone = named | set(lost)
+    doubts = _find_doubts(description, gone)
     plain = description.report()
+    around = [f"around: {', '.join(pluralise(one) for one in evidence.scenery)}"]
     return replace(
         plain,
-        shown=tuple(word for word in plain.shown if word not in gone),
+        scene=(*plain.scene, *(around if evidence.scenery else ())),
+        shown=tuple(word for word in plain.shown if word not in gone | set(doubts)),
         substituted=tuple(one for one in plain.substituted if one.said not in gone),
+        in_doubt=tuple(
+            f"{word} (without {', '.join(why[:MOST_REASONS])})" for word, why in doubts.items()
+        ),
         not_shown=tuple(missing),
         notes=(*plain.notes, *evidence.notes),
     )
+
+
+def _find_doubts(description: SceneDescription, gone: set[str]) -> dict[str, tuple[str, ...]]:
+    """Words, but those `gone`, that may mean something else, and the lost words they go with."""
+    doubts: dict[str, tuple[str, ...]] = {}
+    for claim in description.claims:
+        if claim.lost and claim.word not in gone:
+            doubts[claim.word] = (*doubts.get(claim.word, ()), *claim.lost)
+    return {word: tuple(dict.fromkeys(lost)) for word, lost in doubts.items()}
 
 
 def _name_unseen(description: SceneDescription, evidence: Evidence) -> list[str]:

@@ -53,6 +53,8 @@ class PromptReport:
     """Words that the scene shows, in order, each once."""
     substituted: tuple[Substitution, ...] = ()
     """Words that are shown as something else."""
+    in_doubt: tuple[str, ...] = ()
+    """Words that the scene shows but that may mean something else: what they go with is lost."""
     not_shown: tuple[str, ...] = ()
     """Words that are understood but that the scene could not show, such as "under the table"."""
     not_understood: tuple[str, ...] = ()
@@ -62,7 +64,10 @@ class PromptReport:
 
     @property
     def is_faithful(self) -> bool:
-        """Whether every word is shown as it says: what `strict` asks for."""
+        """Whether every word is shown as it says: what `strict` asks for.
+
+        No word is in doubt unless another one is lost.
+        """
         return not (self.substituted or self.not_shown or self.not_understood)
 
     def faults(self, most: int | None = None) -> list[str]:
@@ -75,6 +80,7 @@ class PromptReport:
             "shown as something else": [str(one) for one in self.substituted],
             "not shown": self.not_shown,
             "not understood": self.not_understood,
+            "in doubt": self.in_doubt,
         }
         return [
             f"{kind}: {', '.join(words) if most is None else few(words, most)}"
@@ -101,6 +107,7 @@ class PromptReport:
             "scene": list(self.scene),
             "shown": list(self.shown),
             "substituted": [{"said": one.said, "shown": one.shown} for one in self.substituted],
+            "in_doubt": list(self.in_doubt),
             "not_shown": list(self.not_shown),
             "not_understood": list(self.not_understood),
             "notes": list(self.notes),
@@ -115,6 +122,7 @@ class PromptReport:
             scene=tuple(facts.get("scene", ())),
             shown=tuple(facts.get("shown", ())),
             substituted=tuple(Substitution(one["said"], one["shown"]) for one in pairs),
+            in_doubt=tuple(facts.get("in_doubt", ())),
             not_shown=tuple(facts.get("not_shown", ())),
             not_understood=tuple(facts.get("not_understood", ())),
             notes=tuple(facts.get("notes", ())),
@@ -161,6 +169,7 @@ class ReportTally:
         self._count("not understood", report.not_understood)
         self._count("not shown", report.not_shown)
         self._count("shown as something else", map(str, report.substituted))
+        self._count("in doubt", (word.partition(" (")[0] for word in report.in_doubt))
 
     def _count(self, kind: str, words: Iterable[str]) -> None:
         found = set(words)

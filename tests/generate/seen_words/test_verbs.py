@@ -41,7 +41,6 @@ def report_of(prompt: str) -> PromptReport:
         ("pigeons taking off from a square", "taking off", "pigeon is in the air from the start"),
         ("a helicopter takes off", "takes off", "no ground in view"),
         ("a man twirls her", "twirls", "it is not done to her"),
-        ("a child knocks over a tower of blocks", "knocks", 'without "over"'),
         ("a shepherd drives his sheep along the lane", "drives", "rides the sheep"),
     ],
 )

@@ -6,13 +6,7 @@ import re
 
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
-_PARTICLES = frozenset({"over", "out", "off", "apart", "away", "back", "down", "up", "together"})
-"""Words after a verb that may give it another sense: "knocks over", "calls out"."""
-_FREE = PATH_KINDS | {"rise", "fall", "sink", "jump", "bounce", "turn", "stand", "sit", "lie",
-                      "spin", "swing", "enter", "leave", "hover", "look", "point"}  # fmt: skip
-"""Motions that such a word does not change: "runs over the bridge"."""
 _OBJECTS = frozenset({"it", "him", "her", "them"})
 _DETERMINERS = frozenset({"his", "her", "its", "their", "the", "a", "an"})
 _AFTER_OBJECT = re.compile(
@@ -39,9 +33,6 @@ def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
     for rest in _rests(claim.word, description.prompt.casefold()):
         first, _, after = rest.partition(" ")
         word = first.strip(".,;!?")
-        is_new_sense = word in _PARTICLES and word in description.not_understood
-        if is_new_sense and not kinds & _FREE:
-            return f'without "{word}"'
         is_turning = not claim.relations and _TURNING.fullmatch(claim.word) is not None
         if is_turning and _is_alive(claim, description):
             is_done_to = word in _OBJECTS and (word != "her" or _AFTER_OBJECT.match(after))

@@ -16,11 +16,18 @@ from texvent.errors import InputError
 from texvent.scenes.description import SceneDescription, Substitution
 from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.grammar.clauses import read_clauses
+from texvent.scenes.language.grammar.companions import link_companions
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
 from texvent.scenes.language.place_cues import find_cues, read_outsides
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
-from texvent.scenes.language.word_claims import SILENT_PREPOSITIONS, list_claims, says_something
-from texvent.scenes.language.words.english import Pos, list_readings
+from texvent.scenes.language.word_claims import (
+    CROWDED,
+    is_silent,
+    is_unread,
+    list_claims,
+    says_something,
+)
+from texvent.scenes.language.words.english import list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.language.words.sense_cues import choose_senses
 from texvent.scenes.language.words.tagging import tag_words
@@ -36,11 +43,6 @@ MOST_WORDS = 2000
 """Words of a prompt that are read; what follows is reported as a whole."""
 _FEWEST_FOREIGN = 3
 _FOREIGN_SHARE = 0.6
-_SILENT = frozenset(
-    {Pos.SIGN, Pos.DETERMINER, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.RELATIVE, Pos.AUXILIARY,
-     Pos.TO, Pos.PRONOUN}
-)  # fmt: skip
-"""Parts of speech that need no effect of their own."""
 
 
 def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescription:
@@ -75,7 +77,9 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     is_carried = mark_viewpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))
     meaning = ClauseMeaning(nouns, is_carried=is_carried)
-    for clause in read_clauses(words[:MOST_WORDS]):
+    clauses = read_clauses(words[:MOST_WORDS])
+    link_companions(clauses)
+    for clause in clauses:
         meaning.read(clause)
     description = meaning.build(prompt)
     shown, substituted, unread = _account(words)
@@ -94,7 +98,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         shown=shown,
         substituted=substituted,
         not_understood=unread,
-        claims=list_claims(words),
+        claims=list_claims(words, is_crowded=len(description.objects) >= CROWDED),
         notes=(*notes, *description.notes),
     )
     return complete_description(description, nouns, cues)
@@ -130,14 +134,11 @@ def _account(
     for word in words:
         if word.shown_as is not None:
             substituted[word.text] = Substitution(word.text, word.shown_as)
-        elif word.pos in _SILENT and not word.is_lost:
-            continue
-        elif word.is_used:
-            if says_something(word):
-                shown[f"no {word.text}" if word.is_absent else word.text] = None
-        elif word.is_lost or word.text not in SILENT_PREPOSITIONS:
+        elif is_unread(word):
             for token in word.tokens:
                 is_article = len(word.tokens) > 1 and token.text in ("the", "a")
                 if not token.is_punctuation and not is_article:
                     unread[token.text] = None
+        elif word.is_used and not is_silent(word) and says_something(word):
+            shown[f"no {word.text}" if word.is_absent else word.text] = None
     return tuple(shown), tuple(substituted.values()), tuple(unread)

@@ -27,7 +27,7 @@ from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
 
-_SENTENCE_SIGNS = frozenset(".;!?:\n")
+SENTENCE_SIGNS = frozenset(".;!?:\n")
 _AWAITS_NOUN = frozenset(
     {None, Pos.SIGN, Pos.PREPOSITION, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.VERB}
 )
@@ -111,7 +111,7 @@ class _ClauseReader(GroupAttachment):
         for word in self._words[self._at :]:
             if word.pos is Pos.VERB:
                 return True
-            if word.pos is Pos.SIGN and word.text in _SENTENCE_SIGNS:
+            if word.pos is Pos.SIGN and word.text in SENTENCE_SIGNS:
                 return False
         return False
 
@@ -142,7 +142,7 @@ class _ClauseReader(GroupAttachment):
     def _read_sign(self, word: Word) -> None:
         self._at += 1
         word.is_used = True
-        if word.text in _SENTENCE_SIGNS:
+        if word.text in SENTENCE_SIGNS:
             self._close()
             self._sentence = len(self._clauses)
             self._clause.sentence += 1

@@ -36,6 +36,8 @@ class Word:
     """Which motion of its first object it is about, from 0."""
     is_viewpoint: bool = False
     """Whether it carries the camera, and so is not in the picture."""
+    companions: tuple[Word, ...] = ()
+    """Words that it goes with: where one of them is lost, it may mean something else."""
 
     @property
     def pos(self) -> Pos:

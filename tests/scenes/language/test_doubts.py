@@ -1,0 +1,62 @@
+"""Words that may mean something else, as words around them are not understood."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.scenes.evidence import Evidence, report_on
+from texvent.scenes.language.parser import parse_prompt
+
+
+def doubts(prompt: str) -> dict[str, tuple[str, ...]]:
+    return {claim.word: claim.lost for claim in parse_prompt(prompt).claims if claim.lost}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "expected"),
+    [
+        ("a red car drives left past two trees", {}),
+        ("a dog swats at a ball", {"ball": ("swats",)}),
+        ("a dog sits beside a wug chair", {"sits": ("wug",), "chair": ("wug",)}),
+        ("a man runs slowly past a wug", {"runs": ("past", "wug"), "slowly": ("past", "wug")}),
+        ("a dog runs. A cat swats", {}),
+        ("an ironic dog runs", {}),  # an adjective changes neither noun nor verb
+    ],
+)
+def test_what_goes_with_a_lost_word_is_in_doubt(
+    prompt: str, expected: dict[str, tuple[str, ...]]
+) -> None:
+    assert doubts(prompt) == expected
+
+
+def test_in_a_crowded_prompt_a_lost_word_puts_its_sentence_in_doubt() -> None:
+    crowded = "A man, a dog, a car, a tree and a chair. A cat beside a table near the wug."
+    assert set(doubts(crowded)) >= {"cat", "table", "beside"}
+    assert not {"man", "dog", "car", "tree", "chair"} & set(doubts(crowded))
+    assert "cat" not in doubts("A cat beside a table near the wug.")
+
+
+def test_the_report_lists_words_in_doubt_with_the_lost_ones() -> None:
+    description = parse_prompt("a dog swats at a ball")
+    report = report_on(description, Evidence(faults={0: [None], 1: [None]}))
+    assert report.shown == ("dog",)
+    assert report.in_doubt == ("ball (without swats)",)
+    assert not report.is_faithful
+    hidden = report_on(description, Evidence(faults={0: [None], 1: ["hidden"]}))
+    assert not hidden.in_doubt  # it is not in the picture at all
+    assert "ball (hidden)" in hidden.not_shown
+
+
+WORDS = ("dog", "cat", "runs", "sits", "left", "wug", "swats", "on", "a", "red", "road", ".")
+
+
+@given(
+    st.lists(st.sampled_from(WORDS), min_size=1, max_size=12).map(lambda w: "a dog. " + " ".join(w))
+)
+def test_no_word_is_in_doubt_unless_another_is_lost(prompt: str) -> None:
+    description = parse_prompt(prompt)
+    lost = set(" ".join(description.not_understood).split())
+    for claim in description.claims:
+        assert set(" ".join(claim.lost).split()) <= lost
