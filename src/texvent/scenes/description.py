@@ -81,7 +81,8 @@ class SceneObject:
     motion: ObjectMotion | None = None
     """What it does; None = not stated."""
     side: str | None = None
-    """Where in the image: "left", "right", "centre", "far" or "near"; None = not stated."""
+    """Where in the image: "left", "right", "centre", "far" or "near"; "lane" = on the road; or how
+    copies stand to each other: "row", "ring"; None = not stated."""
     then: tuple[ObjectMotion, ...] = ()
     """What it does after `motion`, in order."""
     material: str | None = None
@@ -115,9 +116,10 @@ class Relation:
     """Where one object is, or goes, with respect to others."""
 
     kind: str
-    """"beside", "behind", "front", "on", "in", "above", "under", "between", "left of",
-    "right of", "past", "overtake", "through" (a tunnel, a gate), "around", "surround", "among",
-    "towards", "away from", "from" (with "towards": from one to the other), "follow" or "with"; or
+    """"beside", "at" (people at a table), "behind", "front", "on", "in", "above", "under",
+    "between", "left of", "right of", "past", "overtake", "through" (a tunnel, a gate), "around",
+    "surround", "among", "towards", "away from", "from" (with "towards": from one to the other),
+    "follow" or "with"; or
     an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull",
     "ride along" (as a passenger), "on head", "on shoulder", "on back", "on lap" (where it has
     the target), "work on" (hands at it), "kick", "hit", "throw", "catch" or "collide" (the subject

@@ -69,6 +69,8 @@ _SIDES = {
     "far": "far away",
     "lane": "on the road",
     "near": "in the foreground",
+    "row": "in a row",
+    "ring": "in a circle",
 }
 RELATION_WORDS = {
     "front": "in front of",

@@ -32,6 +32,8 @@ _ONE_SIDED = frozenset(
      "door", "rack", "roof rack", "neck", "trunk"}
 )  # fmt: skip
 """Parts that are seen from some sides only."""
+_SIDES = {"left": (0.0, 0.48), "right": (0.52, 1.0), "centre": (0.3, 0.7)}
+"""Side → least and greatest place of its middle, in picture widths."""
 MOST_BENT = 0.12
 """Spread of a row across it, as a share of that along it."""
 _GARMENTS = frozenset({"coat", "jacket"})
@@ -228,10 +230,12 @@ def _judge_side(picture: Picture, description: SceneDescription, index: int) -> 
         for view in picture.views
         if (box := _box(picture, view, copies_of(picture, index))) is not None
     ]
-    if not centres or side is None:
+    if side == "row":
+        return _judge_order(picture, "row", index)
+    if not centres or side not in _SIDES:
         return None
     middle = float(np.median(centres))
-    low, high = {"left": (0.0, 0.48), "right": (0.52, 1.0), "centre": (0.3, 0.7)}[side]
+    low, high = _SIDES[side]
     return None if low <= middle <= high else f"not in the picture's {side}"
 
 

@@ -33,7 +33,7 @@ def prepare(
                 f"(the clip ends at {duration_s:g} s)"
             )
             missing.append(Unmet(text, motion=(number, said.index(motion))))
-    description = _face_passages(description)
+    description = _line_up(_face_passages(description))
     follows = any(move.kind == "follow" for move in description.shot.moves)
     if not follows or not description.objects:
         return description, missing
@@ -71,6 +71,18 @@ def _face_passages(description: SceneDescription) -> SceneDescription:
         if motion.direction is None and motion.is_moving:
             turned = replace(motion, direction="towards")
             objects[relation.subject] = replace(objects[relation.subject], motion=turned)
+    return replace(description, objects=tuple(objects))
+
+
+def _line_up(description: SceneDescription) -> SceneDescription:
+    """As in "a row of chairs": the number is said by a word that says how they stand."""
+    objects = list(description.objects)
+    for claim in description.claims:
+        if claim.aspect != "count" or not set(claim.word.split()) & {"row", "line"}:
+            continue
+        for index in claim.things:
+            if objects[index].side is None:
+                objects[index] = replace(objects[index], side="row")
     return replace(description, objects=tuple(objects))
 
 

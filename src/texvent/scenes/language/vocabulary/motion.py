@@ -209,6 +209,9 @@ SIDES: dict[str, tuple[str, ...]] = {
     "centre": ("in the middle", "in the center", "in the centre"),
     "far": ("in the distance", "in the background", "far away", "distant"),
     "near": ("in the foreground",),
+    "row": ("in a row", "in a line", "in line", "in a queue", "in single file", "single file",
+            "side by side", "lined up", "in a straight line"),
+    "ring": ("in a ring",),
 }  # fmt: skip
 
 PACES: dict[float, tuple[str, ...]] = {

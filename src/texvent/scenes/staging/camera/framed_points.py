@@ -156,8 +156,8 @@ def to_subject(
 
 
 TOGETHER = frozenset(
-    {"on", "in", "above", "under", "behind", "front", "beside", "between", "around", "left of",
-     "right of"}
+    {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
+     "left of", "right of"}
 )  # fmt: skip
 """Relations of which both things must be in the picture."""
 _RECOGNISED = 0.35

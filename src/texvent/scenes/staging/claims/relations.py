@@ -20,7 +20,7 @@ from texvent.scenes.staging.acts.climbing import ClimbingAt
 from texvent.scenes.staging.acts.hand_work.surface_points import sample_surface
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt, tool_tip
 from texvent.scenes.staging.acts.holding import WORN
-from texvent.scenes.staging.claims.bodies import part_boxes
+from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.claims.contact import (
     holds_for_all,
     is_in,
@@ -31,6 +31,7 @@ from texvent.scenes.staging.claims.contact import (
     touches,
 )
 from texvent.scenes.staging.claims.courses import approaches, comes_from, goes_round
+from texvent.scenes.staging.placement.at_table import turned_to
 from texvent.scenes.wording import RELATION_WORDS
 
 _INSTANTS = 13
@@ -119,6 +120,22 @@ def _is_near(subject: _Body, targets: list[_Body]) -> bool:
     return all(float(_gaps(subject, target).min()) < reach for target in targets)
 
 
+def _is_at(subject: _Body, targets: list[_Body]) -> bool:
+    """Everyone is within reach of a table, and turned to it."""
+    half = 0.5 * subject.duration_s
+
+    def is_there(own: Actor) -> bool:
+        state = own.trajectory.at(half)
+        return any(
+            turned_to(state.position, state.yaw, one.middle(half))
+            and gap(part_boxes(own, half), part_boxes(one, half)) < _AT_M
+            for one in targets[0].copies
+        )
+
+    return all(is_there(own) for own in subject.copies)
+
+
+_AT_M = 0.5
 _BESIDE, _BESIDE_M = 0.6, 0.6
 """Gap up to which something is beside another: share of the larger one's size, m."""
 
@@ -325,6 +342,7 @@ _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     "behind": lambda s, t: bool(np.mean(s.places[:, 1] > t[0].places[:, 1]) > _MOST),
     "front": lambda s, t: bool(np.mean(s.places[:, 1] < t[0].places[:, 1]) > _MOST),
     "beside": _is_near,
+    "at": _is_at,
     "with": _is_with,
     "on": _is_on,
     "in": _is_in,

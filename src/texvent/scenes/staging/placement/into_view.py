@@ -16,6 +16,7 @@ from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framed_points import is_backdrop, may_stand_back
+from texvent.scenes.staging.placement.formation import FORMATIONS
 
 _INSTANTS, _EYES = 5, 33
 _ROUTE_REACH_M = 60.0
@@ -125,7 +126,7 @@ def find_shifts(
 
 def _may_move(actor: Actor, description: SceneDescription, *, is_route: bool) -> bool:
     """Whether the prompt leaves open where it is; along a route only what stands moves."""
-    is_placed = description.objects[actor.object_index].side is not None
+    is_placed = description.objects[actor.object_index].side not in (None, *FORMATIONS)
     if is_route and actor.is_mover:
         return False
     return not (is_placed or actor.enters or actor.leaves or actor.goes_across)

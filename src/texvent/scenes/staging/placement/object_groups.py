@@ -47,6 +47,8 @@ class ObjectGroup:
     """Radius of the circle in which it swims in a vessel, m."""
     is_stood_up: bool = False
     """Whether what lies along its x is put on its end."""
+    is_on_chairs: bool = False
+    """Whether each of its people sits on a chair that comes with them."""
     belt: ObjectGroup | None = None
     """The conveyor belt that carries it along."""
     lag: tuple[ObjectGroup, float] | None = None

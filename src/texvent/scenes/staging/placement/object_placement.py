@@ -23,8 +23,10 @@ from texvent.scenes.staging.acts.attached import OnEnd, OnPart, Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
+from texvent.scenes.staging.placement.at_table import draw_chair
 from texvent.scenes.staging.placement.dressing import choose_copy, dressed, usual_holds
 from texvent.scenes.staging.placement.fitting import fit_contents
+from texvent.scenes.staging.placement.formation import form_up
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     half_extents_over_clip,
@@ -50,7 +52,7 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Vector,
 )
 
-ON_TARGET = frozenset({"on", "in", "above", "around", "under", "between", "follow"})
+ON_TARGET = frozenset({"at", "on", "in", "above", "around", "under", "between", "follow"})
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
 OVERTAKEN = 0.4
@@ -139,15 +141,10 @@ class ObjectPlacer:
             path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
             plan = replace(plan, path=path, yaw=path.yaw)
         offsets = place_copies(models, plan, noun, rng)
-        return ObjectGroup(
-            index,
-            scene_object,
-            noun,
-            models,
-            plan,
-            offsets,
-            half_extents_over_clip(models, offsets, plan),
-        )
+        half = half_extents_over_clip(models, offsets, plan)
+        group = ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
+        form_up(group)
+        return group
 
     def _holds_something(self, index: int) -> bool:
         """Whether the prompt has something in it or on it."""
@@ -323,6 +320,8 @@ class ObjectPlacer:
         size = float(getattr(group.models[0], "scale", 1.0))
         props = [prop for kind in kinds for prop in list_props(kind, size)]
         props += usual_holds(self._description, group, props)
+        if group.is_on_chairs and "chair" not in shown:
+            props.append(draw_chair(size))
         return tuple(
             prop for prop in props if prop.anchor == "ground" or not shown.intersection(prop.nouns)
         )

@@ -12,6 +12,7 @@ import numpy as np
 from texvent.scenes.description import STANDING
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
+from texvent.scenes.staging.placement.at_table import place_at
 from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
@@ -48,6 +49,8 @@ def place_on_targets(
         height: of its origin where the relation does not decide it, m.
         neighbours: for "on" and "in", the indices of all objects there.
     """
+    if kind == "at":
+        return Goal(place_at(group, targets[0], neighbours), _FIXED)
     if kind in ("on", "in"):
         rest = rest_on if kind == "on" else rest_in
         return Goal(rest(group, targets[0], neighbours), _FIXED)

@@ -89,6 +89,8 @@ class CircumstanceReader:
         for index in scope.movers:
             motions = self._draft.objects[index].motions
             if not motions or motions[-1].kind in ("stand", "sit", "lie"):
+                if direction == "circle":
+                    self._draft.objects[index].side, word.is_used = "ring", True
                 continue
             if direction != "across" or motions[-1].direction is None:
                 motions[-1] = replace(motions[-1], direction=direction)

@@ -13,7 +13,7 @@ from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.people.activities import ACTIVITIES, SEATS
+from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, SEATS
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
@@ -55,6 +55,7 @@ class RelationReader:
             return
         is_used, before = False, len(self._draft.relations)
         kind = self._at_bench(self._relation_kind(word, things), things, scope)
+        kind = "at" if self._is_at_table(word, things, scope) else kind
         if word.text in _FULL:
             is_used = self._fill(phrase, things, scope)
         elif scope.has_verb and not scope.is_verb_shown:
@@ -89,6 +90,15 @@ class RelationReader:
             one.kind == "work on" and one.subject in scope.movers for one in self._draft.relations
         )
         return kind if is_busy else "work on"
+
+    def _is_at_table(self, word: Word, things: list[int], scope: Scope) -> bool:
+        """As in "students at their desks": they sit there, unless the prompt has them stand."""
+        if word.text not in ("at", "around") or self._draft.noun(things[0]).name not in _TABLES:
+            return False
+        if not all(is_person(self._draft.noun(index)) for index in scope.subjects):
+            return False
+        motions = [self._draft.objects[index].motions for index in scope.subjects]
+        return all(one[-1].kind in DONE_SEATED | {"sit"} for one in motions if one)
 
     def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
         """As in "zebras with a giraffe behind them": the giraffe is behind them.
@@ -261,6 +271,7 @@ _STEERING = frozenset(
 )
 """Words for who steers what they are on."""
 _ABOARD = ("behind", "in front of", "beside", "next to")
+_TABLES = frozenset({"table", "desk"})
 _FULL = ("full of", "filled with", "loaded with", "packed with")
 _LEANT_ON = frozenset({"fence", "wall", "gate", "door", "railing", "car", "tree", "lamp post"})
 _GOALS = ("towards", "past")
