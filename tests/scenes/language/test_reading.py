@@ -117,9 +117,9 @@ def test_speeds_change_and_begin_when_they_are_said_to() -> None:
 @pytest.mark.parametrize(
     ("prompt", "shown", "reported"),
     [
-        ("a unicorn shark swims", ["shark"], ("unicorn",)),
+        ("a wug shark swims", ["shark"], ("wug",)),
         ("a red and blue ball bounces", ["ball"], ("blue",)),
-        ("a man saws a unicorn", ["man"], ("unicorn",)),
+        ("a man saws a wug", ["man"], ("wug",)),
         ("a car drives through a wug", ["car"], ("through", "wug")),
         ("a statue of a horse", ["statue"], ("of", "horse")),
         ("an excavator swings its arm", ["excavator"], ("swings", "arm")),

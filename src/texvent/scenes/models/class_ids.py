@@ -157,6 +157,15 @@ _NOUNS: tuple[str, ...] = (
     "eye",
     "escalator", "sprinkler",
     "rock waterfall",
+    "blanket", "grandfather clock", "coat rack", "easel", "rolling pin", "sack",
+    "fire extinguisher", "music stand", "steering wheel", "windshield", "pistol", "rifle",
+    "round bomb", "boot", "high heel", "sandal", "belt", "molecule", "plastic heart", "maraca",
+    "robot dog", "powder heap", "dough", "french fries", "chocolate bar", "roast chicken",
+    "shrimp", "bacon", "climbing wall", "podium", "chess piece", "kettlebell", "exercise bike",
+    "fishing rod", "spear", "skate ramp", "saddle", "lifebuoy", "barbed fence", "gas station",
+    "trailer", "shipping container", "roundabout", "crosswalk", "roller coaster", "solar panel",
+    "satellite dish", "steel beam", "plank", "breaking wave", "tornado", "diamond", "neon arch",
+    "horse trough", "striped awning", "unicorn", "skeleton", "ghost", "alien", "dragon",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

@@ -32,9 +32,11 @@ from texvent.scenes.models.objects import (
     patterns,
     plants,
     street,
+    tales,
     toys,
 )
 from texvent.scenes.models.objects.home import (
+    belongings,
     electronics,
     furnishing,
     house_and_games,
@@ -46,6 +48,7 @@ from texvent.scenes.models.objects.home import (
 from texvent.scenes.models.objects.kitchen import appliances, dishes, food, tableware
 from texvent.scenes.models.objects.outdoors import (
     flowing,
+    landmarks,
     street_furniture,
     structures,
     vegetation,
@@ -54,7 +57,7 @@ from texvent.scenes.models.objects.outdoors import (
 from texvent.scenes.models.objects.places import grounds, rooms
 from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
-from texvent.scenes.models.objects.sport import balls, gear
+from texvent.scenes.models.objects.sport import balls, equipment, gear
 from texvent.scenes.models.objects.work import (
     escalator,
     experiments,
@@ -138,6 +141,10 @@ _MODULES = (
     house_and_games,
     rooms,
     grounds,
+    belongings,
+    equipment,
+    landmarks,
+    tales,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}

@@ -106,9 +106,8 @@ INDOOR_KINDS: dict[str, str] = {
     "helmet": "bike helmet, ski helmet, riding helmet, construction helmet",
     "scarf": "veil, headscarf, neckerchief",
     "shoe": """
-        ballet shoe, ski boot, ski boots, oxford shoe, dress shoe, pump shoe,
-        wellington, wellington boot, football boot, hiking boot, work boot, snow boot,
-        flipper, snowshoe""",
+        ballet shoe, ski boot, ski boots, oxford shoe, dress shoe, pump shoe, football
+        boot, snow boot, flipper, snowshoe""",
     "handbag": "pouch, makeup bag, money bag, toiletry bag, leather bag, bag of money",
     "backpack": "hiking backpack, school backpack, camera bag",
     "suitcase": "carry on, trunk case, duffel bag, gym bag, sports bag, toolkit bag",
@@ -127,7 +126,7 @@ INDOOR_KINDS: dict[str, str] = {
     "bouquet": """
         flower bouquet, bunch of flowers, bunch of roses, floral arrangement, wreath,
         flower bed, flowerbed, ikebana""",
-    "pillow": "throw pillow, beanbag cushion,  sandbag  neck pillow, sack of flour",
+    "pillow": "throw pillow, beanbag cushion, sandbag neck pillow",
     "candle": "birthday candle, tea light, tealight, candle stub",
     "star": "ornament star, paper star",
     "ball": "bauble, christmas ornament, ornament, balloon ball, toy ball",

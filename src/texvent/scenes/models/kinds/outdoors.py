@@ -27,8 +27,8 @@ OUTDOOR_KINDS: dict[str, str] = {
     "power pylon": """
         eiffel tower, antenna, aerial, antenna mast, electric pole, transmission line,
         radio mast, light pole, oil derrick, telegraph pole line""",
-    "satellite": "space telescope, parabolic dish, radar dish, radar, radio telescope",
-    "tent": "circus tent, canopy, awning, big top, gazebo tent, pavilion, sun sail",
+    "satellite": "space telescope, parabolic dish, radar",
+    "tent": "circus tent, canopy, big top, gazebo tent, pavilion, sun sail",
     "market stall": """
         food cart, hot dog stand, food stand, fruit stand, ice cream cart, ice cream
         stand, lemonade stand, vegetable stand, flower stall, flower stand, newspaper
@@ -37,9 +37,7 @@ OUTDOOR_KINDS: dict[str, str] = {
     "wall": """
         sea wall, brick facade, dam, garden wall, retaining wall, great wall, parapet,
         barricade wall, quay wall, stone barrier""",
-    "fence": """
-        barbed wire, barbed wire fence, wire fence, wire mesh fence, fence post,
-        security fence, iron fence, metal railing, guard fence""",
+    "fence": "wire mesh fence, fence post, security fence, iron fence, metal railing, guard fence",
     "gate": """
         ticket gate, security gate, entrance gate, torii gate, torii, metal detector,
         archway gate, toll gate, park gate, lock gate""",
@@ -87,8 +85,8 @@ OUTDOOR_KINDS: dict[str, str] = {
         root, stem, driftwood, thorn, vine branch, pussy willow, mistletoe, olive
         branch, kindling""",
     "log": """
-        firewood log, piece of wood, wooden log, piece of oak, wooden beam, timber beam,
-        balance beam, balancing beam, log pile, driftwood log, piece of driftwood""",
+        firewood log, wooden log, piece of oak, wooden beam, timber beam, balance beam,
+        balancing beam, log pile, driftwood log, piece of driftwood""",
     "rock": """
         fossil, mineral stone, gold nugget, nugget, lump of coal, coal, geode, piece of
         rock, paving stone, cobble, stepping stone, concrete block, charcoal""",
@@ -104,8 +102,8 @@ OUTDOOR_KINDS: dict[str, str] = {
     "earth": "blue planet, blue marble",
     "planet": "gas giant, moon of jupiter, dwarf planet, pluto, alien planet, ringless planet",
     "truck": """
-        trailer, horse trailer, cargo truck bed, car carrier, flatbed, horse box,
-        shipping container truck, trailer truck cab, lowloader, dumper truck cab""",
+        horse trailer, cargo truck bed, car carrier, flatbed, horse box, shipping
+        container truck, trailer truck cab, lowloader, dumper truck cab""",
     "train": """
         train car, railway carriage, railway car, boxcar, railroad car, tram train, high
         speed rail, diesel train, carriage of a train, railroad train""",

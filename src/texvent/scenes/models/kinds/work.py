@@ -25,8 +25,8 @@ WORK_KINDS: dict[str, str] = {
     "saw": "jigsaw tool, coping saw, band saw, bow saw, fret saw, crosscut saw",
     "chainsaw": "hedge trimmer, leaf blower, brush cutter, strimmer, weed whacker, string trimmer",
     "bucket": """
-        paint can, paint bucket, ice bucket, can of paint, paint pot, sand bucket,
-        trough, water trough, toy bucket, champagne bucket, washtub, wash tub""",
+        paint can, paint bucket, ice bucket, can of paint, paint pot, sand bucket, toy
+        bucket, champagne bucket, washtub, wash tub""",
     "paintbrush": "paint roller, artist brush, house painting brush",
     "screw": "bolt, nut and bolt, hex bolt, wing nut, threaded rod",
     "nail": """
@@ -108,18 +108,17 @@ WORK_KINDS: dict[str, str] = {
     "drum": "bass drum, taiko drum, conga, hand drum, kettledrum, tabla, war drum, cajon",
     "cymbal": "hi hat, crash cymbal, ride cymbal, finger cymbals",
     "handbell": """
-        maracas, maraca, rattle, baby rattle, doorbell, door bell, cowbell, school bell,
-        sleigh bell, jingle bell, bicycle bell, desk bell, service bell, bell ringer
-        bell""",
+        rattle, baby rattle, doorbell, door bell, cowbell, school bell, sleigh bell,
+        jingle bell, bicycle bell, desk bell, service bell, bell ringer bell""",
     "triangle": "musical triangle, set triangle",
     "whistle": "referee whistle, duck call, kazoo",
     "hockey stick": """
         lacrosse stick, field hockey stick, polo mallet, croquet mallet, curling broom,
         shinty stick, cane, walking stick, baton, wooden stick, shepherd staff, crook""",
     "pool cue": """
-        cue, cue stick, snooker cue, lance, wooden pole, rod, harpoon, flag pole stick,
-        trekking pole, hiking pole, vaulting pole, bamboo stick, broomstick, stake,
-        wooden stake, curtain rod, metal rod""",
+        cue, cue stick, snooker cue, wooden pole, rod, flag pole stick, trekking pole,
+        hiking pole, vaulting pole, bamboo stick, broomstick, stake, wooden stake,
+        curtain rod, metal rod""",
     "dumbbell": "shot put, weight plate",
     "barbell": "weight bench, bench press, barbell weights, weight bar, olympic bar",
     "treadmill": """
@@ -174,8 +173,8 @@ WORK_KINDS: dict[str, str] = {
     "clock": "cuckoo clock case, station clock, tower clock, mantel clock, digital timer",
     "spinning top": "toy top, humming top",
     "sphere": """
-        musket ball, cannonball, cannon ball, pellet, atom, molecule, torus, ellipsoid,
-        globe ball, metal sphere, steel ball, dewdrop, bubble gum ball, pearl ball""",
+        musket ball, cannonball, cannon ball, pellet, torus, ellipsoid, globe ball,
+        metal sphere, steel ball, dewdrop, bubble gum ball, pearl ball""",
     "cube": """
         cuboid, rectangular block, tetrahedron, polyhedron, sugar cube, metal cube, foam
         block, toy cube, metal block, workpiece, block of wood, wood block, voxel""",

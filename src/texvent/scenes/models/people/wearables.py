@@ -15,8 +15,9 @@ from texvent.scenes.models.materials import (
     Material,
     cloth,
 )
+from texvent.scenes.models.people.roles.hanging import draw_dress, draw_top
 from texvent.scenes.models.protocol import ModelPart, fixed_noun
-from texvent.scenes.models.shapes import ball, limb, peak, post, rod, spike
+from texvent.scenes.models.shapes import ball, limb, post, rod, spike
 from texvent.scenes.models.variation import paint
 from texvent.scenes.scene import Colour
 
@@ -70,21 +71,11 @@ def build_crown(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 def build_garment(
     long: float, has_skirt: bool, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
-    """Make a jacket, a coat or a dress on an unseen hanger; `colour` is its cloth."""
+    """Make a jacket, a coat or a dress by its outline; `colour` is its cloth."""
     fabric = cloth(paint(colour, seed, "cloth", CLOTH_COLOURS))
-    top = long
-    parts = [
-        limb(fabric, (0.0, 0.0, top - 0.44), (0.0, 0.0, top - 0.08), 0.12, side_radius=0.18),
-        ball(fabric, (0.0, 0.0, top - 0.12), (0.20, 0.44, 0.22)),
-        rod(Material((0.3, 0.3, 0.3)), (0.0, 0.0, top - 0.04), (0.0, 0.0, top + 0.08), 0.006),
-    ]
     if has_skirt:
-        parts.append(peak(fabric, (0.0, 0.0, 0.5 * (top - 0.1)), (0.40, 0.60, top - 0.1)))
-    else:
-        parts.append(limb(fabric, (0.0, 0.0, 0.08), (0.0, 0.0, top - 0.3), 0.12, side_radius=0.19))
-        parts += [limb(fabric, (0.0, y, top - 0.10), (0.02, 1.25 * y, top - 0.60), 0.055)
-                  for y in (0.20, -0.20)]  # fmt: skip
-    return ArticulatedModel(parts, scale=scale)
+        return ArticulatedModel(draw_dress(fabric), scale=scale)
+    return ArticulatedModel(draw_top(fabric, long, is_open=True, has_hood=False), scale=scale)
 
 
 NOUNS = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.models.materials import Material, glowing, mottled
+from texvent.scenes.models.materials import Material, cloth, glowing, mottled
 from texvent.scenes.models.objects.figures import (
     Moving,
     bar,
@@ -232,9 +232,9 @@ NOUNS = placed("indoor", (
             bar(p, (0.0, 0.70), (0.0, 1.90), 0.06, 0.06),
             bar(p, (-0.56, 1.30), (0.56, 1.30), 0.05, 0.06),
             box(p, (0.05, 0.0, 0.62), (0.20, 1.40, 0.05)),
-            box(BRICK, (-0.03, 0.0, 0.30), (0.16, 1.9, 0.60)),
-            *(box(BRICK, (-0.03, 0.785 * s, 1.30), (0.16, 0.33, 1.40)) for s in (1.0, -1.0)),
-            box(BRICK, (-0.03, 0.0, 2.12), (0.16, 1.9, 0.26))],
+            *(limb(cloth((0.55, 0.50, 0.42)), (0.03, 0.68 * s, 2.02), (0.03, 0.74 * s, 0.08), 0.07)
+                for s in (1.0, -1.0)),
+            rod(p, (0.03, -0.85, 2.04), (0.03, 0.85, 2.04), 0.018)],
             ("window frame", "glass window", "windowpane")),
     thing("blind", (PALE.colour,),
         lambda p: [*(plank(toned(p, 0.85 + 0.15 * (i % 2)), (0.0, -0.6, 0.2 + 0.09 * i),
