@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 
-from texvent.generate.seen_words.picture import Picture
+from texvent.generate.seen_words.picture import Picture, View
 from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.projection import project
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.camera_placement import choose_main
 
 STEEP_DOWN, SLANT_DOWN = 0.85, 0.2
 """Sine of the angle at which the camera looks down in a top view, and at least from the air."""
@@ -13,11 +20,18 @@ LOW_M = 0.7
 """Height at which a camera is low in any case, m."""
 KNEE_M, LOOKING_UP = 1.8, 0.05
 """Height up to which it is low if it looks up, m; and sine of the angle at which it does."""
-LEAST_CLOSE = 0.45
+LEAST_CLOSE = 0.5
 """Share of the picture's width or height that a thing in close-up fills."""
-
 MOST_WIDE = 0.5
 """The same up to which a shot is wide."""
+EYES_M, MOST_SLANT = (0.15, 2.4), 0.3
+"""Heights of a camera at the level of eyes, m; and sine of the angle at which it looks at most."""
+MOST_OF_CLIP = 0.6
+_BEARINGS = {"side": (-0.6, 0.6), "front": (0.6, 1.0), "back": (-1.0, -0.6),
+             "shoulder": (-1.0, -0.5)}  # fmt: skip
+"""View → least and most cosine of the angle between its heading and the way to the camera."""
+_SIZES = {"close": (1.5, math.inf), "medium": (0.7, 2.4), "full": (0.4, 1.05)}
+"""Framing → least and most height, in heights of the picture; a person in close-up is cut."""
 
 
 def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
@@ -29,11 +43,19 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
         return "the camera does not look down"
     if claim.value == "low":
         return _judge_low(picture)
-    if claim.value == "close" and _greatest_extent(picture) < LEAST_CLOSE:
-        return "things are small in the picture"
+    if claim.value == "level":
+        return _judge_level(picture)
     if claim.value == "wide" and _greatest_extent(picture) > MOST_WIDE:
         return "things fill the picture"
-    return None
+    if claim.value == "first person":
+        return _judge_own_eyes(description)
+    actors = picture.scene.actors
+    if not actors:
+        return "nothing is there to look at" if claim.value in (*_BEARINGS, *_SIZES) else None
+    main = choose_main(description, actors)
+    if claim.value in _BEARINGS:
+        return _judge_bearing(picture, main, claim.value)
+    return _judge_size(picture, main, claim.value) if claim.value in _SIZES else None
 
 
 def _judge_low(picture: Picture) -> str | None:
@@ -44,12 +66,68 @@ def _judge_low(picture: Picture) -> str | None:
     return "the camera is not low"
 
 
-def _greatest_extent(picture: Picture) -> float:
-    """Of any thing in any view, as a share of the picture's width or height."""
+def _judge_level(picture: Picture) -> str | None:
+    """Whether the camera is as high as the eyes of a person, and looks about level."""
+    for view in picture.views:
+        height, up = float(view.camera.position[2]), float(view.camera.rotation[2, 2])
+        if EYES_M[0] <= height <= EYES_M[1] and abs(up) <= MOST_SLANT:
+            return None
+    return "the camera is not at that height"
+
+
+def _judge_own_eyes(description: SceneDescription) -> str | None:
+    """Whether the camera goes itself, as who looks through it."""
+    moves = description.shot.moves
+    return None if any(move.kind == "travel" for move in moves) else "the camera looks on"
+
+
+def _judge_bearing(picture: Picture, main: Actor, view_from: str) -> str | None:
+    """From the side, front or back: the angle between what it looks at and the camera."""
+    if not (main.noun.speed_m_s > 0.0 and main.noun.habitat != "fixed"):
+        return None  # a vase has no front
+    least, most = _BEARINGS[view_from]
+    fits = 0
+    for view in picture.views:
+        yaw = main.trajectory.at(view.time_s).yaw
+        x, y = (view.camera.position - main.middle(view.time_s))[:2]
+        cosine = (x * math.cos(yaw) + y * math.sin(yaw)) / max(math.hypot(x, y), 1e-9)
+        fits += least <= cosine <= most
+    is_seen = fits >= MOST_OF_CLIP * len(picture.views)
+    return None if is_seen else f"the {main.noun.name} is seen from another side"
+
+
+def _judge_size(picture: Picture, main: Actor, framing: str) -> str | None:
+    """How large what it looks at is in the picture."""
+    if main.noun.name in PERSON_NOUNS:
+        heights = [_height_in_picture(picture, main, view) for view in picture.views]
+        tallest = float(np.median(heights))
+    else:
+        own = [one.instance for one in picture.scene.actors
+               if one.object_index == main.object_index]  # fmt: skip
+        tallest = _greatest_extent(picture, own)
+        if framing == "close":
+            return None if tallest >= LEAST_CLOSE else "things are small in the picture"
+    least, most = _SIZES[framing]
+    if tallest < least:
+        return f"the {main.noun.name} is further away"
+    return f"the {main.noun.name} is nearer" if tallest > most else None
+
+
+def _height_in_picture(picture: Picture, main: Actor, view: View) -> float:
+    """Height of its box, in heights of the picture, of which it may reach out."""
+    seen = project(view.camera, picture.size, main.corners(view.time_s))
+    if np.any(seen[:, 2] <= 0.0):
+        return math.inf
+    return float(np.ptp(seen[:, 1])) / picture.size.height
+
+
+def _greatest_extent(picture: Picture, instances: Sequence[int] | None = None) -> float:
+    """Of any of the things in any view, as a share of the picture's width or height."""
     edge = np.array([picture.size.width, picture.size.height])
     best = 0.0
     for view in picture.views:
         for one in np.unique(view.instance[view.instance > 0]):
-            at = picture.points[view.instance == one]
-            best = max(best, float((np.ptp(at, axis=0) / edge).max()))
+            if instances is None or one in instances:
+                at = picture.points[view.instance == one]
+                best = max(best, float((np.ptp(at, axis=0) / edge).max()))
     return best

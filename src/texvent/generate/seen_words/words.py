@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from texvent.generate.seen_words.camera_moves import judge_move
 from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.effects import judge_effects
 from texvent.generate.seen_words.light import HARD, judge_light, judge_snow, judge_weather
@@ -75,6 +76,10 @@ def _judge_scene_word(
         return judge_weather(picture, claim) if is_said else None
     if claim.aspect == "snow":
         return _judge_snow(picture, description, claim)
+    if claim.aspect == "style":
+        return claim.value
+    if claim.move is not None:
+        return judge_move(picture, description, claim)
     if claim.aspect in ("view", "framing"):
         return judge_camera(picture, description, claim)
     if claim.aspect in ("place", "steep", "clouds", "sky"):

@@ -28,6 +28,7 @@ from texvent.scenes.language.word_claims import (
     says_something,
 )
 from texvent.scenes.language.words.english import list_readings
+from texvent.scenes.language.words.film import read_film_words
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.language.words.sense_cues import choose_senses
 from texvent.scenes.language.words.tagging import tag_words
@@ -73,6 +74,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
             f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
             "write it in English, or use a model that takes any text (texvent generators)"
         )
+    notes += read_film_words(words)
     choose_senses(words, known)
     is_carried = mark_viewpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))

@@ -38,6 +38,7 @@ _OF_SCENE = {
     Role.SNOW: "snow", Role.SKY: "sky", Role.STEEP: "steep", Role.DUST: "dust",
     Role.FLICKER: "flicker", Role.SHADOW: "shadow", Role.EFFECT: "effect", Role.PLACE: "place",
     Role.ROAD: "road", Role.VIEW: "view", Role.FRAMING: "framing", Role.COLOUR: "colour",
+    Role.STYLE: "style",
 }  # fmt: skip
 """Role of a word that says something of the scene → what."""
 

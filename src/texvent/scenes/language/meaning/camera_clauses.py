@@ -59,11 +59,13 @@ class CameraClauses:
         """
         for one in subjects:
             if one.group.head is not None:
+                self._camera.read_word(one.group.head)
                 one.group.head.is_used = True
             self._camera.read_attributes(one.attributes)
             self._around.read_style(one)
             scope = Scope([], [], is_lost=one.kind == "camera", has_verb=False)
-            self._around.read_phrases(one.group.phrases, scope)
+            others = [phrase for phrase in one.group.phrases if not self._stands(one, phrase)]
+            self._around.read_phrases(others, scope)
         is_filmed = clause.verb is not None and clause.verb.text in FILMED
         if is_filmed:
             self._forget_standpoint(clause)
@@ -79,6 +81,13 @@ class CameraClauses:
         if clause.verb is not None and is_filmed:
             clause.verb.is_used = True
         return objects, [*objects, *(one for _, one in phrases)]
+
+    def _stands(self, camera: Referent, phrase: PrepPhrase) -> bool:
+        """As in "camera behind a runner": where it is, not where a thing is."""
+        if camera.kind != "camera" or not phrase.groups:
+            return False
+        place = self._referents.resolve(phrase.groups[0], phrase.preposition.text)
+        return self._camera.stand_by(phrase.preposition, place)
 
     def _forget_standpoint(self, clause: Clause) -> None:
         """As in "filmed from a boat": the boat is not in the picture, and so reported."""

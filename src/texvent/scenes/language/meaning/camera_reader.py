@@ -8,10 +8,12 @@ from dataclasses import replace
 from texvent.scenes.description import CameraMove, Shot
 from texvent.scenes.language.grammar.syntax import Clause, PrepPhrase
 from texvent.scenes.language.meaning.adjectives import Attributes
+from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.vocabulary.film import OF_CAMERA, TRAVEL_MEANS
 from texvent.scenes.language.vocabulary.motion import Verb
-from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS
-from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
 
 _SIDES = {"behind": "behind", "in front of": "front", "beside": "side", "alongside": "side",
@@ -24,6 +26,15 @@ _TRAVEL_PREPOSITIONS = frozenset(
 )  # fmt: skip
 _AIMED = frozenset({"follow", "orbit", "zoom", "dolly", "dolly zoom", "crane", "tilt", "pan"})
 _PLAIN_MOVE = frozenset({"move", "slide", "hover", "rise", "sink", "fall"})
+_OF_CAMERA = {verb: move for move, verbs in OF_CAMERA.items() for verb in verbs}
+_PLACED = frozenset({"fix", "lock", "mount", "place", "position", "sit", "perch", "set", "attach",
+                     "strap", "station"})  # fmt: skip
+"""Verbs that say where the camera is, and nothing that it does after something else."""
+_STATIONS = {"behind": "back", "in front of": "front", "beside": "side", "next to": "side",
+             "alongside": "side", "directly above": "top", "above": "aerial",
+             "over": "aerial"}  # fmt: skip
+"""Where the camera stands beside what has a front → view."""
+_ALONG = frozenset({"past", "along", "across", "by"})
 _OWN_TRAVEL = CameraMove("travel", "forward")
 """What "first person" alone means."""
 _TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truck", "left"),
@@ -35,16 +46,22 @@ _TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truc
 class CameraReader:
     """Collects camera moves, view and framing."""
 
-    def __init__(self, *, is_carried: bool = False) -> None:
+    def __init__(self, draft: Draft, *, is_carried: bool = False) -> None:
         """Start a shot.
 
         Args:
+            draft: what is known of the scene.
             is_carried: whether the camera rides in or on something that the prompt names.
         """
+        self._draft = draft
         self._moves: list[CameraMove] = [_OWN_TRAVEL] if is_carried else []
         self._view: str | None = None
         self._framing: str | None = None
         self._target: int | None = None
+        self._station: int | None = None
+        """What the camera stands beside."""
+        self._is_placed = False
+        """Whether its moves so far say only where it is."""
         self._phase = 0
         self._sentence = 0
 
@@ -92,7 +109,7 @@ class CameraReader:
         if word.role is Role.PACE and self._moves and not word.is_used:
             last = self._moves[-1]
             self._moves[-1] = replace(last, pace=last.pace * word.meaning.value)
-            word.is_used = True
+            self._claim(word)
 
     def read_attributes(self, attributes: Attributes) -> None:
         """As in "A slow pan", "a static shot"."""
@@ -107,7 +124,7 @@ class CameraReader:
     ) -> None:
         """A clause whose subject is the camera, the viewer or a shot."""
         is_later = clause.order == "after" or clause.sentence > self._sentence
-        if is_later and self._moves and clause.verb is not None:
+        if is_later and self._moves and clause.verb is not None and not self._is_placed:
             self._phase += 1
         self._sentence = clause.sentence
         if clause.verb is not None:
@@ -138,6 +155,15 @@ class CameraReader:
             return
         means = TRAVEL_MEANS.get(word.lemma)
         move = word.read_as(Role.CAMERA_MOVE)
+        own = _OF_CAMERA.get(word.lemma) if move is None and means is None else None
+        if own is not None:
+            goes_on = own == ("dolly", "in") and self._goes_through(phrases)
+            value = ("travel", "forward") if goes_on else own
+            word.meaning = Meaning(Role.CAMERA_MOVE, word.pos, value, word.meaning.form)
+            self._add(CameraMove(*value))
+            self._is_placed = word.lemma in _PLACED
+            word.is_used = True
+            return
         if means is not None:
             self._travel(word, means, clause, phrases)
         elif move is not None and not self._goes_through(phrases):
@@ -165,11 +191,20 @@ class CameraReader:
         word.is_used = True
         if follows:
             self._add(CameraMove("follow"))
+            self._claim(word)
             return
         if means == "fly" and self._view is None:
             self._view = "aerial"
         self._add(CameraMove("travel", "forward", means=means))
+        self._claim(word)
         del clause
+
+    def _claim(self, word: Word) -> None:
+        """This word asks for the last move."""
+        last = self._moves[-1]
+        value = (last.kind, last.direction)
+        word.meaning = Meaning(Role.CAMERA_MOVE, word.pos, value, word.meaning.form)
+        word.is_used = True
 
     def _read_motion(
         self, word: Word, verb: Verb, phrases: Sequence[tuple[PrepPhrase, Referent]]
@@ -192,7 +227,8 @@ class CameraReader:
                                  "in" if is_towards else "forward", verb.pace))  # fmt: skip
         else:
             return
-        word.is_used = verb.end_pace is None  # no camera brakes
+        if verb.end_pace is None:  # no camera brakes
+            self._claim(word)
 
     def _add(self, move: CameraMove) -> None:
         move = replace(move, phase=self._phase)
@@ -209,7 +245,7 @@ class CameraReader:
             return
         if word.role is Role.STILL:
             self._add(CameraMove("static"))
-            word.is_used = True
+            self._claim(word)
         elif not self._moves:
             return
         elif word.role is Role.DIRECTION:
@@ -218,7 +254,7 @@ class CameraReader:
             self.pace(word)
         elif word.text in ("in", "out") and self._moves[-1].kind in ("zoom", "dolly"):
             self._moves[-1] = replace(self._moves[-1], direction=word.text)
-            word.is_used = True
+            self._claim(word)
 
     def _direct(self, word: Word) -> None:
         last, said = self._moves[-1], word.meaning.value
@@ -235,14 +271,18 @@ class CameraReader:
         else:
             return
         self._moves[-1] = replace(last, kind=kind, direction=direction)
-        word.is_used = True
+        self._claim(word)
 
     def _read_phrase(self, phrase: PrepPhrase, referent: Referent) -> None:
         word = phrase.preposition
+        if word.text in ("toward", "towards", "to") and self._moves:
+            self._tilt_towards(referent)
         if referent.is_things:
-            if not self._moves:
+            if self.stand_by(word, referent) or not self._moves:
                 return
             last = self._moves[-1]
+            if word.text in _ALONG and last.kind == "dolly" and last.direction is None:
+                self._moves[-1] = replace(last, kind="truck")
             if last.kind == "follow" and word.text in _SIDES:
                 self._moves[-1] = replace(last, direction=_SIDES[word.text])
             elif word.text == "around" and last.kind in ("travel", "truck"):
@@ -257,6 +297,25 @@ class CameraReader:
         elif referent.kind == "place" and word.text in _TRAVEL_PREPOSITIONS | {"at", "on"}:
             word.is_used = True
 
+    def _tilt_towards(self, referent: Referent) -> None:
+        """As in "tilts toward the street": down."""
+        last = self._moves[-1]
+        if last.kind == "tilt" and last.direction is None and referent.kind in ("place", "sky"):
+            self._moves[-1] = replace(last, direction="up" if referent.kind == "sky" else "down")
+
+    def stand_by(self, word: Word, referent: Referent) -> bool:
+        """As in "the camera is placed behind the catcher": whether it is read so."""
+        is_static = all(move.kind == "static" for move in self._moves)
+        view = _STATIONS.get(word.text)
+        if not is_static or view is None or not referent.things:
+            return False
+        noun = self._draft.noun(referent.things[0])
+        if view not in ("top", "aerial") and (noun.speed_m_s == 0.0 or noun.habitat == "fixed"):
+            return False  # what has no front has no back
+        self._station, self._view = referent.things[0], view
+        word.meaning, word.is_used = Meaning(Role.VIEW, Pos.ADJUNCT, self._view), True
+        return True
+
     def aim(self, referent: Referent) -> None:
         """Point the camera at an object that its clause names."""
         can_aim = bool(self._moves) and self._moves[-1].kind in _AIMED and self._target is None
@@ -265,4 +324,5 @@ class CameraReader:
 
     def build(self) -> Shot:
         """The shot as understood."""
-        return Shot(tuple(self._moves), self._view, self._framing, self._target)
+        target = self._station if self._target is None else self._target
+        return Shot(tuple(self._moves), self._view, self._framing, target)

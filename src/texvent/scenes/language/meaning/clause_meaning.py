@@ -23,8 +23,9 @@ from texvent.scenes.language.meaning.referents import PERSON, Referent, Referent
 from texvent.scenes.language.meaning.scene_clauses import SceneClauses
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
+from texvent.scenes.language.vocabulary.film import TRAVEL_MEANS
 from texvent.scenes.language.vocabulary.motion import Verb
-from texvent.scenes.language.vocabulary.scene import TRAVEL_MEANS, WEATHER_VERBS
+from texvent.scenes.language.vocabulary.scene import WEATHER_VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
@@ -41,7 +42,7 @@ class ClauseMeaning:
     def __init__(self, nouns: Mapping[str, Noun], *, is_carried: bool = False) -> None:
         self._draft = Draft(nouns)
         self._referents = Referents(self._draft)
-        self._camera = CameraReader(is_carried=is_carried)
+        self._camera = CameraReader(self._draft, is_carried=is_carried)
         self._surroundings = SurroundingsReader()
         self._acts = ActReader(self._draft)
         self._around = CircumstanceReader(self._draft, self._referents, self._surroundings)

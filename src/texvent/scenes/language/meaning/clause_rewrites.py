@@ -16,6 +16,15 @@ _POURED = frozenset(
      "shower", "spray", "dangle", "hang", "lower", "attack", "reach", "land", "descend"}
 )  # fmt: skip
 """Verbs of things that come from above, besides those of motion."""
+_DONE_FROM = frozenset(
+    {"push", "pull", "attack", "approach", "hug", "grab", "hit", "catch", "watch", "look", "come",
+     "light", "pass", "overtake", "arrive", "appear", "blow", "swoop", "tackle", "strike", "kick",
+     "sneak", "creep", "throw", "embrace", "hold", "lift", "ram", "chase", "call", "shout",
+     "observe", "bite", "kiss", "tap", "touch", "enter", "guard", "stare", "peck"}
+)  # fmt: skip
+"""Verbs of which "from behind" says whence it is done."""
+_SIDES = frozenset({"from above", "from below", "from behind", "from the side", "from the front",
+                    "from the back", "from the rear"})  # fmt: skip
 _FROM = {"from above": "down", "from below": "up"}
 
 
@@ -43,10 +52,24 @@ def turn_views(clause: Clause) -> None:
     verb = clause.verb.meaning.value
     is_vertical = isinstance(verb, Verb) and verb.kind in _VERTICAL
     if not is_vertical and clause.verb.lemma not in _POURED:
+        _lose_sides(clause, clause.verb.lemma)
         return
     for word in clause.adverbs:
         if word.role is Role.VIEW and word.text in _FROM:
             word.meaning = Meaning(Role.DIRECTION, word.pos, _FROM[word.text])
+
+
+def _lose_sides(clause: Clause, verb: str) -> None:
+    """As in "pushes a child from behind": not where the camera is, and not shown."""
+    is_of_camera = any(
+        one.head is not None and one.head.role in (Role.CAMERA, Role.FUNCTION)
+        for one in clause.subjects
+    )
+    if verb not in _DONE_FROM or is_of_camera:
+        return
+    for word in clause.adverbs:
+        if word.role is Role.VIEW and word.text in _SIDES:
+            word.meaning, word.is_lost = Meaning(Role.UNKNOWN, word.pos), True
 
 
 def take_juggled(clause: Clause) -> None:

@@ -44,7 +44,8 @@ _KINDS = {
     Role.PICTURE: "picture", Role.FUNCTION: "function", Role.PLACE: "place", Role.LIGHT: "light",
     Role.WEATHER: "weather", Role.SKY: "sky", Role.SNOW: "snow", Role.DUST: "dust",
     Role.SHADOW: "shadow", Role.GLOW: "glow", Role.CLOUDS: "clouds", Role.STEEP: "place",
-    Role.FLICKER: "flicker",
+    Role.FLICKER: "flicker", Role.CAMERA_MOVE: "camera", Role.VIEW: "camera",
+    Role.FRAMING: "camera",
 }  # fmt: skip
 """Role of a head → kind of referent."""
 _LOCATIVE = frozenset(

@@ -59,7 +59,7 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
         "viewpoint", "perspective", "angle", "motion", "gesture", "hand gesture",
     ),
     Pos.ADJECTIVE: (
-        "beautiful", "cinematic", "nice", "photorealistic", "pretty", "realistic", "visible",
+        "beautiful", "nice", "photorealistic", "pretty", "realistic", "visible",
         "detailed", "high quality", "high resolution", "plain",
     ),
     Pos.ADVERB: (

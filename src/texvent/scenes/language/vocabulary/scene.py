@@ -1,4 +1,4 @@
-"""Words for places, light, weather and the camera."""
+"""Words for places, light and weather."""
 
 from __future__ import annotations
 
@@ -206,78 +206,6 @@ SHADOW_WORDS = ("shadow", "shadows", "casting shadows", "long shadows", "casts a
 
 GLOW_NOUNS = ("light", "lights", "lighting", "glow")
 """Understood when a light is described; alone they change nothing and are reported."""
-
-CAMERA_WORDS = ("camera", "cameras", "viewpoint", "viewer", "lens")
-
-CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
-    ("pan", None): ("slow pan", "pan shot", "panning shot"),
-    ("dolly", "in"): ("dolly shot", "push in shot"),
-    ("dolly zoom", "in"): ("dolly zoom", "vertigo shot"),
-    ("crane", "up"): ("crane shot",),
-    ("follow", None): ("tracking shot", "follow shot", "chase cam"),
-    ("orbit", None): ("orbiting shot", "orbit shot"),
-    ("handheld", None): ("handheld", "hand held", "shaky", "camera shake", "handheld camera",
-                         "shaky camera"),
-    ("travel", "forward"): ("dashcam", "dash cam", "driving footage", "fpv", "egocentric",
-                            "dashcam footage"),
-    ("static", None): ("static camera", "fixed camera", "still camera", "stationary camera",
-                       "static shot", "locked off shot", "tripod shot"),
-}  # fmt: skip
-"""Camera move and direction → noun phrases for it."""
-CAMERA_VERBS: dict[tuple[str, str | None], tuple[str, ...]] = {
-    ("pan", None): ("pan",),
-    ("tilt", None): ("tilt",),
-    ("roll", None): ("roll", "rotate"),
-    ("zoom", None): ("zoom",),
-    ("zoom", "in"): ("zoom in",),
-    ("zoom", "out"): ("zoom out",),
-    ("dolly", None): ("dolly",),
-    ("dolly", "in"): ("dolly in", "push in", "move in", "move closer", "close in", "dolly forward"),
-    ("dolly", "out"): ("dolly out", "pull back", "pull out", "pull away", "move back",
-                       "dolly back", "back away"),
-    ("truck", None): ("truck", "slide"),
-    ("crane", "up"): ("crane up",),
-    ("crane", "down"): ("crane down",),
-    ("follow", None): ("follow", "track", "chase", "trail"),
-    ("orbit", None): ("orbit", "circle"),
-    ("handheld", None): ("shake", "wobble", "sway"),
-    ("static", None): ("remain", "stay", "stand", "stop", "rest", "hover"),
-}  # fmt: skip
-"""Camera move and direction → verbs for it."""
-CAMERA_ADJECTIVES: dict[tuple[str, str | None], tuple[str, ...]] = {
-    ("static", None): ("static", "fixed", "stationary", "motionless", "immobile", "steady"),
-    ("follow", None): ("tracking", "following"),
-    ("handheld", None): ("shaky",),
-}
-TRAVEL_MEANS: dict[str, str] = {
-    "drive": "drive", "ride": "drive", "cycle": "cycle", "walk": "walk", "hike": "walk",
-    "stroll": "walk", "run": "run", "jog": "run", "fly": "fly", "glide": "fly", "soar": "fly",
-    "sail": "sail", "swim": "swim", "dive": "swim", "speed": "drive", "cruise": "drive",
-    "bike": "cycle", "ski": "run",
-}  # fmt: skip
-"""Verb → how a camera travels that does it."""
-
-VIEWS: dict[str, tuple[str, ...]] = {
-    "aerial": (
-        "aerial view", "aerial shot", "aerial", "drone view", "drone shot", "drone footage",
-        "bird eye view", "birds eye view", "bird eye", "from above", "seen from above",
-        "high angle", "from a drone", "by a drone",
-    ),
-    "top": ("overhead view", "top view", "top down", "top down view", "directly above",
-            "from directly above", "birds eye"),
-    "low": ("low angle", "from below", "at floor level", "at ground level", "low angle shot"),
-    "first person": ("first person", "first person view", "point of view", "pov",
-                     "first person pov", "driver s view"),
-    "side": ("side view", "from the side"),
-    "front": ("front view", "from the front"),
-    "back": ("rear view", "back view", "from behind"),
-}  # fmt: skip
-
-FRAMINGS: dict[str, tuple[str, ...]] = {
-    "close": ("close up", "close up of", "closeup", "close shot", "extreme close up",
-              "extreme close up of", "macro", "macro shot", "macro shot of"),
-    "wide": ("wide shot", "wide angle", "wide view", "long shot", "panorama", "establishing shot"),
-}  # fmt: skip
 
 PARTS_SHOWN: dict[str, tuple[str, ...]] = {
     "drive": ("tire", "tires", "tyre", "tyres", "wheel", "wheels", "window", "windows", "roof",

@@ -47,7 +47,12 @@ def cut_tokens(
     while start < len(tokens):
         window = tokens[start : start + known.longest]
         length, meanings = known.find([token.text for token in window])
-        length = _stop_at_sign(window, length) if window[0].picture is None else 0
+        if window[0].picture is not None:
+            length = 0
+        elif not any(one.role is Role.VIEW for one in meanings):
+            length = _stop_at_sign(window, length)
+        elif length < len(window) and window[length].text in _GOES_ON:
+            length = 1  # "from the back seat"
         length = _split_particle(window, length, known)
         length = _leave_head(window, length, known)
         meanings = known.find([token.text for token in window[:length]])[1] if length else []
@@ -118,6 +123,8 @@ def _split_particle(window: Sequence[Token], length: int, known: Lexicon) -> int
     return 1 if opens_group and not takes_object else length
 
 
+_GOES_ON = frozenset({"seat", "row", "door", "window", "yard", "porch", "cover", "garden"})
+"""Words after which "from the back", "from the front" are no views."""
 _PARTICLES = frozenset({"up", "down", "over", "around", "off", "through", "by"})
 
 

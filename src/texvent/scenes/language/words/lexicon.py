@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from texvent.scenes.inflection import list_plurals
+from texvent.scenes.language.vocabulary import film as vocabulary_film
 from texvent.scenes.language.vocabulary import function as vocabulary_function
 from texvent.scenes.language.vocabulary import motion as vocabulary_motion
 from texvent.scenes.language.vocabulary import objects as vocabulary_objects
@@ -60,6 +61,8 @@ class Role(Enum):
     CAMERA_MOVE = auto()
     VIEW = auto()
     FRAMING = auto()
+    STYLE = auto()
+    """Words of film that change nothing; the value says why, "" where nothing is asked for."""
     EFFECT = auto()
     ACTIVITY = auto()
     SIMILAR = auto()
@@ -206,7 +209,7 @@ def list_forms(base: str) -> Iterator[tuple[str, VerbForm]]:
 
 def _list_bare_verbs() -> Iterator[tuple[str, Role, Any]]:
     """Verbs of the camera and of lights, and those that only an activity or an effect knows."""
-    for move, bases in vocabulary_scene.CAMERA_VERBS.items():
+    for move, bases in vocabulary_film.CAMERA_VERBS.items():
         for base in bases:
             yield base, Role.CAMERA_MOVE, move
     for base in vocabulary_scene.FLICKERS:
@@ -284,10 +287,12 @@ _TABLES: tuple[tuple[Role, Pos, Mapping[Any, Iterable[str]]], ...] = (
     (Role.UNIT, Pos.NOUN, vocabulary_motion.UNITS),
     (Role.RELATION, Pos.PREPOSITION, vocabulary_motion.RELATIONS),
     (Role.FUNCTION, Pos.PREPOSITION, vocabulary_motion.OTHER_PREPOSITIONS),
-    (Role.CAMERA_MOVE, Pos.ADJUNCT, vocabulary_scene.CAMERA_PHRASES),
-    (Role.CAMERA_MOVE, Pos.ADJECTIVE, vocabulary_scene.CAMERA_ADJECTIVES),
-    (Role.VIEW, Pos.ADJUNCT, vocabulary_scene.VIEWS),
-    (Role.FRAMING, Pos.ADJUNCT, vocabulary_scene.FRAMINGS),
+    (Role.CAMERA_MOVE, Pos.ADJUNCT, vocabulary_film.CAMERA_PHRASES),
+    (Role.CAMERA_MOVE, Pos.ADJECTIVE, vocabulary_film.CAMERA_ADJECTIVES),
+    (Role.VIEW, Pos.ADJUNCT, vocabulary_film.VIEWS),
+    (Role.FRAMING, Pos.ADJUNCT, vocabulary_film.FRAMINGS),
+    (Role.STYLE, Pos.NOUN, vocabulary_film.STYLE_NOUNS),
+    (Role.STYLE, Pos.ADJECTIVE, vocabulary_film.STYLE_ADJECTIVES),
     (Role.PLACE, Pos.NOUN, vocabulary_scene.PLACES),
     (Role.PLACE, Pos.ADJUNCT, vocabulary_scene.PLACE_ADVERBS),
     (Role.ROAD, Pos.ADJECTIVE, vocabulary_scene.ROAD_SHAPES),
@@ -311,7 +316,7 @@ _WORDS: tuple[tuple[Role, Pos, Iterable[str]], ...] = (
     (Role.DUST, Pos.NOUN, vocabulary_scene.DUST),
     (Role.SHADOW, Pos.NOUN, vocabulary_scene.SHADOW_WORDS),
     (Role.GLOW, Pos.NOUN, vocabulary_scene.GLOW_NOUNS),
-    (Role.CAMERA, Pos.NOUN, vocabulary_scene.CAMERA_WORDS),
+    (Role.CAMERA, Pos.NOUN, vocabulary_film.CAMERA_WORDS),
     (Role.FLICKER, Pos.NOUN, vocabulary_scene.STROBES),
     (Role.FLICKER, Pos.NOUN, tuple(f"{one}s" for one in vocabulary_scene.STROBES[:2])),
     (Role.FUNCTION, Pos.NOUN, vocabulary_scene.TIMELAPSES),

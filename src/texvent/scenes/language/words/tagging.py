@@ -21,6 +21,8 @@ _PASSED_OVER = (Role.SIDE, Role.LIGHT)
 """Adjuncts that stand between a subject and its verb: "a car at night drives left"."""
 _PERCEIVED = frozenset({"watch", "see", "hear", "let", "make", "help", "film"})
 """Verbs before a noun and a verb in its base form: "watches a fish swim"."""
+_OF_FILM = (Role.CAMERA, Role.CAMERA_MOVE, Role.VIEW, Role.FRAMING)
+"""What a verb follows at once: "the camera pans", "an aerial view shows"."""
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
 
 
@@ -186,7 +188,7 @@ class _Tagger:
         is_one = last is not None and last.role is Role.COUNT and last.value == 1
         if is_one and verb.form is VerbForm.THIRD:
             return Pos.VERB
-        if not others or self._before() is Pos.TO:
+        if not others or self._before() is Pos.TO or self._is_of_camera(index, verb):
             return Pos.VERB
         adverb = by_pos.get(Pos.ADVERB)
         is_adverb = adverb is not None and adverb.role is not Role.UNKNOWN
@@ -199,6 +201,34 @@ class _Tagger:
         if is_noun and self._before() in _OPENS_NOUN | {None, Pos.PREPOSITION, Pos.SIGN}:
             return None
         return self._verb_by_context(index, verb, others)
+
+    def _is_of_camera(self, index: int, verb: Meaning) -> bool:
+        """As in "the camera tracks him": no tracks of a camera."""
+        last = self._chosen[-1] if self._chosen else None
+        is_finite = verb.form is VerbForm.THIRD or verb.role is Role.FUNCTION
+        if last is None or not is_finite or not self._texts[index].endswith("s"):
+            return False
+        if last.role in _OF_FILM:
+            return not self._has_verb and not self._finite_follows(index)
+        own = self._sentence_so_far()
+        while own and own[-1].pos is Pos.ADVERB:
+            own.pop()
+        can_be_move = any(one.role is Role.CAMERA_MOVE for one in self._candidates[index])
+        if not can_be_move or not own or own[-1].pos is not Pos.CONJUNCTION:
+            return False
+        nouns = [one for one in own if one.pos in (Pos.NOUN, Pos.PRONOUN)]
+        return bool(nouns) and nouns[0].role is Role.CAMERA
+
+    def _sentence_so_far(self) -> list[Meaning]:
+        """What was chosen of the sentence before this word; commas do not end it."""
+        begin = len(self._chosen)
+        while begin > 0 and not self._ends_sentence(self._chosen[begin - 1]):
+            begin -= 1
+        return self._chosen[begin:]
+
+    @staticmethod
+    def _ends_sentence(meaning: Meaning) -> bool:
+        return meaning.pos is Pos.SIGN and meaning.value in ".;!?:"
 
     def _goes_on(self, index: int, verb: Meaning) -> bool:
         """As "arches" in "tosses the ball, arches her back": one more verb, and its object."""
@@ -260,11 +290,16 @@ class _Tagger:
         if after & {Pos.AUXILIARY} or (self._finite_follows(index) and not after & _NOMINAL):
             return None
         if after and after <= _ONLY_OPENS and verb.form is VerbForm.BASE:
-            return Pos.VERB
+            return None if self._is_fronted() else Pos.VERB
         is_singular = verb.form is VerbForm.THIRD
         numbers = (self._is_plural, self._subject_is_plural)
         agrees = any(plural is None or is_singular != plural for plural in numbers)
         return Pos.VERB if agrees else None
+
+    def _is_fronted(self) -> bool:
+        """Whether the clause is a phrase so far: "At a skate park a man ..." has no subject yet."""
+        own = [one.pos for one in self._sentence_so_far()]
+        return bool(own) and own[0] is Pos.PREPOSITION and own.count(Pos.DETERMINER) < 2
 
     def _finite_follows(self, index: int) -> bool:
         """Whether the next word can be a verb in the third person."""

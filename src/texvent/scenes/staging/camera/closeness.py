@@ -12,6 +12,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.framed_points import upper_part
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.prominence import Prominence, between
 
@@ -59,7 +60,9 @@ def come_near_small(
     small = [actor for actor in actors if _is_small(actor, main, times)]
     if not small or not _stays(main, times):
         return path
-    points = np.vstack([_upper_part(main, times), *(_boxes(actor, times) for actor in small)])
+    points = np.vstack(
+        [upper_part(_boxes(main, times), _WAIST), *(_boxes(actor, times) for actor in small)]
+    )
     wide = path.framing
     near = fit(points, azimuth=wide.azimuth, elevation=wide.elevation, aspect=aspect,
                fill=_FILL_PANNING if any(m.kind == "pan" for m in path.moves) else _FILL,
@@ -92,8 +95,13 @@ def eye_level(
 ) -> float | None:
     """Elevation of a camera at eye level, where one higher up would see no ground that is near.
 
-    Only beside a large or high subject, and where smaller things on the ground are to be seen.
+    Only beside a large or high subject, and where smaller things on the ground are to be seen; and
+    where the prompt says that the camera is low, or at the level of eyes.
     """
+    if description.shot.view in ("low", "level"):
+        tallest = max(_LEAST_EYES_M, min(_EYES_M, 0.8 * main.model.height))
+        height = _LOW_M if description.shot.view == "low" else tallest
+        return _elevation_of(height, framing)
     if description.shot.view is not None or framing.position[2] <= 1.1 * _EYE_M:
         return None
     smaller = [
@@ -103,7 +111,16 @@ def eye_level(
     ]
     if not smaller:
         return None
-    rise = (_EYE_M - float(framing.target[2])) / framing.distance_m
+    return _elevation_of(_EYE_M, framing)
+
+
+_LOW_M, _EYES_M, _LEAST_EYES_M = 0.4, 1.55, 0.35
+"""Height of a camera that is low, and of one at the level of eyes: a person's, of what is small."""
+
+
+def _elevation_of(height_m: float, framing: Framing) -> float:
+    """Elevation of a camera of that height above the ground."""
+    rise = (height_m - float(framing.target[2])) / framing.distance_m
     return max(math.asin(min(max(rise, -1.0), 1.0)), _LOWEST_RAD)
 
 
@@ -119,13 +136,6 @@ def _stays(main: Actor, times: Float64Array) -> bool:
         return False
     places = [main.middle(float(time)) for time in times]
     return float(np.ptp(places, axis=0).max()) < _STILL * main.size_m
-
-
-def _upper_part(main: Actor, times: Float64Array) -> Float64Array:
-    corners = _boxes(main, times)
-    low, high = float(corners[:, 2].min()), float(corners[:, 2].max())
-    corners[:, 2] = np.maximum(corners[:, 2], low + _WAIST * (high - low))
-    return corners
 
 
 def _boxes(actor: Actor, times: Float64Array) -> Float64Array:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.prominence import GOALS
@@ -67,11 +68,22 @@ def list_views(
     shot = description.shot
     tying = moves if any(move.kind in TYING for move in moves) and main.is_mover else ()
     aims = is_aimed(description, main, moves)
-    if aims or shot.framing == "close":
+    framing = "close" if shot.framing == "close" else "medium"
+    is_medium = shot.framing == "medium" or shot.view == "shoulder"
+    is_person = main.noun.name in PERSON_NOUNS
+    if aims or shot.framing == "close" or (is_medium and is_person):
         is_still = bool(tying) and not aims
         near = np.vstack([main.corners(float(t)) for t in (times[:1] if is_still else times)])
         if not aims:
-            return [View(near, 0.95)]
+            if not is_person:
+                return [View(near, 0.95)]
+            held = [
+                one.corners(float(t))
+                for one in _list_partners_of(description, actors, main, times)
+                if one.size_m < _IN_HAND * main.size_m
+                for t in times
+            ]
+            return [View(np.vstack([_bust(near, framing), *held]), 0.95)]
         # At the far end of the move the image shows what else there is, about the subject.
         rest = _points_of(description, actors, main, times, ())
         aim = 0.5 * (near.min(axis=0) + near.max(axis=0))
@@ -93,6 +105,33 @@ def list_views(
     least = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
     goals = (1.0, *GOALS, _HARDLY_SEEN)
     return [View(points, fill, least * goal) for points, goal in zip(choices, goals, strict=True)]
+
+
+_UPPER = {"close": 0.62, "medium": 0.42}
+"""Framing → share of a person's height below which the image may end."""
+_BREADTH = {"close": 0.24, "medium": 0.32}
+"""Framing → how far to each side of the middle it must hold the person, in heights."""
+
+
+_IN_HAND = 0.25
+"""Size of what is in a person's hands, as a multiple of the person's, at most."""
+
+
+def upper_part(points: Float64Array, share: float) -> Float64Array:
+    """[n, 3] corners of boxes, m, without what is below a share of their height."""
+    low, high = float(points[:, 2].min()), float(points[:, 2].max())
+    cut = points.copy()
+    cut[:, 2] = np.maximum(cut[:, 2], low + share * (high - low))
+    return cut
+
+
+def _bust(points: Float64Array, framing: str) -> Float64Array:
+    """[n, 3] of a person in a close or medium shot: no legs, no arm that reaches out."""
+    cut = upper_part(points, _UPPER[framing])
+    reach = _BREADTH[framing] * float(np.ptp(points[:, 2]))
+    middle = 0.5 * (cut[:, :2].min(axis=0) + cut[:, :2].max(axis=0))
+    cut[:, :2] = np.clip(cut[:, :2], middle - reach, middle + reach)
+    return cut
 
 
 def is_aimed(description: SceneDescription, main: Actor, moves: Sequence[CameraMove]) -> bool:

@@ -13,8 +13,10 @@ from texvent.scenes.staging.surroundings.environment import is_room
 
 FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""
-_ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
-_AZIMUTHS = {"side": 0.0, "front": 0.0, "back": math.pi}
+_ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05, "level": 0.03,
+               "shoulder": 0.16}  # fmt: skip
+_BEARINGS = {"side": 0.0, "front": 0.5 * math.pi, "back": -0.5 * math.pi, "shoulder": -1.25}
+"""View → azimuth of the camera from the side of what it looks at, to its right; radians."""
 _FLAT_MOST_M = 3.0
 """What extends further is not looked down upon: a bridge."""
 _FLAT_ELEVATION = 0.85
@@ -47,8 +49,8 @@ def choose_angles(
     elif follow is not None and goes_in_depth:
         azimuth = state.yaw + math.copysign(0.5, wander)
     view = description.shot.view
-    if view in _AZIMUTHS:
-        azimuth = _AZIMUTHS[view] if view == "side" else _face(view, state.yaw)
+    if view in _BEARINGS:
+        azimuth = _face(view, state.yaw)
     elevation = _ELEVATIONS.get(view or "")
     if elevation is None:
         elevation = _choose_elevation(main, follow, place, goes_in_depth)
@@ -79,5 +81,8 @@ def _choose_elevation(
 
 
 def _face(view: str, yaw: float) -> float:
-    """Azimuth from which an object of that heading is seen from the front or from behind."""
-    return yaw + 0.5 * math.pi if view == "front" else yaw - 0.5 * math.pi
+    """Azimuth from which an object of that heading is seen from the front, from behind ..."""
+    azimuth = yaw + _BEARINGS[view]
+    if view == "side" and math.cos(azimuth) < 0.0:
+        azimuth += math.pi  # its other side, which faces the default viewer
+    return azimuth

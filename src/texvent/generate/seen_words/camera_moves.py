@@ -1,0 +1,86 @@
+"""Whether the camera is seen to move, or to stand, as its words say."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.generate.seen_words.picture import Picture, View
+from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.projection import project, ray_directions
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.camera.camera_placement import choose_main
+
+LEAST_SHIFT = 0.05
+"""Way of a point over the clip, as a share of the picture's width, that is seen as the camera's."""
+LEAST_SHARE = 0.12
+"""Share of the picture that goes so far at least where a camera moves."""
+MOST_STILL = 0.004
+"""Greatest way in the picture of a camera that stands, a share of its width."""
+MOST_DRIFT = 0.35
+"""How far what a camera follows may go in the picture, a share of its width."""
+_OF_PLACE = frozenset({"travel", "dolly", "truck", "pedestal", "crane", "orbit", "dolly zoom"})
+_TURNS = frozenset({"pan", "tilt", "zoom", "roll"})
+
+
+def judge_move(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """Why a move of the camera is not seen, or None.
+
+    Args:
+        picture: of the staged scene.
+        description: what it was staged from.
+        claim: of a word that asks for a move.
+    """
+    first, last = picture.views[0], picture.views[-1]
+    if claim.move == "static":
+        is_alone = all(move.kind == "static" for move in description.shot.moves)
+        moves = is_alone and np.max(_shifts(picture, first, last), initial=0.0) > MOST_STILL
+        return "the camera moves" if moves else None
+    share = max(_share_moved(picture, first, one) for one in picture.views[1:])
+    if claim.move in _OF_PLACE or claim.move in _TURNS:
+        return "the picture hardly shifts" if share < LEAST_SHARE else None
+    if claim.move == "follow":
+        return _judge_follow(picture, description, share)
+    return None
+
+
+def _shifts(picture: Picture, first: View, last: View) -> Float64Array:
+    """[n] way in the picture of what stands, over its width, by the camera alone."""
+    where = np.isfinite(first.depth) & (first.depth > 0.0) & (first.instance == 0)
+    rays = ray_directions(first.camera, picture.size, picture.points[where])
+    spots = first.camera.position + rays * first.depth[where, None]
+    seen = project(last.camera, picture.size, spots)
+    way = np.linalg.norm(seen[:, :2] - picture.points[where], axis=1) / picture.size.width
+    # What has come beside or behind the camera has left the picture.
+    return np.asarray(np.where(seen[:, 2] > 0.0, np.minimum(way, 1.0), 1.0))
+
+
+def _share_moved(picture: Picture, first: View, last: View) -> float:
+    is_moved: NDArray[np.bool_] = _shifts(picture, first, last) >= LEAST_SHIFT
+    sky = int(first.is_sky.sum()) if _turned(first, last) else 0
+    return float(is_moved.sum() + sky) / len(picture.points)
+
+
+def _turned(first: View, last: View) -> bool:
+    """Whether the camera turns or zooms, so that the sky shifts too."""
+    angle = np.abs(np.asarray(first.camera.rotation) - np.asarray(last.camera.rotation)).max()
+    return bool(angle > LEAST_SHIFT or abs(last.camera.focal / first.camera.focal - 1.0) > 0.03)
+
+
+def _judge_follow(picture: Picture, description: SceneDescription, share: float) -> str | None:
+    """Whether the camera goes along with something that goes on."""
+    actors = picture.scene.actors
+    if not actors:
+        return "nothing that it follows is there"
+    main = choose_main(description, actors)
+    first, last = picture.views[0], picture.views[-1]
+    way = np.linalg.norm(main.middle(last.time_s) - main.middle(first.time_s))
+    if way < 0.25 * main.size_m:
+        return "what it follows stays where it is"
+    if share < LEAST_SHARE:
+        return "the picture hardly shifts"
+    places = np.array(
+        [project(view.camera, picture.size, main.middle(view.time_s)) for view in picture.views]
+    )
+    drift = float(np.ptp(places[:, :2], axis=0).max()) / picture.size.width
+    return "what it follows does not stay in the picture" if drift > MOST_DRIFT else None

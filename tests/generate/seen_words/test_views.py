@@ -1,0 +1,43 @@
+"""Words of the camera count as shown where the staged camera does as they say."""
+
+from __future__ import annotations
+
+import pytest
+
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.sensor import SensorSize
+
+
+def _report(prompt: str):
+    generator = ProceduralGenerator(ProceduralConfig(), size=SensorSize(96, 72))
+    return generator.report(prompt)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word"),
+    [
+        ("A close-up of a red apple on a table.", "close up of"),
+        ("A dog runs, filmed from the side.", "from the side"),
+        ("A dog runs, filmed from the front.", "from the front"),
+        ("A dog runs, filmed from behind.", "from behind"),
+        ("A low-angle shot of a horse that walks.", "low angle shot"),
+        ("A medium shot of a man who waves.", "medium shot of"),
+        ("The camera drives forward through a forest.", "forward"),
+        ("A static shot of a car that drives left.", "static shot"),
+    ],
+)
+def test_what_the_camera_does_is_shown(prompt, word) -> None:
+    assert word in _report(prompt).shown
+
+
+@pytest.mark.parametrize(
+    ("prompt", "words"),
+    [
+        ("A woman walks, lens flare.", "lens flare (the lens flares nowhere)"),
+        ("A cat sits, shallow depth of field.", "shallow depth of field (the lens blurs nothing)"),
+        ("A dog sits. The camera follows the dog.",
+         "follows (what it follows stays where it is)"),
+    ],
+)  # fmt: skip
+def test_what_it_does_not_do_is_reported(prompt, words) -> None:
+    assert words in _report(prompt).not_shown

@@ -1,0 +1,112 @@
+"""Words of film: the camera's moves, views and gear are no things; elsewhere they are."""
+
+from __future__ import annotations
+
+import pytest
+
+from texvent.scenes.language.parser import parse_prompt
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [
+        ("A woman waits at a bus stop, camera on a tripod.", "tripod"),
+        ("A man walks on a beach while the camera tracks him.", "railway track"),
+        ("Slow dolly past the desks of an office.", "trolley"),
+        ("Quick pan from the window to the door of a living room.", "frying pan"),
+        ("Pan across a desert.", "frying pan"),
+        ("Aerial view of a road. The drone hovers, looking straight down.", "drone"),
+        ("A crane shot rises over two houses.", "crane"),
+        ("Pedestal up from a box to a lamp.", "column"),
+        ("A house, shot from a crane.", "crane"),
+    ],
+)
+def test_words_of_film_are_no_things(prompt, noun) -> None:
+    assert noun not in {one.noun for one in parse_prompt(prompt).objects}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [
+        ("A man carries a tripod across a field.", "tripod"),
+        ("A cook holds a pan.", "frying pan"),
+        ("A crane lifts a car.", "crane"),
+        ("A drone flies over a field.", "drone"),
+        ("A truck drives past a house.", "truck"),
+    ],
+)
+def test_the_same_words_elsewhere_are_things(prompt, noun) -> None:
+    assert noun in {one.noun for one in parse_prompt(prompt).objects}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "move"),
+    [
+        ("A dog runs, camera on a tripod.", ("static", None)),
+        ("A locked shot of a street with cars.", ("static", None)),
+        ("A static camera captures two dogs.", ("static", None)),
+        ("The camera arcs around a statue.", ("orbit", None)),
+        ("The camera pushes forward through a forest.", ("travel", "forward")),
+        ("A slow pan to the right over a valley.", ("pan", "right")),
+        ("Slow tilt up a tower.", ("tilt", "up")),
+        ("Rain pours. The camera slowly tilts toward the street.", ("tilt", "down")),
+        ("Smooth lateral camera movement past a row of houses.", ("truck", None)),
+        ("Slow dolly past two houses.", ("truck", None)),
+        ("The camera starts on a cat and tilts up to a dog.", ("tilt", "up")),
+        ("A steadicam follows a dog.", ("follow", None)),
+    ],
+)
+def test_moves_of_the_camera(prompt, move) -> None:
+    assert move in [(one.kind, one.direction) for one in parse_prompt(prompt).shot.moves]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "view"),
+    [
+        ("A bird's-eye view of a road.", "aerial"),
+        ("A drone shot, looking straight down, of a boat on a lake.", "top"),
+        ("Two boys swing. The camera sits low on the grass.", "low"),
+        ("At wheel height, the camera follows a bicycle.", "low"),
+        ("An over-the-shoulder shot of a man.", "shoulder"),
+        ("A cat sits, at eye level.", "level"),
+        ("A dog runs, filmed from the side.", "side"),
+        ("A dog runs. The camera is right behind the dog.", None),
+        ("The camera is placed behind the dog.", "back"),
+        ("A woman pushes a child on a swing from behind.", None),
+        ("A rooster watches a dog from above.", None),
+        ("A street filmed from the back seat of a taxi.", None),
+    ],
+)
+def test_views_of_the_camera(prompt, view) -> None:
+    assert parse_prompt(prompt).shot.view == view
+
+
+@pytest.mark.parametrize(
+    ("prompt", "framing"),
+    [
+        ("A medium static shot of a woman.", "medium"),
+        ("A wide locked shot of a beach.", "wide"),
+        ("An extreme close-up of an eye.", "close"),
+        ("A full-body shot of a woman.", "full"),
+    ],
+)
+def test_framings(prompt, framing) -> None:
+    assert parse_prompt(prompt).shot.framing == framing
+
+
+def test_words_of_style_are_no_things_and_noted() -> None:
+    found = parse_prompt("A dog runs, shallow depth of field, cinematic, 4k, shot on 35mm film.")
+    assert found.surroundings.place != "field"
+    assert not found.not_understood
+    assert any("cinematic, 4 k, 35 mm film" in note for note in found.notes)
+
+
+def test_who_is_filmed_films_nobody() -> None:
+    (swimmer,) = parse_prompt("A swimmer in a pool, filmed from the side.").objects
+    assert swimmer.motion is None or swimmer.motion.kind != "photograph"
+
+
+def test_a_fronted_place_is_no_subject() -> None:
+    found = parse_prompt("At a skate park a man jumps.")
+    assert [one.noun for one in found.objects] == ["man"]
+    assert "park" in found.shown
