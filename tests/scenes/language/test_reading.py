@@ -141,7 +141,7 @@ def test_what_is_not_shown_is_reported_and_does_nothing_else(
 def test_kinds_are_shown_as_what_they_are_kinds_of_and_named() -> None:
     description = parse_prompt("a barista waves in an attic")
     pairs = [(one.said, one.shown) for one in description.substituted]
-    assert pairs == [("barista", "person"), ("attic", "indoor")]
+    assert pairs == [("barista", "person"), ("attic", "storeroom")]
     assert "waves" in description.shown
 
 

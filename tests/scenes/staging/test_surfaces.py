@@ -7,6 +7,7 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.scenes.description import NamedColour, SceneDescription, SceneObject, Surroundings
+from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.language.vocabulary.objects import MATERIALS as WORDS
 from texvent.scenes.language.vocabulary.scene import PLACES as PLACE_WORDS
 from texvent.scenes.models.material_override import in_material
@@ -41,6 +42,28 @@ def test_every_place_can_be_drawn(place: str) -> None:
 def test_every_table_of_scenery_and_every_word_belongs_to_a_place() -> None:
     assert set(SCENERY) <= set(PLACES)
     assert set(PLACE_WORDS) <= set(PLACES)
+
+
+def test_all_scenery_has_a_model() -> None:
+    named = {rule.noun for rules in SCENERY.values() for rule in rules}
+    assert named <= set(NOUNS)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "mark"),
+    [
+        ("a man walks down a hallway", "corridor door"),
+        ("children run through a funfair", "ferris wheel"),
+        ("a waiter walks through an outdoor cafe", "terrace table"),
+        ("a woman walks through the departure hall", "check-in desk"),
+        ("a car drives through a car wash", "car wash arch"),
+        ("a boy stands in the driveway", "drive slab"),
+        ("a man sits in the living room", "sofa"),
+    ],
+)
+def test_a_place_holds_what_it_is_known_by(prompt: str, mark: str) -> None:
+    scene = compose_scene(parse_prompt(prompt), seed=0, size=SIZE, duration_s=1.0)
+    assert mark in scene.still_nouns
 
 
 @pytest.mark.parametrize("place", [place for place in PLACES if is_room(place)])

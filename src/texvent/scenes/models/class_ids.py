@@ -166,6 +166,8 @@ _NOUNS: tuple[str, ...] = (
     "trailer", "shipping container", "roundabout", "crosswalk", "roller coaster", "solar panel",
     "satellite dish", "steel beam", "plank", "breaking wave", "tornado", "diamond", "neon arch",
     "horse trough", "striped awning", "unicorn", "skeleton", "ghost", "alien", "dragon",
+    "car wash arch", "check-in desk", "flight board", "locker row", "corridor door", "ticket gate",
+    "terrace table", "drive slab", "garage front",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

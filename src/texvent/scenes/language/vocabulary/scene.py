@@ -32,7 +32,7 @@ PLACES: dict[str, tuple[str, ...]] = {
     "bedroom": ("bedroom",),
     "office": ("office",),
     "workshop": ("workshop",),
-    "warehouse": ("warehouse", "storeroom", "storage room"),
+    "warehouse": ("warehouse", "warehouse aisle", "storehouse"),
     "gym": ("gym", "gymnasium", "sports hall"),
     "space": ("space", "outer space", "galaxy", "star field", "starfield", "field of stars"),
     "construction site": (
@@ -48,6 +48,7 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "road": ("race track", "racetrack"),
     "city": (
         "plaza", "square", "avenue", "london", "paris", "new york", "tokyo", "campus",
+        "boulevard", "promenade", "high street", "main street", "courtyard", "rooftop", "balcony",
         "bus station", "railroad crossing", "railway crossing", "alley",
     ),
     "grass": (
@@ -63,15 +64,17 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "river": ("rapids", "ditch"),
     "forest": ("park trail", "bamboo grove", "swamp forest"),
     "indoor": (
-        "corridor", "studio", "church", "basement", "attic", "lobby", "palace", "court", "circus",
-        "club",
+        "studio", "church", "lobby", "palace", "court", "circus", "club", "courtroom", "dungeon",
+        "waiting hall", "vestibule", "entrance hall", "foyer",
     ),
-    "living room": ("apartment", "flat", "bar", "hotel lobby"),
+    "storeroom": ("attic", "basement", "cellar", "loft", "pantry", "shed interior"),
+    "living room": ("dining room", "conservatory", "apartment", "flat", "bar", "hotel lobby"),
     "kitchen": ("bakery", "restaurant kitchen", "canteen"),
     "bedroom": ("hotel room", "nursery", "dormitory"),
-    "office": ("school", "waiting room"),
+    "office": ("conference room", "meeting room", "control room", "server room", "call center",
+        "reception", "open plan office", "school", "waiting room"),
     "workshop": ("forge",),
-    "warehouse": ("hangar", "station", "mall", "barn", "depot"),
+    "warehouse": ("hangar", "mall", "barn", "depot"),
     "gym": ("dojo", "dance studio", "yoga studio"),
     "underwater": ("aquarium", "fish tank"),
 }  # fmt: skip

@@ -136,8 +136,8 @@ INDOOR_KINDS: dict[str, str] = {
         gym mat, exercise mat, floor mat, puzzle mat""",
     "laptop": "chromebook, ultrabook",
     "monitor": """
-        departure board, information screen, lcd screen, radar screen, gaming monitor,
-        ultrasound machine, control panel, fish finder, touchscreen, touch screen""",
+        information screen, lcd screen, radar screen, gaming monitor, ultrasound
+        machine, control panel, fish finder, touchscreen, touch screen""",
     "stapler": "staple gun, hole punch",
 }
 """Noun of the models → kinds of it, separated by commas."""

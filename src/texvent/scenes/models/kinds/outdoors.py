@@ -39,8 +39,8 @@ OUTDOOR_KINDS: dict[str, str] = {
         barricade wall, quay wall, stone barrier""",
     "fence": "wire mesh fence, fence post, security fence, iron fence, metal railing, guard fence",
     "gate": """
-        ticket gate, security gate, entrance gate, torii gate, torii, metal detector,
-        archway gate, toll gate, park gate, lock gate""",
+        entrance gate, torii gate, torii, metal detector, archway gate, toll gate, park
+        gate, lock gate""",
     "vending machine": """
         ticket machine, jukebox, gambling machine, drinks machine, water cooler, parking
         ticket machine, self checkout, gumball machine""",

@@ -206,7 +206,7 @@ def _face(
     """
     if rule.faces_camera:
         return math.atan2(float(back[1]), float(back[0])) + float(rng.uniform(-0.2, 0.2))
-    if rule.noun in ("building", "house", "barrier", "street lamp", "building frame"):
+    if rule.noun in ("building", "house", "barrier", "street lamp"):
         return view.road.angle - 0.5 * math.pi
     return float(rng.uniform(0.0, 2.0 * math.pi))
 

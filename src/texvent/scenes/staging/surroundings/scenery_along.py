@@ -19,7 +19,7 @@ from texvent.scenes.staging.surroundings.scenery_tables import ScatterRule
 
 SPACING_M = {"building": 17.0, "house": 24.0, "street lamp": 14.0, "tree": 9.0, "pine": 7.0,
              "palm": 11.0, "bush": 7.0, "flower": 5.0, "rock": 12.0, "barrier": 15.0,
-             "building frame": 60.0, "box": 12.0, "cloud": 16.0}  # fmt: skip
+             "box": 12.0, "cloud": 16.0}  # fmt: skip
 """Noun → metres from one to the next on a side of the route."""
 _USUAL_SPACING_M = 12.0
 BRANCH_M = 45.0
@@ -29,7 +29,7 @@ _ASIDE = {"building": (2.5, 5.0), "house": (3.0, 10.0), "street lamp": (0.2, 0.4
           "barrier": (0.3, 0.8), "flower": (0.2, 2.5), "bush": (0.4, 6.0)}  # fmt: skip
 """Noun → least and most metres from the free strip to its edge."""
 _USUAL_ASIDE = (0.8, 9.0)
-_SQUARE = ("building", "house", "barrier", "street lamp", "building frame")
+_SQUARE = ("building", "house", "barrier", "street lamp")
 
 
 def line_route(

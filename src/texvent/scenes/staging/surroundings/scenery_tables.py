@@ -70,31 +70,36 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
              ScatterRule("bush", 4, 0.6, 2.5, (0.4, 0.8))),
     "indoor": _along_walls(("bookshelf", 1), ("chair", 2), ("lamp", 1)),
     "living room": _along_walls(
-        ("sofa", 1), ("bookshelf", 2), ("lamp", 1), ("television", 1), ("armchair", 1),
-        ("cabinet", 1), ("potted plant", 2), ("chair", 1),
+        ("sofa", 1), ("fireplace", 1), ("armchair", 2), ("lamp", 1), ("large painting", 2),
+        ("chest of drawers", 1), ("bookshelf", 1), ("potted plant", 2), ("grandfather clock", 1),
     ),
     "kitchen": _along_walls(
-        ("refrigerator", 1), ("oven", 1), ("sink", 1), ("cabinet", 3), ("dishwasher", 1),
-        ("table", 1), ("chair", 2),
+        ("refrigerator", 1), ("oven", 1), ("sink", 1), ("chest of drawers", 2),
+        ("washing machine", 1), ("shelf", 1), ("table", 1), ("chair", 2),
     ),
     "bedroom": _along_walls(
-        ("bed", 1), ("wardrobe", 1), ("nightstand", 1), ("lamp", 1), ("dresser", 1),
+        ("bed", 1), ("wardrobe", 1), ("lamp", 1), ("chest of drawers", 1), ("large painting", 1),
         ("bookshelf", 1), ("chair", 1),
     ),
     "office": _along_walls(
-        ("desk", 2), ("office chair", 2), ("bookshelf", 2), ("cabinet", 1), ("potted plant", 1),
-        ("printer", 1), ("chair", 2),
+        ("desk", 2), ("office chair", 2), ("bookshelf", 2), ("wardrobe", 1), ("potted plant", 1),
+        ("whiteboard", 1), ("chair", 2),
     ),
     "workshop": _along_walls(
-        ("workbench", 2), ("toolbox", 2), ("cabinet", 1), ("ladder", 1), ("box", 3), ("barrel", 2),
+        ("desk", 2), ("chest", 1), ("shelf", 2), ("ladder", 1), ("box", 3), ("barrel", 2),
         ("table", 1),
     ),
-    "warehouse": _along_walls(("shelf", 3), ("box", 8), ("barrel", 3), ("pallet", 2),
-                              ("cylinder", 2)),
+    "warehouse": (
+        *_along_walls(("shelf", 8), ("crate", 3), ("barrel", 2)),
+        ScatterRule("shelf", 3, 0.3, 0.9, (1.2, 1.4), faces_camera=True),
+        ScatterRule("pallet", 2, 0.2, 0.8), ScatterRule("crate", 2, 0.3, 0.9),
+    ),
     "gym": _along_walls(("bench", 3), ("treadmill", 2), ("dumbbell", 2), ("basketball", 2)),
     "construction site": (
         ScatterRule("barrier", 3, 0.25, 0.8, (1.0, 1.0)),
-        ScatterRule("building frame", 1, 0.9, 1.4, (1.0, 1.0)),
+        ScatterRule("scaffold", 2, 0.6, 1.6, (1.2, 1.6), faces_camera=True),
+        ScatterRule("cement mixer", 1, 0.3, 0.9),
+        ScatterRule("crane", 1, 1.2, 2.2, (0.9, 1.0)),
         ScatterRule("box", 4, 0.3, 1.0, (0.8, 1.4)),
     ),
 }  # fmt: skip

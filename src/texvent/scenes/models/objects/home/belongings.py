@@ -277,8 +277,8 @@ _ROOM = placed("indoor", (
     thing("powder heap", ((0.78, 0.76, 0.70),), lambda p: [
         peak(mottled(p.colour, contrast=0.1), (0.0, 0.0, 0.07), (0.30, 0.30, 0.14)),
         ball(mottled(p.colour, contrast=0.1), (0.0, 0.0, 0.02), (0.36, 0.36, 0.06))],
-        ("flour", "heap of flour", "salt", "sugar", "heap of sand", "sand pile", "pile of sand",
-         "powder", "sawdust", "pile of sawdust", "heap of salt", "pile of flour")),
+        ("flour", "heap of flour", "salt", "sugar", "heap of sand", "sand pile",
+         "powder", "sawdust", "heap of salt")),
     thing("dough", ((0.68, 0.56, 0.36),), lambda p: [
         ball(mottled(p.colour, contrast=0.1), (0.0, 0.0, 0.055), (0.30, 0.34, 0.13)),
         ball(mottled(p.colour, contrast=0.1), (0.02, 0.06, 0.09), (0.18, 0.18, 0.10)),

@@ -125,20 +125,20 @@ def _trailer(p: Material) -> list[ModelPart]:
 def _roundabout(p: Material) -> list[ModelPart]:
     """A ring of road with four ends and a planted island, to be seen from above or near."""
     road = Material((0.045, 0.045, 0.048))
-    ends = [box(road, (16.0 * c, 16.0 * s, 0.015), (20.0 if c else 6.5, 20.0 if s else 6.5, 0.03))
+    ends = [box(road, (10.5 * c, 10.5 * s, 0.015), (7.0 if c else 5.5, 7.0 if s else 5.5, 0.03))
             for c, s in ((1, 0), (-1, 0), (0, 1), (0, -1))]  # fmt: skip
     dashes = [
-        box(PALE, (16.0 * c + (k - 3) * 2.4 * abs(c), 16.0 * s + (k - 3) * 2.4 * abs(s), 0.045),
+        box(PALE, (10.5 * c + (k - 3) * 1.2 * abs(c), 10.5 * s + (k - 3) * 1.2 * abs(s), 0.045),
             (1.2 if c else 0.15, 1.2 if s else 0.15, 0.01))
         for c, s in ((1, 0), (-1, 0), (0, 1), (0, -1)) for k in range(1, 7, 2)
     ]  # fmt: skip
     return [
-        *ends, post(road, (0.0, 0.0, 0.03), (22.0, 22.0, 0.05)),
-        post(PALE, (0.0, 0.0, 0.06), (9.4, 9.4, 0.10)),
-        post(foliage((0.05, 0.16, 0.025)), (0.0, 0.0, 0.10), (9.0, 9.0, 0.14)),
-        *(ball(foliage((0.05, 0.20, 0.03)), (2.2 * math.cos(a), 2.2 * math.sin(a), 0.6),
+        *ends, post(road, (0.0, 0.0, 0.03), (17.0, 17.0, 0.05)),
+        post(PALE, (0.0, 0.0, 0.06), (6.4, 6.4, 0.10)),
+        post(foliage((0.05, 0.16, 0.025)), (0.0, 0.0, 0.10), (6.0, 6.0, 0.14)),
+        *(ball(foliage((0.05, 0.20, 0.03)), (1.7 * math.cos(a), 1.7 * math.sin(a), 0.6),
                (1.6, 1.6, 1.2)) for a in (0.0, 1.57, 3.14, 4.71)),
-        *(box(BLUE_PAINT, (4.2 * c, 4.2 * s, 1.1), (0.15 if c else 1.2, 0.15 if s else 1.2, 0.8))
+        *(box(BLUE_PAINT, (2.7 * c, 2.7 * s, 1.1), (0.15 if c else 1.2, 0.15 if s else 1.2, 0.8))
           for c, s in ((1, 0), (-1, 0), (0, 1), (0, -1))), *dashes,
         rod(_WOOD, (0.0, 0.0, 0.1), (0.0, 0.0, 2.6), 0.25),
         ball(foliage(p.colour), (0.0, 0.0, 4.0), (3.4, 3.4, 3.2)),
