@@ -125,7 +125,9 @@ def _list_extras(
         if actor.noun.name in LAMPS and faults.get(actor.instance) is not None:
             found.append(f"light of the {actor.noun.name} may be seen where it is not")
         for prop in actor.props:
-            if prop.nouns and not said.intersection(prop.nouns) | words.intersection(prop.nouns):
+            if prop.furniture:
+                found.append(f"the {actor.noun.name} has a {prop.furniture} for what it does")
+            elif prop.nouns and not said.intersection(prop.nouns) | words.intersection(prop.nouns):
                 found.append(f"the {actor.noun.name} has a {prop.nouns[0]} for what it does")
     return found
 

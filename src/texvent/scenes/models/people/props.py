@@ -46,6 +46,8 @@ class Prop:
     """Its shapes at a time, s, in the axes of that place, m."""
     nouns: tuple[str, ...] = ()
     """Nouns that are the same thing: where the prompt shows one, the prop is left out."""
+    furniture: str = ""
+    """Its name, where the prompt may show another one too: a table to work at."""
 
 
 def _still(*parts: ModelPart) -> Draw:
@@ -304,7 +306,7 @@ def _panel(ahead: float, size: float) -> Prop:
     x, high = size * ahead, size * 1.15
     board = box(Material((0.62, 0.60, 0.55)), (x + 0.02, 0.0, high), (0.03, 1.1, 0.9))
     legs = (rod(WOOD, (x + 0.06, y, 0.0), (x + 0.06, y, 1.3 * high), 0.025) for y in (0.5, -0.5))
-    return Prop("ground", _still(board, *legs))
+    return Prop("ground", _still(board, *legs), furniture="board")
 
 
 _INSET_M = 0.28
@@ -322,4 +324,4 @@ def table(near: float, top: float) -> Prop:
         for b in (1.0, -1.0)
     )
     board = box(WOOD, (middle, 0.0, top - 0.02), (_TABLE_DEEP, _TABLE_WIDE, 0.04))
-    return Prop("ground", _still(board, *legs))
+    return Prop("ground", _still(board, *legs), furniture="table")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from texvent.scenes.description import Relation
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.climbing import climb_at
+from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged
 from texvent.scenes.staging.acts.hand_work.working import (
     SMALL_M,
     before_mouth,
@@ -15,6 +18,7 @@ from texvent.scenes.staging.acts.hand_work.working import (
     work_at,
 )
 from texvent.scenes.staging.acts.holding import is_person
+from texvent.scenes.staging.trajectories.trajectory import Stationary
 
 
 def put_to_work(cast: Cast, relations: Sequence[Relation], every: Sequence[Relation]) -> None:
@@ -45,6 +49,29 @@ def put_to_work(cast: Cast, relations: Sequence[Relation], every: Sequence[Relat
             else:
                 used = tools.get(subject)
                 _set_to_work(cast, (subject, target, used), under[:1], (place, len(crew)))
+                copies = cast.copies(cast.get(target).object_index)
+                _lay_beside(cast, subject, target, [one for one in copies if one not in crews])
+
+
+_MOST_BESIDE = 4
+"""Other copies that find room on the worker's table."""
+
+
+def _lay_beside(cast: Cast, subject: int, target: int, idle: Sequence[int]) -> None:
+    """More of the things that one works on, on the same table."""
+    worker, thing = cast.get(subject), cast.get(target)
+    if not any(prop.furniture == "table" for prop in worker.props):
+        return
+    state, heading = thing.trajectory.at(0.0), worker.trajectory.at(0.0).yaw
+    step = 1.2 * min(thing.model.length, thing.model.width) + 0.03
+    for number, one in enumerate(idle[:_MOST_BESIDE]):
+        aside = step * (1 + number // 2) * (1.0 if number % 2 else -1.0)
+        x, y, z = state.position
+        home = (x - aside * math.sin(heading), y + aside * math.cos(heading), z)
+        other = cast.get(one)
+        larger = thing.model.height / max(other.model.height, 1e-6)
+        path = Stationary(home, state.yaw)
+        cast.put(one, replace(other, model=Enlarged(other.model, larger), trajectory=path))
 
 
 def _set_to_work(

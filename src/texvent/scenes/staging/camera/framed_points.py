@@ -157,7 +157,7 @@ def _points_of(
     passed = {
         target
         for relation in description.relations
-        if relation.kind in ("past", "among", "overtake", "through")
+        if relation.kind in ("past", "among", "overtake")
         for target in relation.targets
     }
     partners = _list_partners(description, actors)
@@ -314,6 +314,7 @@ def _pieces_of(
     description: SceneDescription, partners: Sequence[Actor], main: Actor, times: Float64Array
 ) -> list[Float64Array]:
     """As much of the nearest copy of each partner as it takes to recognise it, m."""
+    gates = {t for one in description.relations if one.kind == "through" for t in one.targets}
     kinds = {relation.kind for relation in description.relations}
     least = main.size_m * (1.6 if "through" in kinds else 0.5)
     nearest: dict[int, Actor] = {}
@@ -322,6 +323,8 @@ def _pieces_of(
     pieces = []
     for actor in nearest.values():
         reach = min(_RECOGNISED * actor.size_m, _REACH_OF_PARTNER * main.size_m)
+        if actor.object_index in gates and actor.size_m <= WHOLE * main.size_m:
+            reach = actor.size_m
         pieces.append(_near_piece(actor, main, times, max(reach, least)))
     return pieces
 

@@ -32,6 +32,7 @@ from texvent.scenes.staging.claims.contact import (
 )
 from texvent.scenes.staging.claims.courses import approaches, comes_from, goes_round
 from texvent.scenes.staging.placement.at_table import turned_to
+from texvent.scenes.staging.placement.cages import CAGES
 from texvent.scenes.wording import RELATION_WORDS
 
 _INSTANTS = 13
@@ -247,7 +248,10 @@ def _is_on(subject: _Body, targets: list[_Body]) -> bool:
 
 
 def _is_in(subject: _Body, targets: list[_Body]) -> bool:
-    return holds_for_all(is_in, subject.copies, targets[0].copies, subject.duration_s)
+    is_caged = targets[0].copies[0].noun.name in CAGES
+    return holds_for_all(
+        is_in, subject.copies, targets[0].copies, subject.duration_s, always=is_caged
+    )
 
 
 def _is_with(subject: _Body, targets: list[_Body]) -> bool:

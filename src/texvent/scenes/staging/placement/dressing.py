@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import STANDING, SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.props import Prop
+from texvent.scenes.models.people.props import Prop, list_props
 from texvent.scenes.models.people.roles.dressing import DRESSED, dress
 from texvent.scenes.models.people.roles.held import HOLDS
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.staging.placement.at_table import draw_chair
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 
 _BOTH_HANDS = ("right hand", "left hand", "hands")
@@ -49,6 +50,28 @@ def choose_copy(noun: Noun, number: int, nouns: Mapping[str, Noun]) -> Noun:
 
 _OTHERS = {"person": "woman", "elderly person": "elderly woman"}
 """People of any kind → what every second one of several is."""
+
+
+def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Prop, ...]:
+    """What a person's activities need and the prompt does not show as an object.
+
+    Who climbs works where they are: no table stands before them.
+    """
+    if group.noun.name not in PERSON_NOUNS:
+        return ()
+    shown = {scene_object.noun for scene_object in description.objects}
+    said = (group.scene_object.motion or STANDING, *group.scene_object.then)
+    kinds = dict.fromkeys(motion.kind for motion in said)
+    size = float(getattr(group.models[0], "scale", 1.0))
+    props = [prop for kind in kinds for prop in list_props(kind, size)]
+    if "climb" in kinds:
+        props = [prop for prop in props if prop.anchor != "ground"]
+    props += usual_holds(description, group, props)
+    if group.is_on_chairs and "chair" not in shown:
+        props.append(draw_chair(size))
+    return tuple(
+        prop for prop in props if prop.anchor == "ground" or not shown.intersection(prop.nouns)
+    )
 
 
 def usual_holds(

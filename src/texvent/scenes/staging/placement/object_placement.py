@@ -12,8 +12,6 @@ from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.opened_model import OPENED, OpenedModel
-from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.props import Prop, list_props
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.pictures import PicturedModel, can_show
@@ -23,8 +21,7 @@ from texvent.scenes.staging.acts.attached import OnEnd, OnPart, Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
-from texvent.scenes.staging.placement.at_table import draw_chair
-from texvent.scenes.staging.placement.dressing import choose_copy, dressed, usual_holds
+from texvent.scenes.staging.placement.dressing import choose_copy, choose_props, dressed
 from texvent.scenes.staging.placement.fitting import fit_contents
 from texvent.scenes.staging.placement.formation import form_up
 from texvent.scenes.staging.placement.object_groups import (
@@ -147,9 +144,9 @@ class ObjectPlacer:
         return group
 
     def _holds_something(self, index: int) -> bool:
-        """Whether the prompt has something in it or on it."""
+        """Whether the prompt has something in it, on it or going through it."""
         return any(
-            relation.kind in ("in", "on") and relation.targets[0] == index
+            relation.kind in ("in", "on", "through") and relation.targets[0] == index
             for relation in self._description.relations
         )
 
@@ -303,28 +300,12 @@ class ObjectPlacer:
                     group.index, group.noun, model, trajectory,
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
-                    _rope(trajectory, model), self._choose_props(group),
+                    _rope(trajectory, model), choose_props(self._description, group),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
                 )
             )  # fmt: skip
         return actors
-
-    def _choose_props(self, group: ObjectGroup) -> tuple[Prop, ...]:
-        """What a person's activities need and the prompt does not show as an object."""
-        if group.noun.name not in PERSON_NOUNS:
-            return ()
-        shown = {scene_object.noun for scene_object in self._description.objects}
-        said = (group.scene_object.motion or STANDING, *group.scene_object.then)
-        kinds = dict.fromkeys(motion.kind for motion in said)
-        size = float(getattr(group.models[0], "scale", 1.0))
-        props = [prop for kind in kinds for prop in list_props(kind, size)]
-        props += usual_holds(self._description, group, props)
-        if group.is_on_chairs and "chair" not in shown:
-            props.append(draw_chair(size))
-        return tuple(
-            prop for prop in props if prop.anchor == "ground" or not shown.intersection(prop.nouns)
-        )
 
     def _choose(
         self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator

@@ -16,6 +16,7 @@ from texvent.scenes.models.support_surface import Support, find_support, top_hei
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.acts.riding import CLOSED, LOADS, SEATS_OF
+from texvent.scenes.staging.placement.cages import CAGES, keep_in_cage
 from texvent.scenes.staging.placement.contents import pack
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 from texvent.scenes.staging.trajectories.trajectory import Vector
@@ -79,6 +80,8 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     Args and result: as for `rest_on`. People sit in what carries them, unseen in a closed car.
     """
     is_person = group.noun.name in PERSON_NOUNS
+    if target.noun.name in CAGES and group.noun.habitat != "fixed":
+        return _in_world(target, (0.0, 0.0, keep_in_cage(group, target)))
     if target.noun.name in _HIDING:
         if target.plan.motion.is_moving:
             group.carrier = target

@@ -109,7 +109,7 @@ def _place_under(group: ObjectGroup, targets: list[ObjectGroup], height: float) 
     return Goal(_shift(base, target.half[0] + group.half[0] + 0.3, 0.0), _ALONG_X)
 
 
-GATES = frozenset({"tunnel", "arch"})
+GATES = frozenset({"tunnel", "arch", "gate", "door"})
 """Nouns that one goes through, along their length."""
 _TRUNKS = frozenset({"tree", "pine", "palm", "street lamp", "traffic light", "sign", "flag",
                      "windmill", "wind turbine", "umbrella"})  # fmt: skip
@@ -189,6 +189,7 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         return Goal(_shift(here, start, -nearer), _FIXED)
     if kind == "through" and group.noun.name in GATES and is_path:
         group.plan = replace(group.plan, yaw=yaw)
+        _share_gates(group, subject)
         # It is through at about half of its way.
         way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
         back = 0.1 * way + 0.5 * group.models[0].length
@@ -207,6 +208,25 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     }
     right, away, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, away), slide)
+
+
+def _share_gates(group: ObjectGroup, subject: ObjectGroup) -> None:
+    """Several gates side by side, one after another for each of who goes through them."""
+    gates, gate, own = len(group.models), group.models[0], subject.models[0]
+    yaw = subject.plan.yaw
+    ahead = np.array([math.cos(yaw), math.sin(yaw)])
+    aside = np.array([-ahead[1], ahead[0]])
+    lanes = [1.05 * gate.width * (number - 0.5 * (gates - 1)) for number in range(gates)]
+    group.offsets = [(float(lane * aside[0]), float(lane * aside[1]), 0.0) for lane in lanes]
+    group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+    rows = -(-len(subject.models) // gates)
+    step = 1.3 * max(own.length, 0.6)
+    before, subject.offsets = subject.offsets, []
+    for number, (_, _, up) in enumerate(before):
+        row, lane = divmod(number, gates)
+        x, y = step * (0.5 * (rows - 1) - row) * ahead + lanes[lane] * aside
+        subject.offsets.append((float(x), float(y), up))
+    subject.half = half_extents_over_clip(subject.models, subject.offsets, subject.plan)
 
 
 _COVERED = 0.55

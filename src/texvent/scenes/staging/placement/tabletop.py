@@ -9,6 +9,7 @@ from texvent.scenes.description import Relation, SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.placement.fitting import extent
 from texvent.scenes.staging.surroundings.environment import is_room
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
@@ -25,10 +26,12 @@ _LARGEST_M = 0.45
 _NOT_ON_TABLES = frozenset({
     "campfire", "torch", "soap bubble", "paper plane", "water balloon", "feather", "toy train",
     "rubber duck", "paper boat", "dart", "ice skate", "roller skate", "poster", "sign", "rope",
-    "chain",
+    "chain", *WORN,
 })  # fmt: skip
+_SPORT = frozenset({"gym", "sports hall", "stadium", "ice rink", "swimming pool", "court"})
+"""Places in which no table is added."""
 TABLES = ("table", "desk", "chest of drawers")
-"""What small things are put on, the first that is there."""
+"""What small things are put on, the first that is there; of several, one each."""
 _MOST = 6
 """Kinds of things, and copies in all, that find room on a table."""
 _LOOSE = frozenset({"beside", "with", "past", "towards", "from", "away from"})
@@ -63,7 +66,8 @@ def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     rest = [index for index in loose if index not in in_hand]
     if not rest or _has_way(objects[people[0]]) or "table" in description.absent:
         return description
-    is_inside = is_room(description.surroundings.place or "grass")
+    place = description.surroundings.place or "grass"
+    is_inside = is_room(place) and place not in _SPORT
     if _find_table(objects) is None and not is_inside:
         return description
     return _add_table(description, rest, people[0])

@@ -61,6 +61,8 @@ RUN_FACTOR = 2.2
 
 FLAT = 0.62
 """Objects whose length is below this share of their width show their front to the camera."""
+_WIDE = 0.7
+"""The same of what slides: a board, a mirror."""
 _SIDEWAYS = frozenset({"flag", "crane", "bridge"})
 """Objects that are known by their side."""
 _WEAVING = frozenset({"swim"})
@@ -78,6 +80,11 @@ class MotionPlan:
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
     """What a person or a hand does in its place: a name of `people.activities`."""
+
+    headroom_m: float = math.inf
+    """How high it may jump, m: a cage has a roof."""
+    is_facing: bool = False
+    """Whether it shows its front to the camera while it moves: a board with a pattern."""
 
     @property
     def is_path(self) -> bool:
@@ -136,7 +143,11 @@ def plan_motion(
     if not is_steered:
         pace = 1.0 if motion.speed_m_s is not None else motion.pace
         gesture = choose_gesture(noun, motion)
-        return MotionPlan(motion, yaw, speed * pace, duration_s, gesture=gesture)
+        is_wide = noun.name in FACING or model.length < _WIDE * model.width
+        is_facing = is_wide and noun.habitat == "fixed" and motion.kind == "slide"
+        return MotionPlan(
+            motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing
+        )
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
     return MotionPlan(motion, path.yaw, speed, duration_s, path)
 
@@ -274,7 +285,7 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     kind = plan.motion.kind
     is_air = kind == "fly"
     is_flat = model.length < 0.3 * min(model.width, model.height)
-    is_flat = is_flat and (is_air or kind == "slide")
+    is_flat = plan.is_facing or (is_flat and (is_air or kind == "slide"))
     path = Straight(
         home,
         plan.yaw,
@@ -312,7 +323,7 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         length = max(1.6 * model.height, 0.6)
         return Swing(home, length, 0.5, pace)
     if kind == "jump":
-        height = min(max(0.35 * model.height, 0.12), 1.5) * pace
+        height = min(min(max(0.35 * model.height, 0.12), 1.5) * pace, plan.headroom_m)
         hop = 0.0 if plan.motion.direction is None else 0.5 * model.length * 2.0
         return Hop(home, height, hop_m=hop, yaw=plan.yaw, mid_s=0.5 * plan.duration_s)
     if kind == "dance":
