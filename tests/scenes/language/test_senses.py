@@ -103,3 +103,69 @@ def test_a_drone_that_looks_down_is_not_in_the_picture() -> None:
 def test_what_stands_on_the_ground_is_not_in_the_sky() -> None:
     assert parse_prompt("a windmill turns, music hangs in the air").surroundings.place != "sky"
     assert parse_prompt("birds in the air").surroundings.place == "sky"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word"),
+    [
+        ("A crane stands in shallow water and catches a fish.", "crane"),
+        ("A cook stirs the batter in a bowl.", "batter"),
+        ("A woman paints her nails.", "nails"),
+        ("A man beats his chest.", "chest"),
+        ("A bride with a long train walks.", "train"),
+        ("A farmer stands by a pen full of pigs.", "pen"),
+        ("A violinist draws the bow over the strings.", "bow"),
+        ("A tulip bulb lies in soil.", "bulb"),
+        ("A spring flows from a rock.", "spring"),
+        ("A cat jumps through a hoop.", "hoop"),
+        ("A skater grinds along a rail.", "rail"),
+        ("Soldiers drill on a field.", "drill"),
+        ("A man saw a bird.", "saw"),
+        ("A boxer throws a jab.", "throws"),
+        ("A woman turns on a lamp.", "turns"),
+        ("A teenager sits before a television; the screen turns green.", "screen"),
+        ("A black sedan stops and its doors open.", "doors"),
+        ("A rooster with a red comb stands on a wall.", "comb"),
+    ],
+)
+def test_a_sense_that_is_not_shown_is_reported(prompt: str, word: str) -> None:
+    found = parse_prompt(prompt)
+    assert word in found.not_understood
+    assert word not in found.shown
+
+
+@pytest.mark.parametrize(
+    ("prompt", "motion"),
+    [("A skier carves down a slope.", "ski"), ("A surfer carves a wave.", "surf")],
+)
+def test_a_verb_takes_the_sense_that_its_subject_tells(prompt: str, motion: str) -> None:
+    (one,) = parse_prompt(prompt).objects
+    assert one.motion is not None
+    assert one.motion.kind == motion
+
+
+def test_what_is_put_on_is_not_stood_on() -> None:
+    assert not parse_prompt("A man puts on a coat.").relations
+
+
+@pytest.mark.parametrize(
+    ("prompt", "lost"),
+    [
+        ("A wheel turns. A cooper hits it. He walks.", "walks"),
+        ("A car stops. He waves.", "waves"),
+        ("He spins a black disc.", "spins"),
+        ("A statue stands in a park. She walks.", "walks"),
+        ("A potter sits. It turns.", "turns"),
+    ],
+)
+def test_a_pronoun_of_a_person_never_means_a_thing(prompt: str, lost: str) -> None:
+    assert lost in parse_prompt(prompt).not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kind"),
+    [("A woman walks. She jumps.", "jump"), ("A dog runs. It jumps.", "jump")],
+)
+def test_a_pronoun_means_who_it_can(prompt: str, kind: str) -> None:
+    (one,) = parse_prompt(prompt).objects
+    assert kind in [motion.kind for motion in one.then]

@@ -106,6 +106,7 @@ class ClauseMeaning:
         self._referents.verb = clause.verb.lemma if clause.verb is not None else ""
         subjects = [self._referents.resolve(group) for group in clause.subjects]
         self._referents.verb = ""
+        self._referents.note_subjects(subjects)
         if self._leaves_behind(clause, subjects):
             subjects = [Referent("things", _NOBODY, list(self._draft.subjects))]
         if self._shots.is_about(clause, subjects):

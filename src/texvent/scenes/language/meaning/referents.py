@@ -20,6 +20,7 @@ from texvent.scenes.language.meaning.senses import (
     is_of_drinks,
     is_other_sense,
     is_pane,
+    is_part_of_named,
     read_herd,
     read_young,
 )
@@ -97,6 +98,8 @@ class Referents:
         """What the verb before acts on, which "it" after another verb means."""
         self.near: list[int] = []
         """What a pronoun of a phrase hangs on: "a baby in it" is not in itself."""
+        self.lost_person = False
+        """Whether the last subject was a person who is not known, as it seems: "a kayaker"."""
         self.verb = ""
         """Verb of the clause whose subjects are being read."""
         self.has_body = False
@@ -125,6 +128,15 @@ class Referents:
     def named(self) -> list[Referent]:
         """What all groups that were read mean."""
         return list(self._known.values())
+
+    def note_subjects(self, subjects: Sequence[Referent]) -> None:
+        """Keep in mind whom "he" may mean."""
+        for one in subjects:
+            head = one.group.head
+            if one.is_things and any(is_living(self._draft.noun(i)) for i in one.things):
+                self.lost_person = False
+            elif one.kind == "unknown" and head is not None and head.pos is Pos.NOUN:
+                self.lost_person = head.lemma.endswith(_PERSONAL) or self.lost_person
 
     def forget(self, group: NounGroup) -> None:
         """A group names nothing of the scene."""
@@ -245,6 +257,9 @@ class Referents:
         meant = self._look_back(head.text)
         if meant and head.text not in ("there", "here"):
             return Referent("things", group, meant)
+        if head.text in (*_OF_ONE_PERSON, "it"):
+            head.is_used, head.is_lost = False, True
+            return Referent("unknown", group)
         return Referent("function", group)
 
     def _look_back(self, pronoun: str) -> list[int]:
@@ -260,12 +275,18 @@ class Referents:
         for things in candidates:
             if things != not_meant and self._fits(pronoun, things):
                 return list(things)
+        if first and pronoun in (*_OF_ONE_PERSON, "it"):
+            is_alive = is_living(self._draft.noun(first[0]))
+            is_meant = is_alive if pronoun != "it" else not is_person(self._draft.noun(first[0]))
+            return list(first) if is_meant and not self.lost_person else []
         return list(first)
 
     def _fits(self, pronoun: str, things: Sequence[int]) -> bool:
         is_plural = len(things) > 1 or self._draft.objects[things[0]].count > 1
         if pronoun in _OF_ONE_PERSON:
             noun = self._draft.noun(things[0])
+            if self.lost_person and not is_person(noun):
+                return False
             is_other = noun.name in _NEVER.get(pronoun, ())
             return not is_plural and is_living(noun) and not is_other
         if pronoun == "it":
@@ -334,6 +355,8 @@ class Referents:
     ) -> Referent:
         """A thing, many of them in the air, or traffic."""
         head = group.head_word
+        if group.negation is None and is_part_of_named(group, self._draft):
+            return Referent("unknown", group, attributes=attributes)
         drifting = find_drifting(group, self.verb)
         if drifting is not None:
             return Referent("effect", group, value=drifting, attributes=attributes)
@@ -418,5 +441,7 @@ _NEVER = {
     **dict.fromkeys(("her", "she", "hers"), ("man",)),
 }
 """Pronoun → people whom it does not mean."""
+_PERSONAL = ("er", "or", "ist", "man", "woman", "ian", "eur", "ess", "eer", "boy", "girl", "dj")
+"""Endings of nouns that name people, as a rule."""
 _OF_ONE_PERSON = ("he", "she", "him", "her")
 OWNERS = ("its", "their", "his", "her")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from texvent.scenes.language.grammar.syntax import NounGroup
+from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
@@ -140,6 +141,49 @@ _OTHERWISE_BESIDE: dict[str, frozenset[str]] = {
     "net": _words("boat ship fish sailboat fisherman"),
 }
 """Word → things beside which it is none of its usual sense: the bow of a ship shoots no arrows."""
+_OF_VEHICLES = _words(
+    """door seat hood bonnet trunk boot mirror engine bumper wheel window roof windshield windscreen
+    horn deck cabin mast ladder"""
+)
+"""What "the doors", "its seats" mean beside a vehicle: parts of it, which stand nowhere else."""
+_VEHICLE_MOTIONS = frozenset({"drive", "sail", "fly"})
+_OF_FURNITURE = {"door": _words("refrigerator oven cupboard wardrobe microwave safe locker"),
+                 "drawer": _words("desk dresser cabinet"),
+                 "screen": frozenset({"tv", "laptop", "monitor", "computer", "tablet",
+                                      "cell phone"})}  # fmt: skip
+"""Part → things of which it is one, once they are named."""
+
+
+def is_part_of_named(group: NounGroup, draft: Draft) -> bool:
+    """As in "A black sedan stops. Its doors open": no doors by themselves."""
+    head, determiner = group.head_word, group.determiner
+    if determiner is None or determiner.text not in _KNOWN or _name(head) in _named(draft):
+        return False
+    inner = [one.head for phrase in group.phrases for one in phrase.groups if one.head]
+    wholes = [draft.nouns[item.noun] for item in draft.objects]
+    meanings = [one.read_as(Role.NOUN) for one in inner]
+    wholes += [draft.nouns[str(one.value)] for one in meanings if one is not None]
+    if inner and not any(meanings):
+        return False
+    is_of_vehicle = any(
+        one.motion in _VEHICLE_MOTIONS and one.habitat != "air" and not is_living(one)
+        for one in wholes
+    )
+    if head.lemma in _OF_VEHICLES and is_of_vehicle and not _has_rooms(draft):
+        return True
+    return any(one.name in _OF_FURNITURE.get(head.lemma, ()) for one in wholes)
+
+
+def _named(draft: Draft) -> set[str]:
+    return {item.noun for item in draft.objects}
+
+
+def _has_rooms(draft: Draft) -> bool:
+    """Whether a house is there too, which has doors and windows."""
+    return bool(_named(draft) & {"house", "building", "garage", "shop"})
+
+
+_KNOWN = ("the", "its", "their", "his", "her")
 _OF_GROUND = frozenset({"stones", "cobbles", "pebbles", "tiles", "boards"})
 """Bare plurals with "the" that name what one walks on."""
 

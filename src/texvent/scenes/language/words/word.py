@@ -39,6 +39,9 @@ class Word:
     companions: tuple[Word, ...] = ()
     """Words that it goes with: where one of them is lost, it may mean something else."""
 
+    has_other_sense: bool = False
+    """Whether its lemma is that of another word, which it means here: "ski" of "carves"."""
+
     @property
     def pos(self) -> Pos:
         """Its part of speech."""

@@ -27,7 +27,7 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
         return None
     table = _phrases(is_hand)
     said = _list_words(clause)
-    lemmas = tuple(_normalise(word.text) for word in said)
+    lemmas = tuple(word.lemma if word.has_other_sense else _normalise(word.text) for word in said)
     for length in range(len(said), 1, -1):
         name = table.get(lemmas[:length])
         if name is not None:

@@ -1,0 +1,246 @@
+"""Words with several senses, and the words beside which each of them is meant."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Sense(NamedTuple):
+    """What a word means where one of the cues is said."""
+
+    cues: frozenset[str]
+    """Base forms of words."""
+    phrase: str | None
+    """Phrase of the lexicon for it; None = nothing that is shown."""
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+def _sense(cues: str, phrase: str | None = None) -> Sense:
+    return Sense(_words(cues), phrase)
+
+
+_STRINGS = "violin violinist cello cellist fiddle fiddler viola bass string orchestra sonata"
+_SPORT = """team player match game school child kid practice training whistle soccer shout yell
+    instruct clap gym athlete runner swimmer tennis badminton basketball football court hockey
+    gymnast boxer skater lesson pupil cheer sideline huddle shuttlecock shuttle"""
+_CARWASH = "wash carwash windshield windscreen"
+
+SENSES: dict[str, tuple[Sense, ...]] = {
+    "lane": (
+        _sense("bowling pin bowler skittle", "bowling alley"),
+        _sense("swim swimmer pool swimming"),
+    ),
+    "court": (
+        _sense("tennis badminton clay baseline", "tennis court"),
+        _sense("basketball hoop dunk", "basketball court"),
+        _sense("judge lawyer trial king queen"),
+    ),
+    "tower": (_sense("block card cup brick dice domino stack stacking crate lego pile jenga can"),),
+    "board": (
+        _sense("surfer wave surf surfing", "surfboard"),
+        _sense("chess checkers", "chessboard"),
+    ),
+    "club": (
+        _sense("golf golfer caddie", "golf club"),
+        _sense("dance dancer dj nightclub strobe dancing", "nightclub"),
+        _sense("student member book"),
+    ),
+    "track": (
+        _sense("train locomotive rail railway tram", "railway"),
+        _sense("racing race car motorcycle kart", "race track"),
+        _sense("song music album animal paw snow footprint"),
+    ),
+    "bat": (
+        _sense("baseball batter pitcher inning homer", "baseball bat"),
+        _sense("cricket cricketer wicket", "cricket bat"),
+    ),
+    "crane": (_sense("bird wing marsh nest feather wetland heron flock beak shallow wade fish reed"
+                     " chick hop flap leg dance courtship migrate"),),
+    "mouse": (_sense("computer click laptop monitor cursor keyboard", "computer mouse"),),
+    "ring": (
+        _sense("boxer boxing fighter wrestler referee punch", "boxing ring"),
+        _sense("circus phone bell smoke gymnast tree saturn"),
+    ),
+    "stage": (_sense("rocket booster race launch"),),
+    "bar": (
+        _sense("iron metal steel gold blacksmith anvil gymnast chocolate candy barbell weight soap"
+               " pull-up forge glowing uneven parallel"),
+    ),
+    "bank": (_sense("money robber teller customer cash vault"),),
+    "flat": (_sense("flat"),),
+    "pitch": (_sense("throw pitcher voice"),),
+    "plant": (_sense("power nuclear factory chemical assembly"),),
+    "tripod": (_sense("camera shot filmed film view recording"),),
+    "coach": (_sense(_SPORT),),
+    "carton": (_sense("milk juice cream egg"),),
+    "bow": (_sense(f"{_STRINGS} ribbon hair gift curtsy audience applause bowtie collar"),),
+    "palm": (_sense("fortune fingertip wrist knuckle handful cupped slap"),),
+    "batter": (_sense("bowl whisk pancake cake dough flour spoon mix waffle oven muffin pan ladle"
+                      " griddle crepe"),),
+    "bulb": (_sense("tulip onion soil daffodil garlic sprout"),),
+    "ball": (_sense("waltz gown masked debutante"),),
+    "tank": (_sense("fish water goldfish aquarium oil gas fuel propane septic shark octopus reef"
+                    " diver oxygen scuba fill"),),
+    "train": (_sense("bride gown wedding veil"),),
+    "pupil": (_sense("iris dilate eyelash eyelid"),),
+    "pen": (_sense("pig sheep cow goat hen chicken lamb calf piglet farmer livestock"),),
+    "pool": (_sense("billiard billiards cue shoot"),),
+    "key": (_sense("piano pianist typewriter laptop organ accordion press type keyboard organist"
+                   " synthesizer xylophone"),),
+    "bass": (_sense("band guitar jazz musician stage concert amplifier drummer"),),
+    "organ": (_sense("heart donor transplant surgeon body"),),
+    "pipe": (_sense("smoke puff tobacco grandfather sailor"),),
+    "block": (_sense("ice city starting sprinter runner butcher"),),
+    "bun": (_sense("hair ballerina ballet dancer"),),
+    "cap": (_sense("bottle pen lens jar tube"),),
+    "column": (_sense("smoke soldier newspaper ant march steam"),),
+    "comb": (_sense("rooster hen chicken cockerel honey bee beekeeper hive"),),
+    "crown": (_sense("tooth dentist tree canopy"),),
+    "drum": (_sense("oil brake washing machine washer concrete barrel fuel mixer"),),
+    "float": (_sense("parade carnival festival"),),
+    "fork": (_sense("road path river motorcycle bicycle trail tree branch bike"),),
+    "gear": (_sense("camping climbing winter protective landing riot diving fishing rain hiking"
+                    " shift driver lever"),),
+    "hook": (_sense("boxer punch jab uppercut boxing"),),
+    "hand": (_sense("clock watch dial sundial"),),
+    "horse": (_sense("gymnast pommel vault seahorse"),),
+    "iron": (_sense("golf golfer anvil blacksmith molten"),),
+    "jet": (_sense("water nozzle flame steam fountain hose gas burner air"),),
+    "lock": (_sense("canal hair barge boat curl"),),
+    "monitor": (_sense("lizard"),),
+    "page": (_sense("boy king castle"),),
+    "plane": (_sense("carpenter wood plank shaving workbench woodworker"),),
+    "plate": (_sense("tectonic licence license number weight barbell"),),
+    "rail": (_sense("skate skateboard skateboarder skater snowboarder grind hand stairs staircase"
+                    " balcony ship deck boat ballet barre curtain towel ranch horse"),),
+    "rock": (_sense("concert band guitarist"),),
+    "rocket": (_sense("salad arugula"),),
+    "rook": (_sense("chess"),),
+    "ruler": (_sense("king queen throne emperor"),),
+    "scale": (_sense("fish lizard dragon snake music piano pianist"),),
+    "school": (_sense("fish sardine herring"),),
+    "shell": (_sense("turtle tortoise snail egg walnut artillery crab nut peanut coconut"),),
+    "shower": (_sense("meteor spark confetti"),),
+    "slide": (_sense("microscope trombone hair rock mud snow projector"),),
+    "spade": (_sense("card poker ace"),),
+    "squash": (_sense("racket court player"),),
+    "stall": (_sense("horse toilet bathroom restroom shower stable"),),
+    "star": (_sense("movie film celebrity pop carpet sheriff"),),
+    "stump": (_sense("wicket cricket bowler batsman"),),
+    "tablet": (_sense("medicine pill swallow headache"),),
+    "tie": (_sense("railway railroad"),),
+    "torch": (_sense("weld welder blowtorch propane"),),
+    "trunk": (_sense("swim swimmer beach elephant mammoth"),),
+    "wave": (_sense("hair crowd stadium sound radio"),),
+    "brush": (_sense(_CARWASH),),
+    "calf": (_sense("muscle stretch tattoo cramp runner leg"),),
+    "cell": (_sense("prison prisoner jail"),),
+    "charger": (_sense("knight"),),
+    "chest": (_sense("muscle breathe hairy bare gorilla beat doctor stethoscope"),),
+    "nail": (_sense("manicure polish manicurist salon finger fingernail toe file varnish"),),
+    "temple": (_sense("finger forehead gun headache massage"),),
+    "seal": (_sense("envelope wax jar letter stamp airlock hatch"),),
+    "bolt": (_sense("door gate lightning cloth crossbow"),),
+    "vessel": (_sense("blood vein artery"),),
+    "bridge": (_sense("nose violin guitar gymnast dental"),),
+    "bark": (_sense("dog seal"),),
+    "patch": (_sense("eye pirate knee elbow jacket"),),
+    "deck": (_sense("card"),),
+    "saw": (_sense("seesaw"),),
+    "screen": (_sense("wipe"),),
+    "shot": (_sense("block goalie fire gun drink espresso tequila whiskey score rifle save"),),
+}  # fmt: skip
+"""Noun → its senses other than the usual one; the first whose cue is said counts."""
+ONLY_WITH: dict[str, frozenset[str]] = {
+    "chip": _words("circuit computer silicon tweezers board solder robot microscope wafer cpu"
+                   " electronic electronics"),
+    "spring": _words("metal coil bounce compress steel mattress stretch wire jump hang weight"
+                     " slinky oscillate spiral mechanical"),
+    "hoop": _words("basketball basket dunk court player shoot shot dribble backboard nba"),
+    "gear": _words("cog wheel machine mechanism clock motor turn rotate spin tooth mesh metal"
+                   " engine interlock axle clockwork brass"),
+    "coach": _words("drive passenger station bus road highway street horse tour tourist stop"
+                    " travel luggage pass overtake park motorway red blue white tunnel bridge"
+                    " arrive"),
+}  # fmt: skip
+"""Noun → words of which one must be said for its usual sense."""
+OWNED = _words(
+    "palm nail chest calf temple pupil sole lid lash crown bark iris organ vessel joint bridge"
+)
+"""Nouns that "her" and "his" make parts of a body: "his chest"."""
+VERB_SENSES: dict[str, tuple[Sense, ...]] = {
+    "carve": (
+        _sense("ski skier piste powder", "ski"),
+        _sense("snowboard snowboarder", "snowboard"),
+        _sense("surf surfer wave", "surf"),
+        _sense("river valley glacier canyon road motorcycle bend curve"),
+    ),
+    "skate": (_sense("ice hockey rink puck goalie figure", "ice skate"),),
+    "drill": (_sense("soldier troop army parade platoon cadet"),),
+    "draw": (_sense("bow archer violinist cellist curtain sword gun breath bath blind knife"
+                    " blood weapon fiddler"),),
+    "cut": (_sense("bow keel prow wave boat ship swimmer shark fin surfboard"),),
+    "plane": (_sense("board plank wood carpenter"),),
+    "play": (_sense("trick dead"),),
+    "run": (_sense("tap faucet tears mascara stocking ink"),),
+    "shoot": (_sense("pool billiard glance star geyser"),),
+    "ride": (_sense("wind thermal current elevator escalator"),),
+    "file": (_sense("nail manicure manicurist"),),
+}  # fmt: skip
+"""Verb → its senses other than the usual one."""
+PARTICLES: dict[str, frozenset[str]] = {
+    "call": frozenset({"out", "for", "off"}),
+    "show": frozenset({"off"}),
+    "track": frozenset({"down"}),
+    "duck": frozenset({"under", "down", "behind", "out"}),
+    "break": frozenset({"into"}),
+    "fish": frozenset({"out"}),
+    "bear": frozenset({"down"}),
+    "put": frozenset({"on", "away", "down", "out", "up"}),
+    "putt": frozenset({"on", "away", "down", "out", "up"}),
+    "push": frozenset({"out"}),
+    "take": frozenset({"out", "apart", "in", "over", "on"}),
+    "turn": frozenset({"up", "out", "pale", "red"}),
+    "cut": frozenset({"out"}),
+    "hold": frozenset({"on"}),
+    "hang": frozenset({"up", "out"}),
+    "check": frozenset({"in", "out"}),
+    "work": frozenset({"out"}),
+    "throw": frozenset({"up"}),
+    "blow": frozenset({"up", "out"}),
+}  # fmt: skip
+"""Verb → particles with which it is none of what the word shows alone."""
+NO_OBJECT: dict[str, frozenset[str]] = {
+    "throw": _words("jab hook punch uppercut tantrum party shade light shadow kiss glance look fit"
+                    " cross combination spark sparks"),
+    "run": _words("thumb hand finger fingertip palm eye brush tongue cloth comb errand business"),
+    "turn": _words("switch tap faucet knob dial stove radio key corner"),
+    "catch": _words("breath light eye glimpse sight cold fire attention sun sunlight train bus"),
+    "hold": _words("breath pose position still"),
+    "kick": _words("dust snow sand spray"),
+    "strike": _words("pose match arc"),
+    "beat": _words("egg chest heat"),
+    "drop": _words("jaw hint gaze"),
+    "roll": _words("eye dough sleeve die dice"),
+    "shake": _words("head"),
+    "cast": _words("shadow light spell vote glow"),
+    "blow": _words("kiss nose horn whistle"),
+    "pull": _words("trigger face"),
+    "push": _words("button"),
+    "lift": _words("spirit"),
+    "raise": _words("eyebrow voice"),
+    "fly": _words("kite"),
+    "spin": _words("yarn web tale"),
+    "bow": _words("head"),
+    "drive": _words("nail ball screw stake cattle sheep"),
+    "ride": _words("wave"),
+}  # fmt: skip
+"""Verb → objects with which it is none of what it shows alone: "throws a jab"."""
+DEVICES = _words("lamp light tv television radio computer faucet tap stove oven fan engine machine"
+                 " switch torch flashlight heater music lantern laptop console")  # fmt: skip
+"""What is turned on and off, and does not turn."""
+WOODEN = _words("wood plank log board branch tree pipe timber beam trunk lumber table leg metal")
+"""What is sawn; "a man saw a bird" saw it."""
