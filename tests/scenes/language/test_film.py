@@ -110,3 +110,25 @@ def test_a_fronted_place_is_no_subject() -> None:
     found = parse_prompt("At a skate park a man jumps.")
     assert [one.noun for one in found.objects] == ["man"]
     assert "park" in found.shown
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [
+        ("A black sedan moves through a car wash. The camera sits inside the car.", "car"),
+        ("A camera mounted on the bow of a kayak looks ahead at two rocks.", "kayak"),
+        ("The camera is attached to the hood of a car that drives through a desert.", "car"),
+        ("Dashcam view of a car driving on a country road.", "car"),
+        ("POV of a skier going down a slope.", "skier"),
+        ("The view from a moving car shows two houses.", "car"),
+    ],
+)
+def test_what_carries_the_camera_is_not_in_the_picture_and_the_camera_goes(prompt, noun) -> None:
+    found = parse_prompt(prompt)
+    assert noun not in {one.noun for one in found.objects}
+    assert "travel" in {move.kind for move in found.shot.moves}
+
+
+def test_other_vehicles_of_a_dashcam_are_there() -> None:
+    found = parse_prompt("Dashcam footage of a truck that overtakes on a highway.")
+    assert [one.noun for one in found.objects] == ["truck"]

@@ -157,7 +157,8 @@ class CameraReader:
         move = word.read_as(Role.CAMERA_MOVE)
         own = _OF_CAMERA.get(word.lemma) if move is None and means is None else None
         if own is not None:
-            goes_on = own == ("dolly", "in") and self._goes_through(phrases)
+            is_carried = self._moves[:1] == [_OWN_TRAVEL]
+            goes_on = own == ("dolly", "in") and (is_carried or self._goes_through(phrases))
             value = ("travel", "forward") if goes_on else own
             word.meaning = Meaning(Role.CAMERA_MOVE, word.pos, value, word.meaning.form)
             self._add(CameraMove(*value))

@@ -1,11 +1,13 @@
-"""What carries the camera: "seen from the drone itself", "from the window of a train"."""
+"""What carries the camera: "seen from the drone itself", "a camera on the bow of a kayak"."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.nouns import NOUNS
 
 _CARRIERS = frozenset(
     {"drone", "train", "car", "bus", "taxi", "truck", "tram", "helicopter", "airplane", "plane",
@@ -18,6 +20,26 @@ _NEAR = 3
 """Words before "from" of which one says that it is a view."""
 _WINDOW = "window"
 _FARTHEST = 5
+_MOVING = frozenset({"moving", "speeding", "driving", "inside", "flying", "rolling"})
+_MOUNTED = frozenset(
+    {"mount", "attach", "fix", "place", "strap", "sit", "ride", "clip", "bolt", "position",
+     "fasten", "perch", "be", "rig", "station", "stay", "film", "set"}
+)  # fmt: skip
+_MOUNTS = ("on", "to", "in", "inside", "onto", "at", "aboard", "from", "under", "is")
+_PARTS = frozenset(
+    {"bow", "hood", "bonnet", "dashboard", "dash", "bumper", "windshield", "windscreen",
+     "handlebar", "handlebars", "roof", "wing", "mast", "stern", "deck", "cockpit", "cab", "seat",
+     "fender", "grille", "prow", "passenger seat", "car seat", "interior", "gondola", "basket"}
+)  # fmt: skip
+"""Parts of vehicles on which a camera is mounted."""
+_WORN = frozenset(
+    {"helmet", "chest", "head", "back", "shoulder", "forehead", "collar", "body", "wrist", "cap",
+     "backpack", "eye", "eyes"}
+)  # fmt: skip
+"""Parts of bodies, and what is worn there."""
+_FILMS = ("footage", "view", "shot", "video", "perspective")
+_DASHCAM = ("dashcam", "dash cam", "dashboard cam")
+_AHEAD = ("ahead", "forward", "forwards", "out")
 
 
 def mark_viewpoints(words: Sequence[Word]) -> bool:
@@ -29,6 +51,10 @@ def mark_viewpoints(words: Sequence[Word]) -> bool:
     for index, word in enumerate(words):
         if word.lemma in _CARRIERS and _looks_down(words[index + 1 :]):
             _mark([word], {word.lemma})
+        if word.role is Role.CAMERA:
+            _read_mount(words, index)
+        if word.text.startswith(_DASHCAM) or word.meaning.value == "first person":
+            _read_own_view(words, index)
         if word.text != "from" or not _is_view(words[:index]):
             continue
         after = _take_phrase(words[index + 1 :])
@@ -42,7 +68,94 @@ def mark_viewpoints(words: Sequence[Word]) -> bool:
             own = {one.lemma for one in words if one.lemma in _CARRIERS}
             _mark(words, carried or set(sorted(own)[:1]))
             _mark(after, {one.lemma for one in after if one.text.split()[-1] in _SEATS})
+        elif carried and _MOVING & set(texts):
+            _mark(after, carried)
+            _take_in(after, _MOVING)
     return any(word.is_viewpoint for word in words)
+
+
+def _read_mount(words: Sequence[Word], index: int) -> None:
+    """As in "a camera mounted on the bow of a kayak", "the camera sits inside the car"."""
+    at = index + 1
+    while at < len(words) and (
+        words[at].lemma in _MOUNTED
+        or words[at].text in _FILMS
+        or words[at].pos in (Pos.AUXILIARY, Pos.ADVERB)
+    ):
+        at += 1
+    is_it = at > index + 1 and words[at - 1].text == "is"
+    if at >= len(words) or not (words[at].text in _MOUNTS or is_it):
+        return
+    phrase = _take_phrase(words[at : at + 1]) + _take_phrase(words[at + 1 :])
+    lemmas = {part for one in phrase for part in (one.lemma, one.text.split()[-1])}
+    is_part, is_worn = bool(lemmas & _PARTS), bool(lemmas & _WORN)
+    is_riding = any(one.lemma == "ride" for one in words[index + 1 : at])
+    is_inside = words[at].text in ("inside", "aboard") or is_riding
+    own = [one for one in phrase if (_is_living if is_worn else _is_vehicle)(one)]
+    if not own and (is_part or is_worn):
+        own = [one for one in words if (_is_living if is_worn else _is_vehicle)(one)][:1]
+    if not own or not (is_part or is_worn or is_inside):
+        return
+    kinds = {_value(one) for one in own}
+    for word in words:
+        if _value(word) in kinds:
+            word.is_viewpoint = True
+    _take_in([words[at], *phrase], _PARTS | _WORN | set(_MOUNTS))
+    for one, coming in zip(words[at:], words[at + 1 :], strict=False):
+        if one.lemma in _LOOKING and coming.text in _AHEAD:
+            _take_in([one, coming], {one.lemma, coming.lemma})
+
+
+def _read_own_view(words: Sequence[Word], index: int) -> None:
+    """As in "dashcam view of a car driving", "POV of a skier": who looks is not in the picture."""
+    is_dashcam = words[index].text.startswith(_DASHCAM)
+    if index + 1 < len(words) and words[index + 1].text in ("of", "from"):
+        after = _take_phrase(words[index + 2 :])
+    elif words[index].text.endswith(" of"):
+        after = _take_phrase(words[index + 1 :])
+    else:
+        before = words[index - 1] if index else None
+        after = [before] if before is not None and before.is_possessive else []
+    for one in after:
+        if one.pos is Pos.VERB:
+            return
+        if one.pos is Pos.NOUN:
+            is_car = _value(one) in ("car", "van")
+            if is_car if is_dashcam else (_is_living(one) or _is_vehicle(one)):
+                one.is_viewpoint = True
+            return
+
+
+def _take_in(words: Sequence[Word], taken: frozenset[str] | set[str]) -> None:
+    """These words say where the camera is, and need no effect of their own."""
+    for word in words:
+        if word.is_viewpoint:
+            continue
+        if word.lemma in taken or word.text.split()[-1] in taken:
+            role = Role.CAMERA if word.pos is Pos.NOUN else Role.FUNCTION
+            pos = Pos.NOUN if word.pos is Pos.NOUN else Pos.ADVERB
+            if word.pos is not Pos.PREPOSITION:
+                word.meaning, word.others = Meaning(role, pos), ()
+            word.is_used = True
+
+
+def _value(word: Word) -> str | None:
+    meaning = word.read_as(Role.NOUN)
+    return None if meaning is None or word.pos is not Pos.NOUN else str(meaning.value)
+
+
+def _is_vehicle(word: Word) -> bool:
+    noun = NOUNS.get(_value(word) or "")
+    return word.lemma in _CARRIERS or (
+        noun is not None and noun.motion in ("drive", "sail") and noun.speed_m_s > 0.0
+    )
+
+
+def _is_living(word: Word) -> bool:
+    noun = NOUNS.get(_value(word) or "")
+    return (
+        noun is not None and noun.name != "hand" and noun.motion in ("walk", "run", "swim", "ski")
+    )
 
 
 def _take_phrase(words: Sequence[Word]) -> list[Word]:
@@ -62,7 +175,9 @@ def _looks_down(after: Sequence[Word]) -> bool:
 
 def _is_view(before: Sequence[Word]) -> bool:
     """Whether it is seen or filmed from there, unlike "jumps from there"."""
-    return any(one.lemma in _VIEWING for one in before[-_NEAR:])
+    looks = any(one.lemma in _LOOKING or one.text in _AHEAD for one in before[-_NEAR:])
+    is_camera = looks and any(one.is_viewpoint for one in before)
+    return is_camera or any(one.lemma in _VIEWING for one in before[-_NEAR:])
 
 
 def _mark(words: Sequence[Word], lemmas: set[str]) -> None:
