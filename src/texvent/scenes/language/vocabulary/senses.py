@@ -235,7 +235,7 @@ NO_OBJECT: dict[str, frozenset[str]] = {
     "fly": _words("kite"),
     "spin": _words("yarn web tale"),
     "bow": _words("head"),
-    "drive": _words("nail ball screw stake cattle sheep"),
+    "drive": _words("nail ball screw stake"),
     "ride": _words("wave"),
 }  # fmt: skip
 """Verb → objects with which it is none of what it shows alone: "throws a jab"."""
