@@ -6,6 +6,8 @@ _VOWELS = "aeiou"
 _IRREGULAR = {
     "person": "people", "child": "children", "leaf": "leaves", "wolf": "wolves", "calf": "calves",
     "shelf": "shelves", "bookshelf": "bookshelves", "knife": "knives", "mouse": "mice",
+    "potato": "potatoes", "tomato": "tomatoes", "mosquito": "mosquitoes", "volcano": "volcanoes",
+    "hero": "heroes",
     "goose": "geese", "ox": "oxen", "scissors": "scissors", "wife": "wives",
     "midwife": "midwives",
 }  # fmt: skip

@@ -32,6 +32,7 @@ from texvent.scenes.language.words.film import read_film_words
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.language.words.sense_cues import choose_senses
 from texvent.scenes.language.words.tagging import tag_words
+from texvent.scenes.language.words.telegrams import read_telegrams
 from texvent.scenes.language.words.tokens import tokenize_prompt
 from texvent.scenes.language.words.viewpoint import mark_viewpoints
 from texvent.scenes.language.words.word import Word
@@ -75,6 +76,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
             "write it in English, or use a model that takes any text (texvent generators)"
         )
     notes += read_film_words(words)
+    words = read_telegrams(words, known)
     choose_senses(words, known)
     is_carried = mark_viewpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))

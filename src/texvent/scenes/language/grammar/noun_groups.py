@@ -5,12 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.scenes.language.grammar.syntax import NounGroup
+from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
-from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.people.work.verbs import HANDWORK
 
 _STARTS = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE, Pos.NOUN, Pos.PRONOUN})
 _NOMINAL = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER})
+_ACTS_ON_THINGS = frozenset({"throw", "kick", "hit", "push", "pull", "carry"})
+_BOTH = frozenset(
+    {"boil", "fry", "roast", "bake", "simmer", "drop", "open", "close", "pour", "shake", "rattle",
+     "jiggle", "crumple", "change", "water", "spray", "press", "click", "spill", "drip", "crush",
+     "smash", "beat", "unfold", "dry", "decant", "unwind", "cut", "put", "service", "scan", "tap",
+     "knock", "squash", "shuffle"}
+)  # fmt: skip
+"""Verbs that are done to things, and that things do: "boiling water"."""
 _PARTICIPLES = (VerbForm.ING, VerbForm.PAST)
 
 
@@ -104,7 +114,16 @@ def _is_attribute(words: Sequence[Word], at: int) -> bool:
     word = words[at]
     if word.pos is not Pos.VERB or word.meaning.form not in _PARTICIPLES:
         return False
+    opens = at == 0 or words[at - 1].pos is Pos.SIGN
+    if opens and word.meaning.form is VerbForm.ING and is_done_to_things(word.lemma, word.meaning):
+        return False
     return _noun_follows(words, at + 1)
+
+
+def is_done_to_things(lemma: str, verb: Meaning) -> bool:
+    """Whether a verb before a noun is done to it: "chopping onions", unlike "spinning tops"."""
+    act = verb.value.act if isinstance(verb.value, Verb) else None
+    return act in _ACTS_ON_THINGS or (lemma in HANDWORK and lemma not in _BOTH)
 
 
 def _is_attribute_phrase(words: Sequence[Word], at: int) -> bool:

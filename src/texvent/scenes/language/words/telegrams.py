@@ -1,0 +1,100 @@
+"""Prompts in the style of a telegram: "drone flip", "javelin throw", "head nodding"."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from texvent.scenes.language.grammar.noun_groups import is_done_to_things
+from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
+from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.nouns import NOUNS
+
+_FINITE = frozenset({Pos.VERB, Pos.AUXILIARY})
+_OF_VERBS = (Role.VERB, Role.ACTIVITY, Role.SIMILAR)
+_PERSON = "person"
+_OF_PEOPLE = frozenset(
+    {"head", "face", "mouth", "lip", "arm", "leg", "foot", "finger", "elbow", "knee", "shoulder",
+     "hip", "torso", "body"}
+)  # fmt: skip
+"""Parts that tell of a person by themselves."""
+_VAGUE = frozenset({"exit", "entry", "move", "pass", "release", "start", "test", "show"})
+"""Nouns that do not say what the thing before them does: "tunnel exit"."""
+
+
+def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
+    """The words of a prompt, read as a telegram where a part of it has no verb; the words change.
+
+    1. A noun that is known as a verb alone is one after a thing: "a drone flip" is a drone that
+       flips; "a javelin throw" is someone throwing a javelin.
+    2. A part of the body that acts is a person who does: "head nodding".
+    3. A material before a verb is the thing: "glass shattering".
+    """
+    found: list[Word] = []
+    for part in _cut(words):
+        _name_material(part)
+        _give_body(part, known)
+        found.extend(_turn_into_verb(part))
+    return found
+
+
+def _cut(words: Sequence[Word]) -> Iterator[list[Word]]:
+    """Parts of a prompt between its signs; each sign ends its part."""
+    part: list[Word] = []
+    for word in words:
+        part.append(word)
+        if word.pos is Pos.SIGN:
+            yield part
+            part = []
+    yield part
+
+
+def _turn_into_verb(part: list[Word]) -> list[Word]:
+    at = next((n for n, word in enumerate(part) if _is_named_act(part, n)), None)
+    if at is None or any(word.pos in _FINITE for word in part):
+        return part
+    word, thing = part[at], NOUNS.get(str(part[at - 1].meaning.value))
+    verb = next(one for one in word.others if one.role in _OF_VERBS)
+    is_done_to = is_done_to_things(word.lemma, verb)
+    is_fixed = thing is None or thing.habitat == "fixed"
+    if not is_done_to and (is_fixed or word.text in _VAGUE):
+        return part
+    word.meaning = replace(verb, form=VerbForm.ING)
+    if not is_done_to:
+        return part
+    first = at
+    while first and part[first - 1].pos in (Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER, Pos.DETERMINER):
+        first -= 1
+    return [*part[:first], word, *part[first:at], *part[at + 1 :]]
+
+
+def _is_named_act(part: Sequence[Word], at: int) -> bool:
+    """Whether a word is a noun that only its verb is known of, directly after a thing."""
+    word = part[at]
+    if at == 0 or word.role is not Role.UNKNOWN or word.pos is not Pos.NOUN:
+        return False
+    is_verb = any(one.role in _OF_VERBS for one in word.others)
+    return is_verb and part[at - 1].role is Role.NOUN and part[at - 1].pos is Pos.NOUN
+
+
+def _give_body(part: Sequence[Word], known: Lexicon) -> None:
+    at = next((n for n, word in enumerate(part) if word.pos is Pos.NOUN), None)
+    if at is None or at + 1 >= len(part):
+        return
+    word, verb = part[at], part[at + 1]
+    is_bare = all(one.pos is Pos.DETERMINER and one.text in ("a", "the") for one in part[:at])
+    is_part = word.lemma in _OF_PEOPLE and word.role in (Role.PART, Role.UNKNOWN)
+    if is_bare and is_part and verb.pos is Pos.VERB and verb.role in _OF_VERBS:
+        word.meaning = Meaning(Role.NOUN, Pos.NOUN, _PERSON, is_substitute=True)
+
+
+def _name_material(part: Sequence[Word]) -> None:
+    if any(one.pos is Pos.NOUN for one in part):
+        return
+    for word, after in pairwise(part):
+        noun = word.read_as(Role.NOUN)
+        is_before_verb = after.pos is Pos.VERB and after.role in _OF_VERBS
+        if word.role is Role.MATERIAL and noun is not None and is_before_verb:
+            word.meaning = noun
