@@ -12,9 +12,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from fractions import Fraction
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,18 +22,20 @@ import numpy as np
 from benchmarks.interpolation import between, interpolators, psnr
 from benchmarks.interpolation_scenes import FloatArray, value_noise
 from texvent.bench.fidelity.entries import simulate_video
+from texvent.bench.oracle.camera import radiance_of
+from texvent.bench.oracle.recording import FPS, TrueFrames
 from texvent.events import EventStream
 from texvent.interpolate.protocol import Interpolator
 from texvent.metrics.compare import compare
 from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame, Video, frame_time_us
+from texvent.video import Video
 
 WIDTH, HEIGHT = 192, 144
 SIZE = SensorSize(WIDTH, HEIGHT)
 SAMPLES = 3
 """Samples per pixel along each side."""
-FRAMES, FPS = 5, Fraction(24)
+FRAMES = 5
 SEEDS = (1, 2)
 
 Scene = Callable[[FloatArray, FloatArray, float, int], FloatArray]
@@ -117,31 +117,13 @@ def render(scene: Scene, t: float, seed: int) -> FloatArray:
     return total / SAMPLES**2
 
 
-@dataclass(frozen=True, eq=False)
-class SceneVideo:
+def scene_video(scene: Scene, seed: int) -> TrueFrames:
     """The scene at 24 frames per second, and at any instant."""
 
-    scene: Scene
-    seed: int
-    size: SensorSize = SIZE
-    fps: Fraction = FPS
-    frame_count: int = FRAMES
-    is_live: bool = False
+    def show(seconds: float) -> FloatArray:
+        return radiance_of(render(scene, seconds * float(FPS), seed).astype(np.float32))
 
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Nothing."""
-        return {}
-
-    def __iter__(self) -> Iterator[Frame]:
-        for index in range(FRAMES):
-            t_us = frame_time_us(index, FPS)
-            yield Frame(self.at(t_us).pixels, t_us)
-
-    def at(self, t_us: int) -> Frame:
-        """The frame at any instant."""
-        t = t_us / MICROSECONDS * float(FPS)
-        return Frame(render(self.scene, t, self.seed).astype(np.float32), t_us, is_source=False)
+    return TrueFrames(show, SIZE, FPS, FRAMES)
 
 
 def main() -> None:
@@ -184,7 +166,7 @@ def measure_events(scene: Scene, rife: list[Path]) -> list[float]:
     kinds += [{"interpolate": "rife", "interpolator_weights": path} for path in rife]
     totals = np.zeros(len(kinds))
     for seed in SEEDS:
-        video = SceneVideo(scene, seed)
+        video = scene_video(scene, seed)
         truth = simulate(video, {"interpolate": "exact"})
         frames = list(video)
         recorded = Video(
