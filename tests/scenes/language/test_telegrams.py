@@ -14,6 +14,8 @@ from texvent.scenes.language.parser import parse_prompt
         ("dog jump", "dog", "jump"),
         ("rocket launch", "rocket", "rise"),
         ("drone flip", "drone", "spin"),
+        ("coin flip", "coin", "spin"),
+        ("domino fall", "domino", "fall"),
         ("dice roll, close up", "dice", "roll"),
         ("head nodding", "person", "nod"),
         ("chopping onions", "person", "chop"),

@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from texvent.scenes.language.grammar.noun_groups import is_done_to_things
+from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.word import Word
@@ -20,6 +21,8 @@ _OF_PEOPLE = frozenset(
      "hip", "torso", "body"}
 )  # fmt: skip
 """Parts that tell of a person by themselves."""
+_PASSIVE = frozenset({"fall", "roll", "spin", "topple", "bounce", "swing", "slide", "sway", "rise"})
+"""Motions of what does not go by itself."""
 _VAGUE = frozenset({"exit", "entry", "move", "pass", "release", "start", "test", "show"})
 """Nouns that do not say what the thing before them does: "tunnel exit"."""
 
@@ -55,19 +58,32 @@ def _turn_into_verb(part: list[Word]) -> list[Word]:
     at = next((n for n, word in enumerate(part) if _is_named_act(part, n)), None)
     if at is None or any(word.pos in _FINITE for word in part):
         return part
-    word, thing = part[at], NOUNS.get(str(part[at - 1].meaning.value))
-    verb = next(one for one in word.others if one.role in _OF_VERBS)
-    is_done_to = is_done_to_things(word.lemma, verb)
-    is_fixed = thing is None or thing.habitat == "fixed"
-    if not is_done_to and (is_fixed or word.text in _VAGUE):
+    word = part[at]
+    verbs = [one for one in word.others if one.role in _OF_VERBS]
+    done = next((one for one in verbs if is_done_to_things(word.lemma, one)), None)
+    verb = done or _find_own(verbs, part[at - 1], word)
+    if verb is None:
         return part
     word.meaning = replace(verb, form=VerbForm.ING)
-    if not is_done_to:
+    if done is None:
         return part
     first = at
     while first and part[first - 1].pos in (Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER, Pos.DETERMINER):
         first -= 1
     return [*part[:first], word, *part[first:at], *part[at + 1 :]]
+
+
+def _find_own(verbs: Sequence[Meaning], thing: Word, word: Word) -> Meaning | None:
+    """What a thing does by itself: not what is fixed, unless it falls, rolls and the like."""
+    noun = NOUNS.get(str(thing.meaning.value))
+    if noun is None or word.text in _VAGUE:
+        return None
+    is_fixed = noun.habitat == "fixed"
+    return next((one for one in verbs if not is_fixed or _kind(one) in _PASSIVE), None)
+
+
+def _kind(verb: Meaning) -> str:
+    return str(verb.value.kind if isinstance(verb.value, Verb) else verb.value[0])
 
 
 def _is_named_act(part: Sequence[Word], at: int) -> bool:
