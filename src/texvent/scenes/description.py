@@ -122,8 +122,8 @@ class Relation:
     "follow" or "with"; or
     an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull",
     "ride along" (as a passenger), "on head", "on shoulder", "on back", "on lap" (where it has
-    the target), "work on" (hands at it), "kick", "hit", "throw", "catch" or "collide" (the subject
-    itself is its target if its copies do)."""
+    the target), "work on" (hands at it), "give" (a thing, and who takes it), "kick", "hit",
+    "throw", "catch" or "collide" (the subject itself is its target if its copies do)."""
     subject: int
     """Index into `SceneDescription.objects`."""
     targets: tuple[int, ...]

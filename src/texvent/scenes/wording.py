@@ -92,6 +92,7 @@ RELATION_WORDS = {
     "kick": "kicking",
     "hit": "hitting",
     "throw": "throwing",
+    "give": "giving",
     "catch": "catching",
     "collide": "meeting",
 }

@@ -124,7 +124,6 @@ def test_speeds_change_and_begin_when_they_are_said_to() -> None:
         ("a statue of a horse", ["statue"], ("of", "horse")),
         ("an excavator swings its arm", ["excavator"], ("swings", "arm")),
         ("a hedgehog curls into a ball", ["hedgehog"], ("curls", "ball")),
-        ("two men shake hands", ["man"], ("shake", "hands")),
         ("a baker slides a peel into an oven", ["baker"], ("slides", "peel", "oven")),
     ],
 )
@@ -329,7 +328,7 @@ def test_each_thing_named_is_one_thing(prompt: str, nouns: list[str]) -> None:
         ("a man rises from a chair", "stand"),
         ("a jeep climbs a slope", "drive"),
         ("an excavator dumps its load", "stand"),
-        ("a woman pulls out two loaves", "stand"),
+        ("a woman pulls out two loaves", "pull out"),
     ],
 )
 def test_a_verb_of_several_senses_has_the_one_that_fits(prompt: str, kind: str) -> None:

@@ -12,7 +12,9 @@ from texvent.generate.seen_words.picture import Picture
 from texvent.generate.seen_words.verb_senses import judge_sense
 from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
 from texvent.scenes.language.vocabulary.motion import PACE_ADJECTIVES, PACES
+from texvent.scenes.models.people.work.verbs import MOVED
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.claims.bodies import part_boxes
 from texvent.scenes.staging.claims.contact import is_in, is_on
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS, Phase, schedule
@@ -39,11 +41,11 @@ HARDLY = "hardly moves"
 _STILL = frozenset(
     {"stand", "sit", "lie", "hover", "kneel", "crouch", "lean", "hold", "point", "look", "read",
      "phone", "watch", "rest", "pose", "ride", "carry", "float", "thumbs up", "thumbs down",
-     "victory", "ok", "fist", "sleep"}
+     "victory", "ok", "fist", "sleep", "plank", "handstand"}
 )  # fmt: skip
 """What is shown without a motion."""
 _GOING = PATH_KINDS | {"enter", "leave", "reverse", "zigzag", "orbit", "appear"}
-_REACTING = frozenset({"push", "pull", "kick", "hit", "throw"})
+_REACTING = frozenset({"push", "pull", "kick", "hit", "throw", "give"})
 """Relations whose target must move."""
 _SWAYING = frozenset({"sway", "work", "talk", "laugh", "sing", "eat", "chew", "graze", "drink"})
 _GETTING = re.compile(
@@ -105,6 +107,8 @@ class _Judge:
         sense = judge_sense(claim, self.description)
         if sense is not None:
             return sense
+        if self._is_moved_by_hand(claim):
+            return None
         idle = self._judge_targets(claim)
         if idle is not None:
             return idle
@@ -143,6 +147,17 @@ class _Judge:
                 if moves and max(max(one.shift, one.change) for one in moves) < LEAST_WAY:
                     return f"{self.description.objects[target].noun} {HARDLY}"
         return None
+
+    def _is_moved_by_hand(self, claim: Claim) -> bool:
+        """Whether hands put a thing down, pick it up or drop it, and it is seen to move."""
+        whole = Phase(ObjectMotion("move"), 0.0, self.duration_s)
+        for relation in claim.relations:
+            for actor in self._actors(relation.subject):
+                path = actor.trajectory
+                if isinstance(path, WorkingAt) and path.work.pattern in MOVED:
+                    moves = [it for n in relation.targets for it in self._measure(n, whole)]
+                    return any(one.shift >= LEAST_WAY for one in moves)
+        return False
 
     def _find_doer(self, claim: Claim) -> int | None:
         """The object whose name stands right before a verb that was read for the scene."""

@@ -205,7 +205,7 @@ def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     return replace(description, objects=tuple(objects))
 
 
-ACTIVE = frozenset({"push", "pull", "kick", "hit", "throw", "catch", "collide"})
+ACTIVE = frozenset({"push", "pull", "kick", "hit", "throw", "catch", "collide", "give"})
 """Acts in which something moves."""
 
 

@@ -303,7 +303,7 @@ def test_who_plays_with_a_ball_that_the_prompt_names_kicks_it() -> None:
 def test_acts_with_one_contact() -> None:
     single = {name for name, each in ACTS.items() if each.is_single}
     assert single == {"kick", "hit", "throw", "catch", "collide"}
-    lasting = {"hold", "carry", "wear", "ride", "ride along", "push", "pull", "work on"}
+    lasting = {"hold", "carry", "wear", "ride", "ride along", "push", "pull", "work on", "give"}
     assert lasting | set(ON_BODY) == set(ACTS) - single
 
 

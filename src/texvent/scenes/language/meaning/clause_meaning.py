@@ -11,12 +11,19 @@ from texvent.scenes.language.meaning.acts.activities import find_activity, name_
 from texvent.scenes.language.meaning.acts.doers import add_doings, give_to_owners, mount_riders
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.hand_work import give_bodies
+from texvent.scenes.language.meaning.acts.partners import take_fellows, take_receivers
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
-from texvent.scenes.language.meaning.clause_rewrites import take_juggled, take_partners, turn_views
+from texvent.scenes.language.meaning.clause_rewrites import (
+    list_brought,
+    take_juggled,
+    take_particle,
+    take_partners,
+    turn_views,
+)
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.owners import lose_owners
 from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
@@ -172,10 +179,15 @@ class ClauseMeaning:
         is_lost = bool(subjects) and not things
         give_bodies(self._draft, clause, subjects)
         take_juggled(clause)
+        take_particle(clause)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         self._referents.doers = things
         take_partners(clause)
-        objects = [self._referents.resolve(group) for group in clause.objects]
+        take_fellows(clause)
+        take_receivers(clause)
+        brought = list_brought(clause) if self._referents.has_body else []
+        groups = [one for one in clause.objects if not any(one is group for group in brought)]
+        objects = [self._referents.resolve(group) for group in groups]
         if clause.verb is not None:
             self._referents.acted_on = [i for one in objects if one.is_things for i in one.things]
         agents = self._find_agents(clause)
@@ -243,6 +255,8 @@ class ClauseMeaning:
                 return False
             words.append(clause.verb)
         said = [w for w in (*words, *clause.adverbs) if w.pos is not Pos.DETERMINER]
+        if len(said) == 1 and said[0].role is Role.NOUN:
+            return False  # "a playing card"
         found = name_activity(said) if len(" ".join(w.text for w in said).split()) > 1 else None
         if found is None:
             return False

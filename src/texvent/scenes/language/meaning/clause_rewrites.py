@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup
+from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Meaning, Role
-from texvent.scenes.models.people.work.verbs import HANDWORK
+from texvent.scenes.models.people.work.verbs import HANDWORK, WITH_PARTICLE
 
 _JUGGLE = "juggle"
 _BALLS_JUGGLED = 3
@@ -26,6 +27,37 @@ _DONE_FROM = frozenset(
 _SIDES = frozenset({"from above", "from below", "from behind", "from the side", "from the front",
                     "from the back", "from the rear"})  # fmt: skip
 _FROM = {"from above": "down", "from below": "up"}
+
+
+_TAKING = frozenset({"take", "pick", "grab", "remove", "lift"})
+_SOURCES = {"from": "on", "off": "on", "out of": "in"}
+
+
+def take_particle(clause: Clause) -> None:
+    """As in "picks up a ball", "puts the cup down": the particle is of the verb."""
+    if clause.verb is None or clause.is_passive:
+        return
+    sources = [one for one in clause.phrases if one.preposition.text in _SOURCES]
+    if clause.verb.lemma in _TAKING and clause.objects and sources:
+        # What is taken from a shelf is on it before.
+        clause.verb.lemma = "take out"
+        preposition = sources[0].preposition
+        place = _SOURCES[preposition.text]
+        preposition.meaning = Meaning(Role.RELATION, preposition.pos, place)
+        return
+    for word in list(clause.adverbs):
+        whole = f"{clause.verb.lemma} {word.text}"
+        if whole in WITH_PARTICLE and clause.objects:
+            word.is_used, clause.verb.lemma = True, whole
+            clause.adverbs.remove(word)
+            return
+    for phrase in list(clause.phrases):
+        whole = f"{clause.verb.lemma} {phrase.preposition.text}"
+        if whole in WITH_PARTICLE and not clause.objects:
+            phrase.preposition.is_used, clause.verb.lemma = True, whole
+            clause.objects.extend(phrase.groups)
+            clause.phrases.remove(phrase)
+            return
 
 
 def take_partners(clause: Clause) -> None:
@@ -70,6 +102,25 @@ def _lose_sides(clause: Clause, verb: str) -> None:
     for word in clause.adverbs:
         if word.role is Role.VIEW and word.text in _SIDES:
             word.meaning, word.is_lost = Meaning(Role.UNKNOWN, word.pos), True
+
+
+_COMES_WITH = frozenset({"play chess", "play video games", "serve", "dunk", "flip pan", "bowl",
+                         "tug of war", "skip rope", "hula hoop", "archery", "mow"})  # fmt: skip
+"""Activities that bring the thing that their phrase names."""
+
+
+def list_brought(clause: Clause) -> list[NounGroup]:
+    """As in "dunks a basketball": the one that comes with the activity, and no other."""
+    if clause.verb is None or clause.is_passive:
+        return []
+    found = find_activity(clause, is_hand=False)
+    if found is None or found[0] not in _COMES_WITH:
+        return []
+    return [
+        group
+        for group in clause.objects
+        if any(one is group.head for one in found[1]) and not group.phrases
+    ]
 
 
 def take_juggled(clause: Clause) -> None:

@@ -6,18 +6,17 @@ from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
 
 SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
-    "stretch": ("do yoga", "practice yoga", "exercise", "warm up", "meditate", "train"),
-    "swing racket": ("rally", "volley", "smash", "serve"),
-    "throw": ("lasso", "fling", "sling", "pitch", "bowl", "cast"),
+    "stretch": ("exercise", "warm up", "meditate", "train"),
+    "swing racket": ("rally", "volley", "smash"),
+    "throw": ("lasso", "fling", "sling", "pitch", "cast"),
     "crouch": ("duck", "hide", "stoop"),
-    "punch": ("jab", "hook", "fight", "spar"),
+    "punch": ("jab", "hook"),
     "point": ("signal", "direct", "conduct", "indicate"),
     "eat": ("bite", "chew", "taste", "lick", "swallow", "nibble"),
-    "talk": ("shout", "yell", "laugh", "whisper", "recite", "interview", "present"),
+    "talk": ("whisper", "recite", "interview", "present"),
     "kneel": ("pray",),
-    "clap": ("high five",),
     "climb": ("clamber", "cling", "scale", "climb up", "shin up"),
-    "jump": ("somersault", "cartwheel", "flip", "vault"),
+    "jump": ("flip", "vault"),
 }  # fmt: skip
 """Activity of people → verbs it stands for."""
 

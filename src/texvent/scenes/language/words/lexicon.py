@@ -26,6 +26,7 @@ from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.kinds import KINDS
 from texvent.scenes.models.kinds.people import PEOPLE_GROUPS, TRAFFIC_WORDS
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
+from texvent.scenes.models.people.acts.words import ACTIVITY_NOUNS, COMPOUND_VERBS
 from texvent.scenes.models.protocol import Noun
 
 
@@ -115,6 +116,7 @@ class Lexicon:
             *_list_place_kinds(),
             *_list_effects(),
             *_list_people_groups(),
+            *_list_activity_nouns(),
         ):
             self._add(text, meaning)
         for base, role, value in (*_list_bare_verbs(), *_list_similar_verbs()):
@@ -201,7 +203,12 @@ def _group_of(meaning: Meaning) -> object:
 
 
 def list_forms(base: str) -> Iterator[tuple[str, VerbForm]]:
-    """All forms of a verb of one or more words, such as "take off"."""
+    """All forms of a verb of one or more words, such as "take off" and "arm wrestle"."""
+    if base in COMPOUND_VERBS:
+        first, last = base.split()
+        for word, form in list_verb_forms(last):
+            yield f"{first} {word}", form
+        return
     head, *tail = base.split()
     for word, form in list_verb_forms(head):
         yield " ".join((word, *tail)), form
@@ -216,7 +223,8 @@ def _list_bare_verbs() -> Iterator[tuple[str, Role, Any]]:
         yield base, Role.FLICKER, base
     for activity in (*ACTIVITIES.values(), *HAND_GESTURES.values()):
         for text in activity.words:
-            head = text.replace("-", " ").split()[0]
+            words = text.replace("-", " ").split()
+            head = next((one for one in COMPOUND_VERBS if words == one.split()), words[0])
             yield head, Role.ACTIVITY, head
     for effect in EFFECTS.values():
         for verb in effect.verbs:
@@ -254,6 +262,12 @@ def _list_people_groups() -> Iterator[tuple[str, Meaning]]:
         noun = "elderly person" if text.split()[0] in ("elderly", "old") else "person"
         is_shown = text.endswith("couple")
         yield text, Meaning(Role.NOUN, Pos.NOUN, noun, is_substitute=not is_shown, count=count)
+
+
+def _list_activity_nouns() -> Iterator[tuple[str, Meaning]]:
+    for singular in ACTIVITY_NOUNS:
+        for number, text in enumerate(_list_forms_of_noun(singular)):
+            yield text, Meaning(Role.UNKNOWN, Pos.NOUN, is_plural=number > 0)
 
 
 def _list_place_kinds() -> Iterator[tuple[str, Meaning]]:

@@ -186,7 +186,7 @@ THING_KINDS: dict[str, str] = {
     "sphere": "bead, globule",
     "cube": "object, ice cube",
     "cylinder": "tin cylinder",
-    "wheel": "car wheel, cartwheel, paddlewheel",
+    "wheel": "car wheel, paddlewheel",
     "sandwich": "food, meal",
     "picture frame": "portrait",
     "page": "letter, document, menu, envelope, banknote, dollar bill, receipt",

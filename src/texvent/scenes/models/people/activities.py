@@ -6,28 +6,11 @@ Loads nothing but the standard library, so that the sentence reader can import i
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 
+from texvent.scenes.models.people.acts.activity import Activity, seen_from_side
+from texvent.scenes.models.people.acts.words import MORE_ACTIVITIES
 from texvent.scenes.models.people.work.verbs import HANDWORK
-
-
-@dataclass(frozen=True)
-class Activity:
-    """One activity; its name is an `ObjectMotion.kind`."""
-
-    words: tuple[str, ...]
-    """Verb phrases in their base form."""
-    travels: bool = False
-    """Whether the body goes from place to place."""
-    is_sideways: bool = False
-    """Whether it is best seen from the side."""
-    is_still: bool = False
-    """Whether the body keeps still apart from breathing."""
-
-
-def _seen_from_side(*words: str) -> Activity:
-    return Activity(words, is_sideways=True)
 
 
 def _travels(*words: str) -> Activity:
@@ -47,14 +30,12 @@ _GESTURES: dict[str, Activity] = {
     ),
     "clap": Activity(("clap", "clap hands", "clap the hands", "applaud", "hand clap")),
     "point": Activity(("point", "point a finger")),
-    "nod": Activity(("nod", "nod the head")),
-    "shake head": Activity(("shake the head", "shake head")),
-    "bow": _seen_from_side("bow",),
+    "bow": seen_from_side("bow",),
     "salute": Activity(("salute",)),
     "raise arms": Activity(("raise the arms", "raise arms", "raise both arms", "cheer",
                             "celebrate", "lift the arms")),
     "stretch": Activity(("stretch",)),
-    "talk": Activity(("talk", "speak", "chat", "argue", "explain", "gesticulate", "discuss")),
+    "talk": Activity(("talk", "speak", "chat", "explain", "gesticulate", "discuss")),
     "right arm clockwise": Activity(("right arm clockwise", "rotate the right arm clockwise",
                                      "right hand clockwise")),
     "right arm counter-clockwise": Activity(
@@ -73,28 +54,28 @@ _GESTURES: dict[str, Activity] = {
 
 _SPORTS: dict[str, Activity] = {
     "jump": Activity(("jump", "hop", "leap")),
-    "dance": Activity(("dance", "waltz", "breakdance")),
+    "dance": Activity(("dance", "breakdance")),
     "jumping jack": Activity(("jumping jack", "do a jumping jack", "do jumping jacks",
                               "perform jumping jacks", "star jump")),
-    "squat": _seen_from_side("squat", "do squats"),
-    "lunge": _seen_from_side("lunge", "do lunges"),
-    "push-up": _seen_from_side("push-up", "do push-ups", "do pushups", "do press-ups"),
-    "sit-up": _seen_from_side("sit-up", "do sit-ups", "do situps", "do crunches"),
+    "squat": seen_from_side("squat", "do squats"),
+    "lunge": seen_from_side("lunge", "do lunges"),
+    "push-up": seen_from_side("push-up", "do push-ups", "do pushups", "do press-ups"),
+    "sit-up": seen_from_side("sit-up", "do sit-ups", "do situps", "do crunches"),
     "lift": Activity(("lift weights", "lift a weight", "lift a barbell", "do weightlifting")),
-    "punch": _seen_from_side("punch", "throw punches"),
-    "box": _seen_from_side("box", "shadow box", "spar", "fight"),
-    "kick": _seen_from_side("kick", "play football", "play soccer"),
-    "throw": _seen_from_side("throw", "toss", "pitch", "hurl", "bowl"),
-    "catch": _seen_from_side("catch",),
-    "swing bat": _seen_from_side("swing a bat", "bat", "play baseball", "play cricket",
+    "punch": seen_from_side("punch", "throw punches"),
+    "box": seen_from_side("box", "shadow box", "spar", "fight"),
+    "kick": seen_from_side("kick", "play football", "play soccer"),
+    "throw": seen_from_side("throw", "toss", "pitch", "hurl"),
+    "catch": seen_from_side("catch",),
+    "swing bat": seen_from_side("swing a bat", "bat", "play baseball", "play cricket",
                                  "play softball"),
-    "swing racket": _seen_from_side("swing a racket", "play tennis", "play badminton",
+    "swing racket": seen_from_side("swing a racket", "play tennis", "play badminton",
                                     "play squash", "play table tennis", "play ping pong",
-                                   "tennis serve", "tennis rally", "tennis volley", "tennis match",
+                                   "tennis rally", "tennis volley", "tennis match",
                                    "table tennis rally", "table tennis match", "ping pong rally",
                                    "badminton rally", "badminton match", "squash rally"),
     "swing club": Activity(("swing a club", "swing a golf club", "golf", "play golf", "putt")),
-    "dribble": _seen_from_side("dribble", "dribble a ball", "dribble a basketball",
+    "dribble": seen_from_side("dribble", "dribble a ball", "dribble a basketball",
                                "play basketball"),
     "juggle": Activity(("juggle", "juggle balls")),
     "climb": Activity(("climb", "scale"), is_sideways=True),
@@ -104,18 +85,18 @@ _SPORTS: dict[str, Activity] = {
     "skate": _travels("skateboard", "skate", "longboard"),
     "ski": _travels("ski", "go skiing"),
     "snowboard": _travels("snowboard",),
-    "row": _seen_from_side("row", "paddle", "kayak", "canoe"),
+    "row": seen_from_side("row", "paddle", "kayak", "canoe"),
 }  # fmt: skip
 
 _DAILY: dict[str, Activity] = {
     "play guitar": Activity(("play guitar", "play the guitar", "strum", "strum a guitar")),
     "play drums": Activity(("play drums", "play the drums", "drum")),
-    "play piano": _seen_from_side("play piano", "play the piano", "play keyboard",
+    "play piano": seen_from_side("play piano", "play the piano", "play keyboard",
                                   "play the keyboard"),
     "play violin": Activity(("play violin", "play the violin", "fiddle")),
-    "play flute": _seen_from_side("play flute", "play the flute", "play clarinet",
+    "play flute": seen_from_side("play flute", "play the flute", "play clarinet",
                                   "play the trumpet", "play trumpet"),
-    "type": _seen_from_side("type", "use a laptop", "use a computer", "work on a laptop",
+    "type": seen_from_side("type", "use a laptop", "use a computer", "work on a laptop",
                             "work on a computer", "work at a computer"),
     "write": Activity(("write",)),
     "read": Activity(("read", "read a book", "read a newspaper")),
@@ -128,14 +109,14 @@ _DAILY: dict[str, Activity] = {
     "photograph": Activity(("photograph", "take a photo", "take a picture", "take photos",
                             "take pictures", "take a selfie", "film")),
     "sing": Activity(("sing",)),
-    "dig": _seen_from_side("dig", "shovel"),
-    "sweep": _seen_from_side("sweep", "mop", "vacuum", "rake"),
-    "chop wood": _seen_from_side("chop wood", "cut wood", "split wood", "split logs"),
+    "dig": seen_from_side("dig", "shovel"),
+    "sweep": seen_from_side("sweep", "mop", "vacuum", "rake"),
+    "chop wood": seen_from_side("chop wood", "cut wood", "split wood", "split logs"),
     "cook": Activity(("cook", "prepare food", "make food", "prepare")),
-    "pull": _seen_from_side("pull",),
-    "push": _seen_from_side("push", "shove"),
-    "fish": _seen_from_side("fish", "go fishing"),
-    "tie shoes": _seen_from_side("tie shoes", "tie shoelaces", "tie laces", "tie boots",
+    "pull": seen_from_side("pull",),
+    "push": seen_from_side("push", "shove"),
+    "fish": seen_from_side("fish", "go fishing"),
+    "tie shoes": seen_from_side("tie shoes", "tie shoelaces", "tie laces", "tie boots",
                                  "tie sneakers", "lace shoes", "lace boots"),
 }  # fmt: skip
 
@@ -153,8 +134,8 @@ _ON_FOOT: dict[str, Activity] = {
 }
 
 ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
-    {**{verb: _seen_from_side(verb) for verb in HANDWORK},
-     **_ON_FOOT, **_RESTING, **_GESTURES, **_SPORTS, **_DAILY}
+    {**{verb: seen_from_side(verb) for verb in HANDWORK},
+     **_ON_FOOT, **_RESTING, **_GESTURES, **_SPORTS, **_DAILY, **MORE_ACTIVITIES}
 )  # fmt: skip
 """What a person can do: name → activity."""
 

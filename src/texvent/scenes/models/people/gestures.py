@@ -142,8 +142,6 @@ GESTURES: Mapping[str, Movement] = MappingProxyType(
         "wave both": lambda t: Posture(left=_wave_arm(t), right=_wave_arm(t)),
         "clap": _clap,
         "point": _point,
-        "nod": lambda t: Posture(nod=0.05 + 0.30 * pulse(t, 1.1)),
-        "shake head": lambda t: Posture(look=0.55 * swing(t, 1.0)),
         "bow": _bow,
         "salute": _salute,
         "raise arms": _raise_arms,

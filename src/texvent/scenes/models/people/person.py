@@ -11,6 +11,11 @@ from types import MappingProxyType
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import SEATED
+from texvent.scenes.models.people.acts.at_head import AT_HEAD_MOVEMENTS
+from texvent.scenes.models.people.acts.exercises import EXERCISE_MOVEMENTS
+from texvent.scenes.models.people.acts.music import MUSIC_MOVEMENTS
+from texvent.scenes.models.people.acts.pairs import PAIR_MOVEMENTS
+from texvent.scenes.models.people.acts.play import PLAY_MOVEMENTS
 from texvent.scenes.models.people.anchors import locate_anchor
 from texvent.scenes.models.people.daily import DAILY
 from texvent.scenes.models.people.figure import draw_figure
@@ -52,7 +57,18 @@ CRAWL = Gait(stride=0.60, duty=0.60, lift=0.07)
 RUN_UP = WALK
 """Gait of a run-up."""
 
-MOVEMENTS: Mapping[str, Movement] = MappingProxyType({**GESTURES, **SPORTS, **DAILY})
+MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
+    {
+        **GESTURES,
+        **SPORTS,
+        **DAILY,
+        **AT_HEAD_MOVEMENTS,
+        **EXERCISE_MOVEMENTS,
+        **PLAY_MOVEMENTS,
+        **MUSIC_MOVEMENTS,
+        **PAIR_MOVEMENTS,
+    }
+)
 """Activity → posture over time; what is not here walks or runs."""
 
 

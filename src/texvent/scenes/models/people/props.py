@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
 from texvent.scenes.models.materials import (
@@ -21,6 +21,12 @@ from texvent.scenes.models.materials import (
     glowing,
     striped,
 )
+from texvent.scenes.models.people.acts.at_head import AT_HEAD_PROPS
+from texvent.scenes.models.people.acts.exercises import EXERCISE_PROPS
+from texvent.scenes.models.people.acts.music import MUSIC_PROPS
+from texvent.scenes.models.people.acts.pairs import PAIR_PROPS
+from texvent.scenes.models.people.acts.play import PLAY_PROPS
+from texvent.scenes.models.people.acts.prop_shapes import Draw, Prop, disc, stick, still
 from texvent.scenes.models.people.sports import BOARD_STANCE, DRIBBLE_HZ, JUGGLE_HZ
 from texvent.scenes.models.people.work.bench import TABLE_M, usual_bench
 from texvent.scenes.models.people.work.tools import TOOLS
@@ -28,91 +34,58 @@ from texvent.scenes.models.people.work.verbs import HANDWORK
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, blade, box, post, rod, spike
 
-Draw = Callable[[float], Sequence[ModelPart]]
-
 BAT_REACH, RACKET_REACH, CLUB_REACH = 0.66, 0.48, 0.80
 """From the right palm to where a bat, a racket and a club meet the ball, m."""
 _LEATHER = Material((0.10, 0.035, 0.02))
 _PALE = Material((0.55, 0.34, 0.14))
 
 
-@dataclass(frozen=True)
-class Prop:
-    """Something that goes with a place of the body."""
-
-    anchor: str
-    """Place of `anchors.locate_anchor`; "ground" = body coordinates."""
-    draw: Draw
-    """Its shapes at a time, s, in the axes of that place, m."""
-    nouns: tuple[str, ...] = ()
-    """Nouns that are the same thing: where the prompt shows one, the prop is left out."""
-    furniture: str = ""
-    """Its name, where the prompt may show another one too: a table to work at."""
-
-
-def _still(*parts: ModelPart) -> Draw:
-    return lambda _: parts
-
-
-def _stick(material: Material, low: float, high: float, radius: float) -> ModelPart:
-    """A rod along what the hand holds."""
-    return rod(material, (0.0, 0.0, low), (0.0, 0.0, high), radius)
-
-
-def _disc(material: Material, middle: Point, size: tuple[float, float], thick: float) -> ModelPart:
-    """A flat ellipse that stands in the x-z plane of the hand: width, length."""
-    x, y, z = middle
-    wide, long = size
-    return blade(material, (x, y, z - 0.5 * long), (x, y, z + 0.5 * long), chord=(wide, 0.0, 0.0),
-                 thickness=(0.0, thick, 0.0))  # fmt: skip
-
-
-BAT = _still(_stick(_PALE, -0.10, 0.30, 0.016), _stick(_PALE, 0.28, 0.80, 0.034))
-RACKET = _still(
-    _stick(DARK, -0.08, 0.26, 0.016),
-    _disc(Material(RED), (0.0, 0.0, RACKET_REACH), (0.27, 0.36), 0.024),
-    _disc(Material((0.7, 0.7, 0.62)), (0.0, 0.0, RACKET_REACH), (0.22, 0.30), 0.030),
+BAT = still(stick(_PALE, -0.10, 0.30, 0.016), stick(_PALE, 0.28, 0.80, 0.034))
+RACKET = still(
+    stick(DARK, -0.08, 0.26, 0.016),
+    disc(Material(RED), (0.0, 0.0, RACKET_REACH), (0.27, 0.36), 0.024),
+    disc(Material((0.7, 0.7, 0.62)), (0.0, 0.0, RACKET_REACH), (0.22, 0.30), 0.030),
 )
-CLUB = _still(_stick(STEEL, -0.16, 0.80, 0.011), box(DARK, (0.04, 0.0, 0.80), (0.12, 0.05, 0.06)))
-_SHOVEL = _still(_stick(WOOD, -0.42, 0.62, 0.018), box(STEEL, (0.0, 0.0, 0.74), (0.05, 0.22, 0.30)))
-_BROOM = _still(
-    _stick(WOOD, -0.50, 0.86, 0.014),
+CLUB = still(stick(STEEL, -0.16, 0.80, 0.011), box(DARK, (0.04, 0.0, 0.80), (0.12, 0.05, 0.06)))
+_SHOVEL = still(stick(WOOD, -0.42, 0.62, 0.018), box(STEEL, (0.0, 0.0, 0.74), (0.05, 0.22, 0.30)))
+_BROOM = still(
+    stick(WOOD, -0.50, 0.86, 0.014),
     spike(Material(YELLOW), (0.0, 0.0, 1.06), (0.0, 0.0, 0.76), 0.15),
 )
-_AXE = _still(_stick(WOOD, -0.12, 0.62, 0.018), box(STEEL, (0.08, 0.0, 0.60), (0.18, 0.03, 0.14)))
-_LADLE = _still(_stick(WOOD, -0.10, 0.28, 0.012), ball(WOOD, (0.0, 0.0, 0.30), (0.07, 0.05, 0.07)))
-_PAN = _still(post(DARK, (0.22, 0.0, -0.02), (0.34, 0.34, 0.07)),
+_AXE = still(stick(WOOD, -0.12, 0.62, 0.018), box(STEEL, (0.08, 0.0, 0.60), (0.18, 0.03, 0.14)))
+_LADLE = still(stick(WOOD, -0.10, 0.28, 0.012), ball(WOOD, (0.0, 0.0, 0.30), (0.07, 0.05, 0.07)))
+_PAN = still(post(DARK, (0.22, 0.0, -0.02), (0.34, 0.34, 0.07)),
               rod(DARK, (-0.04, 0.0, 0.0), (0.10, 0.0, 0.0), 0.014))  # fmt: skip
-_CUP = _still(post(Material(WHITE), (0.03, 0.0, 0.02), (0.09, 0.09, 0.13)))
-_PHONE = _still(box(DARK, (0.02, 0.0, 0.05), (0.02, 0.08, 0.17)))
-_SCREEN = _still(
+_CUP = still(post(Material(WHITE), (0.03, 0.0, 0.02), (0.09, 0.09, 0.13)))
+_PHONE = still(box(DARK, (0.02, 0.0, 0.05), (0.02, 0.08, 0.17)))
+_SCREEN = still(
     box(DARK, (0.03, 0.0, 0.06), (0.02, 0.08, 0.17)),
     box(glowing((0.35, 0.5, 0.75), 0.8), (0.019, 0.0, 0.06), (0.006, 0.07, 0.15)),
 )
-_MICROPHONE = _still(_stick(DARK, -0.08, 0.10, 0.018), ball(STEEL, (0.0, 0.0, 0.12), (0.06,) * 3))
-_STICK = _still(rod(_PALE, (-0.05, 0.0, 0.0), (0.34, 0.0, 0.0), 0.012))
-_GLOVE = _still(ball(Material(RED), (0.03, 0.0, 0.0), (0.20, 0.16, 0.17)))
-_SPOON = _still(
-    _stick(CHROME, -0.06, 0.12, 0.008), ball(CHROME, (0.0, 0.0, 0.14), (0.04, 0.03, 0.06))
+_MICROPHONE = still(stick(DARK, -0.08, 0.10, 0.018), ball(STEEL, (0.0, 0.0, 0.12), (0.06,) * 3))
+_STICK = still(rod(_PALE, (-0.05, 0.0, 0.0), (0.34, 0.0, 0.0), 0.012))
+_GLOVE = still(ball(Material(RED), (0.03, 0.0, 0.0), (0.20, 0.16, 0.17)))
+_SPOON = still(
+    stick(CHROME, -0.06, 0.12, 0.008), ball(CHROME, (0.0, 0.0, 0.14), (0.04, 0.03, 0.06))
 )
-_BOWL = _still(ball(Material((0.55, 0.60, 0.68)), (0.06, 0.0, 0.02), (0.20, 0.20, 0.12)))
-_PAD = _still(box(Material(WHITE), (0.04, 0.04, 0.03), (0.24, 0.20, 0.02)))
-_PEN = _still(_stick(Material(BLUE), -0.02, 0.12, 0.008))
-_BOOK = _still(
+_BOWL = still(ball(Material((0.55, 0.60, 0.68)), (0.06, 0.0, 0.02), (0.20, 0.20, 0.12)))
+_PAD = still(box(Material(WHITE), (0.04, 0.04, 0.03), (0.24, 0.20, 0.02)))
+_PEN = still(stick(Material(BLUE), -0.02, 0.12, 0.008))
+_BOOK = still(
     box(Material(RED), (0.02, 0.09, 0.04), (0.03, 0.18, 0.26), lean=0.25),
     box(Material(RED), (0.02, -0.09, 0.04), (0.03, 0.18, 0.26), lean=0.25),
     box(Material(WHITE), (0.0, 0.088, 0.045), (0.02, 0.165, 0.24), lean=0.25),
     box(Material(WHITE), (0.0, -0.088, 0.045), (0.02, 0.165, 0.24), lean=0.25),
 )
-_CAMERA = _still(
+_CAMERA = still(
     box(DARK, (0.04, 0.0, 0.04), (0.09, 0.16, 0.11)),
     rod(STEEL, (0.08, 0.0, 0.04), (0.16, 0.0, 0.04), 0.04),
 )
-_BARBELL = _still(
+_BARBELL = still(
     rod(STEEL, (0.03, -0.80, 0.0), (0.03, 0.80, 0.0), 0.016),
     *(rod(DARK, (0.03, y, 0.0), (0.03, y + 0.10, 0.0), 0.20) for y in (0.60, -0.70)),
 )
-_GUITAR = _still(
+_GUITAR = still(
     blade(_PALE, (0.20, -0.32, -0.05), (0.20, 0.02, 0.10), chord=(-0.1, -0.12, 0.26),
           thickness=(0.10, 0.0, 0.0)),
     blade(_PALE, (0.20, -0.10, 0.04), (0.21, 0.16, 0.16), chord=(-0.1, -0.10, 0.20),
@@ -121,13 +94,13 @@ _GUITAR = _still(
     rod(_LEATHER, (0.23, 0.06, 0.12), (0.28, 0.56, 0.34), 0.020),
     rod(DARK, (0.28, 0.56, 0.34), (0.29, 0.68, 0.39), 0.032),
 )  # fmt: skip
-_VIOLIN = _still(
+_VIOLIN = still(
     blade(_LEATHER, (0.08, 0.12, 0.47), (0.34, 0.27, 0.47), chord=(-0.09, 0.17, 0.0),
           thickness=(0.0, 0.0, 0.06)),
     rod(DARK, (0.32, 0.26, 0.48), (0.50, 0.36, 0.48), 0.014),
 )  # fmt: skip
-_BOW = _still(_stick(_LEATHER, -0.05, 0.60, 0.009))
-_FLUTE = _still(rod(DARK, (0.02, 0.0, -0.01), (0.48, 0.0, -0.20), 0.017),
+_BOW = still(stick(_LEATHER, -0.05, 0.60, 0.009))
+_FLUTE = still(rod(DARK, (0.02, 0.0, -0.01), (0.48, 0.0, -0.20), 0.017),
                 spike(DARK, (0.52, 0.0, -0.22), (0.36, 0.0, -0.15), 0.05))  # fmt: skip
 
 
@@ -136,7 +109,7 @@ def _drum(x: float, y: float, z: float, wide: float) -> list[ModelPart]:
             post(Material(WHITE), (x, y, z + 0.015), (0.98 * wide, 0.98 * wide, 0.02))]  # fmt: skip
 
 
-_DRUMS = _still(
+_DRUMS = still(
     *_drum(0.56, 0.24, 0.68, 0.36), *_drum(0.56, -0.24, 0.68, 0.36),
     rod(Material(RED), (0.66, -0.001, 0.30), (0.98, 0.001, 0.30), 0.30),
     post(Material(YELLOW), (0.66, 0.62, 1.02), (0.46, 0.46, 0.02)),
@@ -146,24 +119,24 @@ _DRUMS = _still(
     post(DARK, (-0.05, 0.0, 0.20), (0.34, 0.34, 0.40)),
 )  # fmt: skip
 _STOOL = post(DARK, (-0.05, 0.0, 0.20), (0.36, 0.36, 0.40))
-_PIANO = _still(
+_PIANO = still(
     _STOOL, box(DARK, (0.78, 0.0, 0.52), (0.36, 1.40, 1.02)),
     box(DARK, (0.54, 0.0, 0.63), (0.30, 1.40, 0.08)),
     box(Material(WHITE), (0.50, 0.0, 0.675), (0.20, 1.24, 0.02)),
     *(box(DARK, (0.53, -0.56 + 0.16 * k, 0.69), (0.12, 0.06, 0.03)) for k in range(8)),
 )  # fmt: skip
-_DESK = _still(
+_DESK = still(
     _STOOL, box(WOOD, (0.66, 0.0, 0.64), (0.60, 1.10, 0.04)),
     *(rod(WOOD, (x, y, 0.0), (x, y, 0.63), 0.025) for x in (0.42, 0.90) for y in (0.5, -0.5)),
     box(STEEL, (0.58, 0.0, 0.672), (0.26, 0.38, 0.02)),
     box(STEEL, (0.745, 0.0, 0.80), (0.02, 0.38, 0.26), lean=0.25),
     box(glowing((0.35, 0.5, 0.75), 0.9), (0.732, 0.0, 0.80), (0.01, 0.34, 0.22), lean=0.25),
 )  # fmt: skip
-_ROD = _still(_stick(DARK, -0.20, 1.9, 0.012),
+_ROD = still(stick(DARK, -0.20, 1.9, 0.012),
               rod(Material(WHITE), (0.0, 0.0, 1.88), (1.0, 0.0, 0.9), 0.006))  # fmt: skip
-_PADDLE = _still(
-    _stick(WOOD, -0.85, 0.85, 0.016),
-    *(_disc(Material(ORANGE), (0.0, 0.0, z), (0.20, 0.44), 0.03) for z in (0.98, -0.98)),
+_PADDLE = still(
+    stick(WOOD, -0.85, 0.85, 0.016),
+    *(disc(Material(ORANGE), (0.0, 0.0, z), (0.20, 0.44), 0.03) for z in (0.98, -0.98)),
 )
 
 
@@ -182,10 +155,10 @@ def _board(size: Point, material: Material, wheels: bool = False) -> Draw:
             for x in (0.26 * long, -0.26 * long)
             for y in (0.34 * wide, -0.34 * wide - 0.04)
         ]
-    return _still(*parts)
+    return still(*parts)
 
 
-_SKIS = _still(
+_SKIS = still(
     *(
         part
         for y in (0.12, -0.12)
@@ -195,8 +168,8 @@ _SKIS = _still(
         )
     )
 )
-_POLE = _still(_stick(STEEL, -0.04, 0.85, 0.012))
-_LEFT_POLE = _still(rod(STEEL, (0.03, 0.0, 0.03), (-0.62, 0.10, -0.55), 0.012))
+_POLE = still(stick(STEEL, -0.04, 0.85, 0.012))
+_LEFT_POLE = still(rod(STEEL, (0.03, 0.0, 0.03), (-0.62, 0.10, -0.55), 0.012))
 
 
 def _dribbled(t: float) -> list[ModelPart]:
@@ -224,6 +197,11 @@ def _juggled(t: float) -> list[ModelPart]:
 _SURFBOARD = _board((2.0, 0.52, 0.07), Material(WHITE))
 PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
     {
+        **AT_HEAD_PROPS,
+        **EXERCISE_PROPS,
+        **PLAY_PROPS,
+        **MUSIC_PROPS,
+        **PAIR_PROPS,
         "swing bat": (Prop("right hand", BAT, ("baseball bat", "cricket bat")),),
         "swing racket": (
             Prop("right hand", RACKET, ("tennis racket", "badminton racket", "ping-pong paddle")),
@@ -286,7 +264,7 @@ def list_props(kind: str, size: float = 1.0) -> tuple[Prop, ...]:
     """
     work = HANDWORK.get(kind)
     if kind in PROPS or work is None:
-        return PROPS.get(kind, ())
+        return tuple(_scaled(prop, size) for prop in PROPS.get(kind, ()))
     tool = (hand_tool(work.tool),) if work.tool in TOOLS else ()
     if work.place == "hands":
         return tool
@@ -296,9 +274,20 @@ def list_props(kind: str, size: float = 1.0) -> tuple[Prop, ...]:
     return (*tool, table(size * (ahead - _INSET_M), size * TABLE_M))
 
 
+def _scaled(prop: Prop, size: float) -> Prop:
+    """What the body stands at or wears is as large as the body; what a hand holds is not."""
+    if size == 1.0 or prop.anchor not in ("ground", "torso"):
+        return prop
+
+    def draw(time_s: float) -> list[ModelPart]:
+        return [part.at(size * part.to_body) for part in prop.draw(time_s)]
+
+    return replace(prop, draw=draw)
+
+
 def hand_tool(name: str) -> Prop:
     """A tool in the right hand: a name of `tools.TOOLS`."""
-    return Prop("right hand", _still(*TOOLS[name].parts))
+    return Prop("right hand", still(*TOOLS[name].parts))
 
 
 def _panel(ahead: float, size: float) -> Prop:
@@ -306,7 +295,7 @@ def _panel(ahead: float, size: float) -> Prop:
     x, high = size * ahead, size * 1.15
     board = box(Material((0.62, 0.60, 0.55)), (x + 0.02, 0.0, high), (0.03, 1.1, 0.9))
     legs = (rod(WOOD, (x + 0.06, y, 0.0), (x + 0.06, y, 1.3 * high), 0.025) for y in (0.5, -0.5))
-    return Prop("ground", _still(board, *legs), furniture="board")
+    return Prop("ground", still(board, *legs), furniture="board")
 
 
 _INSET_M = 0.28
@@ -324,4 +313,4 @@ def table(near: float, top: float) -> Prop:
         for b in (1.0, -1.0)
     )
     board = box(WOOD, (middle, 0.0, top - 0.02), (_TABLE_DEEP, _TABLE_WIDE, 0.04))
-    return Prop("ground", _still(board, *legs), furniture="table")
+    return Prop("ground", still(board, *legs), furniture="table")

@@ -18,7 +18,8 @@ class Act:
 ACTS: Mapping[str, Act] = MappingProxyType(
     {
         **dict.fromkeys(
-            ("hold", "carry", "wear", "ride", "ride along", "push", "pull", "work on"), Act()
+            ("hold", "carry", "wear", "ride", "ride along", "push", "pull", "work on", "give"),
+            Act(),
         ),
         **dict.fromkeys(("on head", "on shoulder", "on back", "on lap"), Act()),
         **dict.fromkeys(("kick", "hit", "throw", "catch", "collide"), Act(is_single=True)),

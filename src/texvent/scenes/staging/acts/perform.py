@@ -12,6 +12,7 @@ from texvent.scenes.description import (
     SceneDescription,
     SceneObject,
 )
+from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Noun
@@ -23,6 +24,7 @@ from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, load, 
 from texvent.scenes.staging.acts.cargo import take_along
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.crews import put_to_work
+from texvent.scenes.staging.acts.facing import face_each_other, hand_over
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
@@ -53,6 +55,7 @@ _ORDER = (
     "hit",
     "collide",
     "work on",
+    "give",
     "hold",
     "carry",
     "on head",
@@ -91,10 +94,10 @@ def settle_motions(
                 way = motion.direction if motion is not None else None
                 objects[subject] = replace(objects[subject], motion=ObjectMotion("walk", way))
             objects[target] = _still(objects[target])
-        elif relation.kind in ("work on", "collide"):
-            works = relation.kind == "work on"
+        elif relation.kind in ("work on", "give", "collide"):
+            works = relation.kind != "collide"
             objects[subject] = objects[subject] if works else _still(objects[subject])
-            objects[target] = _still(objects[target])
+            objects[target] = _opened_or_still(objects[target])
         elif ACTS[relation.kind].is_single:
             way = _choose_way(objects[subject], objects[target], seed, subject)
             objects[subject] = replace(
@@ -187,6 +190,11 @@ def _implied_acts(objects: list[SceneObject], relations: list[Relation]) -> list
     return holds
 
 
+def _opened_or_still(scene_object: SceneObject) -> SceneObject:
+    motion = scene_object.motion
+    return scene_object if motion is not None and motion.kind in OPENS else _still(scene_object)
+
+
 def _still(scene_object: SceneObject) -> SceneObject:
     return replace(scene_object, motion=None, then=())
 
@@ -227,6 +235,11 @@ def perform_acts(
         a bicycle.
     """
     cast = Cast(actors)
+    bound = {
+        one for r in description.relations if r.kind in ACTS for one in (r.subject, *r.targets)
+    }
+    free = [n for n, one in enumerate(actors) if one.object_index not in bound]
+    face_each_other(cast, free)
     relations = [r for r in description.relations if r.kind in ACTS and r.targets]
     ridden = {r.targets[0] for r in relations if r.kind in RIDES}
     towed = [r for r in relations if r.kind in ("push", "pull") and r.targets[0] in ridden]
@@ -305,6 +318,8 @@ def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: f
         subject, target = striking.catch(subject, target, duration_s)
     elif kind == "hit":
         subject, target, other = striking.hit(subject, target, other, duration_s)
+    elif kind == "give" and other is not None:
+        subject, target, other = hand_over(subject, target, other)
     elif kind in ON_BODY:
         subject, target = put_on_body(kind, subject, target)
     elif kind == "wear":

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.models.people.acts.prop_shapes import Prop
 from texvent.scenes.models.people.person import RUN_UP
 from texvent.scenes.models.people.props import (
     BAT,
@@ -15,7 +16,6 @@ from texvent.scenes.models.people.props import (
     CLUB_REACH,
     RACKET,
     RACKET_REACH,
-    Prop,
 )
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor

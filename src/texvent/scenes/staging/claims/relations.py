@@ -327,6 +327,17 @@ def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
     return True
 
 
+def _is_given(subject: _Body, targets: list[_Body]) -> bool:
+    """The first target is at the subject in the beginning and at the other one in the end."""
+    thing = targets[0].copies
+    ends = ((subject.copies, 0.0), (targets[-1].copies, subject.duration_s))
+    return all(
+        any(touches(person, one, time_s) for person in people)
+        for people, time_s in ends
+        for one in thing
+    )
+
+
 def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
     return strikes(subject.copies, targets[0].copies, subject.duration_s, moves=moves)
 
@@ -359,6 +370,7 @@ _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     **dict.fromkeys(("ride", "ride along"), _is_riding),
     "work on": _is_worked_on,
     **dict.fromkeys(("kick", "hit", "throw"), partial(_is_striking, moves=True)),
+    "give": _is_given,
     "catch": partial(_is_striking, moves=False),
     "around": _by_copies(goes_round),
     "above": _is_above,

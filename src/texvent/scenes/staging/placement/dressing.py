@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import STANDING, SceneDescription
-from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.props import Prop, list_props
+from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS
+from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.people.roles.dressing import DRESSED, dress
 from texvent.scenes.models.people.roles.held import HOLDS
-from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.placement.at_table import draw_chair
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 
@@ -99,3 +100,16 @@ def usual_holds(
         for prop in HOLDS.get(group.noun.name, ())
         if prop.anchor not in busy and not used.intersection(prop.nouns)
     ]
+
+
+_WAIST_SHARE = 0.52
+"""Share of a person's height below which the image may end."""
+
+
+def find_waist(group: ObjectGroup, model: Model) -> float:
+    """Where the image may end of who does something at the own head, m; 0 = it shows all."""
+    said = (group.scene_object.motion or STANDING, *group.scene_object.then)
+    is_close = group.noun.name in PERSON_NOUNS and all(
+        one.kind in ACTIVITIES and ACTIVITIES[one.kind].is_close for one in said
+    )
+    return _WAIST_SHARE * model.height if is_close else 0.0

@@ -12,6 +12,7 @@ from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.opened_model import OPENED, OpenedModel
+from texvent.scenes.models.opening_model import opening
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.pictures import PicturedModel, can_show
@@ -21,7 +22,12 @@ from texvent.scenes.staging.acts.attached import OnEnd, OnPart, Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
-from texvent.scenes.staging.placement.dressing import choose_copy, choose_props, dressed
+from texvent.scenes.staging.placement.dressing import (
+    choose_copy,
+    choose_props,
+    dressed,
+    find_waist,
+)
 from texvent.scenes.staging.placement.fitting import fit_contents
 from texvent.scenes.staging.placement.formation import form_up
 from texvent.scenes.staging.placement.object_groups import (
@@ -132,6 +138,7 @@ class ObjectPlacer:
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions = (scene_object.motion or STANDING, *scene_object.then)
+        models = opening(models, noun.name, {one.kind for one in motions})
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
         is_curved = self._description.surroundings.road == "curved" and self._travel is None
         if is_curved and noun.motion == "drive" and plan.is_path:
@@ -303,6 +310,7 @@ class ObjectPlacer:
                     _rope(trajectory, model), choose_props(self._description, group),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
+                    waist_m=find_waist(group, model),
                 )
             )  # fmt: skip
         return actors

@@ -11,6 +11,7 @@ import numpy as np
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.objects.patterns import FACING
+from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -342,7 +343,7 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     if kind == "roll over":
         lying = model.parts(Pose(0.0, 0.0, 0.0, "lie"))
         return RollOver(home, plan.yaw, 0.5 * float(bounds(lying)[1][2]), pace)
-    is_act = kind in _RESTING or kind in ANIMAL_ACTS
+    is_act = kind in _RESTING | OPENS | {"tug of war"} or kind in ANIMAL_ACTS
     return Stationary(home, plan.yaw, kind if is_act else "move", pace)
 
 

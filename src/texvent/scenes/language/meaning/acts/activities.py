@@ -8,10 +8,11 @@ from functools import lru_cache
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.vocabulary.function import DETERMINERS
 from texvent.scenes.language.vocabulary.motion import VERBS
-from texvent.scenes.language.words.english import Pos, list_readings
+from texvent.scenes.language.words.english import Pos, list_readings, list_verb_forms
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES, Activity
-from texvent.scenes.models.people.work.verbs import HANDWORK
+from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
+from texvent.scenes.models.people.acts.activity import Activity
+from texvent.scenes.models.people.work.verbs import HANDWORK, WITH_PARTICLE
 
 Key = tuple[str, ...]
 
@@ -26,18 +27,27 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
     if clause.verb_word.is_lost:
         return None
     table = _phrases(is_hand)
-    said = _list_words(clause)
-    lemmas = tuple(word.lemma if word.has_other_sense else _normalise(word.text) for word in said)
-    for length in range(len(said), 1, -1):
+    said = [(lemma, word) for word in _list_words(clause) for lemma in _split(word)]
+    lemmas = tuple(lemma for lemma, _ in said)
+    verb = len(_split(clause.verb_word))
+    for length in range(len(said), verb, -1):
         name = table.get(lemmas[:length])
         if name is not None:
-            return name, said[:length], True
-    last = _normalise(said[-1].text.split()[-1])
-    name = table.get((*lemmas[:1], last)) if len(said) > 1 else None
+            return name, [word for _, word in said[:length]], True
+    name = table.get((*lemmas[:verb], lemmas[-1])) if len(said) > verb else None
     if name is not None:
-        return name, [said[0], said[-1]], True
-    name = table.get(lemmas[:1])
-    return None if name is None else (name, said[:1], False)
+        return name, [said[0][1], said[-1][1]], True
+    name = table.get(lemmas[:verb])
+    return None if name is None else (name, [clause.verb_word], False)
+
+
+def _split(word: Word) -> list[str]:
+    """Base forms of the parts of a word: "pick up" of "picks" once its particle is read."""
+    if word.lemma in WITH_PARTICLE:
+        return word.lemma.split()
+    if word.has_other_sense:
+        return [word.lemma]
+    return [_normalise(part) for part in word.text.split()]
 
 
 def _list_words(clause: Clause) -> list[Word]:
@@ -80,11 +90,21 @@ def name_activity(words: Sequence[Word]) -> tuple[str, str] | None:
     return ("person", people[key]) if key in people else None
 
 
+_FORMS: Mapping[str, str] = {
+    **{form: base for base in ("put", "breakdance", "deadlift", "handstand", "backflip", "do")
+       for form, _ in list_verb_forms(base)},
+    "deadlifts": "deadlift", "handstands": "handstand", "backflips": "backflip",
+}  # fmt: skip
+"""Forms that the dictionary lacks, or has for another verb too."""
+
+
 @lru_cache(maxsize=1024)
 def _normalise(word: str) -> str:
     """Base form of a word, of its verb if it can be one."""
     if word in HANDWORK:
         return word  # "feed" is no past of "fee"
+    if word in _FORMS:
+        return _FORMS[word]
     readings = list_readings(word)
     verbs = [one.lemma for one in readings if one.pos is Pos.VERB]
     return (verbs or [one.lemma for one in readings] or [word])[0]

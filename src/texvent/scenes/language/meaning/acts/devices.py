@@ -15,6 +15,7 @@ from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.opening_model import OPENING
 
 _SWITCHES = ("turn", "change", "switch", "go")
 _SIGNALS = ("red", "yellow", "amber", "green")
@@ -38,6 +39,7 @@ def switch(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
         switch_signal(draft, clause, subjects)
         or switch_lamps(draft, clause, subjects)
         or do_job(draft, clause, subjects)
+        or open_up(draft, clause, subjects)
     )
 
 
@@ -50,6 +52,27 @@ def do_job(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
         if not item.motions:
             item.motions.append(ObjectMotion(JOBS[item.noun][1]))
     clause.verb_word.is_used = clause.verb_word.is_used or bool(doers)
+    return bool(doers)
+
+
+_OPENING_VERBS = {"open": "open", "close": "close", "shut": "close"}
+_LEAF_VERBS = frozenset({"swing", "slide", "creak", "fly", "slam", "pop", "flip", "move"})
+
+
+def open_up(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
+    """As in "a door opens", "a drawer slides open", "the lid is closed"."""
+    kind = _OPENING_VERBS.get(clause.verb_word.lemma)
+    for word in clause.adverbs:
+        if word.text in ("open", "shut", "closed") and clause.verb_word.lemma in _LEAF_VERBS:
+            kind = "open" if word.text == "open" else "close"
+            word.is_used = True
+    if kind is None or clause.objects:
+        return False
+    doers = [index for index in subjects if draft.noun(index).name in OPENING]
+    for index in doers:
+        draft.objects[index].motions = [ObjectMotion(kind)]
+    clause.verb_word.is_used = clause.verb_word.is_used or bool(doers)
+    draft.link_motion([clause.verb_word], doers)
     return bool(doers)
 
 

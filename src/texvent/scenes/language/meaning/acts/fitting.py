@@ -85,7 +85,9 @@ def is_played(kind: str, clause: Clause, draft: Draft) -> bool:
     """Whether a racket is near where one is swung: a waiter who serves has none."""
     said = {part for group in clause.subjects for part in group.text.split()}
     named = {item.noun for item in draft.objects}
-    return kind != "swing racket" or bool(said & _RACKET_SPORTS or named & _OF_TENNIS)
+    return kind not in ("swing racket", "serve") or bool(
+        said & _RACKET_SPORTS or named & _OF_TENNIS
+    )
 
 
 _ACTED_BY_ANYTHING = frozenset({"push", "pull", "carry"})

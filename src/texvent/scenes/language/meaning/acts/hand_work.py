@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
@@ -12,8 +13,9 @@ from texvent.scenes.language.meaning.referents import PERSON, Referent
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.opening_model import OPENING, OPENS
 from texvent.scenes.models.people.activities import SEATS
-from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO
+from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED, ONTO
 from texvent.scenes.models.protocol import Noun
 
 DRINKS = frozenset({"drink", "lap", "eat", "nibble", "feed", "peck"})
@@ -60,7 +62,7 @@ def give_bodies(draft: Draft, clause: Clause, subjects: Sequence[Referent]) -> N
 
 _STRUCK = ("hit", "strike")
 _WEIGHTS = frozenset({"barbell", "dumbbell", "kettlebell"})
-_BY_HAND = frozenset({*_STRUCK, "lift", "shake"})
+_BY_HAND = frozenset({*_STRUCK, "lift", "shake", "drop"})
 _FLYING = frozenset({"shuttlecock", "frisbee", "puck"})
 
 
@@ -88,6 +90,12 @@ def is_of_own_part(name: str, objects: Sequence[Referent]) -> bool:
     return any(one.kind == "part" for one in objects) or bool(heads & _BODY)
 
 
+def lacks_thing(name: str, objects: Sequence[Referent]) -> bool:
+    """As in "puts effort into it": nothing is shown that is put down or picked up."""
+    is_moving = name in HANDWORK and HANDWORK[name].pattern in MOVED
+    return is_moving and not any(one.is_things for one in objects)
+
+
 def is_by_hand(draft: Draft, verb: Verb, subjects: Sequence[int], targets: Sequence[int]) -> bool:
     """Whether a verb of motion is hand work of a person at this thing."""
     doer, target = draft.noun(subjects[0]), draft.noun(targets[0])
@@ -106,6 +114,10 @@ def work_on(draft: Draft, word: Word, people: Sequence[int], objects: Sequence[R
     if is_onto and len(targets) > 1:
         draft.relate("hold", people, targets[:1])
     seen = work.shown_as if work is not None else ""
+    opened = [index for index in targets[:1] if draft.noun(index).name in OPENING]
+    if word.lemma in OPENS and opened:
+        draft.objects[opened[0]].motions = [ObjectMotion(word.lemma)]
+        seen = ""
     if seen:
         word.shown_as = seen
     if objects and not targets:

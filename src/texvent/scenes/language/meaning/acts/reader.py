@@ -12,20 +12,19 @@ from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.devices import (
     blink,
     give_effect,
+    open_up,
     switch,
     switch_lamps,
 )
-from texvent.scenes.language.meaning.acts.fitting import (
-    choose_act,
-    fit_verb,
-    is_played,
+from texvent.scenes.language.meaning.acts.fitting import choose_act, fit_verb, is_played
+from texvent.scenes.language.meaning.acts.hand_work import (
+    is_by_hand,
+    is_of_own_part,
+    lacks_thing,
+    work_on,
 )
-from texvent.scenes.language.meaning.acts.hand_work import is_by_hand, is_of_own_part, work_on
-from texvent.scenes.language.meaning.acts.sequence import (
-    add_motion,
-    is_part_of_doer,
-    name_kind,
-)
+from texvent.scenes.language.meaning.acts.partners import PAIRED, give_to, join_partners, tug
+from texvent.scenes.language.meaning.acts.sequence import add_motion, is_part_of_doer, name_kind
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents import Referent
@@ -72,6 +71,8 @@ class ActReader:
             return self._collide(clause, subjects, targets)
         if clause.negation is not None:
             return self._stand(clause, subjects)
+        if give_to(self._draft, clause, subjects, objects):
+            return subjects
         movers = self._read_activity(clause, subjects, objects)
         if movers:
             return movers
@@ -164,7 +165,7 @@ class ActReader:
         verb = word.meaning.value
         if give_effect(self._draft, clause, subjects):
             return subjects
-        if switch_lamps(self._draft, clause, subjects):
+        if switch_lamps(self._draft, clause, subjects) or open_up(self._draft, clause, subjects):
             return []
         if not isinstance(verb, Verb):
             return []
@@ -193,16 +194,18 @@ class ActReader:
         people = [i for i in subjects if is_person(self._draft.noun(i))]
         hands = [i for i in subjects if is_hand(self._draft.noun(i))]
         if not people and not hands:
-            return []
+            return subjects if subjects and tug(self._draft, clause, subjects) else []
         found = find_activity(clause, is_hand=bool(hands))
         if found is None:
             return []
         name, words, is_exact = found
-        if not is_exact and (self._is_act(clause, objects) or is_of_own_part(name, objects)):
+        if not is_exact and not self._is_done_alone(name, clause, objects):
             return []
         added = [add_motion(self._draft, i, ObjectMotion(name), clause) for i in hands or people]
         if not any(added):
             return []
+        if name in PAIRED:
+            join_partners(self._draft, name, people, objects)
         self.is_activity = is_exact
         mark_used(words)
         self._draft.link_motion(words, hands or people)
@@ -212,6 +215,12 @@ class ActReader:
         if name in HANDWORK and not is_exact:
             work_on(self._draft, words[0], people, objects)
         return hands or people
+
+    def _is_done_alone(self, name: str, clause: Clause, objects: Sequence[Referent]) -> bool:
+        """Whether an activity that the verb alone names is what the clause says."""
+        if lacks_thing(name, objects) or not is_played(name, clause, self._draft):
+            return False
+        return not (self._is_act(clause, objects) or is_of_own_part(name, objects))
 
     def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
         """Whether the verb acts on an object of the scene, or moves in a plain way."""

@@ -72,8 +72,8 @@ class RelationReader:
             is_used = self._relate("in" if is_window else "beside", scope.subjects, things)
         elif kind is not None and not self._is_journey_of_none(kind, scope):
             subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
-            if word.text in ("into", "onto") and scope.acted_on:
-                # As in "drops a box into a bin".
+            if word.text in _MOVES_OBJECT and kind in ("on", "in") and scope.acted_on:
+                # As in "drops a box into a bin", "takes a book off a shelf".
                 subjects = list(scope.acted_on)
             is_used = self._relate(kind, subjects, things)
         word.is_used, word.is_lost = is_used, not is_used
@@ -276,6 +276,8 @@ _FULL = ("full of", "filled with", "loaded with", "packed with")
 _LEANT_ON = frozenset({"fence", "wall", "gate", "door", "railing", "car", "tree", "lamp post"})
 _GOALS = ("towards", "past")
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})
+_MOVES_OBJECT = ("into", "onto", "from", "off", "out of")
+"""Prepositions that say where what is acted on goes to or comes from."""
 _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
 _OFF_GROUND = frozenset(
     {"jump", "fly", "rise", "fall", "throw", "hover", "swing", "float", "climb"}

@@ -22,7 +22,7 @@ from texvent.scenes.models.materials import (
     glowing,
 )
 from texvent.scenes.models.people import props
-from texvent.scenes.models.people.props import Prop
+from texvent.scenes.models.people.acts.prop_shapes import Prop
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, blade, box, limb, post, rod, spike
 

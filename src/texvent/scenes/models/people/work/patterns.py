@@ -196,6 +196,48 @@ def _lift(t: float, half: float) -> Stroke:
     )
 
 
+_HELD: Point = (-0.24, 0.0, 0.36)
+"""Where what is put down comes from and what is picked up goes to, before the chest."""
+
+
+def _carried(t: float, half: float, share: float, hold: float) -> Stroke:
+    """Both hands at a thing that is `share` of the way to the chest; at `hold` 0 they let go."""
+    thing = (share * _HELD[0], 0.0, share * _HELD[2])
+    side = min(0.85 * half, 0.36) + 0.14 * (1.0 - hold)
+    back = -0.22 * (1.0 - hold)
+    return Stroke(
+        (thing[0] + back, -side, thing[2] - 0.05 + 0.16 * (1.0 - hold)),
+        (thing[0] + back, side, thing[2] - 0.05 + 0.16 * (1.0 - hold)),
+        thing=thing,
+        bow=-0.30 * share,
+    )
+
+
+def _put(t: float, half: float) -> Stroke:
+    """From the chest down to its place, once; the hands leave it there."""
+    return _carried(t, half, 1.0 - ease(t, 0.3, 1.1), 1.0 - ease(t, 1.2, 1.6))
+
+
+def _take(t: float, half: float) -> Stroke:
+    """The hands come to it and lift it to the chest, once."""
+    return _carried(t, half, ease(t, 0.6, 1.5), ease(t, 0.0, 0.5))
+
+
+_DROPPED_S, _DROP_M = 0.55, 0.62
+"""When a thing is let go, and from how high, m."""
+
+
+def _drop(t: float, half: float) -> Stroke:
+    """The hands hold it up and open; it falls freely."""
+    fallen = 4.905 * max(t - _DROPPED_S, 0.0) ** 2
+    side = min(0.85 * half, 0.36) + 0.16 * ease(t, _DROPPED_S - 0.05, _DROPPED_S + 0.1)
+    return Stroke(
+        (0.0, -side, _DROP_M - 0.05), (0.0, side, _DROP_M - 0.05),
+        thing=(0.0, 0.0, max(_DROP_M - fallen, 0.0)),
+        bow=-0.30,
+    )  # fmt: skip
+
+
 def _tug(t: float, half: float) -> Stroke:
     back = pulse(t, RATE_HZ)
     return Stroke(
@@ -258,6 +300,9 @@ PATTERNS: Mapping[str, Pattern] = MappingProxyType(
         "sprinkle": _sprinkle,
         "pour": _pour,
         "lift": _lift,
+        "put": _put,
+        "take": _take,
+        "drop": _drop,
         "tug": _tug,
         "rock": _rock,
         "offer": _offer,

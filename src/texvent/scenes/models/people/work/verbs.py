@@ -31,7 +31,7 @@ class HandWork:
 _TABLE: tuple[tuple[HandWork, str], ...] = (
     # Cutting.
     (HandWork("slice", "knife"), "slice cut carve dice mince fillet chop julienne"),
-    (HandWork("peel", "knife", "hands"), "peel whittle pare shave"),
+    (HandWork("peel", "knife", "hands"), "peel whittle pare"),
     (HandWork("snip", "scissors"), "trim snip prune clip shear"),
     (HandWork("saw", "saw"), "saw"),
     # Striking.
@@ -76,6 +76,9 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("pour", "can", "there"), "water"),
     # Moving the thing itself.
     (HandWork("lift", "", "there"), "lift heave"),
+    (HandWork("put", "", "there"), "put place put_down set_down lay_down"),
+    (HandWork("take", "", "there"), "pick_up take_out pull_out lift_up"),
+    (HandWork("drop", "", "there"), "drop"),
     (HandWork("tug", "", "there"), "tug yank"),
     (HandWork("tug", "", "there", shown_as="tug at"), "milk"),
     (HandWork("rock", "", "there"), "shake rattle jiggle"),
@@ -87,9 +90,15 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
 )  # fmt: skip
 
 HANDWORK: Mapping[str, HandWork] = MappingProxyType(
-    {verb: work for work, verbs in _TABLE for verb in verbs.split()}
+    {verb.replace("_", " "): work for work, verbs in _TABLE for verb in verbs.split()}
 )
 """Verb → how hands do it."""
+
+WITH_PARTICLE = frozenset(verb for verb in HANDWORK if " " in verb)
+"""Verbs of hand work with a particle: "pick up"."""
+
+MOVED = frozenset({"put", "take", "drop"})
+"""Patterns that are nothing without the thing they move."""
 
 ONTO = frozenset({"pour", "sprinkle", "dab", "offer"})
 """Patterns of what is done with one thing to another: the last one named is worked on."""

@@ -7,7 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.people.props import Prop, hand_tool, table
+from texvent.scenes.models.opening_model import OPENS
+from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.props import hand_tool, table
 from texvent.scenes.models.people.work.bench import (
     TABLE_M,
     Bench,
@@ -117,7 +119,8 @@ def work_at(
         support: what the thing is on.
     """
     work = find_work(subject)
-    if work is None or target.is_mover or not isinstance(target.trajectory, Stationary):
+    goes = target.is_mover and target.trajectory.at(0.0).activity not in OPENS
+    if work is None or goes or not isinstance(target.trajectory, Stationary):
         return subject, target
     path = subject.trajectory
     tempo = path.tempo if isinstance(path, Stationary) else 1.0
@@ -180,7 +183,8 @@ def _at_own_table(
     worker = WorkingAt(home, yaw, work, bench, tempo)
     # The longer side of the thing lies across the worker.
     turned = yaw + (0.5 * math.pi if target.model.length > target.model.width else 0.0)
-    rest = BodyState((x, y, bottom + lift), turned, activity="stand")
+    doing = target.trajectory.at(0.0).activity
+    rest = BodyState((x, y, bottom + lift), turned, activity=doing)
     return _put(subject, target, worker, rest)
 
 
@@ -248,7 +252,10 @@ def _stand_at(
     middle = surface.points.min(axis=0)[:2] * 0.5 + surface.points.max(axis=0)[:2] * 0.5
     along = (place - 0.5 * (crew - 1)) * _ROOM * size if is_wide else 0.0
     is_front = work.side == "front"
-    if is_front:
+    if target.trajectory.at(0.0).activity in OPENS:
+        # At the free edge, so that the leaf is seen.
+        along = -0.5 * target.model.width
+    elif is_front:
         along = (place - 0.5 * (crew - 1)) * _ROOM * size
     if is_front or (is_flat and is_tall):
         facing = 0.5 * math.pi

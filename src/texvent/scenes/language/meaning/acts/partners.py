@@ -1,0 +1,90 @@
+"""Who does something together with the subject: "hugs a girl", "argues with his boss"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.description import ObjectMotion
+from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.acts.activities import find_activity
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.words.word import mark_used
+from texvent.scenes.models.people.acts.words import PAIRED as _PAIRED
+
+PAIRED = frozenset(_PAIRED) | {"box"}
+"""Activities of two who face each other."""
+
+
+_TOGETHER = ("with", "against")
+_EACH_OTHER = ("each other", "one another")
+
+
+def take_fellows(clause: Clause) -> None:
+    """As in "argues with his boss": who it is done with is the object."""
+    if clause.verb is None:
+        return
+    found = find_activity(clause, is_hand=False)
+    if found is None or found[0] not in PAIRED:
+        return
+    for phrase in list(clause.phrases):
+        is_each = all(group.text in _EACH_OTHER for group in phrase.groups)
+        if phrase.preposition.text in _TOGETHER or is_each:
+            phrase.preposition.is_used = True
+            clause.phrases.remove(phrase)
+            if not is_each:
+                clause.objects.extend(phrase.groups)
+
+
+_GIVING = frozenset({"give", "hand", "pass", "offer", "present", "deliver", "serve", "bring"})
+
+
+def take_receivers(clause: Clause) -> None:
+    """As in "gives a flower to a woman", "hands her the keys over"."""
+    if clause.verb is None or clause.verb.lemma not in _GIVING or clause.is_passive:
+        return
+    for phrase in list(clause.phrases):
+        if phrase.preposition.text in ("to", "over to") and clause.objects:
+            clause.objects.extend(phrase.groups)
+            clause.phrases.remove(phrase)
+            phrase.preposition.is_used = True
+
+
+def give_to(draft: Draft, clause: Clause, doers: list[int], objects: Sequence[Referent]) -> bool:
+    """Whether a person gives a thing to another one."""
+    things = [index for one in objects if one.is_things for index in one.things]
+    people = [index for index in things if is_person(draft.noun(index))]
+    given = [index for index in things if not is_living(draft.noun(index))]
+    is_giving = clause.verb_word.lemma in _GIVING and len(people) == 1 and len(given) == 1
+    if not is_giving or not all(is_person(draft.noun(index)) for index in doers):
+        return False
+    clause.verb_word.is_used = True
+    draft.objects[doers[0]].motions = [ObjectMotion("give")]
+    draft.objects[people[0]].motions = [ObjectMotion("receive")]
+    return draft.relate("give", doers[:1], [given[0], people[0]])
+
+
+def tug(draft: Draft, clause: Clause, doers: Sequence[int]) -> bool:
+    """As in "two dogs play tug of war": animals pull at a rope with their mouths."""
+    found = find_activity(clause, is_hand=False)
+    is_tugging = found is not None and found[0] == "tug of war"
+    if not is_tugging or found is None or not all(is_living(draft.noun(one)) for one in doers):
+        return False
+    if sum(draft.objects[index].count for index in doers) < 2:
+        return False
+    mark_used(found[1])
+    for index in doers:
+        draft.objects[index].motions = [ObjectMotion("tug of war")]
+    draft.link_motion(found[1], list(doers))
+    return True
+
+
+def join_partners(
+    draft: Draft, name: str, doers: Sequence[int], objects: Sequence[Referent]
+) -> None:
+    """Give the other person the same activity."""
+    for one in objects:
+        for index in one.things if one.is_things else ():
+            if index not in doers and is_person(draft.noun(index)):
+                draft.objects[index].motions = [ObjectMotion(name)]

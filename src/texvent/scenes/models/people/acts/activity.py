@@ -1,0 +1,41 @@
+"""What an activity of people is; loads nothing but the standard library."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Activity:
+    """One activity; its name is an `ObjectMotion.kind`."""
+
+    words: tuple[str, ...]
+    """Verb phrases in their base form."""
+    travels: bool = False
+    """Whether the body goes from place to place."""
+    is_sideways: bool = False
+    """Whether it is best seen from the side."""
+    is_still: bool = False
+    """Whether the body keeps still apart from breathing."""
+    is_close: bool = False
+    """Whether it is done at the head, so that the image may end at the waist."""
+
+
+def seen_from_side(*words: str) -> Activity:
+    """An activity that is best seen from the side."""
+    return Activity(words, is_sideways=True)
+
+
+def at_head(*words: str) -> Activity:
+    """An activity of hands at the own head, or of the head."""
+    return Activity(words, is_close=True)
+
+
+def done_to(verbs: str, things: str) -> tuple[str, ...]:
+    """Every verb with every thing: "put on|apply", "lipstick|mascara"; the verbs may be phrases.
+
+    Example:
+        >>> done_to("comb|brush", "hair")
+        ('comb hair', 'brush hair')
+    """
+    return tuple(f"{verb} {thing}" for verb in verbs.split("|") for thing in things.split("|"))
