@@ -31,6 +31,8 @@ def list_goals(clause: Clause) -> tuple[str, ...]:
     """
     lemma = clause.verb_word.lemma
     work = HANDWORK[lemma]
+    if work.pattern in MOVED:
+        return ()  # "puts on a coat"
     if work.pattern in ONTO:
         return ("into", "in", "onto", "on", "over", "to")
     heads = [group.head for phrase in clause.phrases for group in phrase.groups]
