@@ -31,9 +31,13 @@ _SIZES = (0.5, 0.35, 0.25, 0.18, 0.13)
 """Shares of the image that a thing may be wide or high."""
 _LARGE = 0.22
 """Share of the image that is as good as more."""
-_SMALL, _SMALL_AREA = 0.12, 0.012
-"""A thing is large enough from this share of the image's width or height on, or that of its area
-that its box covers."""
+_SMALL, _SMALL_AREA, _LONG = 0.12, 0.008, 0.35
+"""A thing is large enough from this share of the image's width or height on, if its box covers
+that share of the area, or if it is that long."""
+_WHOLE_AREA = 0.8
+"""Share of the image that is seen, however far a thing that covers it reaches beyond."""
+_DEPTHS = 7
+"""Distances that are tried between the nearest and where it is."""
 _INSIDE = 0.6
 """Share of its box that must lie in the image."""
 _ENOUGH = 0.85
@@ -198,7 +202,11 @@ def _candidates(
     own_depth = float((anchor - camera.position) @ forward)
     depths = [camera.focal * extent / size for size in _SIZES]
     limit = np.inf if is_far else _FURTHEST * stage.reach_m
-    depths = [d for d in (*depths, own_depth) if _NEAREST * extent < d < limit]
+    nearest = _NEAREST * extent
+    if own_depth > nearest:
+        # Nearer to a camera that looks down, the ground is below the image.
+        depths += [float(one) for one in np.geomspace(nearest, own_depth, _DEPTHS)[1:]]
+    depths = [d for d in dict.fromkeys((*depths, own_depth)) if nearest < d < limit]
     for depth in depths:
         for across in _ACROSS:
             flat = camera.position + depth * (forward + across / camera.focal * right)
@@ -241,10 +249,10 @@ def _goodness(boxes: _Boxes, stage: _Stage, own: Sequence[int]) -> Float64Array:
     inside = inner / np.maximum(_area(low, high), 1e-12)
     extent = ((inner_high - inner_low) / (2.0 * edge)).max(axis=-1)
     share = inner / stage.aspect
-    size = np.maximum(extent / _SMALL, np.sqrt(share / _SMALL_AREA))
-    # What covers a third of the image is seen, however far it reaches beyond.
+    size = np.minimum(extent / _SMALL, np.sqrt(share / _SMALL_AREA))
+    size = np.maximum(size, extent / _LONG)
     most = np.minimum(inside / _INSIDE, 1.0) * (0.6 + 0.4 * inside)
-    whole = np.maximum(most, np.minimum(share / 0.3, 1.0))
+    whole = np.maximum(most, np.minimum(share / _WHOLE_AREA, 1.0))
     return np.asarray(whole * np.minimum(size, _LARGE / _SMALL))
 
 
