@@ -181,6 +181,25 @@ def test_a_person_without_a_head_is_not_told(lowered, reported):
     assert evidence.faults[0] == [reported]
 
 
+@pytest.mark.parametrize(("share", "reported"), [(0.35, None), (0.8, "cut off")])
+def test_a_portrait_is_told_by_its_head_and_half_a_body_afar_is_not(share, reported):
+    """The camera goes near the head, or to the side until the body is half out of the picture."""
+    description = SceneDescription("a man", objects=(SceneObject("man"),))
+    scene = compose.compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
+    camera, man = scene.camera(0.0), scene.actors[0]
+    axes = np.asarray(camera.rotation)
+    head = man.anchor("head", 0.0)[:, 3]
+    away = share * float((head - camera.position) @ axes[2])
+    place = head - away * axes[2] + (0.0 if reported is None else 0.43 * away * axes[0])
+
+    class Moved(type(scene)):
+        def camera(self, time_s):
+            return replace(camera, position=np.asarray(place))
+
+    evidence = find_evidence(Moved(**vars(scene)), description, SIZE, 1.0)
+    assert evidence.faults[0] in ([reported], ["head out of view"] if reported else [None])
+
+
 def test_what_fills_a_few_pixels_of_a_coarse_sensor_is_too_small():
     scene = Discs((1, 0.0, 0.4, 10.0))  # 8 % of the width: 150 pixels of one sensor, 5 of another
     scene.class_names = {1: "plate"}

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
-from texvent.generate.seen_words.people import judge_head
+from texvent.generate.seen_words.people import is_portrait, judge_head
 from texvent.generate.seen_words.picture import Picture, View
 from texvent.generate.seen_words.things import judge_outline
 from texvent.generate.seen_words.verbs import judge_verbs
@@ -97,10 +97,11 @@ def find_evidence(
     picture = Picture(scene, size, image_points(size), found.views)
     words, qualities = judge_words(picture, description)
     bodies = {actor.instance: actor for actor in scene.actors}
-    faults = {
-        one: fault or judge_outline(picture, one) or judge_head(picture, bodies.get(one))
-        for one, fault in found.faults.items()
-    }
+    faults = {}
+    for one, fault in found.faults.items():
+        is_told = fault == "cut off" and is_portrait(picture, bodies.get(one))
+        seen = None if is_told else fault
+        faults[one] = seen or judge_outline(picture, one) or judge_head(picture, bodies.get(one))
     return Evidence(
         scene.unmet,
         {index: [faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},

@@ -83,3 +83,8 @@ def test_the_camera_comes_near_for_small_things(prompt, noun) -> None:
     head = project(scene.camera(0.5), SIZE, person.anchor("head", 0.5)[None, :, 3])[0]
     assert 0.0 < head[0] < SIZE.width
     assert 0.0 < head[1] < SIZE.height
+
+
+def test_what_an_activity_holds_comes_on_no_table() -> None:
+    description = set_on_table(parse_prompt("a man reads a book"), NOUNS)
+    assert not any(one.noun == "table" for one in description.objects)

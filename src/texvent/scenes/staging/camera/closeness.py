@@ -20,11 +20,13 @@ _SMALL = 0.3
 """Size of a small thing, as a multiple of the subject's, at most."""
 _CLOSE = 1.3
 """How far from the subject's middle it may be, in the subject's sizes."""
-_WAIST = 0.45
-"""Share of a person's height below which the image may end."""
+_WAIST, _CHEST = 0.45, 0.68
+"""Shares of a person's height below which the image may end; the second one where the first is not
+near enough for the small things."""
 _FILL, _FILL_PANNING = 0.9, 0.72
-_PROMINENCE = 0.36
-"""How prominent a small thing should be: a tenth of the image's width and height."""
+_PROMINENCE, _ALONE = 0.36, 0.55
+"""How prominent a small thing should be: a tenth of the image's width and height; a sixth where
+nothing else that the prompt names would leave the image for it."""
 _STILL = 0.3
 """How far, in its sizes, a subject may go whose legs need not be seen."""
 _STAYING = frozenset({"handheld", "static", "follow", "pan"})
@@ -60,15 +62,6 @@ def come_near_small(
     small = [actor for actor in actors if _is_small(actor, main, times)]
     if not small or not _stays(main, times):
         return path
-    points = np.vstack(
-        [upper_part(_boxes(main, times), _WAIST), *(_boxes(actor, times) for actor in small)]
-    )
-    wide = path.framing
-    near = fit(points, azimuth=wide.azimuth, elevation=wide.elevation, aspect=aspect,
-               fill=_FILL_PANNING if any(m.kind == "pan" for m in path.moves) else _FILL,
-               focal=wide.focal)  # fmt: skip
-    if near.distance_m > 0.95 * wide.distance_m:
-        return path
     prominences = [
         Prominence.of([one for one in small if one.object_index == index], times, aspect)
         for index in {one.object_index for one in small}
@@ -77,9 +70,19 @@ def come_near_small(
     def least(some: CameraPath) -> float:
         return min(prominence(some) for prominence in prominences)
 
-    if least(path) >= _PROMINENCE:
-        return path
-    return between(path, path_of(near), least, _PROMINENCE, lambda _: True)
+    known = {main.object_index, *(actor.object_index for actor in small)}
+    goal = _ALONE if all(actor.object_index in known for actor in actors) else _PROMINENCE
+    body, things = _boxes(main, times), np.vstack([_boxes(actor, times) for actor in small])
+    fill = _FILL_PANNING if any(m.kind == "pan" for m in path.moves) else _FILL
+    for share in (_WAIST, _CHEST):
+        wide = path.framing
+        points = np.vstack([upper_part(body.copy(), share), things])
+        near = fit(points, azimuth=wide.azimuth, elevation=wide.elevation, aspect=aspect,
+                   fill=fill, focal=wide.focal)  # fmt: skip
+        if near.distance_m > 0.95 * wide.distance_m or least(path) >= goal:
+            break
+        path = between(path, path_of(near), least, goal, lambda _: True)
+    return path
 
 
 _EYE_M = 3.0

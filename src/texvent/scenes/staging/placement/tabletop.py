@@ -8,6 +8,7 @@ from dataclasses import replace
 from texvent.scenes.description import Relation, SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.placement.fitting import extent
@@ -100,9 +101,18 @@ def _add_table(
 
 
 def _list_loose(description: SceneDescription, nouns: Mapping[str, Noun]) -> list[int]:
-    """Small things that no relation and no act places, but for others that are on or in them."""
+    """Small things that no relation and no act places, but for others that are on or in them.
+
+    A book that one reads is in the reader's hands.
+    """
     objects = description.objects
     small = {n for n, one in enumerate(objects) if _is_small(one, nouns)}
+    in_use = {
+        noun for one in objects if one.noun in PERSON_NOUNS
+        for motion in (one.motion, *one.then) if motion is not None
+        for prop in PROPS.get(motion.kind, ()) for noun in prop.nouns
+    }  # fmt: skip
+    small = {n for n in small if objects[n].noun not in in_use}
     bound = {one.source for one in description.effects if one.source is not None}
     for one in description.relations:
         if one.kind in _LOOSE:

@@ -1,0 +1,18 @@
+"""The camera comes near for small things at a person who stays, unless others would be lost."""
+
+from __future__ import annotations
+
+from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.staging.compose import compose_scene
+from texvent.sensor import SensorSize
+
+
+def distance(prompt: str) -> float:
+    scene = compose_scene(parse_prompt(prompt), seed=0, size=SensorSize(173, 130), duration_s=1.0)
+    return scene.camera_path.framing.distance_m
+
+
+def test_small_things_are_seen_from_nearer_where_nothing_else_is_named() -> None:
+    alone = distance("a man shows a thumbs up and holds a cup")
+    assert alone < 0.9 * distance("a man shows a thumbs up")
+    assert alone < distance("a man shows a thumbs up and holds a cup beside a sofa")
