@@ -81,3 +81,8 @@ def test_two_who_talk_are_turned_to_each_other_and_to_the_camera() -> None:
     assert left.position[1] == right.position[1]
     assert math.sin(left.yaw) < 0.0
     assert math.sin(right.yaw) < 0.0
+
+
+def test_what_watches_from_a_chair_is_on_it() -> None:
+    (relation,) = parse_prompt("a cat watches from a chair").relations
+    assert relation.kind == "on"

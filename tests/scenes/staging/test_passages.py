@@ -52,7 +52,7 @@ def test_what_goes_through_is_on_one_side_first_and_then_on_the_other(prompt, pa
 
 
 def test_several_share_out_the_gates_of_a_row() -> None:
-    scene = stage("people walk through ticket gates")
+    scene = stage("people walk through three gates")
     gates, people = named(scene, "gate"), named(scene, "person")
     lanes = sorted(round(float(one.middle(0.0)[0]), 2) for one in gates)
     assert len(set(lanes)) == len(gates) > 1

@@ -50,7 +50,7 @@ _BACKDROP = 8.0
 """How many times larger in the image a thing behind it is that it may cover in part."""
 _BETTER = 1.15
 """How much better a place must be."""
-_LOOSE = frozenset({"past", "towards", "away from", "from", "among", "surround"})
+_LOOSE = frozenset({"past", "among", "surround"})
 """Relations that hold at any distance."""
 _NEAREST, _FURTHEST = 1.5, 3.0
 """Least distance of a thing as a multiple of its size, and greatest of what is no backdrop, as a

@@ -68,8 +68,9 @@ class RelationReader:
             # As in "play badminton over a net": they stand at it, which "over" does not say.
             self._relate("beside", scope.subjects, things)
         elif kind == "from" and self._stays(scope):
-            is_window = self._draft.noun(things[0]).name == "window"
-            is_used = self._relate("in" if is_window else "beside", scope.subjects, things)
+            name = self._draft.noun(things[0]).name
+            place = "in" if name == "window" else "on" if name in _PERCHES else "beside"
+            is_used = self._relate(place, scope.subjects, things)
         elif kind is not None and not self._is_journey_of_none(kind, scope):
             subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
             if word.text in _MOVES_OBJECT and kind in ("on", "in") and scope.acted_on:
@@ -271,6 +272,8 @@ _STEERING = frozenset(
 )
 """Words for who steers what they are on."""
 _ABOARD = ("behind", "in front of", "beside", "next to")
+_PERCHES = SEATS | {"branch", "shelf", "fence", "wall", "rock", "pier", "bridge"}
+"""On what one is who watches or waves "from" it."""
 _TABLES = frozenset({"table", "desk"})
 _FULL = ("full of", "filled with", "loaded with", "packed with")
 _LEANT_ON = frozenset({"fence", "wall", "gate", "door", "railing", "car", "tree", "lamp post"})
