@@ -15,7 +15,7 @@ from texvent.scenes.language.parser import parse_prompt
         ("rocket launch", "rocket", "rise"),
         ("drone flip", "drone", "spin"),
         ("coin flip", "coin", "spin"),
-        ("domino fall", "domino", "fall"),
+        ("apple fall", "apple", "fall"),
         ("dice roll, close up", "dice", "roll"),
         ("head nodding", "person", "nod"),
         ("chopping onions", "person", "chop"),

@@ -47,7 +47,8 @@ _STILL = frozenset(
 _GOING = PATH_KINDS | {"enter", "leave", "reverse", "zigzag", "orbit", "appear"}
 _REACTING = frozenset({"push", "pull", "kick", "hit", "throw", "give"})
 """Relations whose target must move."""
-_SWAYING = frozenset({"sway", "work", "talk", "laugh", "sing", "eat", "chew", "graze", "drink"})
+_SWAYING = frozenset({"sway", "work", "talk", "laugh", "sing", "eat", "chew", "graze", "drink",
+                      "jackhammer"})  # fmt: skip
 _GETTING = re.compile(
     r"(stand|stood|get|got|sit|sat|lie|lying|lay|kneel|knelt|crouch|squat|climb)\w* (up|down)"
 )

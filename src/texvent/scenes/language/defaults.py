@@ -200,8 +200,12 @@ def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     for relation in description.relations:
         target = relation.targets[0]
         noun = nouns[objects[target].noun]
-        if relation.kind == "follow" and objects[target].motion is None and noun.motion != "stand":
-            objects[target] = replace(objects[target], motion=ObjectMotion(noun.motion))
+        usual = "roll" if "ball" in noun.name.split() else noun.motion
+        is_passed = relation.kind == "overtake" and noun.motion == "drive"
+        if is_passed and objects[target].motion in (None, STANDING):
+            objects[target] = replace(objects[target], motion=ObjectMotion("drive", pace=0.5))
+        if relation.kind == "follow" and objects[target].motion is None and usual != "stand":
+            objects[target] = replace(objects[target], motion=ObjectMotion(usual))
     return replace(description, objects=tuple(objects))
 
 

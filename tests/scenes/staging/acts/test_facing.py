@@ -87,5 +87,29 @@ def test_hands_put_things_down_and_pick_them_up(prompt: str, rises: bool) -> Non
     assert (last - first > 0.15) if rises else (first - last > 0.15)
 
 
+@pytest.mark.parametrize("prompt", ["a cat climbs a tree", "a bear climbing a tree"])
+def test_an_animal_climbs_up_the_trunk(prompt: str) -> None:
+    scene = stage(prompt)
+    animal, tree = sorted(scene.actors, key=lambda one: one.noun.name == "tree")
+    first, last = (animal.trajectory.at(t) for t in (0.0, 2.0))
+    assert last.position[2] - first.position[2] > 0.3
+    assert first.pitch == pytest.approx(-0.5 * np.pi)
+    assert np.hypot(*(animal.middle(1.0) - tree.middle(0.0))[:2]) < 1.5
+
+
+def test_a_chased_ball_rolls_and_an_overtaken_truck_drives() -> None:
+    moves = {one.noun: one.motion for one in parse_prompt("a dog chases a ball").objects}
+    assert moves["ball"] is not None
+    assert moves["ball"].kind == "roll"
+    described = parse_prompt("a motorcycle overtakes a truck")
+    assert described.objects[1].motion is not None
+    assert described.objects[1].motion.kind == "drive"
+
+
+def test_two_dogs_pull_at_one_rope() -> None:
+    scene = stage("two dogs play tug of war")
+    assert sum(one.tether is not None for one in scene.actors) == 1
+
+
 def test_what_is_not_there_is_not_put_down() -> None:
     assert "puts" in parse_prompt("a woman puts effort into it").not_understood

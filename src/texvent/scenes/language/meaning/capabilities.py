@@ -22,7 +22,7 @@ _TRAVELLER = frozenset({"turn", "reverse", "zigzag"})
 _ANIMAL = frozenset(
     {"walk", "run", "sit", "swim", "dance", "crawl", "climb", "crouch", "roll over"}
 )
-_VEHICLE = frozenset({"drive"})
+_VEHICLE = frozenset({"drive", "wheelie"})
 _LEANING = frozenset({"bicycle", "motorcycle", "scooter"})
 _VESSEL = frozenset({"sail"})
 

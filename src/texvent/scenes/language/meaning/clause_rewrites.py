@@ -29,6 +29,14 @@ _SIDES = frozenset({"from above", "from below", "from behind", "from the side", 
 _FROM = {"from above": "down", "from below": "up"}
 
 
+_DRESSING = ("put on", "putt on")
+
+
+def _is_activity(clause: Clause) -> bool:
+    found = find_activity(clause, is_hand=False)
+    return found is not None and found[2]
+
+
 _TAKING = frozenset({"take", "pick", "grab", "remove", "lift"})
 _SOURCES = {"from": "on", "off": "on", "out of": "in"}
 
@@ -53,6 +61,11 @@ def take_particle(clause: Clause) -> None:
             return
     for phrase in list(clause.phrases):
         whole = f"{clause.verb.lemma} {phrase.preposition.text}"
+        if whole in _DRESSING and not clause.objects and not _is_activity(clause):
+            clause.verb.is_lost = phrase.preposition.is_lost = True
+            clause.objects.extend(phrase.groups)
+            clause.phrases.remove(phrase)
+            return
         if whole in WITH_PARTICLE and not clause.objects:
             phrase.preposition.is_used, clause.verb.lemma = True, whole
             clause.objects.extend(phrase.groups)

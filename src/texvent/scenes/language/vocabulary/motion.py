@@ -75,6 +75,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("back up", "reverse"),
     Verb("reverse", "reverse"),
     Verb("enter", "enter"),
+    Verb("arrive", "enter"),
     Verb("appear from behind", "appear", relation="behind"),
     Verb("pass", "move", relation="past"),
     Verb("pass by", "move", relation="past"),

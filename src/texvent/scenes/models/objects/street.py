@@ -133,8 +133,9 @@ def build_flag(*, colour: Colour | None, scale: float, seed: int) -> Articulated
         ends = []
         for index in range(pieces + 1):
             share = index / pieces
-            wave = 0.16 * share**0.7 * math.sin(5.0 * pose.time_s + start - 6.0 * share)
-            ends.append((-long * share, wave, 3.35 - 0.10 * share))
+            wave = 0.34 * share**0.7 * math.sin(5.0 * pose.time_s + start - 6.0 * share)
+            lift = 0.10 * share * math.sin(5.0 * pose.time_s + start + 1.0 - 4.0 * share)
+            ends.append((-long * share, wave, 3.35 - 0.10 * share + lift))
         for a, b in pairwise(ends):
             for material, tall, thin in ((cloth, 1.0, 0.03), (band, 0.30, 0.04)):
                 across, thick = (0.0, 0.0, tall), (0.0, thin, 0.0)

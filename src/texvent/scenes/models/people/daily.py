@@ -93,10 +93,10 @@ def _violin(t: float) -> Posture:
 
 
 def _flute(t: float) -> Posture:
-    lift = 0.03 * swing(t, 0.6)
+    lift = 0.07 * swing(t, 0.6)
     return Posture(
         left=Arm((0.34, -0.17, 0.05 + lift), _OUT), right=Arm((0.46, -0.19, -0.04 + lift), _OUT),
-        nod=-0.05 + 0.08 * swing(t, 0.6), lean=0.05 * swing(t, 0.6), tool=(0.9, 0.0, -0.35),
+        nod=-0.05 + 0.14 * swing(t, 0.6), lean=0.12 * swing(t, 0.6), tool=(0.9, 0.0, -0.35),
     )  # fmt: skip
 
 

@@ -202,6 +202,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         **PLAY_PROPS,
         **MUSIC_PROPS,
         **PAIR_PROPS,
+        "punch": (),
         "swing bat": (Prop("right hand", BAT, ("baseball bat", "cricket bat")),),
         "swing racket": (
             Prop("right hand", RACKET, ("tennis racket", "badminton racket", "ping-pong paddle")),

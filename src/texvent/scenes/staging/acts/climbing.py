@@ -16,6 +16,8 @@ from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector, ah
 _REACH_M = 0.27
 """From the middle of a climber to what the hands hold, m."""
 _BAND_M = 0.3
+_TRUNK_M = 0.7
+"""Radius within which what is at the height of an animal is the trunk, m."""
 _START_M, _SPEED_M_S = 0.12, 0.45
 _OVER_M = 1.2
 """How far below the top of a thing a climber stops, m."""
@@ -37,6 +39,43 @@ class ClimbingAt:
         height = min(z + _SPEED_M_S * time_s, self.highest_m)
         place = ahead(self.home, self.yaw, self.slope * (height - z), height)
         return BodyState(place, self.yaw, activity="climb")
+
+
+@dataclass(frozen=True)
+class ClimbingUp:
+    """An animal that runs straight up a trunk, its belly to it, and stops below the top."""
+
+    home: Vector
+    yaw: float
+    highest_m: float
+    speed_m_s: float
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        way = self.speed_m_s * time_s
+        height = min(self.home[2] + way, self.highest_m)
+        is_up = self.home[2] + way >= self.highest_m
+        return BodyState(
+            (self.home[0], self.home[1], height), self.yaw, pitch=-0.5 * math.pi,
+            distance_m=min(way, self.highest_m - self.home[2]),
+            speed_m_s=0.0 if is_up else self.speed_m_s,
+        )  # fmt: skip
+
+
+def climb_up(subject: Actor, target: Actor) -> Actor:
+    """An animal at the left of a trunk or a pole that stays."""
+    if target.is_mover:
+        return subject
+    model, points = subject.model, sample_surface(target, 0.0).points
+    start, speed = 0.6 * model.length, min(0.55 * model.length, 0.6)
+    foot = points[points[:, 2] < start + 2.0 * speed]
+    middle = np.median((foot if len(foot) else points)[:, :2], axis=0)
+    level = points[np.abs(points[:, 2] - start - speed) < speed]
+    trunk = level[np.linalg.norm(level[:, :2] - middle, axis=1) < _TRUNK_M]
+    side = float(np.median(trunk[trunk[:, 0] < middle[0], 0])) if len(trunk) else float(middle[0])
+    ground, top = (side - 0.04 * model.height, float(middle[1])), float(points[:, 2].max())
+    path = ClimbingUp((*ground, start), 0.0, top, speed)
+    return replace(subject, trajectory=path, is_mover=True, lead_m=0.0)
 
 
 def climb_at(subject: Actor, target: Actor) -> Actor:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import Relation
 from texvent.scenes.staging.acts.cast import Cast
-from texvent.scenes.staging.acts.climbing import climb_at
+from texvent.scenes.staging.acts.climbing import climb_at, climb_up
 from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged
 from texvent.scenes.staging.acts.hand_work.working import (
     SMALL_M,
@@ -43,6 +43,9 @@ def put_to_work(cast: Cast, relations: Sequence[Relation], every: Sequence[Relat
         under = cast.copies(on.get(cast.get(target).object_index, -1))
         for place, subject in enumerate(crew):
             if not is_person(cast.get(subject)):
+                if _climbs(cast, subject):
+                    cast.put(subject, climb_up(cast.get(subject), cast.get(target)))
+                    continue
                 cast.put(target, before_mouth(cast.get(subject), cast.get(target)))
             elif cast.get(subject).trajectory.at(0.0).activity == "climb":
                 cast.put(subject, climb_at(cast.get(subject), cast.get(target)))
@@ -72,6 +75,10 @@ def _lay_beside(cast: Cast, subject: int, target: int, idle: Sequence[int]) -> N
         larger = thing.model.height / max(other.model.height, 1e-6)
         path = Stationary(home, state.yaw)
         cast.put(one, replace(other, model=Enlarged(other.model, larger), trajectory=path))
+
+
+def _climbs(cast: Cast, number: int) -> bool:
+    return cast.get(number).trajectory.at(0.0).activity == "climb"
 
 
 def _set_to_work(

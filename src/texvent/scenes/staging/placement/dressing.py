@@ -102,7 +102,7 @@ def usual_holds(
     ]
 
 
-_WAIST_SHARE = 0.52
+_WAIST_SHARE = 0.38
 """Share of a person's height below which the image may end."""
 
 

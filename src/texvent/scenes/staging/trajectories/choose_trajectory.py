@@ -343,7 +343,7 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     if kind == "roll over":
         lying = model.parts(Pose(0.0, 0.0, 0.0, "lie"))
         return RollOver(home, plan.yaw, 0.5 * float(bounds(lying)[1][2]), pace)
-    is_act = kind in _RESTING | OPENS | {"tug of war"} or kind in ANIMAL_ACTS
+    is_act = kind in _RESTING | OPENS | {"tug of war", "climb"} or kind in ANIMAL_ACTS
     return Stationary(home, plan.yaw, kind if is_act else "move", pace)
 
 

@@ -19,6 +19,8 @@ _HELD_ON_TO = frozenset({"ladder", "wall", "tree", "rope", "pole", "fence", "cli
 """What is climbed with hands and feet."""
 _DOLLS = frozenset({"toy robot", "doll", "teddy bear"})
 """Figures without joints, which slide where they walk."""
+_TOPPLING = frozenset({"domino", "bowling pin"})
+"""What falls over where it stands."""
 _BY_ITSELF = ("rise", "sink", "land")
 _OUT_OF = ("into", "in", "from", "off", "through", "under", "towards", "toward")
 
@@ -52,8 +54,11 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     """The verb with the motion by which this thing does it; None if that is the usual one."""
     objects = {group.head.lemma for group in clause.objects if group.head is not None}
     is_on_ground = noun.motion in _ON_GROUND and noun.habitat == "ground"
-    if verb.base == "climb" and is_person(noun) and objects & _HELD_ON_TO:
+    climbs = is_person(noun) or (is_living(noun) and noun.motion in ("walk", "run"))
+    if verb.base == "climb" and climbs and objects & _HELD_ON_TO:
         return replace(verb, kind="climb", pace=1.0)
+    if noun.name in _TOPPLING and verb.kind == "fall":
+        return replace(verb, kind="topple")
     if noun.name in _DOLLS and verb.kind in ("walk", "run"):
         return replace(verb, kind="slide", pace=0.5 * verb.pace)
     if verb.base in _STEPS and (is_on_ground or noun.motion == "roll"):

@@ -47,7 +47,11 @@ def give_bodies(draft: Draft, clause: Clause, subjects: Sequence[Referent]) -> N
     word = clause.verb
     gesture = find_activity(clause, is_hand=True) if word is not None else None
     is_at_keys = gesture is not None and gesture[0] == "type" and (clause.objects or clause.phrases)
-    if word is None or (gesture is not None and not is_at_keys):
+    # As in "a hand opens a door": done to a thing, it is no gesture.
+    heads = [group.head for group in clause.objects if group.head is not None]
+    is_thing = any(head.role is Role.NOUN for head in heads)
+    is_at_thing = word is not None and word.lemma in HANDWORK and is_thing
+    if word is None or (gesture is not None and not (is_at_keys or is_at_thing)):
         return
     if word.lemma not in HANDWORK and find_activity(clause, is_hand=False) is None:
         return
@@ -55,7 +59,7 @@ def give_bodies(draft: Draft, clause: Clause, subjects: Sequence[Referent]) -> N
         for index in one.things if one.is_things else ():
             if is_hand(draft.noun(index)):
                 item = draft.objects[index]
-                item.noun, item.count = PERSON, 1
+                item.noun, item.count, item.motions = PERSON, 1, []
                 one.group.head_word.shown_as = "person at work"
                 for count in one.group.words:
                     if count.role is Role.COUNT:

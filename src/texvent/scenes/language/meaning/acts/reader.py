@@ -252,7 +252,7 @@ class ActReader:
             if movers and verb.kind == "rise":
                 # As in "climbs a ladder": it moves beside it.
                 kind = self._draft.objects[movers[0]].motions[-1].kind
-                is_at = kind == "climb" and is_person(doer)
+                is_at = kind == "climb" and is_living(doer)
                 clause.verb_word.shown_as = None if is_at else f"{kind} beside it"
                 self._draft.relate("work on" if is_at else "beside", movers, targets)
             elif movers:

@@ -238,6 +238,15 @@ def _drop(t: float, half: float) -> Stroke:
     )  # fmt: skip
 
 
+def _punch(t: float, half: float) -> Stroke:
+    """Left and right in turn, from a guard to the face of the thing."""
+
+    def fist(phase: float) -> float:
+        return 0.34 * (1.0 - pulse(t, 1.2, phase) ** 2)
+
+    return Stroke((0.0, -0.07, fist(0.0)), (0.0, 0.07, fist(0.5)), bow=0.06)
+
+
 def _tug(t: float, half: float) -> Stroke:
     back = pulse(t, RATE_HZ)
     return Stroke(
@@ -303,6 +312,7 @@ PATTERNS: Mapping[str, Pattern] = MappingProxyType(
         "put": _put,
         "take": _take,
         "drop": _drop,
+        "punch": _punch,
         "tug": _tug,
         "rock": _rock,
         "offer": _offer,

@@ -79,6 +79,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("put", "", "there"), "put place put_down set_down lay_down"),
     (HandWork("take", "", "there"), "pick_up take_out pull_out lift_up"),
     (HandWork("drop", "", "there"), "drop"),
+    (HandWork("punch", "", "there", "front"), "punch"),
     (HandWork("tug", "", "there"), "tug yank"),
     (HandWork("tug", "", "there", shown_as="tug at"), "milk"),
     (HandWork("rock", "", "there"), "shake rattle jiggle"),
