@@ -221,7 +221,10 @@ class ClauseMeaning:
             self._read_object(one, clause, scope)
         self._read_complements(clause, scope)
         self._around.read_adverbs(clause.adverbs, scope)
-        self._around.read_phrases(clause.phrases, scope)
+        others = [
+            one for one in clause.phrases if not any(g is b for g in one.groups for b in brought)
+        ]
+        self._around.read_phrases(others, scope)
         self._referents.has_body, self._referents.doers = False, []
         is_aside = clause.is_participle or clause.is_relative
         if not (is_aside and self._sentence == clause.sentence):

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from texvent.scenes.language.grammar.syntax import Clause, NounGroup
+from collections.abc import Sequence
+
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Meaning, Role
+from texvent.scenes.models.people.acts.words import AT_HEAD
 from texvent.scenes.models.people.work.verbs import HANDWORK, WITH_PARTICLE
 
 _JUGGLE = "juggle"
@@ -117,8 +120,10 @@ def _lose_sides(clause: Clause, verb: str) -> None:
             word.meaning, word.is_lost = Meaning(Role.UNKNOWN, word.pos), True
 
 
-_COMES_WITH = frozenset({"play chess", "play video games", "serve", "dunk", "flip pan", "bowl",
-                         "tug of war", "skip rope", "hula hoop", "archery", "mow"})  # fmt: skip
+_COMES_WITH = frozenset(
+    {*AT_HEAD, "play chess", "play video games", "serve", "dunk", "flip pan", "bowl", "tug of war",
+     "skip rope", "hula hoop", "archery", "mow"}
+)  # fmt: skip
 """Activities that bring the thing that their phrase names."""
 
 
@@ -127,12 +132,22 @@ def list_brought(clause: Clause) -> list[NounGroup]:
     if clause.verb is None or clause.is_passive:
         return []
     found = find_activity(clause, is_hand=False)
-    if found is None or found[0] not in _COMES_WITH:
+    if found is None or not found[2] or found[0] not in _COMES_WITH:
         return []
+    within = [group for phrase in clause.phrases for group in phrase.groups]
     return [
         group
-        for group in clause.objects
+        for group in (*clause.objects, *within)
         if any(one is group.head for one in found[1]) and not group.phrases
+    ]
+
+
+def list_other_phrases(clause: Clause, brought: Sequence[NounGroup]) -> list[PrepPhrase]:
+    """Phrases of a clause that name nothing of what is brought."""
+    return [
+        phrase
+        for phrase in clause.phrases
+        if not any(group is one for group in phrase.groups for one in brought)
     ]
 
 

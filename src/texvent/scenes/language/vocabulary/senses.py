@@ -225,18 +225,14 @@ NO_OBJECT: dict[str, frozenset[str]] = {
     "beat": _words("egg chest heat"),
     "drop": _words("jaw hint gaze"),
     "roll": _words("eye dough sleeve die dice"),
-    "shake": _words("head"),
     "cast": _words("shadow light spell vote glow"),
     "blow": _words("kiss nose horn whistle"),
     "pull": _words("trigger face"),
     "push": _words("button"),
     "lift": _words("spirit"),
     "raise": _words("eyebrow voice"),
-    "fly": _words("kite"),
     "spin": _words("yarn web tale"),
-    "bow": _words("head"),
     "drive": _words("nail ball screw stake"),
-    "ride": _words("wave"),
 }  # fmt: skip
 """Verb → objects with which it is none of what it shows alone: "throws a jab"."""
 DEVICES = _words("lamp light tv television radio computer faucet tap stove oven fan engine machine"

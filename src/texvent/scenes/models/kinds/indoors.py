@@ -14,8 +14,8 @@ INDOOR_KINDS: dict[str, str] = {
     "plug": "socket, power outlet, outlet, wall socket, extension cord, light switch",
     "scale": "thermostat",
     "rope": """
-        wire, string,  ribbon, shoelace, extension cable, leash, jump rope,
-        skipping rope, dog leash""",
+        wire, string,  ribbon, shoelace, extension cable, leash,
+        dog leash""",
     "stool": "ottoman, pouffe, pouf, footrest, bean bag, beanbag",
     "towel": "bath mat, beach towel, hand towel, dishcloth, dish cloth, tea towel, washcloth",
     "napkin": "handkerchief, placemat, paper napkin, duster, dust cloth, cloth, rag",

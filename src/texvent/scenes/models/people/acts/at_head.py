@@ -87,8 +87,8 @@ def _yawn(t: float) -> Posture:
 def _cry(t: float) -> Posture:
     """The face in both hands; shoulders shake, the head goes from side to side."""
     sob = swing(t, 1.9)
-    arm = Arm((0.18, -0.13, 0.22 + 0.02 * sob), _DOWN)
-    return Posture(left=arm, right=arm, nod=0.55 + 0.14 * sob, lean=0.22 + 0.05 * sob,
+    arm = Arm((0.18, -0.13, 0.22 + 0.03 * sob), _DOWN)
+    return Posture(left=arm, right=arm, nod=0.50 + 0.20 * sob, lean=0.24 + 0.12 * sob,
                    look=0.25 * swing(t, 0.45))  # fmt: skip
 
 
