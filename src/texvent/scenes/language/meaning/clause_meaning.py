@@ -19,6 +19,7 @@ from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.clause_rewrites import (
     list_brought,
+    list_other_phrases,
     take_juggled,
     take_particle,
     take_partners,
@@ -221,10 +222,7 @@ class ClauseMeaning:
             self._read_object(one, clause, scope)
         self._read_complements(clause, scope)
         self._around.read_adverbs(clause.adverbs, scope)
-        others = [
-            one for one in clause.phrases if not any(g is b for g in one.groups for b in brought)
-        ]
-        self._around.read_phrases(others, scope)
+        self._around.read_phrases(list_other_phrases(clause, brought), scope)
         self._referents.has_body, self._referents.doers = False, []
         is_aside = clause.is_participle or clause.is_relative
         if not (is_aside and self._sentence == clause.sentence):
