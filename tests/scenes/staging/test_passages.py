@@ -91,3 +91,12 @@ def test_things_that_one_works_on_lie_side_by_side_on_the_table() -> None:
 def test_who_climbs_has_no_table_in_the_way() -> None:
     man = named(stage("a man is climbing a ladder to pick apples from a tree"), "man")[0]
     assert not any(prop.furniture for prop in man.props)
+
+
+def test_what_passes_behind_a_bush_is_not_under_it() -> None:
+    scene = stage("a rabbit hops across a garden and under a bush")
+    (rabbit,), (bush,) = named(scene, "rabbit"), named(scene, "bush")
+    low, high = bush.corners(0.0).min(axis=0)[:2], bush.corners(0.0).max(axis=0)[:2]
+    places = np.array([rabbit.middle(float(t))[:2] for t in np.linspace(0.0, 1.0, 25)])
+    is_inside = bool(np.any(np.all((low < places) & (places < high), axis=1)))
+    assert is_inside == ("under the bush" not in scene.not_shown)

@@ -158,8 +158,15 @@ def _is_above(subject: _Body, targets: list[_Body]) -> bool:
 def _is_under(subject: _Body, targets: list[_Body]) -> bool:
     target = targets[0]
     gaps = _gaps(subject, target)
-    is_lower = subject.places[:, 2] < target.high[:, 2]
-    return bool(np.any((gaps <= 0.05) & is_lower))
+    is_there = (gaps <= 0.05) & (subject.places[:, 2] < target.high[:, 2])
+    if target.copies and target.copies[0].noun.name in _CLOSED_BELOW:
+        places, low, high = subject.places[:, :2], target.low[:, :2], target.high[:, :2]
+        is_there &= np.all((low < places) & (places < high), axis=1)
+    return bool(np.any(is_there))
+
+
+_CLOSED_BELOW = frozenset({"bush"})
+"""Nouns without room below them: what is at their edge is beside them."""
 
 
 def _is_between(subject: _Body, targets: list[_Body]) -> bool:
