@@ -24,7 +24,7 @@ PREPOSITIONS = {
 ALIKE = (
     {"beside", "with", "left of", "right of"}, {"in", "on"}, {"around", "surround", "among"},
     {"with", "hold", "carry"}, {"with", "wear"}, {"in", "wear"}, {"on", "ride"}, {"in", "ride"},
-    {"across", "on"},
+    {"across", "on"}, {"at", "beside"}, {"at", "around"},
 )  # fmt: skip
 """Relations that may stand for each other."""
 _TRAVELS = frozenset({"travel", "dolly", "truck", "pedestal", "follow"})
