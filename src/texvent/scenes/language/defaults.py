@@ -52,7 +52,7 @@ def complete_description(
         or description.effects
         or any(_is_moving(scene_object) for scene_object in objects)
     ):
-        return _park(_rest_the_others(description), nouns)
+        return _park(_rest_the_others(_run_in_place(description)), nouns)
     return _park(_rest_the_others(_set_in_motion(description, nouns)), nouns)
 
 
@@ -120,6 +120,19 @@ HAS_RIDER = frozenset({"bicycle", "motorcycle"})
 _RIDES = ("ride", "ride along")
 _RIDERS = frozenset({"cyclist", "bicyclist", "motorcyclist", "biker"})
 """Words for who rides them."""
+
+
+def _run_in_place(description: SceneDescription) -> SceneDescription:
+    """Who walks or runs on a treadmill does so in place."""
+    objects = list(description.objects)
+    for one in description.relations:
+        motion = objects[one.subject].motion
+        is_there = one.kind == "on" and objects[one.targets[0]].noun == "treadmill"
+        if is_there and motion is not None and motion.kind in ("walk", "run", "move"):
+            pace = motion.pace * (0.7 if motion.kind == "walk" else 1.0)
+            done = replace(motion, kind="run in place", pace=pace, direction=None)
+            objects[one.subject] = replace(objects[one.subject], motion=done)
+    return replace(description, objects=tuple(objects))
 
 
 def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

@@ -106,6 +106,14 @@ def test_a_chased_ball_rolls_and_an_overtaken_truck_drives() -> None:
     assert described.objects[1].motion.kind == "drive"
 
 
+def test_who_runs_on_a_treadmill_runs_in_place() -> None:
+    scene = stage("a man running on a treadmill")
+    (man,) = [one for one in scene.actors if one.noun.name == "man"]
+    states = [man.trajectory.at(t) for t in (0.0, 1.0, 2.0)]
+    assert {one.activity for one in states} == {"run in place"}
+    assert np.ptp([one.position for one in states], axis=0).max() < 0.05
+
+
 def test_two_dogs_pull_at_one_rope() -> None:
     scene = stage("two dogs play tug of war")
     assert sum(one.tether is not None for one in scene.actors) == 1

@@ -147,6 +147,8 @@ def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
     if group.noun.name not in PERSON_NOUNS:
         return False
     kind = group.plan.motion.kind
+    if kind == "run in place":
+        return False
     if kind == "stand" and (target.noun.name in SEATS_OF or target.noun.motion == "sail"):
         return False
     is_seat = target.noun.name in SEATS and kind in DONE_SEATED

@@ -22,7 +22,7 @@ PAIR_GAPS: Mapping[str, float] = MappingProxyType(
     {
         "hug": 0.36, "kiss": 0.46, "shake hands": 0.92, "high five": 0.92, "wrestle": 0.86,
         "arm wrestle": 0.98, "argue": 0.95, "tango": 0.50, "tug of war": 2.1, "give": 0.95,
-        "receive": 0.95, "box": 1.02, "fence": 1.9,
+        "receive": 0.95, "box": 1.02, "fence": 1.9, "play chess": 1.32,
     }
 )  # fmt: skip
 """Activity → distance of two adults who do it before each other, m."""
