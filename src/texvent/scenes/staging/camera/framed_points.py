@@ -323,8 +323,10 @@ def _pieces_of(
     pieces = []
     for actor in nearest.values():
         reach = min(_RECOGNISED * actor.size_m, _REACH_OF_PARTNER * main.size_m)
-        if actor.object_index in gates and actor.size_m <= WHOLE * main.size_m:
-            reach = actor.size_m
+        is_gate = actor.object_index in gates and actor.size_m <= WHOLE * main.size_m
+        # So are a kite and a balloon on their strings.
+        if is_gate or actor.tether is not None:
+            reach = 2.0 * actor.size_m
         pieces.append(_near_piece(actor, main, times, max(reach, least)))
     return pieces
 
