@@ -20,6 +20,8 @@ MOST_STILL = 0.004
 MOST_DRIFT = 0.35
 """How far what a camera follows may go in the picture, a share of its width."""
 _OF_PLACE = frozenset({"travel", "dolly", "truck", "pedestal", "crane", "orbit", "dolly zoom"})
+_WITH_STATIC = frozenset({"static", "travel", "handheld", "follow", "pan", "tilt", "zoom"})
+"""Moves beside which a camera may be said to be fixed: to what goes, or where it only turns."""
 _TURNS = frozenset({"pan", "tilt", "zoom", "roll"})
 
 
@@ -33,7 +35,11 @@ def judge_move(picture: Picture, description: SceneDescription, claim: Claim) ->
     """
     first, last = picture.views[0], picture.views[-1]
     if claim.move == "static":
-        is_alone = all(move.kind == "static" for move in description.shot.moves)
+        shot = description.shot.moves
+        still = {move.phase for move in shot if move.kind == "static"}
+        if any(move.kind not in _WITH_STATIC and move.phase in still for move in shot):
+            return "the camera moves"
+        is_alone = all(move.kind == "static" for move in shot)
         moves = is_alone and np.max(_shifts(picture, first, last), initial=0.0) > MOST_STILL
         return "the camera moves" if moves else None
     share = max(_share_moved(picture, first, one) for one in picture.views[1:])

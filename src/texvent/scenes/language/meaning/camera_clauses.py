@@ -43,7 +43,10 @@ class CameraClauses:
     def _does_it(subject: Referent, clause: Clause) -> bool:
         """As in "a baker pulls out two loaves": no camera does."""
         is_other = subject.kind == "unknown" and bool(clause.objects)
-        return is_other or subject.kind in ("things", "part", "effect")
+        comes = clause.verb_word.text in ("moves in", "move in") and subject.kind == "unknown"
+        return (
+            is_other or comes or subject.kind in ("things", "part", "effect", "weather", "clouds")
+        )
 
     def read(
         self, clause: Clause, subjects: Sequence[Referent]
