@@ -14,7 +14,8 @@ SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "point": ("signal", "direct", "conduct", "indicate"),
     "eat": ("bite", "chew", "taste", "lick", "swallow", "nibble"),
     "talk": ("whisper", "recite", "interview", "present"),
-    "kneel": ("pray",),
+    "kneel": ("pray", "propose"),
+    "dance": ("breakdance", "moonwalk", "twerk"),
     "climb": ("clamber", "cling", "scale", "climb up", "shin up"),
     "jump": ("flip", "vault"),
 }  # fmt: skip

@@ -54,7 +54,7 @@ _GESTURES: dict[str, Activity] = {
 
 _SPORTS: dict[str, Activity] = {
     "jump": Activity(("jump", "hop", "leap")),
-    "dance": Activity(("dance", "breakdance")),
+    "dance": Activity(("dance",)),
     "jumping jack": Activity(("jumping jack", "do a jumping jack", "do jumping jacks",
                               "perform jumping jacks", "star jump")),
     "squat": seen_from_side("squat", "do squats"),
