@@ -55,8 +55,12 @@ def list_landmarks(description: SceneDescription) -> list[Landmark]:
         words = [word for word in description.shown if word.split()[-1] in _SKY]
         found.append(Landmark(words[0] if words else "sky", frozenset({SKY})))
     return found + [
-        Landmark(word, frozenset({SKY})) for word in description.shown if word in _SKY_WORDS
+        Landmark(word, frozenset({SKY})) for word in description.shown if _names_the_sky(word)
     ]
+
+
+def _names_the_sky(word: str) -> bool:
+    return word in _SKY_WORDS or "stars" in word.split()
 
 
 def _is_word_for(place: str, word: str) -> bool:

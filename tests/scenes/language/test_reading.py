@@ -597,3 +597,15 @@ def test_patterns_are_read_beside_what_they_are_part_of() -> None:
     assert nouns("an expanding white ring") == ["expanding ring"]
     assert nouns("eye blinking close up") == ["eye"]
     assert nouns("a man closes his eyes") == ["man"]
+
+
+def test_all_that_is_worn_is_on_who_is_named_before() -> None:
+    found = parse_prompt("a woman in a black dress and red boots dances")
+    (worn,) = [one for one in found.relations if one.kind == "wear"]
+    assert [found.objects[i].noun for i in worn.targets] == ["dress", "boot"]
+
+
+def test_stars_above_are_those_of_the_night_sky() -> None:
+    found = parse_prompt("a man walks under the stars")
+    assert [one.noun for one in found.objects] == ["man"]
+    assert found.light.kind == "night"

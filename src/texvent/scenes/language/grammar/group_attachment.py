@@ -5,6 +5,7 @@ from __future__ import annotations
 from texvent.scenes.language.grammar.clause_state import ClauseState
 from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
+from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
@@ -134,6 +135,13 @@ class GroupAttachment(ClauseState):
             len(phrase.groups) == 1
         )  # fmt: skip
 
+    def _is_more_to_wear(self, group: NounGroup) -> bool:
+        """As in "a woman in a black dress and red shoes dances"."""
+        phrase = self._phrase
+        if phrase is None or phrase.preposition.text not in ("in", "with"):
+            return False
+        return _is_worn(phrase.groups[-1]) and _is_worn(group)
+
     def _is_counted(self, group: NounGroup) -> bool:
         return any(word.pos is Pos.NUMBER for word in group.modifiers)
 
@@ -166,7 +174,11 @@ class GroupAttachment(ClauseState):
             and not is_intro
             and self._phrase is not None
             and not self._is_after_colour(group)
-            and (not self._verb_follows(self._at) or self._needs_second())
+            and (
+                not self._verb_follows(self._at)
+                or self._needs_second()
+                or self._is_more_to_wear(group)
+            )
         ):
             self._phrase.groups.append(group)
         elif joined or not clause.subjects:
@@ -201,3 +213,8 @@ class GroupAttachment(ClauseState):
             else:
                 return False
         return False
+
+
+def _is_worn(group: NounGroup) -> bool:
+    noun = group.head.read_as(Role.NOUN) if group.head is not None else None
+    return noun is not None and noun.value in WEARABLE

@@ -434,7 +434,7 @@ def _find_head(group: NounGroup) -> Word:
     return group.head_word
 
 
-PAIRED = frozenset({"hand", "shoe", "ski", "glove", "sock"})
+PAIRED = frozenset({"hand", "shoe", "boot", "sandal", "high heel", "ski", "glove", "sock"})
 """Nouns of which a bare plural means two: "her boots"."""
 _NEVER = {
     **dict.fromkeys(("him", "he", "his"), ("woman", "girl")),

@@ -68,10 +68,11 @@ BOARDS = frozenset(
 """What is ridden besides vehicles and animals."""
 WEARABLE = frozenset(
     {"hat", "cap", "helmet", "backpack", "glasses", "scarf", "tie", "vest", "jacket", "dress",
-     "shirt", "skirt", "mask", "crown", "sunglasses", "coat", "glove", "boots", "shoe",
+     "shirt", "skirt", "mask", "crown", "sunglasses", "coat", "glove", "boot", "shoe",
      "cowboy hat", "straw hat", "top hat", "chef hat", "witch hat", "santa hat", "turban",
      "woolly hat", "apron", "robe", "cape", "tutu", "overalls", "wetsuit", "suit",
-     "pyjamas", "spacesuit", "sweater", "hoodie", "trousers", "shorts"}
+     "pyjamas", "spacesuit", "sweater", "hoodie", "trousers", "shorts", "sandal",
+     "high heel", "belt", "headphones"}
 )  # fmt: skip
 """What is worn."""
 OF_ONESELF = frozenset(

@@ -101,7 +101,7 @@ WORN: Mapping[str, Wear] = MappingProxyType(
         "tie": Wear("torso", (0.15, 0.0, 0.24), 0.5 * math.pi),
         "vest": Wear("torso", (0.0, 0.0, 0.02)),
         "backpack": Wear("torso", (-0.25, 0.0, 0.02), 0.0, math.pi),
-        **dict.fromkeys(("shoe", "boots"), Wear("foot", (-0.11, 0.0, -0.07))),
+        **dict.fromkeys(("shoe", "boot", "sandal", "high heel"), Wear("foot", (-0.11, 0.0, -0.07))),
         "glove": Wear("hand"),
     }
 )

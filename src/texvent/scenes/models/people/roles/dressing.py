@@ -46,7 +46,18 @@ _ON_HEAD: Mapping[str, tuple[str, Colour]] = MappingProxyType(
 """What is on the head → name of its `roles.hats.HATS`, and its usual colour."""
 _SUITS = ("wetsuit", "suit", "pyjamas", "spacesuit")
 _SLEEVED = ("coat", "jacket", "robe", "sweater", "hoodie", *_SUITS)
-DRESSED = frozenset({*_OVER, *_ON_HEAD, *_SLEEVED, "shirt", "shorts", "trousers"})
+_ON_LIMBS: Mapping[str, Colour] = MappingProxyType(
+    {
+        "shoe": (0.10, 0.05, 0.03),
+        "boot": (0.16, 0.08, 0.03),
+        "sandal": (0.30, 0.16, 0.07),
+        "high heel": (0.55, 0.03, 0.02),
+        "glove": (0.45, 0.05, 0.04),
+        "belt": (0.14, 0.07, 0.03),
+    }
+)
+"""Footwear, gloves and belts → their usual colours."""
+DRESSED = frozenset({*_OVER, *_ON_HEAD, *_SLEEVED, *_ON_LIMBS, "shirt", "shorts", "trousers"})
 """Nouns that show as clothes on a body and not as things of their own."""
 _USUAL: Mapping[str, Colour] = MappingProxyType(
     {
@@ -76,6 +87,8 @@ def _put_on(kind: PersonKind, name: str, colour: Colour | None) -> PersonKind:
     if name in _ON_HEAD:
         hat, usual = _ON_HEAD[name]
         return replace(kind, hat=hat, hat_colour=colour or usual)
+    if name in _ON_LIMBS:
+        return _put_on_limbs(kind, name, colour or _ON_LIMBS[name])
     if name in _OVER:
         garment, usual_hue = _OVER[name]
         others = tuple(one for one in kind.garments if one[0] != garment)
@@ -94,3 +107,13 @@ def _put_on(kind: PersonKind, name: str, colour: Colour | None) -> PersonKind:
     if name == "spacesuit":
         kind = replace(kind, hat="bubble", bulk=1.45, garments=(("life pack", None),))
     return replace(kind, has_sleeves=kind.has_sleeves or name in _SLEEVED)
+
+
+def _put_on_limbs(kind: PersonKind, name: str, hue: Colour) -> PersonKind:
+    """Gloves, a belt, or shoes of that colour; boots reach up the shins."""
+    if name == "glove":
+        return replace(kind, gloves=hue)
+    if name != "belt":
+        kind = replace(kind, shoes=hue)
+    over = {"boot": "boots", "belt": "belt"}.get(name)
+    return replace(kind, garments=(*kind.garments, (over, hue))) if over else kind

@@ -154,6 +154,14 @@ def _leg_bands(_: Material, joints: Skeleton) -> list[ModelPart]:
     ]
 
 
+def _boots(skin: Material, joints: Skeleton) -> list[ModelPart]:
+    """The shafts of boots, up to below the knees; the feet have their colour already."""
+    return [
+        rod(skin, joints.ankles[s], part_way(joints.knees[s], joints.ankles[s], 0.30), 0.068)
+        for s in (0, 1)
+    ]
+
+
 def _cape(skin: Material, joints: Skeleton) -> list[ModelPart]:
     low = _low(joints, 1.3)
     back = (low[0] - 0.32, low[1], low[2])
@@ -359,6 +367,7 @@ GARMENTS: Mapping[str, GarmentDraw] = MappingProxyType(
         "overalls": _overalls,
         "bands": _bands,
         "leg bands": _leg_bands,
+        "boots": _boots,
         "cape": _cape,
         "tutu": _tutu,
         "air tank": _air_tank,
