@@ -78,7 +78,7 @@ def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport
     gone = named | set(lost)
     doubts = _find_doubts(description, gone)
     plain = description.report()
-    around = [f"around: {', '.join(pluralise(one) for one in evidence.scenery)}"]
+    around = [f"around: {', '.join(evidence.scenery)}"]
     return replace(
         plain,
         scene=(*plain.scene, *(around if evidence.scenery else ())),

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from texvent.scenes.language.grammar.syntax import Clause, PrepPhrase
 from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
-from texvent.scenes.language.meaning.referents import Referent, Referents
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role

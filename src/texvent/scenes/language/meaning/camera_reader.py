@@ -9,7 +9,7 @@ from texvent.scenes.description import CameraMove, Shot
 from texvent.scenes.language.grammar.syntax import Clause, PrepPhrase
 from texvent.scenes.language.meaning.adjectives import Attributes
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.film import OF_CAMERA, TRAVEL_MEANS
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import Pos

@@ -26,8 +26,9 @@ from texvent.scenes.language.meaning.clause_rewrites import (
     turn_views,
 )
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
-from texvent.scenes.language.meaning.owners import lose_owners
-from texvent.scenes.language.meaning.referents import PERSON, Referent, Referents
+from texvent.scenes.language.meaning.referents.owners import lose_owners
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import PERSON, Referents
 from texvent.scenes.language.meaning.scene_clauses import SceneClauses
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader

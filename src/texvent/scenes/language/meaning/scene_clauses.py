@@ -6,7 +6,8 @@ from collections.abc import Sequence, Set
 
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.circumstances.reader import WINDS, CircumstanceReader
-from texvent.scenes.language.meaning.referents import Referent, Referents
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from texvent.scenes.description import Illumination, NamedColour, Surroundings
 from texvent.scenes.language.meaning.adjectives import Attributes
-from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary import scene as vocabulary_scene
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used

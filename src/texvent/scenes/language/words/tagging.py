@@ -4,23 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.language.vocabulary.function import SENTENCE_OPENERS
 from texvent.scenes.language.words.cutting import correct_token, cut_tokens
 from texvent.scenes.language.words.english import Pos, VerbForm, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
+from texvent.scenes.language.words.read_so_far import NOMINAL, ReadSoFar
 from texvent.scenes.language.words.tokens import Token
 from texvent.scenes.language.words.word import Word
 
 _OPENS_NOUN = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE})
 """After these a noun or one more adjective follows."""
-_NOMINAL = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER})
-_OPENS_CLAUSE = frozenset({Pos.SUBORDINATOR, Pos.RELATIVE, Pos.SIGN})
 _ONLY_OPENS = frozenset({Pos.DETERMINER, Pos.PRONOUN})
 """Before these a noun cannot end: "the headlights of a lorry blind the driver"."""
-_PASSED_OVER = (Role.SIDE, Role.LIGHT)
-"""Adjuncts that stand between a subject and its verb: "a car at night drives left"."""
-_PERCEIVED = frozenset({"watch", "see", "hear", "let", "make", "help", "film"})
-"""Verbs before a noun and a verb in its base form: "watches a fish swim"."""
 _OF_FILM = (Role.CAMERA, Role.CAMERA_MOVE, Role.VIEW, Role.FRAMING)
 """What a verb follows at once: "the camera pans", "an aerial view shows"."""
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
@@ -47,22 +41,8 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
     return words, notes
 
 
-class _Tagger:
+class _Tagger(ReadSoFar):
     """Chooses readings from left to right."""
-
-    def __init__(self, candidates: list[list[Meaning]], texts: list[str]) -> None:
-        self._candidates = candidates
-        self._texts = texts
-        self._chosen: list[Meaning] = []
-        self._has_verb = False
-        """Whether the clause has a finite verb."""
-        self._is_plural: bool | None = False
-        """Whether the last noun group is plural; None = it can be either."""
-        self._counts_group = False
-        """Whether a number opened the noun group."""
-        self._subject_is_plural: bool | None = False
-        """The same of the subject: the first noun group of the clause."""
-        self._has_subject = False
 
     def choose(self, index: int) -> Meaning:
         """The reading of word `index`, after those before it."""
@@ -72,62 +52,6 @@ class _Tagger:
         self._note(chosen)
         self._chosen.append(chosen)
         return chosen
-
-    def _note(self, meaning: Meaning) -> None:
-        if (meaning.pos is Pos.SIGN and meaning.value in ".;!?:") or meaning.pos in (
-            Pos.SUBORDINATOR,
-            Pos.RELATIVE,
-        ):
-            self._has_verb = False
-        elif meaning.pos is Pos.AUXILIARY or (
-            meaning.pos is Pos.VERB and meaning.form is not VerbForm.ING
-        ):
-            self._has_verb = True
-        elif meaning.pos is Pos.NOUN:
-            self._is_plural = self._decide_plural(meaning)
-            if not self._has_subject:
-                self._subject_is_plural = self._is_plural
-        elif meaning.pos is Pos.PREPOSITION:
-            self._has_subject = True
-        elif meaning.pos is Pos.CONJUNCTION and not self._has_verb:
-            self._subject_is_plural = self._is_plural = None
-            self._has_subject = True
-        if meaning.pos in _OPENS_CLAUSE:
-            self._has_subject = False
-        self._counts_group = meaning.pos is Pos.NUMBER or (
-            self._counts_group and meaning.pos in _NOMINAL
-        )
-
-    def _decide_plural(self, meaning: Meaning) -> bool | None:
-        """None where both fit: "a flock of birds crosses" and "cross", "deer stands", "stand"."""
-        if self._counts_group or meaning.can_be_both:
-            return None
-        return meaning.is_plural
-
-    def _before(self) -> Pos | None:
-        """Part of speech of the word before; None at the start of a sentence.
-
-        Adjuncts ("the kid on the left jumps") and "not" after an auxiliary are passed over.
-        """
-        for number in range(len(self._chosen) - 1, -1, -1):
-            meaning = self._chosen[number]
-            if meaning.pos is Pos.SIGN and meaning.value in ".;!?:":
-                return None
-            is_not = meaning.pos is Pos.NEGATION and number > 0
-            if is_not and self._chosen[number - 1].pos is Pos.AUXILIARY:
-                continue
-            if meaning.pos is Pos.ADJUNCT and number > 0 and meaning.role in _PASSED_OVER:
-                continue
-            is_opener = meaning.pos is Pos.SUBORDINATOR and meaning.value in SENTENCE_OPENERS
-            if is_opener and number > 0 and self._chosen[number - 1].pos is Pos.PRONOUN:
-                continue
-            return meaning.pos
-        return None
-
-    def _after(self, index: int, steps: int = 1) -> frozenset[Pos]:
-        if index + steps >= len(self._candidates):
-            return frozenset()
-        return frozenset(meaning.pos for meaning in self._candidates[index + steps])
 
     def _decide(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos:
         if len(by_pos) == 1:
@@ -154,7 +78,7 @@ class _Tagger:
                 return Pos.DETERMINER if is_determiner else Pos.RELATIVE
             return Pos.DETERMINER if Pos.DETERMINER in by_pos else Pos.RELATIVE
         if Pos.DETERMINER in by_pos and Pos.PRONOUN in by_pos:
-            return Pos.DETERMINER if after & (_NOMINAL | {Pos.ADVERB}) else Pos.PRONOUN
+            return Pos.DETERMINER if after & (NOMINAL | {Pos.ADVERB}) else Pos.PRONOUN
         if Pos.NUMBER in by_pos:
             return Pos.NUMBER
         if Pos.AUXILIARY in by_pos:
@@ -167,7 +91,7 @@ class _Tagger:
 
     def _preposition(self, by_pos: dict[Pos, Meaning], after: frozenset[Pos]) -> Pos | None:
         before = self._before()
-        if before in (Pos.DETERMINER, Pos.NUMBER) and by_pos.keys() & _NOMINAL:
+        if before in (Pos.DETERMINER, Pos.NUMBER) and by_pos.keys() & NOMINAL:
             return None
         opens_clause = Pos.SUBORDINATOR in by_pos and before in (None, Pos.SIGN)
         if opens_clause and not after & {Pos.DETERMINER, Pos.NUMBER}:
@@ -219,17 +143,6 @@ class _Tagger:
         nouns = [one for one in own if one.pos in (Pos.NOUN, Pos.PRONOUN)]
         return bool(nouns) and nouns[0].role is Role.CAMERA
 
-    def _sentence_so_far(self) -> list[Meaning]:
-        """What was chosen of the sentence before this word; commas do not end it."""
-        begin = len(self._chosen)
-        while begin > 0 and not self._ends_sentence(self._chosen[begin - 1]):
-            begin -= 1
-        return self._chosen[begin:]
-
-    @staticmethod
-    def _ends_sentence(meaning: Meaning) -> bool:
-        return meaning.pos is Pos.SIGN and meaning.value in ".;!?:"
-
     def _goes_on(self, index: int, verb: Meaning) -> bool:
         """As "arches" in "tosses the ball, arches her back": one more verb, and its object."""
         after = self._after(index)
@@ -242,7 +155,7 @@ class _Tagger:
         self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]
     ) -> Pos | None:
         before, after = self._before(), self._after(index)
-        if self._is_clothed() and verb.role is not Role.UNKNOWN and not after & _NOMINAL:
+        if self._is_clothed() and verb.role is not Role.UNKNOWN and not after & NOMINAL:
             return Pos.VERB
         if before in (Pos.PRONOUN, Pos.RELATIVE, Pos.AUXILIARY):
             is_adjective = Pos.ADJECTIVE in others and verb.form is VerbForm.BASE
@@ -263,7 +176,7 @@ class _Tagger:
         if Pos.NOUN in others and verb.role is Role.UNKNOWN and self._finite_follows(index):
             return Pos.NOUN
         if before in _OPENS_NOUN:
-            if after & _NOMINAL and not after & {Pos.PREPOSITION}:
+            if after & NOMINAL and not after & {Pos.PREPOSITION}:
                 return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
             return Pos.NOUN if Pos.NOUN in others else Pos.VERB
         if before is Pos.NOUN and Pos.NOUN in others and verb.role is Role.UNKNOWN:
@@ -273,7 +186,7 @@ class _Tagger:
 
     def _attribute(self, others: set[Pos] | frozenset[Pos], after: frozenset[Pos]) -> Pos | None:
         """A past participle before its noun: "a parked car", "painted walls"."""
-        if after & _NOMINAL:
+        if after & NOMINAL:
             return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
         return next(iter(others)) if others else Pos.VERB
 
@@ -287,7 +200,7 @@ class _Tagger:
             return Pos.VERB
         if self._has_verb and not self._opens_clause():
             return None
-        if after & {Pos.AUXILIARY} or (self._finite_follows(index) and not after & _NOMINAL):
+        if after & {Pos.AUXILIARY} or (self._finite_follows(index) and not after & NOMINAL):
             return None
         if after and after <= _ONLY_OPENS and verb.form is VerbForm.BASE:
             return None if self._is_fronted() else Pos.VERB
@@ -295,45 +208,6 @@ class _Tagger:
         numbers = (self._is_plural, self._subject_is_plural)
         agrees = any(plural is None or is_singular != plural for plural in numbers)
         return Pos.VERB if agrees else None
-
-    def _is_fronted(self) -> bool:
-        """Whether the clause is a phrase so far: "At a skate park a man ..." has no subject yet."""
-        own = [one.pos for one in self._sentence_so_far()]
-        return bool(own) and own[0] is Pos.PREPOSITION and own.count(Pos.DETERMINER) < 2
-
-    def _finite_follows(self, index: int) -> bool:
-        """Whether the next word can be a verb in the third person."""
-        coming = self._candidates[index + 1] if index + 1 < len(self._candidates) else []
-        return any(one.pos is Pos.VERB and one.form is VerbForm.THIRD for one in coming)
-
-    def _is_clothed(self) -> bool:
-        """As in "a keeper in green": a verb may follow."""
-        at = len(self._chosen)
-        return at > 1 and self._chosen[-1].role is Role.COLOUR and self._texts[at - 2] == "in"
-
-    def _perceives(self) -> bool:
-        """As in "watches a fish swim": the last verb says that it is seen or heard."""
-        for number in range(len(self._chosen) - 1, -1, -1):
-            if self._chosen[number].pos is Pos.VERB:
-                text = self._texts[number]
-                return any(one.lemma in _PERCEIVED for one in list_readings(text))
-        return False
-
-    def _opens_clause(self) -> bool:
-        """Whether another finite verb may come: after a comma, "and", or a relative clause."""
-        is_after_verb = False
-        for meaning in reversed(self._chosen):
-            if meaning.pos is Pos.RELATIVE:
-                return True
-            if meaning.pos in (Pos.SUBORDINATOR, Pos.CONJUNCTION, Pos.SIGN):
-                return not is_after_verb
-            is_finite = meaning.pos is Pos.AUXILIARY or (
-                meaning.pos is Pos.VERB and meaning.form in (VerbForm.THIRD, VerbForm.BASE)
-            )
-            if is_finite and is_after_verb:
-                return False
-            is_after_verb = is_after_verb or is_finite
-        return not is_after_verb
 
     def _coordinated(
         self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]
@@ -350,27 +224,13 @@ class _Tagger:
             return Pos.VERB
         return Pos.VERB if is_parallel else None
 
-    def _last_verb_form(self) -> VerbForm | None:
-        for meaning in reversed(self._chosen):
-            if meaning.pos is Pos.SIGN and meaning.value in ".;!?":
-                return None
-            if meaning.pos is Pos.RELATIVE or (
-                meaning.pos is Pos.SUBORDINATOR and meaning.value not in SENTENCE_OPENERS
-            ):
-                return None
-            if meaning.pos is Pos.AUXILIARY and meaning.value in ("is", "are"):
-                return VerbForm.THIRD if meaning.value == "is" else VerbForm.BASE
-            if meaning.pos is Pos.VERB and meaning.form in (VerbForm.THIRD, VerbForm.BASE):
-                return meaning.form
-        return None
-
     def _after_object(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos | None:
         """As "high" in "throws the ball high", which is no noun of "ball"."""
         is_known = any(one.role is not Role.UNKNOWN for one in by_pos.values())
-        if is_known or Pos.ADVERB not in by_pos or self._after(index) & _NOMINAL:
+        if is_known or Pos.ADVERB not in by_pos or self._after(index) & NOMINAL:
             return None
         group = [one.pos for one in self._chosen]
-        while group and group[-1] in _NOMINAL | {Pos.DETERMINER}:
+        while group and group[-1] in NOMINAL | {Pos.DETERMINER}:
             group.pop()
         is_object = self._before() is Pos.NOUN and group and group[-1] is Pos.VERB
         return Pos.ADVERB if is_object else None
@@ -382,13 +242,13 @@ class _Tagger:
         known.pop(Pos.VERB, None)
         opens = before in _OPENS_NOUN or before in (Pos.PREPOSITION, None, Pos.NEGATION)
         if {Pos.ADVERB, Pos.ADJECTIVE} <= known.keys() and Pos.NOUN not in known:
-            return Pos.ADJECTIVE if after & _NOMINAL and opens else Pos.ADVERB
+            return Pos.ADJECTIVE if after & NOMINAL and opens else Pos.ADVERB
         if len(known) == 1:
             pos = next(iter(known))
             is_substance = known[pos].role is Role.MATERIAL and Pos.NOUN in by_pos
             if is_substance and not after & {Pos.NOUN, Pos.ADJECTIVE}:
                 return Pos.NOUN
-            if pos in _NOMINAL or not (opens and by_pos.keys() & {Pos.NOUN}):
+            if pos in NOMINAL or not (opens and by_pos.keys() & {Pos.NOUN}):
                 return pos
         colour = by_pos.get(Pos.ADJECTIVE)
         is_colour = colour is not None and colour.role is Role.COLOUR
@@ -399,7 +259,7 @@ class _Tagger:
                 return Pos.ADJECTIVE
             return Pos.NOUN if before is not Pos.AUXILIARY else Pos.ADJECTIVE
         if Pos.ADVERB in by_pos and Pos.ADJECTIVE in by_pos:
-            is_attribute = after & _NOMINAL and (opens or before is Pos.SIGN)
+            is_attribute = after & NOMINAL and (opens or before is Pos.SIGN)
             return Pos.ADJECTIVE if is_attribute else Pos.ADVERB
         if Pos.NOUN in by_pos and (opens or before in (Pos.VERB, Pos.NOUN)):
             return Pos.NOUN

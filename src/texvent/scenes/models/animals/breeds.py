@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from texvent.scenes.models.animals import quadrupeds
-from texvent.scenes.models.animals.quadruped_body import Build, Coat
+from texvent.scenes.models.animals.quadruped_build import Build, Coat
 from texvent.scenes.models.animals.quadrupeds import CAT, DOG, HORSE, Animal, build_animal
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import BLACK, WHITE, Material, fur, shade

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from texvent.scenes.models.animals.quadruped_body import Build, Coat
+from texvent.scenes.models.animals.quadruped_build import Build, Coat
 from texvent.scenes.models.animals.quadrupeds import (
     BEAR,
     CAT,

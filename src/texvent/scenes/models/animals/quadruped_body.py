@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from texvent.scenes.models.animals.acts import STANDING, Stance, act_stance
+from texvent.scenes.models.animals.quadruped_build import Build, Coat
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
 from texvent.scenes.models.materials import (
@@ -35,54 +35,6 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.variation import fraction
-
-
-@dataclass(frozen=True)
-class Build:
-    """Proportions of a four-legged animal, m."""
-
-    shoulder: float
-    """Height of the back at the shoulders."""
-    body: tuple[float, float, float]
-    """Length, width and height of the trunk."""
-    neck: float
-    """Length of the neck."""
-    rise: float
-    """Angle of the neck above horizontal, radians."""
-    head: tuple[float, float]
-    """Length of the skull, and of the muzzle in front of it."""
-    tail: tuple[float, float]
-    """Length, and angle above horizontal at its root, radians."""
-    ear: tuple[float, str]
-    """Length; "prick", "flop", "side", "round", "long" or "fan"."""
-    stride: float = 0.0
-    """Distance of one cycle of steps; 0 = 1.5 times the shoulder height."""
-    thick: float = 1.0
-    """Thickness of the legs relative to a dog's."""
-    horns: str = ""
-    """ "", "short", "antlers", "tusks", "knobs"."""
-    mane: str = ""
-    """ "", "ridge", "full"."""
-    trunk: float = 0.0
-    """Length of an elephant's trunk."""
-    hop: float = 0.0
-    """Height of a rabbit's hop."""
-    fleece: bool = False
-    patches: bool = False
-    """Large dark patches, as on a cow."""
-    bushy_tail: bool = False
-
-
-@dataclass(frozen=True)
-class Coat:
-    """Surfaces of one animal."""
-
-    trunk: Material
-    limbs: Material
-    dark: Material
-    hoof: Material
-    legs: Material | None = None
-    """None = as the limbs, which neck and head belong to."""
 
 
 def draw_animal(

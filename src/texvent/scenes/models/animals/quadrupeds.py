@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
-from texvent.scenes.models.animals.quadruped_body import Build, Coat, draw_animal
+from texvent.scenes.models.animals.quadruped_body import draw_animal
+from texvent.scenes.models.animals.quadruped_build import Build, Coat
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import (
     BLACK,

@@ -9,7 +9,7 @@ from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.words.word import mark_used
 from texvent.scenes.models.people.acts.words import PAIRED as _PAIRED
 

@@ -27,7 +27,7 @@ from texvent.scenes.language.meaning.acts.partners import PAIRED, give_to, join_
 from texvent.scenes.language.meaning.acts.sequence import add_motion, is_part_of_doer, name_kind
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import OF_ONESELF
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm

@@ -7,7 +7,8 @@ from dataclasses import replace
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import OWNERS, Referent
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import OWNERS
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
 

@@ -9,8 +9,9 @@ from texvent.scenes.description import Relation
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.parts_shown import list_parts_shown
-from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents
+from texvent.scenes.language.meaning.referents.parts_shown import list_parts_shown
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import OWNERS, Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.scene import PART_COLOURS
 from texvent.scenes.language.words.word import Word, link, mark_used

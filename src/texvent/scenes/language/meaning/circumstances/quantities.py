@@ -7,7 +7,7 @@ from dataclasses import replace
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.meaning.acts.devices import set_rate
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import Referent
+from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.words.word import mark_used

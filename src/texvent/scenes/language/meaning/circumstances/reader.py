@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import Effect, ObjectMotion, Picture
+from texvent.scenes.description import ObjectMotion, Picture
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.meaning.circumstances.effects import add_effect
 from texvent.scenes.language.meaning.circumstances.parts import PartReader
 from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
 from texvent.scenes.language.meaning.circumstances.relations import (
@@ -17,8 +18,9 @@ from texvent.scenes.language.meaning.circumstances.relations import (
     RelationReader,
 )
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.parts_shown import list_parts_shown
-from texvent.scenes.language.meaning.referents import OWNERS, Referent, Referents
+from texvent.scenes.language.meaning.referents.parts_shown import list_parts_shown
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import OWNERS, Referents
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE
@@ -358,29 +360,10 @@ class CircumstanceReader:
         return False
 
     def add_effect(self, one: Referent, scope: Scope) -> bool:
-        """Smoke, sparks ... that the clause's subjects have."""
-        kind = str(one.value)
-        source = scope.subjects[0] if scope.subjects and not EFFECTS[kind].is_around else None
-        if source is None and EFFECTS[kind].needs_source:
-            return False
-        colours = one.attributes.colours
-        colour = colours[0][0] if colours else None
-        for _, words in colours[:1]:
-            mark_used(words)
-        if EFFECTS[kind].is_around:
-            mark_used(word for word in one.group.modifiers if word.text in _OF_LIGHT_SHOWS)
-            if "storm" in one.group.text:
-                self._surroundings.read_weather("rain")
-            if any(effect.kind == kind for effect in self._draft.effects):
-                mark_used(one.group.words[-1:])
-                return True
-        flicker = one.attributes.flicker
-        if kind == "string lights" and flicker is not None:
-            kind, flicker.is_used = "blinking lights", True
-        self._draft.effects.append(Effect(kind, source, colour))
-        if one.group.head is not None:
-            one.group.head.is_used = True
-        return True
+        """Smoke, sparks ... that the clause's subjects have; "storm" brings rain."""
+        if EFFECTS[str(one.value)].is_around and "storm" in one.group.text:
+            self._surroundings.read_weather("rain")
+        return add_effect(self._draft, one, scope)
 
     def flash_own(self, one: Referent, word: Word) -> bool:
         """As in "a fire truck leaves with its lights flashing"."""
@@ -405,11 +388,6 @@ class CircumstanceReader:
         return None
 
 
-_OF_LIGHT_SHOWS = frozenset(
-    {"changing", "moving", "sweeping", "flashing", "rotating", "colorful", "colourful",
-     "coloured", "colored", "bright", "swirling", "dancing"}
-)  # fmt: skip
-"""What light shows and lightning do anyway."""
 _ROADWAYS = frozenset({"road", "lane", "street", "highway", "roadway", "motorway"})
 _BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
               "from": "away", "at": "towards"}  # fmt: skip

@@ -8,7 +8,8 @@ from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import Referent, Referents
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.words.lexicon import Role

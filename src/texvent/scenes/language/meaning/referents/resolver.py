@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 from texvent.scenes.description import Effect
 from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.meaning.adjectives import Attributes, read_attributes
-from texvent.scenes.language.meaning.capabilities import is_living, is_person
-from texvent.scenes.language.meaning.crowds import add_traffic, find_drifting
+from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
-from texvent.scenes.language.meaning.parts_shown import BODY_PARTS, list_parts_shown, shows_part
-from texvent.scenes.language.meaning.senses import (
+from texvent.scenes.language.meaning.referents.crowds import add_traffic, find_drifting
+from texvent.scenes.language.meaning.referents.parts_shown import (
+    BODY_PARTS,
+    list_parts_shown,
+    shows_part,
+)
+from texvent.scenes.language.meaning.referents.pronouns import OF_ONE_PERSON, Antecedents
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.senses import (
     choose_pattern,
     choose_sense,
     is_figurative,
@@ -62,44 +67,13 @@ _AROUND = ("surrounded by", "among", "amongst", "amid", "lined with", "lined by"
 """Prepositions after which a bare plural means many."""
 
 
-@dataclass
-class Referent:
-    """What a noun group means."""
-
-    kind: str
-    """"things", "camera", "function" (a shot, a view), "place", "light", "weather", "sky", "snow",
-    "dust", "shadow", "glow", "clouds", "effect", "part", "unit", "picture", "absent" or
-    "unknown"."""
-    group: NounGroup
-    things: list[int] = field(default_factory=list)
-    """Indices of objects."""
-    value: object = None
-    """Place, light, weather, effect or unit."""
-    attributes: Attributes = field(default_factory=Attributes)
-
-    @property
-    def is_things(self) -> bool:
-        """Whether it is objects of the scene."""
-        return self.kind == "things"
-
-
-class Referents:
+class Referents(Antecedents):
     """Gives noun groups their meaning, each once."""
 
     def __init__(self, draft: Draft) -> None:
-        self._draft = draft
+        super().__init__(draft)
         self._known: dict[int, Referent] = {}
         self._wholes: Sequence[int] = ()
-        self._named: list[int] = []
-        """Objects in the order in which they were named."""
-        self.doers: list[int] = []
-        """Subjects of the clause, whom no pronoun after the verb means."""
-        self.acted_on: list[int] = []
-        """What the verb before acts on, which "it" after another verb means."""
-        self.near: list[int] = []
-        """What a pronoun of a phrase hangs on: "a baby in it" is not in itself."""
-        self.lost_person = False
-        """Whether the last subject was a person who is not known, as it seems: "a kayaker"."""
         self.verb = ""
         """Verb of the clause whose subjects are being read."""
         self.has_body = False
@@ -128,15 +102,6 @@ class Referents:
     def named(self) -> list[Referent]:
         """What all groups that were read mean."""
         return list(self._known.values())
-
-    def note_subjects(self, subjects: Sequence[Referent]) -> None:
-        """Keep in mind whom "he" may mean."""
-        for one in subjects:
-            head = one.group.head
-            if one.is_things and any(is_living(self._draft.noun(i)) for i in one.things):
-                self.lost_person = False
-            elif one.kind == "unknown" and head is not None and head.pos is Pos.NOUN:
-                self.lost_person = head.lemma.endswith(_PERSONAL) or self.lost_person
 
     def forget(self, group: NounGroup) -> None:
         """A group names nothing of the scene."""
@@ -254,44 +219,13 @@ class Referents:
             return Referent("unknown", group)
         if head.text in ("each other", "one another") and self.doers:
             return Referent("things", group, list(self.doers))
-        meant = self._look_back(head.text)
+        meant = self.look_back(head.text)
         if meant and head.text not in ("there", "here"):
             return Referent("things", group, meant)
-        if head.text in (*_OF_ONE_PERSON, "it"):
+        if head.text in (*OF_ONE_PERSON, "it"):
             head.is_used, head.is_lost = False, True
             return Referent("unknown", group)
         return Referent("function", group)
-
-    def _look_back(self, pronoun: str) -> list[int]:
-        """What a pronoun means: the subject before, or else what was named last, if it fits."""
-        # Within the first clause it is the first thing: "a house with a tree behind it".
-        first = self._draft.subjects or self._named[:1]
-        others = [self.acted_on] if self.acted_on and self.doers else []
-        named = [[one] for one in reversed(self._named)]
-        candidates = [first, *others, *named] if first else []
-        if pronoun.endswith(("self", "selves")):
-            return list(self._draft.subjects)
-        not_meant = self.near or self.doers
-        for things in candidates:
-            if things != not_meant and self._fits(pronoun, things):
-                return list(things)
-        if first and pronoun in (*_OF_ONE_PERSON, "it"):
-            is_alive = is_living(self._draft.noun(first[0]))
-            is_meant = is_alive if pronoun != "it" else not is_person(self._draft.noun(first[0]))
-            return list(first) if is_meant and not self.lost_person else []
-        return list(first)
-
-    def _fits(self, pronoun: str, things: Sequence[int]) -> bool:
-        is_plural = len(things) > 1 or self._draft.objects[things[0]].count > 1
-        if pronoun in _OF_ONE_PERSON:
-            noun = self._draft.noun(things[0])
-            if self.lost_person and not is_person(noun):
-                return False
-            is_other = noun.name in _NEVER.get(pronoun, ())
-            return not is_plural and is_living(noun) and not is_other
-        if pronoun == "it":
-            return not is_plural and not is_person(self._draft.noun(things[0]))
-        return is_plural
 
     def _exclude(self, group: NounGroup, noun: str) -> Referent:
         mark_used(word for word in (group.determiner, group.head) if word is not None)
@@ -436,12 +370,4 @@ def _find_head(group: NounGroup) -> Word:
 
 PAIRED = frozenset({"hand", "shoe", "boot", "sandal", "high heel", "ski", "glove", "sock"})
 """Nouns of which a bare plural means two: "her boots"."""
-_NEVER = {
-    **dict.fromkeys(("him", "he", "his"), ("woman", "girl")),
-    **dict.fromkeys(("her", "she", "hers"), ("man",)),
-}
-"""Pronoun → people whom it does not mean."""
-_PERSONAL = ("er", "or", "ist", "man", "woman", "ian", "eur", "ess", "eer", "boy", "girl", "dj")
-"""Endings of nouns that name people, as a rule."""
-_OF_ONE_PERSON = ("he", "she", "him", "her")
 OWNERS = ("its", "their", "his", "her")

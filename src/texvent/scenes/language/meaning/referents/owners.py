@@ -6,7 +6,8 @@ from collections.abc import Iterable
 
 from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents import OUR, OWNERS, Referent
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import OUR, OWNERS
 
 
 def lose_owners(draft: Draft, named: Iterable[Referent]) -> None:

@@ -1,0 +1,1 @@
+"""What noun groups mean: things, people, parts, crowds; what pronouns mean, whose they are."""
