@@ -54,3 +54,24 @@ def test_what_is_fixed_and_what_is_vague_is_no_act(prompt: str) -> None:
 def test_sentences_are_read_as_before() -> None:
     assert parse_prompt("a dog makes a big jump").objects[0].noun == "dog"
     assert "jump" in parse_prompt("a dog makes a jump").not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kind"),
+    [
+        ("table tennis rally", "swing racket"),
+        ("a golf swing", "swing club"),
+        ("badminton", "swing racket"),
+    ],
+)
+def test_a_game_that_is_named_is_shown_by_one_person_and_reported_so(
+    prompt: str, kind: str
+) -> None:
+    description = parse_prompt(prompt)
+    assert [one.motion.kind for one in description.objects if one.motion is not None] == [kind]
+    assert all(one.shown == f"one person, {kind}" for one in description.substituted)
+    assert " ".join(one.said for one in description.substituted) == prompt.removeprefix("a ")
+
+
+def test_an_activity_alone_is_a_person_who_does_it() -> None:
+    assert parse_prompt("squat").objects[0].noun == "person"

@@ -257,16 +257,14 @@ class ClauseMeaning:
                 return False
             words.append(clause.verb)
         said = [w for w in (*words, *clause.adverbs) if w.pos is not Pos.DETERMINER]
-        if len(said) == 1 and said[0].role is Role.NOUN:
-            return False  # "a playing card"
-        found = name_activity(said) if len(" ".join(w.text for w in said).split()) > 1 else None
+        found = name_activity(said)
         if found is None:
             return False
-        noun, activity = found
+        noun, activity, is_near = found
         mark_used([*words, *clause.adverbs])
-        if activity == "swing racket":
+        if is_near:
             for word in words:
-                if word.read_as(Role.COUNT) is None:
+                if word.pos is not Pos.DETERMINER and word.read_as(Role.COUNT) is None:
                     word.shown_as = f"one person, {activity}"
         item = PartialObject(noun, motions=[ObjectMotion(activity)])
         index = self._draft.add(item)

@@ -21,6 +21,29 @@ SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Activity of people → verbs it stands for."""
 
+NAMED_ACTS: dict[str, tuple[str, ...]] = {
+    "swing racket": (
+        "tennis", "tennis rally", "tennis volley", "tennis match", "tennis forehand",
+        "tennis backhand", "tennis serve", "badminton", "badminton smash", "badminton rally",
+        "badminton match", "table tennis", "table tennis rally", "table tennis match", "ping pong",
+        "ping pong rally", "squash rally", "pickleball",
+    ),
+    "swing club": ("golf", "golf swing", "golf shot", "golf drive", "golf putt"),
+    "swing bat": ("baseball swing", "baseball hit", "cricket shot"),
+    "throw": ("baseball pitch", "shot put", "basketball shot", "basketball free throw"),
+    "dunk": ("basketball dunk", "slam dunk"),
+    "kick": ("penalty kick", "soccer penalty kick", "free kick", "soccer kick", "football kick"),
+    "karate": ("karate", "karate kick", "taekwondo", "taekwondo kick", "martial arts", "kung fu"),
+    "ballet": ("ballet", "ballet pirouette", "pirouette"),
+    "dance": ("salsa", "salsa dance", "hip hop dance", "street dance", "zumba", "flamenco"),
+    "fence": ("fencing bout", "fencing match", "fencing duel"),
+    "box": ("boxing match", "boxing bout", "kickboxing"),
+    "skate": ("figure skating", "ice skating", "speed skating", "roller skating"),
+    "jump": ("high jump", "long jump", "triple jump", "vertical jump"),
+    "write": ("handwriting",),
+}  # fmt: skip
+"""Activity of a person → nouns that name one like it; only one person is shown."""
+
 SIMILAR_GAITS: dict[str, tuple[str, ...]] = {
     "walk": (
         "scurry", "scuttle", "pad", "limp", "tiptoe", "sneak", "stalk", "pace", "plod", "amble",

@@ -45,7 +45,7 @@ _TEXT = """
     key, arrow key, computer key, key lime, space bar, crow bar, wrist watch band, neck watch,
     cell wall, cell division, fire wall, firewall, sidewall, wall paper, wallpaper, wall nut, fly
     paper, sand paper, sandpaper, paper weight, paperweight, paper trail, periodic table, water
-    table, time table, timetable, multiplication table, table cloth, table tennis, pool party,
+    table, time table, timetable, multiplication table, table cloth, pool party,
     swimming pool ladder, fish ladder, step brother, spring water, spring flower season, spring
     onion, box spring, watch spring, hair spray, pepper spray, bug spray, tear gas, gasmask, death
     mask, mouse pad, mousepad, mouse hole, cob web, web site, website, web page, spider man,

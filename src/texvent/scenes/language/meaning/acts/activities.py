@@ -6,14 +6,17 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
+from texvent.scenes.language.vocabulary.acts import NAMED_ACTS
 from texvent.scenes.language.vocabulary.function import DETERMINERS
 from texvent.scenes.language.vocabulary.motion import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings, list_verb_forms
+from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
 from texvent.scenes.models.people.acts.activity import Activity
 from texvent.scenes.models.people.work.verbs import HANDWORK, WITH_PARTICLE
 
+_NAMING = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.VERB})
 Key = tuple[str, ...]
 
 
@@ -67,12 +70,17 @@ def _plain(group: NounGroup) -> list[Word]:
     return [word for word in group.words if word is not group.determiner]
 
 
-def name_activity(words: Sequence[Word]) -> tuple[str, str] | None:
-    """Who does what, where words name an activity alone: "jumping jacks", "thumbs up".
+def name_activity(words: Sequence[Word]) -> tuple[str, str, bool] | None:
+    """Who does what, where words name an activity alone: "jumping jacks", "table tennis".
 
     Returns:
-        Noun and activity; None if they name none.
+        Noun, activity, and whether it is only like the one that is named; None if they name none.
     """
+    if len(words) == 1 and not _is_act(words[0]):
+        return None
+    near = _near_acts().get(" ".join(word.text for word in words if word.pos in _NAMING))
+    if near is not None:
+        return "person", near, True
     key = tuple(
         _normalise(part)
         for word in words
@@ -82,12 +90,23 @@ def name_activity(words: Sequence[Word]) -> tuple[str, str] | None:
     if not key:
         return None
     if key in (found := _phrases(is_hand=True)):
-        return "hand", found[key]
+        return "hand", found[key], False
     people = _phrases(is_hand=False)
     is_hand_of_person = key[:1] == ("hand",) and key[1:] in found
     if is_hand_of_person:
-        return "hand", found[key[1:]]
-    return ("person", people[key]) if key in people else None
+        return "hand", found[key[1:]], False
+    return ("person", people[key], False) if key in people else None
+
+
+def _is_act(word: Word) -> bool:
+    """Whether a word alone names an act: "squat", not "playing card" or "sandpaper"."""
+    is_long = " " in word.text and word.role is not Role.NOUN
+    return is_long or (word.role is Role.UNKNOWN and word.lemma not in HANDWORK)
+
+
+@lru_cache(maxsize=1)
+def _near_acts() -> Mapping[str, str]:
+    return {text: name for name, texts in NAMED_ACTS.items() for text in texts}
 
 
 _FORMS: Mapping[str, str] = {
