@@ -72,7 +72,7 @@ _TEXT = """
     flower shop, ice flower, corn field, corn flake, corn maze, peppercorn, pop corn, acorn,
     mountain range, mountain pass, mountain goat cheese, rock pool, rock music, rock climbing, bed
     of roses, mile stone, grave stone, tomb stone, gem stone, hail stone, hailstone, cobble stone
-    street, wind turbine blade, razor blade, shoulder blade, bus ticket, boat shoe, ship yard,
+    street, razor blade, shoulder blade, bus ticket, boat shoe, ship yard,
     shipyard, ship wreck, shipwreck, rocket salad, rocket launcher, plane ticket, jet lag, jet
     stream, balloon animal, hot air, speech bubble, bubble gum, bubble bath, soap opera,
     chandelier earring, street art, torch singer, fan club, sports fan, football fan, fan art,

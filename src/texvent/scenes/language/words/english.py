@@ -141,6 +141,13 @@ def list_verb_forms(base: str) -> tuple[tuple[str, VerbForm], ...]:
     return tuple(forms.items())
 
 
+def _may_be_meant(one: str, word: str) -> bool:
+    """Whether both begin alike and end alike: by two letters, or four at the start and one."""
+    if abs(len(one) - len(word)) > 1 or one[:1] != word[:1] or one[-1:] != word[-1:]:
+        return False
+    return one[-2:] == word[-2:] or one[:4] == word[:4]
+
+
 def correct_spelling(word: str, known: Collection[str]) -> str | None:
     """The known word that a misspelt one stands for, or None.
 
@@ -160,11 +167,7 @@ def correct_spelling(word: str, known: Collection[str]) -> str | None:
         return None
     if word.removesuffix("s") in known:
         return None
-    near = [
-        one
-        for one in known
-        if one[:1] == word[:1] and one[-2:] == word[-2:] and abs(len(one) - len(word)) <= 1
-    ]
+    near = [one for one in known if _may_be_meant(one, word)]
     swapped = [one for one in near if sorted(one) == sorted(word)]
     if swapped:
         return min(swapped)

@@ -135,6 +135,7 @@ OUTDOOR_KINDS: dict[str, str] = {
     "surfboard": "wakeboard, windsurf board, windsurfer, kiteboard, boogie board",
     "paddle": "canoe paddle, kayak paddle, rowing oar, rudder, wooden paddle",
     "frisbee": "hubcap, flying ring, sewer lid",
+    "wind turbine": "wind turbine blade, wind turbine rotor, wind power plant",
     "wheel": """
         bicycle wheel, wagon wheel, water wheel, waterwheel, mill wheel, spoked wheel,
         flat tire, spare tire, spare wheel, hamster wheel, ship wheel, car tire, car
