@@ -59,8 +59,8 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
         1.0: ("park", "wait", "rest", "stay", "pause", "pose", "stand", "stand up", "hang",
               "remain", "perch", "idle", "freeze"),
     },
-    "sit": {1.0: ("sit", "sit down", "sleep")},
-    "lie": {1.0: ("lie", "lie down", "doze")},
+    "sit": {1.0: ("sit", "sit down")},
+    "lie": {1.0: ("lie", "lie down", "doze", "sleep")},
 }  # fmt: skip
 """Motion → pace → verbs of which there is nothing else to say."""
 
