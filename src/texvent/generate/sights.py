@@ -13,7 +13,7 @@ SPECKS = ((0.1, 0.005), (0.2, 0.003), (0.3, 0.002))
 """Sizes of what is seen, and shares of the picture's points below which that is a speck."""
 LEAST_PIXELS = 12
 """Pixels below which nothing can be told of a thing."""
-LEAST_INSIDE, LEAST_UNHIDDEN, LEAST_SEEN = 0.6, 0.45, 0.4
+LEAST_INSIDE, LEAST_UNHIDDEN, LEAST_SEEN = 0.6, 0.45, 0.45
 """Shares of a thing of which less is hardly seen: within the picture, before other things, and
 both."""
 ALL_AROUND = 0.4

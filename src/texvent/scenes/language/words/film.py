@@ -193,7 +193,7 @@ def _ends(words: Sequence[Word], index: int) -> bool:
 
 
 def _is_of_camera(before: Sequence[Word]) -> bool:
-    """Whether a sentence is so far about the camera and nobody else."""
+    """Whether a sentence is about the camera alone so far."""
     others = [one for one in before if one.role is Role.NOUN and one.text != "drone"]
     return not others and any(
         (is_film(one) and one.pos is not Pos.VERB) or one.text == "drone" for one in before

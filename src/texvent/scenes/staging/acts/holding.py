@@ -29,7 +29,7 @@ class Hold:
     style: str
     """"tool" (along what the right hand holds), "upright" (in the raised right hand), "hanging"
     (from a hand at the side), "front" (in both arms), "string" (floats above the hand),
-    "kite" (flies far above), "page" (flat before the chest), "guitar", "mouth", or the name of a
+    "kite" (flies above), "page" (flat before the chest), "guitar", "mouth", or the name of a
     place it is worn at."""
     activity: str | None = None
     """What a person who only stands does with it."""
@@ -224,7 +224,7 @@ def _fly(style: str, model: Model, lift: float) -> Affine:
     if style == "string":
         return _shifted(0.0, 0.0, lift - 0.02)
     return np.column_stack(
-        [rotation(0.5 * math.pi - 0.3, 0.0, 0.0), np.array([-1.3, 0.3, 1.7 + lift])]
+        [rotation(0.5 * math.pi - 0.3, 0.0, 0.0), np.array([-1.1, 0.3, 0.8 + lift])]
     )
 
 
