@@ -11,7 +11,7 @@ from texvent.generate.seen_words.image_motion import ImageMotion, measure_motion
 from texvent.generate.seen_words.picture import Picture
 from texvent.generate.seen_words.verb_senses import judge_sense
 from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
-from texvent.scenes.language.vocabulary.motion import PACE_ADJECTIVES, PACES
+from texvent.scenes.language.vocabulary.motion import GETTING, PACE_ADJECTIVES, PACES
 from texvent.scenes.models.people.work.verbs import MOVED
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
@@ -128,7 +128,8 @@ class _Judge:
                 continue
             if _GETTING.fullmatch(claim.word) and phase.motion.kind != "climb":
                 lift = max(abs(one.lift) for one in moves)
-                if lift < LEAST_LIFT:
+                changes = max(one.change for one in moves) if phase.motion.kind in GETTING else 0.0
+                if lift < LEAST_LIFT and changes < LEAST_WAY:
                     return f"{noun} does so all the time"
             fault = self._judge_air(claim, index, phase)
             if fault is not None:

@@ -20,7 +20,8 @@ ANYTHING = frozenset(
 """What every object can do: a path through the air or over the ground."""
 _TRAVELLER = frozenset({"turn", "reverse", "zigzag"})
 _ANIMAL = frozenset(
-    {"walk", "run", "sit", "swim", "dance", "crawl", "climb", "crouch", "roll over"}
+    {"walk", "run", "sit", "swim", "dance", "crawl", "climb", "crouch", "roll over", "sit down",
+     "lie down", "stand up"}
 )
 _VEHICLE = frozenset({"drive", "wheelie"})
 _LEANING = frozenset({"bicycle", "motorcycle", "scooter"})

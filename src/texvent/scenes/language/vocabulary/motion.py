@@ -56,11 +56,14 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "jump": {1.0: ("jump",), 0.7: ("hop",), 0.8: ("skip",), 1.2: ("leap",)},
     "work": {1.0: ("flap", "work", "operate", "beat", "pulse")},
     "stand": {
-        1.0: ("park", "wait", "rest", "stay", "pause", "pose", "stand", "stand up", "hang",
-              "remain", "perch", "idle", "freeze"),
+        1.0: ("park", "wait", "rest", "stay", "pause", "pose", "stand", "hang", "remain",
+               "perch", "idle", "freeze"),
     },
-    "sit": {1.0: ("sit", "sit down")},
-    "lie": {1.0: ("lie", "lie down", "doze", "sleep")},
+    "sit": {1.0: ("sit",)},
+    "lie": {1.0: ("lie", "doze", "sleep")},
+    "sit down": {1.0: ("sit down",)},
+    "lie down": {1.0: ("lie down",)},
+    "stand up": {1.0: ("stand up", "get up")},
 }  # fmt: skip
 """Motion → pace → verbs of which there is nothing else to say."""
 
@@ -166,6 +169,8 @@ VERBS: tuple[Verb, ...] = (
     ),
 )
 
+GETTING = frozenset({"sit down", "lie down", "stand up"})
+"""Motions from one posture to another, of people and of animals."""
 STILL_WORDS = ("still", "motionless", "stationary", "unmoving")
 
 DIRECTIONS: dict[str, tuple[str, ...]] = {

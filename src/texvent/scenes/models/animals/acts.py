@@ -57,6 +57,15 @@ def act_stance(act: str, time_s: float) -> Stance:
     return STANDING if make is None else make(time_s)
 
 
+def lowered(activity: str, time_s: float) -> tuple[float, float]:
+    """How far a body sits and how far it lies, 0 to 1, at an instant."""
+    changed = 0.5 - 0.5 * math.cos(math.pi * min(max((time_s - 0.35) / 0.7, 0.0), 1.0))
+    return {
+        "sit": (1.0, 0.0), "lie": (0.0, 1.0), "sit down": (changed, 0.0),
+        "lie down": (0.0, changed), "stand up": (0.0, 1.0 - changed),
+    }.get(activity, (0.0, 0.0))  # fmt: skip
+
+
 def shown_as(act: str, verb: str) -> str | None:
     """What is seen of a verb, where that is less than it says: nothing is heard."""
     if act in ("bark", "howl"):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from texvent.scenes.models.animals.acts import STANDING, Stance, act_stance
+from texvent.scenes.models.animals.acts import STANDING, Stance, act_stance, lowered
 from texvent.scenes.models.animals.quadruped_build import Build, Coat
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
@@ -57,9 +57,9 @@ def draw_animal(
         distance = pose.distance_m + start * gait.stride
         turn = 2.0 * math.pi * distance / gait.stride
         rise = amount * _bob(build, turn, runs)
-        if pose.activity == "lie":
-            rise = build.body[2] - build.shoulder + 0.02 * build.shoulder
-        sit = _sit_drop(build) if pose.activity == "sit" else 0.0
+        sits, lies = lowered(pose.activity, pose.time_s)
+        rise += lies * (build.body[2] - build.shoulder + 0.02 * build.shoulder)
+        sit = sits * _sit_drop(build)
         beat = amount * math.sin(turn)
         wag = math.sin(2.0 * math.pi * (0.9 * pose.time_s + start))
         stance = act_stance(pose.activity, pose.time_s)
@@ -81,7 +81,7 @@ def draw_animal(
     def anchor(name: str, pose: Pose) -> Affine | None:
         if name != "mouth":
             return None
-        sit = _sit_drop(build) if pose.activity == "sit" else 0.0
+        sit = lowered(pose.activity, pose.time_s)[0] * _sit_drop(build)
         nose = len(_torso(build, coat, sit)) + _NOSE
         middle = articulate(pose)[nose].to_body[:, 3]
         return np.column_stack([np.eye(3), middle + np.array([0.1 * build.head[0], 0.0, 0.0])])

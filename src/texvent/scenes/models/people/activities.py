@@ -122,9 +122,21 @@ _DAILY: dict[str, Activity] = {
 _RESTING: dict[str, Activity] = {
     "stand": _still("stand",),
     "sit": _still("sit",),
-    "lie": _still("lie", "lie down", "sleep", is_sideways=True),
+    "lie": _still("lie", "sleep", is_sideways=True),
     "kneel": _still("kneel", is_sideways=True),
-    "crouch": _still("crouch", "duck", is_sideways=True),
+    "crouch": _still("crouch", is_sideways=True),
+}  # fmt: skip
+
+_GETTING: dict[str, Activity] = {
+    "sit down": seen_from_side("sit down", "take a seat", "have a seat"),
+    "stand up": seen_from_side("stand up", "get up", "get to feet", "rise to feet",
+                               "jump to feet"),
+    "lie down": seen_from_side("lie down",),
+    "kneel down": seen_from_side("kneel down", "get down on one knee", "go down on one knee",
+                                 "drop to knees", "fall to knees", "get on knees"),
+    "crouch down": seen_from_side("crouch down", "squat down", "duck", "duck down"),
+    "fall over": seen_from_side("fall over", "fall down", "topple", "topple over", "collapse",
+                                "trip", "trip and fall", "faint", "keel over"),
 }  # fmt: skip
 
 _ON_FOOT: dict[str, Activity] = {
@@ -134,7 +146,7 @@ _ON_FOOT: dict[str, Activity] = {
 
 ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
     {**{verb: seen_from_side(verb) for verb in HANDWORK},
-     **_ON_FOOT, **_RESTING, **_GESTURES, **_SPORTS, **_DAILY, **MORE_ACTIVITIES}
+     **_ON_FOOT, **_RESTING, **_GETTING, **_GESTURES, **_SPORTS, **_DAILY, **MORE_ACTIVITIES}
 )  # fmt: skip
 """What a person can do: name → activity."""
 
@@ -196,6 +208,12 @@ DONE_SEATED = frozenset(
      "photograph", "sing", "fish"}
 )  # fmt: skip
 """What a person does just as well sitting: torso, head and arms move, the hips do not."""
+TO_AND_FROM_SEATS = frozenset({"sit down", "stand up"})
+"""Activities that begin or end on a seat, or on the ground where there is none."""
+ON_GROUND: Mapping[str, str] = MappingProxyType(
+    {"sit": "sit on ground", "sit down": "sit down on ground", "stand up": "stand up from ground"}
+)
+"""What they are called, and sitting, where there is no seat."""
 SEATED = "sit and "
 """Begins the name of what is done sitting, as "sit and read"."""
 

@@ -13,6 +13,7 @@ from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import SEATED
 from texvent.scenes.models.people.acts.at_head import AT_HEAD_MOVEMENTS
 from texvent.scenes.models.people.acts.exercises import EXERCISE_MOVEMENTS
+from texvent.scenes.models.people.acts.getting import GETTING_MOVEMENTS
 from texvent.scenes.models.people.acts.music import MUSIC_MOVEMENTS
 from texvent.scenes.models.people.acts.pairs import PAIR_MOVEMENTS
 from texvent.scenes.models.people.acts.play import PLAY_MOVEMENTS
@@ -62,6 +63,7 @@ MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         **GESTURES,
         **SPORTS,
         **DAILY,
+        **GETTING_MOVEMENTS,
         **AT_HEAD_MOVEMENTS,
         **EXERCISE_MOVEMENTS,
         **PLAY_MOVEMENTS,

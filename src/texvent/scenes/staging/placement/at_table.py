@@ -67,7 +67,7 @@ def _sit_doing(group: ObjectGroup) -> str | None:
     said = (group.scene_object.motion, *group.scene_object.then)
     kinds = [one.kind for one in said if one is not None and one.kind != "stand"]
     done = [kind for kind in kinds if kind in DONE_SEATED]
-    if kinds and not done and "sit" not in kinds:
+    if kinds and not done and not {"sit", "sit down"} & set(kinds):
         return None
     return SEATED + done[-1] if done else "sit"
 

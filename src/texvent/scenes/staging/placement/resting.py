@@ -7,7 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.models.people.activities import DONE_SEATED, PERSON_NOUNS, SEATED, SEATS
+from texvent.scenes.models.people.activities import (
+    DONE_SEATED,
+    PERSON_NOUNS,
+    SEATED,
+    SEATS,
+    TO_AND_FROM_SEATS,
+)
 from texvent.scenes.models.people.daily import SEAT
 from texvent.scenes.models.people.posture import ANKLE
 from texvent.scenes.models.protocol import Pose
@@ -29,6 +35,8 @@ _SWIMMER_SHARE = 0.5
 """The same of a fish."""
 _ALIVE_SHARE = 0.75
 """The same of an animal, whose ears and antlers reach above its head."""
+_PROFILE = -0.35
+"""Heading of a seat on which a person sits down: the way down is seen from the side, rad."""
 _HIDING = CLOSED | {"house", "building"}
 """What hides who is in it."""
 
@@ -44,15 +52,17 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     Returns:
         [3] the middle of the group, m.
     """
+    kind = group.plan.motion.kind
     if target.noun.name == "conveyor belt":
         group.belt = target
     elif target.plan.motion.is_moving:
         group.carrier = target
     sits = _sits(group, target)
+    if sits and kind in TO_AND_FROM_SEATS and not target.plan.motion.is_moving:
+        target.plan = replace(target.plan, yaw=_PROFILE)
     is_person = group.noun.name in PERSON_NOUNS
     support = _find_seat(target) if sits else _find_surface(target, is_person=is_person)
     scale = float(getattr(group.models[0], "scale", 1.0))
-    kind = group.plan.motion.kind
     _line_up(group, target, support, neighbours)
     x, y = support.middle
     height = support.height + _origin_height(group)
@@ -64,6 +74,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
         if part is None and support.high[0] > support.low[0]:
             x = max(x, support.high[0] - 0.40 * scale)
         doing = SEATED + kind if kind in DONE_SEATED else "sit"
+        doing = kind if kind in TO_AND_FROM_SEATS else doing
         group.plan = replace(group.plan, yaw=target.plan.yaw, gesture=doing)
         group.grips = _feet_on_ground(height, scale) if -0.3 < height < 0.0 else ()
     elif is_person and kind == "lie":
@@ -152,7 +163,8 @@ def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
     if kind == "stand" and (target.noun.name in SEATS_OF or target.noun.motion == "sail"):
         return False
     is_seat = target.noun.name in SEATS and kind in DONE_SEATED
-    return is_seat or kind in ("sit", "drive", "sail") or group.carrier is not None
+    sits = kind in TO_AND_FROM_SEATS or kind in ("sit", "drive", "sail")
+    return is_seat or sits or group.carrier is not None
 
 
 def _find_seat(target: ObjectGroup) -> Support:

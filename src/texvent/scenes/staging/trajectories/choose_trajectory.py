@@ -16,6 +16,7 @@ from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
     HAND_NOUNS,
+    ON_GROUND,
     PERSON_NOUNS,
     TRAVELLING,
 )
@@ -162,8 +163,8 @@ def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
     handed = f"{motion.kind} {motion.direction}"
     if handed in known:
         return handed
-    if motion.kind == "sit" and noun.name in PERSON_NOUNS:
-        return "sit on ground"
+    if motion.kind in ON_GROUND and noun.name in PERSON_NOUNS:
+        return ON_GROUND[motion.kind]
     return motion.kind if motion.kind in known else None
 
 
@@ -347,7 +348,7 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     return Stationary(home, plan.yaw, kind if is_act else "move", pace)
 
 
-_RESTING = frozenset({"stand", "sit", "lie"})
+_RESTING = frozenset({"stand", "sit", "lie", "sit down", "lie down", "stand up"})
 
 
 def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:

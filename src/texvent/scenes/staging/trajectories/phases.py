@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
-from texvent.scenes.models.people.activities import PERSON_NOUNS, TRAVELLING
+from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
@@ -45,6 +45,9 @@ _ZIGZAG_RAD = 0.55
 _CLOCKWISE = frozenset({"clockwise", "right"})
 _LEANING = frozenset({"bicycle", "motorcycle"})
 _SAMPLES = 41
+_REACHED = {"sit down": "sit", "lie down": "lie", "stand up": "stand", "kneel down": "kneel",
+            "crouch down": "crouch"}  # fmt: skip
+"""Getting up and down after something else: the posture that the body goes over to."""
 
 
 @dataclass(frozen=True)
@@ -371,8 +374,10 @@ class _Builder:
         """Come to rest, and act in place."""
         braking = max(0.25, abs(self._carried()) / _BRAKING_M_S2)
         activity = "stand" if motion.kind in ("stand", "hover", "work") else motion.kind
-        if activity == "sit" and self._noun.name in PERSON_NOUNS:
-            activity = "sit on ground"
+        if self.pieces:
+            activity = _REACHED.get(activity, activity)
+        if self._noun.name in PERSON_NOUNS:
+            activity = ON_GROUND.get(activity, activity)
         if self.pieces and motion.kind == "stand":
             activity = self.pieces[-1].activity  # wheels and legs go on until it stands
         if motion.kind == "dance":

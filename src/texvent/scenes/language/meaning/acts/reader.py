@@ -379,7 +379,7 @@ class ActReader:
         is_from = any(phrase.preposition.text in _FROM_ABOVE for phrase in clause.phrases)
         stands = is_living(noun) and noun.habitat == "ground"
         if motion.kind == "fall" and stands and not is_from:
-            return replace(motion, kind="topple")
+            return replace(motion, kind="fall over" if is_person(noun) else "topple")
         return motion
 
     def _mount(self, index: int) -> int:

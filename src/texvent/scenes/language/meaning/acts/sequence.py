@@ -24,7 +24,7 @@ def comes_next(clause: Clause) -> bool:
 def is_done_in(posture: str, kind: str) -> bool:
     """As in "a man standing on a hill waves", "sitting on a bench, reading"."""
     activity = ACTIVITIES.get(kind)
-    if posture == "sit":
+    if posture in ("sit", "sit down"):
         return kind in DONE_SEATED or kind in _SEATED
     return posture == "stand" and activity is not None and not activity.travels
 

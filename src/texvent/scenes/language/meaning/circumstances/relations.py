@@ -100,7 +100,7 @@ class RelationReader:
         if not all(is_person(self._draft.noun(index)) for index in scope.subjects):
             return False
         motions = [self._draft.objects[index].motions for index in scope.subjects]
-        return all(one[-1].kind in DONE_SEATED | {"sit"} for one in motions if one)
+        return all(one[-1].kind in DONE_SEATED | {"sit", "sit down"} for one in motions if one)
 
     def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
         """As in "zebras with a giraffe behind them": the giraffe is behind them.
