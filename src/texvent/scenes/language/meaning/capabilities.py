@@ -20,8 +20,20 @@ ANYTHING = frozenset(
 """What every object can do: a path through the air or over the ground."""
 _TRAVELLER = frozenset({"turn", "reverse", "zigzag"})
 _ANIMAL = frozenset(
-    {"walk", "run", "sit", "swim", "dance", "crawl", "climb", "crouch", "roll over", "sit down",
-     "lie down", "stand up"}
+    {
+        "walk",
+        "run",
+        "sit",
+        "swim",
+        "dance",
+        "crawl",
+        "climb",
+        "crouch",
+        "roll over",
+        "sit down",
+        "lie down",
+        "stand up",
+    }
 )
 _VEHICLE = frozenset({"drive", "wheelie"})
 _LEANING = frozenset({"bicycle", "motorcycle", "scooter"})
