@@ -44,6 +44,9 @@ class ObjectMotion:
     None = steady."""
     start_s: float | None = None
     """When it begins, s; None = at once, or when the motion before it ends."""
+    shore: str | None = None
+    """Where it goes with respect to the water of the place: "into", "out of", "towards" or
+    "away from"; None = not stated."""
 
     @property
     def is_moving(self) -> bool:
@@ -128,6 +131,9 @@ class Relation:
     """Index into `SceneDescription.objects`."""
     targets: tuple[int, ...]
     """Indices into `SceneDescription.objects`."""
+    way: str = ""
+    """What its preposition says besides: "into", "onto", "out of", "off", "against", "across",
+    "along" or "opposite"; "" = nothing."""
 
 
 @dataclass(frozen=True)

@@ -101,7 +101,10 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
         noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in members
     )
     if said.place == "sea":
-        return _choose_sea(habitats, is_submerged=is_submerged, is_in_water=is_in_water)
+        goes = any(one.motion is not None and one.motion.shore for one in description.objects)
+        return SHORE if goes else _choose_sea(
+            habitats, is_submerged=is_submerged, is_in_water=is_in_water
+        )  # fmt: skip
     if said.place in ("lake", "river") and is_submerged:
         return "underwater"
     if said.place is not None or _is_of_clouds(description):

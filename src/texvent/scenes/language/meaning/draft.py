@@ -128,14 +128,19 @@ class Draft:
         model = self.noun(index).build(colour=None, scale=self.objects[index].scale, seed=0)
         return float(max(model.length, model.width, model.height))
 
-    def relate(self, kind: str, subjects: Iterable[int], targets: Sequence[int]) -> bool:
-        """Relate every subject to the targets; whether there was anything to relate."""
+    def relate(
+        self, kind: str, subjects: Iterable[int], targets: Sequence[int], way: str = ""
+    ) -> bool:
+        """Relate every subject to the targets; whether there was anything to relate.
+
+        `way` is that of the `Relation`.
+        """
         is_related = False
         for subject in subjects:
             kept = tuple(target for target in targets if target != subject)
             if kept:
                 self._share_out(kind, subject, kept)
-                relation = Relation(kind, subject, kept)
+                relation = Relation(kind, subject, kept, way)
                 if relation not in self.relations:
                     self.relations.append(relation)
                 is_related = True

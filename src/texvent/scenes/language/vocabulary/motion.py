@@ -290,6 +290,29 @@ RELATIONS: dict[str, tuple[str, ...]] = {
     "from": ("from", "out of", "off of"),
 }  # fmt: skip
 
+PREPOSITION_WAYS: dict[str, str] = {
+    "into": "into", "onto": "onto", "out of": "out of", "off of": "off", "off": "off",
+    "against": "against", "across": "across", "along": "along", "opposite": "opposite",
+    "across from": "opposite",
+}  # fmt: skip
+"""Preposition → `Relation.way`: what it says besides the kind of the relation."""
+
+SHORE_WAYS: dict[str, tuple[str, str]] = {
+    "into": ("into", "away"), "to": ("towards", "away"), "towards": ("towards", "away"),
+    "toward": ("towards", "away"), "out of": ("out of", "towards"),
+    "from": ("away from", "towards"), "away from": ("away from", "towards"),
+}  # fmt: skip
+"""Preposition before a water → `ObjectMotion.shore`, and the direction in the picture: the water
+lies behind the land."""
+SHORES = frozenset({"sea", "lake", "river", "swimming pool", "harbour"})
+"""Places with water beside land, or that become one."""
+NO_WAYS = frozenset(
+    {"into", "to", "towards", "toward", "out of", "from", "away from", "off", "onto", "against"}
+)
+"""Prepositions that say a way to or from a place, which is all around."""
+SLOPES = frozenset({"hills", "mountain", "slope", "sand", "snow"})
+"""Places of which "up" and "down" mean a slope; the ground is level."""
+
 OTHER_PREPOSITIONS: dict[str, tuple[str, ...]] = {
     "of": ("of",),
     "with": (

@@ -17,6 +17,8 @@ from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.wading import find_water
+from texvent.scenes.staging.surroundings.waterside import WATERSIDE
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS, Phase, schedule
 from texvent.scenes.wording import describe_motion
 
@@ -81,6 +83,9 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
             missing.append(Unmet(f"{name} on the ground"))
         if scene_object.motion is None or index in bound:
             continue
+        for motion in (scene_object.motion, *scene_object.then):
+            if motion.shore and not all(_goes_to_water(stage, one, motion) for one in copies):
+                missing.append(Unmet(f"{name} {motion.shore} the water"))
         said = (scene_object.motion, *scene_object.then)
         for phase in schedule(said, stage.duration_s):
             if not _is_shown(stage, copies[0], phase, is_carried=index in carried):
@@ -195,6 +200,22 @@ def _is_on_road(stage: Stage, actor: Actor) -> bool:
         return True
     aside = abs(_road_of(stage).across(actor.middle(0.0)[:2]))
     return aside < stage.environment.road_half_width
+
+
+def _goes_to_water(stage: Stage, actor: Actor, motion: ObjectMotion) -> bool:
+    """It is on land first and in the water in the end, or nearer to it; or the other way round."""
+    if stage.place not in WATERSIDE:
+        return False
+    line, shore = _road_of(stage), find_water(stage.place, stage.environment.road_half_width)
+    start, end = (
+        line.across(actor.middle(t)[:2]) - shore for t in (0.0, stage.duration_s)
+    )  # fmt: skip
+    way = motion.shore
+    if way in ("out of", "away from"):
+        start, end = end, start
+    if way in ("into", "out of"):
+        return start < 0.0 < end
+    return end - start > 0.2 * actor.size_m
 
 
 def _road_of(stage: Stage) -> RoadLine:

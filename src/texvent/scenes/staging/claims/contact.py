@@ -135,6 +135,20 @@ def strikes(
     return False
 
 
+def collide(subjects: Sequence[Actor], targets: Sequence[Actor], duration_s: float) -> bool:
+    """Whether two of them that are not the same body touch, and are apart before."""
+    times = np.linspace(0.0, duration_s, 4 * _INSTANTS)
+    for one in subjects:
+        for other in targets:
+            if one is other:
+                continue
+            boxes = [(part_boxes(one, float(t)), part_boxes(other, float(t))) for t in times]
+            meets = [gap(*pair) <= 2.0 * _tolerance(*pair) for pair in boxes]
+            if any(meets) and not meets[0]:
+                return True
+    return False
+
+
 def _tolerance(first: Boxes, second: Boxes) -> float:
     sizes = [float(np.max(high - low)) for low, high in (first.hull, second.hull)]
     return _TOUCH_M + _TOUCH_SHARE * min(sizes)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +12,6 @@ from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.work.verbs import HOVERING
-from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.acts.climbing import ClimbingAt
@@ -22,6 +20,7 @@ from texvent.scenes.staging.acts.hand_work.working import WorkingAt, tool_tip
 from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.claims.contact import (
+    collide,
     holds_for_all,
     is_in,
     is_on,
@@ -30,13 +29,32 @@ from texvent.scenes.staging.claims.contact import (
     strikes,
     touches,
 )
-from texvent.scenes.staging.claims.courses import approaches, comes_from, goes_round
+from texvent.scenes.staging.claims.courses import approaches, comes_from, faces, goes_round
+from texvent.scenes.staging.claims.positions import (
+    BESIDE,
+    BESIDE_M,
+    Body,
+    gaps,
+    goes_away,
+    goes_through,
+    is_above,
+    is_behind_in_line,
+    is_between,
+    is_near,
+    is_under,
+    measure,
+    middle_of,
+    overtakes,
+    passes,
+    size_of,
+)
+from texvent.scenes.staging.claims.ways import WAYS
 from texvent.scenes.staging.placement.at_table import turned_to
 from texvent.scenes.staging.placement.cages import CAGES
+from texvent.scenes.staging.placement.looked_at import LOOKED_AT
 from texvent.scenes.wording import RELATION_WORDS
 
 _INSTANTS = 13
-_FINER = 8
 _PHRASES = {**RELATION_WORDS, "beside": "next to"}
 """Relation → words for it, where they differ from its name."""
 _SMALL = 0.35
@@ -45,18 +63,6 @@ _LOW_M = 2.0
 
 
 _Course = Callable[[Sequence[Actor], Sequence[Actor], float], bool]
-
-
-class _Body(NamedTuple):
-    """All copies of an object over the clip."""
-
-    places: Float64Array
-    """[n, 3] mean of their middles at each instant, m."""
-    low: Float64Array
-    """[n, 3] least corner of all, m."""
-    high: Float64Array
-    copies: tuple[Actor, ...] = ()
-    duration_s: float = 1.0
 
 
 def list_not_shown(
@@ -72,22 +78,24 @@ def list_not_shown(
     Returns:
         As "under the table", in the order of the relations.
     """
-    bodies: dict[int, _Body] = {}
+    bodies: dict[int, Body] = {}
     times = np.linspace(0.0, duration_s, _INSTANTS)
     missing = []
     for relation in description.relations:
-        check = _CHECKS.get(relation.kind)
         known = {actor.object_index for actor in actors}
-        if check is None or not {relation.subject, *relation.targets} <= known:
+        if not {relation.subject, *relation.targets} <= known:
             continue
         for index in (relation.subject, *relation.targets):
             if index not in bodies:
                 copies = [actor for actor in actors if actor.object_index == index]
-                bodies[index] = _measure(copies, times)
+                bodies[index] = measure(copies, times)
         targets = [bodies[index] for index in relation.targets]
-        if not check(bodies[relation.subject], targets):
+        checks = [CHECKS[relation.kind]]
+        checks += [WAYS[relation.way]] if relation.way else []
+        if not all(check(bodies[relation.subject], targets) for check in checks):
             names = " and ".join(_name(description, index) for index in relation.targets)
-            words = f"{_PHRASES.get(relation.kind, relation.kind)} the {names}"
+            said = relation.way or _PHRASES.get(relation.kind, relation.kind)
+            words = f"{said} the {names}"
             is_named = relation.kind in _BY_CONTACT
             text = f"{_name(description, relation.subject)} {words}" if is_named else words
             missing.append(Unmet(text, relation=(relation.subject, relation.targets)))
@@ -99,29 +107,23 @@ def _name(description: SceneDescription, index: int) -> str:
     return scene_object.noun if scene_object.count == 1 else pluralise(scene_object.noun)
 
 
-def _measure(actors: Sequence[Actor], times: Float64Array) -> _Body:
-    corners = np.array([[actor.corners(float(t)) for actor in actors] for t in times])
-    middles = np.array([[actor.middle(float(t)) for actor in actors] for t in times])
-    low, high = corners.min(axis=(1, 2)), corners.max(axis=(1, 2))
-    return _Body(middles.mean(axis=1), low, high, tuple(actors), float(times[-1]))
+def _is_in_front(subject: Body, targets: list[Body]) -> bool:
+    """Nearer to the viewer; before a mirror or a screen, near it and turned to it."""
+    target = targets[0]
+    looks = target.copies[0].noun.name in LOOKED_AT and subject.copies[0].noun.habitat == "ground"
+    if looks and not subject.copies[0].noun.is_working:
+        goals = list(target.copies)
+        return is_near(subject, targets) and faces(subject.copies, goals, subject.duration_s)
+    return bool(np.mean(subject.places[:, 1] < target.places[:, 1]) > _MOST)
 
 
-def _gaps(subject: _Body, target: _Body) -> Float64Array:
-    """[n] metres over the ground between the boxes of two bodies; 0 where they overlap."""
-    apart = np.maximum(subject.low - target.high, target.low - subject.high)[:, :2]
-    return np.asarray(np.hypot(*np.maximum(apart, 0.0).T))
+def _is_amid(subject: Body, targets: list[Body]) -> bool:
+    """Copies of the targets stand to several sides of it."""
+    copies = [copy for target in targets for copy in target.copies]
+    return len(copies) > 1 and goes_round(copies, subject.copies, subject.duration_s)
 
 
-def _size(body: _Body) -> float:
-    return float(np.max(body.high - body.low))
-
-
-def _is_near(subject: _Body, targets: list[_Body]) -> bool:
-    reach = _BESIDE * max(_size(one) for one in (subject, *targets)) + _BESIDE_M
-    return all(float(_gaps(subject, target).min()) < reach for target in targets)
-
-
-def _is_at(subject: _Body, targets: list[_Body]) -> bool:
+def _is_at(subject: Body, targets: list[Body]) -> bool:
     """Everyone is within reach of a table, and turned to it."""
     half = 0.5 * subject.duration_s
 
@@ -137,113 +139,16 @@ def _is_at(subject: _Body, targets: list[_Body]) -> bool:
 
 
 _AT_M = 0.5
-_BESIDE, _BESIDE_M = 0.6, 0.6
-"""Gap up to which something is beside another: share of the larger one's size, m."""
 
 
-def _middle(body: _Body) -> Float64Array:
-    return np.asarray(body.places[len(body.places) // 2])
-
-
-def _is_above(subject: _Body, targets: list[_Body]) -> bool:
-    half = len(subject.low) // 2
-    over = all(
-        float(subject.high[half, 2]) > float(target.high[half, 2])
-        and float(_gaps(subject, target).min()) < 0.6 * _size(subject) + 0.5
-        for target in targets
-    )
-    return over
-
-
-def _is_under(subject: _Body, targets: list[_Body]) -> bool:
-    target = targets[0]
-    gaps = _gaps(subject, target)
-    is_there = (gaps <= 0.05) & (subject.places[:, 2] < target.high[:, 2])
-    if target.copies and target.copies[0].noun.name in _CLOSED_BELOW:
-        places, low, high = subject.places[:, :2], target.low[:, :2], target.high[:, :2]
-        is_there &= np.all((low < places) & (places < high), axis=1)
-    return bool(np.any(is_there))
-
-
-_CLOSED_BELOW = frozenset({"bush"})
-"""Nouns without room below them: what is at their edge is beside them."""
-
-
-def _is_between(subject: _Body, targets: list[_Body]) -> bool:
-    if len(targets) < 2:
-        return len(targets[0].copies) < 2 or _is_among_copies(subject, targets[0])
-    first, second = _middle(targets[0])[:2], _middle(targets[1])[:2]
-    way = second - first
-    share = float((_middle(subject)[:2] - first) @ way) / max(float(way @ way), 1e-9)
-    return 0.1 < share < 0.9
-
-
-def _is_among_copies(subject: _Body, target: _Body) -> bool:
-    """Whether copies of the target stand to both sides of it at some instant."""
-    half = len(subject.places) // 2
-    others = np.array([copy.middle(0.5 * target.duration_s) for copy in target.copies])[:, :2]
-    for place in subject.places[:: max(half // 6, 1), :2]:
-        ways = others - place
-        near = np.linalg.norm(ways, axis=1) < 2.0 * _size(target) + _size(subject)
-        if near.sum() > 1 and np.min(ways[near] @ ways[near].T) < 0.0:
-            return True
-    return False
-
-
-def _by_copies(holds: _Course) -> Callable[[_Body, list[_Body]], bool]:
+def _by_copies(holds: _Course) -> Callable[[Body, list[Body]], bool]:
     """A check of the single copies."""
     return lambda subject, targets: holds(
         subject.copies, [copy for one in targets for copy in one.copies], subject.duration_s
     )
 
 
-def _goes_away(subject: _Body, targets: list[_Body]) -> bool:
-    apart = np.linalg.norm(subject.places - targets[0].places, axis=1)
-    return bool(apart[-1] > apart[0])
-
-
-def _along(subject: _Body, target: _Body) -> Float64Array:
-    """[n] metres by which the subject is ahead of the target, along the subject's way."""
-    way = subject.places[-1] - subject.places[0]
-    way = way / max(float(np.linalg.norm(way)), 1e-9)
-    return np.asarray((subject.places - target.places) @ way)
-
-
-def _passes(subject: _Body, targets: list[_Body]) -> bool:
-    moved = float(np.linalg.norm(subject.places[-1] - subject.places[0]))
-    moved += float(np.linalg.norm(targets[0].places[-1] - targets[0].places[0]))
-    ahead = _along(subject, targets[0])
-    beside = 0.5 * (_size(subject) + _size(targets[0]))
-    return moved < 0.1 or bool(ahead.min() < beside and ahead.max() > -beside)
-
-
-def _overtakes(subject: _Body, targets: list[_Body]) -> bool:
-    ahead = _along(subject, targets[0])
-    return bool(ahead[0] < 0.0 < ahead[-1])
-
-
-def _goes_through(subject: _Body, targets: list[_Body]) -> bool:
-    target = targets[0]
-    places, low, high = (_finely(one) for one in (subject.places, target.low, target.high))
-    inside = np.all((places > low) & (places < high), axis=1)
-    return bool(np.any(inside))
-
-
-def _finely(values: Float64Array) -> Float64Array:
-    """[n, 3] between the instants too."""
-    known = np.arange(len(values))
-    wanted = np.linspace(0.0, len(values) - 1.0, _FINER * (len(values) - 1) + 1)
-    return np.stack([np.interp(wanted, known, column) for column in values.T], axis=1)
-
-
-def _is_behind_in_line(subject: _Body, targets: list[_Body]) -> bool:
-    target = targets[0]
-    if np.linalg.norm(target.places[-1] - target.places[0]) < 0.05:
-        return True
-    return bool(np.all(_along(target, subject) > 0.0))
-
-
-def _is_on(subject: _Body, targets: list[_Body]) -> bool:
+def _is_on(subject: Body, targets: list[Body]) -> bool:
     """On it; where the target's parts move and it stays in its place, it is carried along."""
     target = targets[0]
     if not holds_for_all(is_on, subject.copies, target.copies, subject.duration_s):
@@ -254,22 +159,22 @@ def _is_on(subject: _Body, targets: list[_Body]) -> bool:
     return moves_parts(subject.copies[0], times) or not moves_parts(target.copies[0], times)
 
 
-def _is_in(subject: _Body, targets: list[_Body]) -> bool:
+def _is_in(subject: Body, targets: list[Body]) -> bool:
     is_caged = targets[0].copies[0].noun.name in CAGES
     return holds_for_all(
         is_in, subject.copies, targets[0].copies, subject.duration_s, always=is_caged
     )
 
 
-def _is_with(subject: _Body, targets: list[_Body]) -> bool:
+def _is_with(subject: Body, targets: list[Body]) -> bool:
     """Near it; a small thing that does not move is on what is low and as still, or in it."""
-    if not _is_near(subject, targets):
+    if not is_near(subject, targets):
         return False
     own, other = subject.copies[0], targets[0].copies[0]
     if own.is_mover and other.noun.motion == "stand":
         # What goes along is near all the time.
-        reach = _BESIDE * max(_size(subject), _size(targets[0])) + _BESIDE_M
-        return float(_gaps(subject, targets[0]).max()) < reach
+        reach = BESIDE * max(size_of(subject), size_of(targets[0])) + BESIDE_M
+        return float(gaps(subject, targets[0]).max()) < reach
     is_still = own.noun.habitat == "fixed" and other.noun.habitat == "fixed"
     is_load = other.size_m < _SMALL * own.size_m and own.model.height < _LOW_M
     if not (is_still and is_load):
@@ -277,7 +182,7 @@ def _is_with(subject: _Body, targets: list[_Body]) -> bool:
     return holds_for_all(touches, targets[0].copies, subject.copies, subject.duration_s)
 
 
-def _is_touching(subject: _Body, targets: list[_Body]) -> bool:
+def _is_touching(subject: Body, targets: list[Body]) -> bool:
     """Each target is at one of the subjects: "two people wearing three jackets"."""
     return holds_for_all(
         lambda target, own, t: touches(own, target, t),
@@ -285,12 +190,12 @@ def _is_touching(subject: _Body, targets: list[_Body]) -> bool:
     )  # fmt: skip
 
 
-def _is_worn(subject: _Body, targets: list[_Body]) -> bool:
+def _is_worn(subject: Body, targets: list[Body]) -> bool:
     """It touches them, at a place where such a thing is worn."""
     return targets[0].copies[0].noun.name in WORN and _is_touching(subject, targets)
 
 
-def _is_on_body(subject: _Body, targets: list[_Body], *, least: float) -> bool:
+def _is_on_body(subject: Body, targets: list[Body], *, least: float) -> bool:
     """Each target is at one of the subjects, its foot above that share of the subject's height."""
 
     def is_there(target: Actor, own: Actor, time_s: float) -> bool:
@@ -304,13 +209,13 @@ def _is_on_body(subject: _Body, targets: list[_Body], *, least: float) -> bool:
     return holds_for_all(is_there, copies, subject.copies, subject.duration_s, always=True)
 
 
-def _is_riding(subject: _Body, targets: list[_Body]) -> bool:
+def _is_riding(subject: Body, targets: list[Body]) -> bool:
     """Every rider is over it and at it, and not on its roof; no two share a seat."""
     riders, mounts = subject.copies, targets[0].copies
     return holds_for_all(rides, riders, mounts, subject.duration_s, always=True)
 
 
-def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
+def _is_worked_on(subject: Body, targets: list[Body]) -> bool:
     """Every worker's hand, or the tip of its tool, touches the thing, and moves."""
     times = [float(t) for t in np.linspace(0.0, subject.duration_s, _HAND_SAMPLES)]
     for worker in subject.copies:
@@ -334,7 +239,7 @@ def _is_worked_on(subject: _Body, targets: list[_Body]) -> bool:
     return True
 
 
-def _is_given(subject: _Body, targets: list[_Body]) -> bool:
+def _is_given(subject: Body, targets: list[Body]) -> bool:
     """The first target is at the subject in the beginning and at the other one in the end."""
     thing = targets[0].copies
     ends = ((subject.copies, 0.0), (targets[-1].copies, subject.duration_s))
@@ -345,7 +250,7 @@ def _is_given(subject: _Body, targets: list[_Body]) -> bool:
     )
 
 
-def _is_striking(subject: _Body, targets: list[_Body], *, moves: bool) -> bool:
+def _is_striking(subject: Body, targets: list[Body], *, moves: bool) -> bool:
     return strikes(subject.copies, targets[0].copies, subject.duration_s, moves=moves)
 
 
@@ -358,12 +263,12 @@ _HOVER_M, _GRASP_M = 0.35, 0.2
 _LEAST_STROKE_M = 0.03
 _BY_CONTACT = frozenset({"on", "in", "with", *ACTS})
 """Relations that the report names with their subject: "bottle on the conveyor belt"."""
-_CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
-    "left of": lambda s, t: bool(_middle(s)[0] < _middle(t[0])[0]),
-    "right of": lambda s, t: bool(_middle(s)[0] > _middle(t[0])[0]),
+CHECKS: Mapping[str, Callable[[Body, list[Body]], bool]] = {
+    "left of": lambda s, t: bool(middle_of(s)[0] < middle_of(t[0])[0]),
+    "right of": lambda s, t: bool(middle_of(s)[0] > middle_of(t[0])[0]),
     "behind": lambda s, t: bool(np.mean(s.places[:, 1] > t[0].places[:, 1]) > _MOST),
-    "front": lambda s, t: bool(np.mean(s.places[:, 1] < t[0].places[:, 1]) > _MOST),
-    "beside": _is_near,
+    "front": _is_in_front,
+    "beside": is_near,
     "at": _is_at,
     "with": _is_with,
     "on": _is_on,
@@ -378,17 +283,20 @@ _CHECKS: Mapping[str, Callable[[_Body, list[_Body]], bool]] = {
     "work on": _is_worked_on,
     **dict.fromkeys(("kick", "hit", "throw"), partial(_is_striking, moves=True)),
     "give": _is_given,
+    "collide": lambda s, t: collide(s.copies, t[0].copies, s.duration_s),
+    **dict.fromkeys(("surround", "among"), _is_amid),
     "catch": partial(_is_striking, moves=False),
     "around": _by_copies(goes_round),
-    "above": _is_above,
-    "under": _is_under,
-    "between": _is_between,
-    "past": _passes,
-    "overtake": _overtakes,
-    "through": _goes_through,
+    "above": is_above,
+    "under": is_under,
+    "between": is_between,
+    "past": passes,
+    "overtake": overtakes,
+    "through": goes_through,
     "towards": _by_copies(approaches),
     "from": _by_copies(comes_from),
-    "away from": _goes_away,
-    "follow": _is_behind_in_line,
+    "away from": goes_away,
+    "follow": is_behind_in_line,
 }
-"""Relation → whether a scene shows it; x is to the right, y away from the viewer."""
+"""Relation → whether a scene shows it; x is to the right, y away from the viewer. What surrounds
+as scenery is counted where it is placed (`compose`)."""

@@ -30,6 +30,7 @@ from texvent.scenes.staging.placement.dressing import (
 )
 from texvent.scenes.staging.placement.fitting import fit_contents
 from texvent.scenes.staging.placement.formation import form_up
+from texvent.scenes.staging.placement.looked_at import face
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     half_extents_over_clip,
@@ -220,10 +221,7 @@ class ObjectPlacer:
         for relation in self._description.relations:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
-                kind = relation.kind
-                if subject.plan.motion.kind == "appear" and kind in ("behind", "from"):
-                    kind = "appear"
-                return place_by_subject(group, kind, subject, height)
+                return _place_for(group, relation.kind, subject, height)
         if self._along is not None:
             is_goal = self._description.shot.target == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
@@ -347,6 +345,17 @@ class ObjectPlacer:
         if group.is_stood_up:
             return OnEnd(path, 0.08 * (number % 3))
         return _gripping(path, group)
+
+
+def _place_for(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
+    """Where the target of a relation stands whose subject is placed already."""
+    shift = face(subject, group) if kind == "front" else None
+    if shift is not None:
+        x, y, _ = subject.centre
+        return Goal(np.array([x + shift[0], y + shift[1], height]), np.zeros(3))
+    if subject.plan.motion.kind == "appear" and kind in ("behind", "from"):
+        kind = "appear"
+    return place_by_subject(group, kind, subject, height)
 
 
 def _gripping(path: Trajectory, group: ObjectGroup) -> Trajectory:

@@ -19,7 +19,12 @@ _GAP = 0.22
 
 
 def water_line(
-    place: str, actors: Sequence[Actor], path: CameraPath, half_width: float
+    place: str,
+    actors: Sequence[Actor],
+    path: CameraPath,
+    half_width: float,
+    *,
+    goes_over_shore: bool = False,
 ) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
@@ -28,13 +33,17 @@ def water_line(
         actors: the objects of the prompt.
         path: the camera's.
         half_width: of the river, m.
+        goes_over_shore: whether somebody goes into the water or comes out of it.
     """
     forward = path.at(0.0).rotation[2, :2]
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
     swimmers = [actor for actor in actors if actor.noun.habitat == "water"]
     distance = path.framing.distance_m
-    if not swimmers:
+    if goes_over_shore:
+        # It is met half way.
+        gap = half_width if place == "river" else 0.0
+    elif not swimmers:
         gap = _GAP * distance + (half_width if place == "river" else 0.0) + 1.0
     elif place == "river":
         gap = 0.0

@@ -12,6 +12,7 @@ from texvent.scenes.language.meaning.adjectives import read_attributes, show_pic
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.circumstances.effects import add_effect
 from texvent.scenes.language.meaning.circumstances.parts import PartReader
+from texvent.scenes.language.meaning.circumstances.place_ways import go_to
 from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
 from texvent.scenes.language.meaning.circumstances.relations import (
     WEAK_PREPOSITIONS,
@@ -289,6 +290,7 @@ class CircumstanceReader:
         is_read = self._surroundings.read_referent(one, is_negated=is_negated)
         is_covered = word.text.startswith("covered") and one.kind != "weather"
         is_unread = word.text == "facing" or (is_covered and bool(scope.subjects))
+        is_unread |= is_read and one.kind == "place" and not go_to(self._draft, word, one, scope)
         word.is_used, word.is_lost = is_read and not is_unread, is_unread
         self._put_on_road(word, one, scope)
         direction = _MOTION_BY_PREPOSITION.get(word.text)

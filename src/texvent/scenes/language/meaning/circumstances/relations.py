@@ -12,6 +12,7 @@ from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
+from texvent.scenes.language.vocabulary.motion import PREPOSITION_WAYS
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, SEATS
@@ -65,21 +66,30 @@ class RelationReader:
             is_used = self._read_with(things, scope)
         elif self._ride_along(word, things, scope) or self._is_in_use(scope, things):
             is_used = True
-        elif kind == "above" and self._is_on_ground(scope.movers or scope.subjects):
-            # As in "play badminton over a net": they stand at it, which "over" does not say.
-            self._relate("beside", scope.subjects, things)
-        elif kind == "from" and self._stays(scope):
-            name = self._draft.noun(things[0]).name
-            place = "in" if name == "window" else "on" if name in _PERCHES else "beside"
-            is_used = self._relate(place, scope.subjects, things)
-        elif kind is not None and not self._is_journey_of_none(kind, scope):
-            subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
-            if word.text in _MOVES_OBJECT and kind in ("on", "in") and scope.acted_on:
-                # As in "drops a box into a bin", "takes a book off a shelf".
-                subjects = list(scope.acted_on)
-            is_used = self._relate(kind, subjects, things)
+        elif self._is_walked(word, things, scope):
+            is_used = self._relate("on", scope.movers or scope.subjects, things, _WALKED[word.text])
+        elif kind is not None:
+            is_used = self._read_kind(kind, word, things, scope)
         word.is_used, word.is_lost = is_used, not is_used
         word.relations = tuple(self._draft.relations[before:])
+
+    def _read_kind(self, kind: str, word: Word, things: list[int], scope: Scope) -> bool:
+        """A relation of the clause's subjects, or of what is acted on."""
+        if kind == "above" and self._is_on_ground(scope.movers or scope.subjects):
+            # As in "play badminton over a net": they stand at it, which "over" does not say.
+            self._relate("beside", scope.subjects, things)
+            return False
+        if kind == "from" and self._stays(scope):
+            name = self._draft.noun(things[0]).name
+            place = "in" if name == "window" else "on" if name in _PERCHES else "beside"
+            return self._relate(place, scope.subjects, things)
+        if self._is_journey_of_none(kind, scope):
+            return False
+        subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
+        if word.text in _MOVES_OBJECT and kind in ("on", "in") and scope.acted_on:
+            # As in "drops a box into a bin", "takes a book off a shelf".
+            subjects = list(scope.acted_on)
+        return self._relate(kind, subjects, things, PREPOSITION_WAYS.get(word.text, ""))
 
     def _at_bench(self, kind: str | None, things: list[int], scope: Scope) -> str | None:
         """As in "kneads dough on a table", of which the dough is not shown: hands at the table."""
@@ -180,6 +190,17 @@ class RelationReader:
             for index in subjects
         )
 
+    def _is_walked(self, word: Word, things: Sequence[int], scope: Scope) -> bool:
+        """As in "runs along a pier", "drives over a bridge": on it, unless it flies or floats."""
+        names = {self._draft.noun(index).name for index in things}
+        if word.text not in _WALKED or not names <= _DECKS:
+            return False
+        return all(
+            self._draft.noun(index).habitat == "ground"
+            and not any(one.kind in _OFF_GROUND for one in self._draft.objects[index].motions)
+            for index in scope.movers or scope.subjects
+        )
+
     def _is_in_use(self, scope: Scope, things: Sequence[int]) -> bool:
         """As in "talks on her phone": the activity shows where it is."""
         motions = [one for index in scope.movers for one in self._draft.objects[index].motions[-1:]]
@@ -198,7 +219,9 @@ class RelationReader:
     def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
         return kind in _JOURNEYS and scope.has_verb and not scope.movers
 
-    def _relate(self, kind: str, subjects: Sequence[int], things: Sequence[int]) -> bool:
+    def _relate(
+        self, kind: str, subjects: Sequence[int], things: Sequence[int], way: str = ""
+    ) -> bool:
         """Sitting "on" a bicycle is riding it."""
         mount = self._draft.noun(things[0])
         is_rider = bool(subjects) and is_person(self._draft.noun(subjects[0]))
@@ -207,7 +230,7 @@ class RelationReader:
         )  # fmt: skip
         if kind == "on" and is_rider and is_mount:
             kind = "ride"
-        return self._draft.relate(kind, subjects, things)
+        return self._draft.relate(kind, subjects, things, way)
 
     def _relation_kind(self, word: Word, things: list[int]) -> str | None:
         if word.text == "in" and self._draft.noun(things[0]).name in WEARABLE:
@@ -276,6 +299,9 @@ _ABOARD = ("behind", "in front of", "beside", "next to")
 _PERCHES = SEATS | {"branch", "shelf", "fence", "wall", "rock", "pier", "bridge"}
 """On what one is who watches or waves "from" it."""
 _TABLES = frozenset({"table", "desk"})
+_DECKS = frozenset({"pier", "bridge"})
+_WALKED = {"along": "along", "across": "across", "over": "across", "down": "along"}
+"""Preposition → way of who walks or drives over what has a deck."""
 _FULL = ("full of", "filled with", "loaded with", "packed with")
 _LEANT_ON = frozenset({"fence", "wall", "gate", "door", "railing", "car", "tree", "lamp post"})
 _GOALS = ("towards", "past")

@@ -1,0 +1,45 @@
+"""Ways to and from a place: "runs into the sea"; "out of the ring" is not shown."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.vocabulary.motion import NO_WAYS, SHORE_WAYS, SHORES, SLOPES
+from texvent.scenes.language.words.word import Word
+
+_OPEN = frozenset({"sky", "space", "underwater"})
+"""Places into which one rises or dives."""
+_ON_LAND = frozenset({"walk", "run", "move", "jump", "crawl", "roll", "slide", "drive"})
+
+
+def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
+    """Let those who move go to the water of a place, or come from it.
+
+    Args:
+        draft: what they do is changed.
+        word: the preposition.
+        one: the place.
+        scope: what the clause is about.
+
+    Returns:
+        False where the preposition says a way that is not shown.
+    """
+    place = str(one.value)
+    if word.text in ("up", "down"):
+        return place not in SLOPES or not scope.movers
+    if word.text not in NO_WAYS or place in _OPEN or not (scope.movers or scope.subjects):
+        return True
+    way = SHORE_WAYS.get(word.text)
+    if way is None or place not in SHORES:
+        return False
+    is_led = False
+    for index in scope.movers:
+        motions = draft.objects[index].motions
+        is_bound = draft.noun(index).habitat == "ground"
+        if is_bound and motions and motions[-1].kind in _ON_LAND:
+            motions[-1] = replace(motions[-1], shore=way[0], direction=way[1])
+            is_led = True
+    return is_led

@@ -1,0 +1,102 @@
+"""What a preposition says besides where something is: "into", "out of", "against", "across"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.claims.bodies import gap, part_boxes
+from texvent.scenes.staging.claims.contact import is_in, is_on, touches
+from texvent.scenes.staging.claims.courses import faces
+from texvent.scenes.staging.claims.positions import Body, gaps, is_near
+
+_INSTANTS = 13
+_TOUCH_M, _TOUCH_SHARE = 0.04, 0.05
+"""Gap up to which something is against another: metres, and share of the smaller one."""
+_ACROSS = 0.35
+"""Share of the target's extent that who goes across it covers at least."""
+_ALONG_COSINE = 0.8
+"""Least cosine between a way and the long axis of what it is along."""
+_LONG = 1.5
+"""How much longer than wide a thing is that has a long axis."""
+
+Way = Callable[[Body, list[Body]], bool]
+
+
+def _changes(
+    holds: Callable[[Actor, Actor, float], bool], *, begins: bool
+) -> Callable[[Body, list[Body]], bool]:
+    """A check that every copy has a relation only in the end, or (`begins`) only at the start."""
+
+    def check(subject: Body, targets: list[Body]) -> bool:
+        others = [copy for target in targets for copy in target.copies]
+        first, last = (0.0, subject.duration_s) if begins else (subject.duration_s, 0.0)
+        return all(
+            any(holds(one, other, first) and not holds(one, other, last) for other in others)
+            for one in subject.copies
+        )
+
+    return check
+
+
+def _lies_against(subject: Body, targets: list[Body]) -> bool:
+    """Its surface is at the target's: what stays all the time, what moves at some instant."""
+    others = [copy for target in targets for copy in target.copies]
+    return all(_is_against(one, others, subject.duration_s) for one in subject.copies)
+
+
+def _is_against(subject: Actor, others: Sequence[Actor], duration_s: float) -> bool:
+    times = np.linspace(0.0, duration_s, _INSTANTS)
+    found = []
+    for time_s in times if subject.is_mover else times[:1]:
+        own = part_boxes(subject, float(time_s))
+        sizes = [float(np.max(own.hull[1] - own.hull[0]))]
+        reach = _TOUCH_M + _TOUCH_SHARE * min(sizes)
+        found.append(any(gap(own, part_boxes(one, float(time_s))) < reach for one in others))
+    return any(found)
+
+
+def _goes_across(subject: Body, targets: list[Body]) -> bool:
+    """It covers a clear share of the target's extent along its way."""
+    way = (subject.places[-1] - subject.places[0])[:2]
+    long = float(np.linalg.norm(way))
+    if long < 1e-6:
+        return False
+    extent = (targets[0].high[0] - targets[0].low[0])[:2]
+    return long > _ACROSS * float(np.abs(way / long) @ extent)
+
+
+def _goes_along(subject: Body, targets: list[Body]) -> bool:
+    """Its way, or its own long axis where it stays, is that of the target, and it is near."""
+    if not is_near(subject, targets):
+        return False
+    way = (subject.places[-1] - subject.places[0])[:2]
+    if float(np.linalg.norm(way)) < 0.1:
+        return True
+    extent = np.sort((targets[0].high[0] - targets[0].low[0])[:2])
+    is_long = extent[1] > _LONG * extent[0]
+    axis = int(np.argmax((targets[0].high[0] - targets[0].low[0])[:2]))
+    is_parallel = abs(way[axis]) > _ALONG_COSINE * float(np.linalg.norm(way))
+    near = gaps(subject, targets[0]) < 0.5 * float(extent[0]) + 1.0
+    return bool(np.mean(near) > 0.5) and (is_parallel or not is_long)
+
+
+def _is_opposite(subject: Body, targets: list[Body]) -> bool:
+    others = [copy for target in targets for copy in target.copies]
+    return faces(subject.copies, others, subject.duration_s)
+
+
+WAYS: Mapping[str, Way] = {
+    "into": _changes(is_in, begins=False),
+    "onto": _changes(is_on, begins=False),
+    "out of": _changes(is_in, begins=True),
+    "off": _changes(lambda one, other, t: is_on(one, other, t) or touches(one, other, t),
+                    begins=True),
+    "against": _lies_against,
+    "across": _goes_across,
+    "along": _goes_along,
+    "opposite": _is_opposite,
+}  # fmt: skip
+"""`Relation.way` → whether a scene shows it."""

@@ -1,0 +1,78 @@
+"""Who goes from a shore into the water sinks in up to the middle; who comes out rises."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.trajectories.trajectory import BodyState, Trajectory
+
+_DEPTH_SHARE = 0.4
+"""Share of the height of a body that is under water at most."""
+_OVER_SHORE = ("into", "out of")
+
+
+@dataclass(frozen=True)
+class Wading:
+    """A path over a shore, lower the farther it is in the water."""
+
+    path: Trajectory
+    line: RoadLine
+    """With the water on its left."""
+    start_m: float
+    """Where the water begins, from the line to its left."""
+    depth_m: float
+    """How far it sinks at most."""
+    reach_m: float
+    """Distance from the shore at which it has sunk."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        state = self.path.at(time_s)
+        x, y, z = state.position
+        over = (self.line.across(np.array([x, y])) - self.start_m) / self.reach_m
+        share = min(max(over, 0.0), 1.0)
+        sunk = self.depth_m * share * share * (3.0 - 2.0 * share)
+        return replace(state, position=(x, y, z - sunk))
+
+
+def goes_over_shore(description: SceneDescription) -> bool:
+    """Whether somebody goes into the water of the place or comes out of it."""
+    return any(
+        motion is not None and motion.shore in _OVER_SHORE
+        for one in description.objects
+        for motion in (one.motion, *one.then)
+    )
+
+
+def find_water(place: str, half_width_m: float) -> float:
+    """Where the water begins, from the line of `water_line` to its left, m."""
+    return -half_width_m if place == "river" else 0.0
+
+
+def wade(
+    description: SceneDescription, actors: Sequence[Actor], line: RoadLine, start_m: float
+) -> list[Actor]:
+    """The actors, of whom those sink in who go over the shore.
+
+    Args:
+        description: what they do.
+        actors: on their paths over the ground.
+        line: from `water_line`.
+        start_m: from `find_water`.
+    """
+    found = []
+    for actor in actors:
+        one = description.objects[actor.object_index]
+        ways = {motion.shore for motion in (one.motion, *one.then) if motion is not None}
+        if ways & set(_OVER_SHORE):
+            depth, reach = _DEPTH_SHARE * actor.model.height, 0.5 * actor.size_m
+            path = Wading(actor.trajectory, line, start_m, depth, reach)
+            actor = replace(actor, trajectory=path)
+        found.append(actor)
+    return found
