@@ -17,17 +17,27 @@ from texvent.scenes.description import (
     Shot,
     Surroundings,
 )
+from texvent.scenes.language.meaning.circumstances.relations import WEAK_PREPOSITIONS
+from texvent.scenes.language.vocabulary.motion import PREPOSITION_WAYS, RELATIONS, VERBS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.bodies import boxes_of, gap, part_boxes
-from texvent.scenes.staging.claims.relations import list_not_shown
+from texvent.scenes.staging.claims.positions import measure
+from texvent.scenes.staging.claims.relations import CHECKS, list_not_shown
 from texvent.scenes.staging.claims.shots import list_moves_not_shown
+from texvent.scenes.staging.claims.ways import WAYS
 from texvent.scenes.staging.surroundings.environment import build_environment
 from texvent.scenes.staging.surroundings.road import RoadLine
-from texvent.scenes.staging.trajectories.trajectory import Stationary, Straight, Trajectory
+from texvent.scenes.staging.trajectories.trajectory import (
+    BodyState,
+    Stationary,
+    Straight,
+    Trajectory,
+)
 
 DURATION_S = 2.0
 CAMERA = CameraPath(Framing(np.zeros(3), 0.0, 0.2, 10.0, 1.0), (), DURATION_S)
@@ -218,3 +228,38 @@ def test_boxes_of_parts_hold_their_shapes() -> None:
         [unit], turned + np.array([[0.0, 0.0, 0.0, 3.0 + 4.0 * half]] + [[0.0] * 4] * 2)
     )
     assert gap(boxes, shifted) == pytest.approx(3.0)
+
+
+def test_every_relation_that_the_reader_makes_is_measured() -> None:
+    kinds = {*RELATIONS, *WEAK_PREPOSITIONS.values(), *ACTS, "at", "with", "follow", "overtake"}
+    kinds |= {one for verb in VERBS for one in (verb.relation, verb.act) if one}
+    assert kinds <= CHECKS.keys()
+    assert set(PREPOSITION_WAYS.values()) == set(WAYS)
+
+
+@pytest.mark.parametrize(
+    ("way", "first", "last", "is_there"),
+    [
+        ("into", (-2.0, 0.0, 0.0), (0.0, 0.0, 0.1), True),
+        ("into", (0.0, 0.0, 0.1), (0.0, 0.0, 0.1), False),
+        ("out of", (0.0, 0.0, 0.1), (-2.0, 0.0, 0.0), True),
+        ("out of", (-0.6, 0.0, 0.0), (-2.0, 0.0, 0.0), False),
+        ("against", (-0.3, 0.0, 0.0), (-0.3, 0.0, 0.0), True),
+        ("against", (-1.5, 0.0, 0.0), (-1.5, 0.0, 0.0), False),
+        ("across", (-0.5, 0.0, 0.0), (0.5, 0.0, 0.0), True),
+        ("across", (0.0, 0.0, 0.0), (0.1, 0.0, 0.0), False),
+    ],
+)
+def test_ways_are_measured_at_start_and_end(way, first, last, is_there) -> None:
+    start, end = np.array(first), np.array(last)
+
+    class Line:
+        def at(self, time_s: float) -> BodyState:
+            x, y, z = start + (end - start) * time_s / DURATION_S
+            return BodyState((float(x), float(y), float(z)), 0.0)
+
+    ball = replace(body(0, "apple", at()), trajectory=Line(), is_mover=True)
+    subject, target = (
+        measure([one], np.linspace(0.0, DURATION_S, 13)) for one in (ball, body(1, "box", at()))
+    )
+    assert WAYS[way](subject, [target]) == is_there

@@ -52,7 +52,7 @@ from texvent.scenes.staging.surroundings.road_choice import find_road
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
 from texvent.scenes.staging.surroundings.scenery_along import line_route
 from texvent.scenes.staging.surroundings.scenery_tables import BACKDROPS, SCENERY, ScatterRule
-from texvent.scenes.staging.surroundings.wading import find_water, goes_over_shore, wade
+from texvent.scenes.staging.surroundings.wading import goes_over_shore, wade
 from texvent.scenes.staging.surroundings.waterside import STRIPS, WATERSIDE, water_line
 from texvent.sensor import SensorSize
 
@@ -181,14 +181,8 @@ def compose_scene(
     )
     ground = PLACES[place].ground
     actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
-    over_shore = goes_over_shore(description) and place in WATERSIDE
-    view = _describe_view(
-        place, camera_path, actors, duration_s, description.surroundings.road, over_shore=over_shore
-    )
-    if over_shore:
-        actors = wade(
-            description, actors, view.road, find_water(place, PLACES[place].road_half_width)
-        )
+    view = _describe_view(description, place, camera_path, actors, duration_s)
+    actors = wade(description, actors, place, view.road, PLACES[place].road_half_width)
     if travel is not None:
         view = replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
@@ -307,21 +301,20 @@ def choose_levels(
 
 
 def _describe_view(
+    description: SceneDescription,
     place: str,
     path: CameraPath,
     actors: Sequence[Actor],
     duration_s: float,
-    road_shape: str | None,
-    *,
-    over_shore: bool = False,
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
     half = PLACES[place].road_half_width
     has_road = PLACES[place].ground in STRIPS
     if place in WATERSIDE:
-        road = water_line(place, actors, path, half, goes_over_shore=over_shore)
+        road = water_line(place, actors, path, half, goes_over_shore=goes_over_shore(description))
     else:
-        road = find_road(actors, float(path.framing.target[1]), 0.5 * half, road_shape,
+        road = find_road(actors, float(path.framing.target[1]), 0.5 * half,
+                         description.surroundings.road,
                          has_pavement=place == "city")  # fmt: skip
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))

@@ -10,6 +10,7 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.waterside import WATERSIDE
 from texvent.scenes.staging.trajectories.trajectory import BodyState, Trajectory
 
 _DEPTH_SHARE = 0.4
@@ -56,16 +57,24 @@ def find_water(place: str, half_width_m: float) -> float:
 
 
 def wade(
-    description: SceneDescription, actors: Sequence[Actor], line: RoadLine, start_m: float
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    place: str,
+    line: RoadLine,
+    half_width_m: float,
 ) -> list[Actor]:
     """The actors, of whom those sink in who go over the shore.
 
     Args:
         description: what they do.
         actors: on their paths over the ground.
+        place: where they are; nothing is changed where it has no shore.
         line: from `water_line`.
-        start_m: from `find_water`.
+        half_width_m: of a river.
     """
+    if place not in WATERSIDE:
+        return list(actors)
+    start_m = find_water(place, half_width_m)
     found = []
     for actor in actors:
         one = description.objects[actor.object_index]
