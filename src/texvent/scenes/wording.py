@@ -37,7 +37,7 @@ def _describe_object(description: SceneDescription, index: int) -> str:
         words.append(scene_object.colour.name)
     if scene_object.scale != 1.0:
         words.append(f"{scene_object.scale:g} times its usual size")
-    if scene_object.motion is not None:
+    if scene_object.motion is not None and not _is_moved(description, index):
         words.append(describe_motion(scene_object.motion, is_plural=scene_object.count > 1))
     for motion in scene_object.then:
         words.append(f"then {describe_motion(motion, is_plural=scene_object.count > 1)}")
@@ -53,6 +53,20 @@ def _describe_object(description: SceneDescription, index: int) -> str:
             targets = "each other" if relation.targets == (index,) else " and ".join(others)
             words.append(f"{RELATION_WORDS.get(relation.kind, relation.kind)} {targets}")
     return ", ".join(words)
+
+
+def _is_moved(description: SceneDescription, index: int) -> bool:
+    """Whether what stands at first is moved by an act: kicked, carried, met."""
+    motion = description.objects[index].motion
+    return (
+        motion is not None
+        and motion.kind == "stand"
+        and any(
+            index in relation.targets or (relation.subject == index and relation.kind == "collide")
+            for relation in description.relations
+            if relation.kind in _MOVING
+        )
+    )
 
 
 def _describe_effect(description: SceneDescription, effect: Effect) -> str:
@@ -97,6 +111,9 @@ RELATION_WORDS = {
     "collide": "meeting",
 }
 """Relation → words for it, where they differ from its name."""
+_MOVING = frozenset({"kick", "hit", "throw", "catch", "give", "carry", "hold", "push", "pull",
+                     "collide"})  # fmt: skip
+"""Acts that move what they are done to."""
 _BACKDROPS = {
     "mountain": "mountains around (the ground itself stays flat)",
     "forest": "forest around",

@@ -18,6 +18,8 @@ _AFLOAT_MOTIONS = ("sail", "paddle")
 
 _IN_WATER = ("swim", "surf")
 """What people and animals of the land do in water only."""
+_ON_SNOW = ("ski", "snowboard")
+"""What people do on snow only."""
 SHORE = "lake"
 """Where what stands on land is beside the sea: water with land before it."""
 _PLACE_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
@@ -118,7 +120,8 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
             return _PLACE_OF_TRAVEL[move.means]
     if "city" in said.backdrops:
         return "city"
-    if said.has_snow:
+    kinds = {one.motion.kind for one in description.objects if one.motion is not None}
+    if said.has_snow or kinds & set(_ON_SNOW):
         return "snow"
     rests = all(
         one.motion is not None and one.motion.kind in ("stand", "sit", "lie")

@@ -54,7 +54,7 @@ SENSES: dict[str, tuple[Sense, ...]] = {
         _sense("song music album animal paw snow footprint"),
     ),
     "bat": (
-        _sense("baseball batter pitcher inning homer", "baseball bat"),
+        _sense("baseball batter pitcher inning homer swing grip", "baseball bat"),
         _sense("cricket cricketer wicket", "cricket bat"),
     ),
     "crane": (_sense("bird wing marsh nest feather wetland heron flock beak shallow wade fish reed"

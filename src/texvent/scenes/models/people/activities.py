@@ -8,7 +8,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from texvent.scenes.models.people.acts.activity import Activity, seen_from_side
+from texvent.scenes.models.people.acts.activity import (
+    Activity,
+    at_head,
+    done_to,
+    seen_from_side,
+)
 from texvent.scenes.models.people.acts.words import MORE_ACTIVITIES
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
@@ -28,7 +33,7 @@ _GESTURES: dict[str, Activity] = {
     "wave both": Activity(
         ("wave both hands", "wave both arms", "wave the arms", "wave the hands", "flail")
     ),
-    "clap": Activity(("clap", "clap hands", "clap the hands", "applaud", "hand clap")),
+    "clap": at_head(*("clap", "clap hands", "clap the hands", "applaud", "hand clap")),
     "point": Activity(("point", "point a finger")),
     "bow": seen_from_side("bow",),
     "salute": Activity(("salute",)),
@@ -83,6 +88,7 @@ _SPORTS: dict[str, Activity] = {
     "skate": _travels("skateboard", "skate", "longboard"),
     "ski": _travels("ski", "go skiing"),
     "snowboard": _travels("snowboard",),
+    "row oars": seen_from_side("row with oars",),
     "row": seen_from_side("row", "paddle", "kayak", "canoe"),
 }  # fmt: skip
 
@@ -91,25 +97,28 @@ _DAILY: dict[str, Activity] = {
     "play drums": Activity(("play drums", "play the drums", "drum")),
     "play piano": seen_from_side("play piano", "play the piano", "play keyboard",
                                   "play the keyboard"),
-    "play violin": Activity(("play violin", "play the violin", "fiddle")),
-    "play flute": seen_from_side("play flute", "play the flute", "play clarinet",
-                                  "play the trumpet", "play trumpet",
-                                  "play the saxophone", "play saxophone"),
+    "play violin": at_head("play violin", "play the violin", "fiddle"),
+    "play flute": at_head("play flute", "play the flute", "play piccolo"),
+    "play trumpet": at_head(*done_to("play", "trumpet|saxophone|clarinet|trombone|oboe|horn")),
     "type": seen_from_side("type", "use a laptop", "use a computer", "work on a laptop",
                             "work on a computer", "work at a computer"),
-    "write": Activity(("write",)),
-    "read": Activity(("read", "read a book", "read a newspaper")),
-    "eat": Activity(("eat", "have lunch", "have dinner", "have breakfast", "dine")),
-    "drink": Activity(("drink", "sip")),
-    "phone": Activity(("phone", "talk on the phone", "talk on a phone", "speak on the phone",
+    "write": at_head("write",),
+    "read": at_head("read", "read a book", "read a newspaper"),
+    "eat": at_head(*("eat", "have lunch", "have dinner", "have breakfast", "dine")),
+    "drink": at_head("drink", "sip"),
+    "phone": at_head(*("phone", "talk on the phone", "talk on a phone", "speak on the phone",
                        "make a call", "call")),
-    "text": Activity(("text", "use a phone", "look at a phone", "use a smartphone",
+    "text": at_head(*("text", "use a phone", "look at a phone", "use a smartphone",
                       "look at the phone")),
-    "photograph": Activity(("photograph", "take a photo", "take a picture", "take photos",
-                            "take pictures", "take a selfie", "film")),
-    "sing": Activity(("sing",)),
+    "photograph": at_head("photograph", "film", *done_to("take|snap|shoot|make", "photo|picture|"
+                          "photograph|selfie|photos|pictures|photographs|snapshot"),
+                          "take a shot", "take shots"),
+    "sing": at_head("sing",),
     "dig": seen_from_side("dig", "shovel"),
-    "sweep": seen_from_side("sweep", "mop", "vacuum", "rake"),
+    "sweep": seen_from_side("sweep",),
+    "vacuum": seen_from_side("vacuum", "hoover"),
+    "mop": seen_from_side("mop",),
+    "rake": seen_from_side("rake",),
     "chop wood": seen_from_side("chop wood", "cut wood", "split wood", "split logs"),
     "cook": Activity(("cook", "prepare food", "make food", "prepare")),
     "pull": seen_from_side("pull",),

@@ -73,7 +73,7 @@ def _keys(rate_hz: float, wide: float) -> Movement:
 
     def move(t: float) -> Posture:
         def arm(phase: float) -> Arm:
-            tap = 0.035 * swing(t, rate_hz, phase)
+            tap = 0.06 * swing(t, rate_hz, phase)
             across = wide * swing(t, 0.5, phase)
             return Arm((0.44, -0.06 + across, -0.30 + tap), _DOWN)
 
@@ -93,6 +93,15 @@ def _violin(t: float) -> Posture:
 
 
 def _flute(t: float) -> Posture:
+    """The flute goes to the right of the mouth; the body sways with the tune."""
+    lift, sway = 0.05 * swing(t, 0.6), 0.16 * swing(t, 0.6, 0.2)
+    return Posture(
+        left=Arm((0.24, -0.24, 0.18 + lift), _OUT), right=Arm((0.18, 0.16, 0.18 + lift), _OUT),
+        nod=0.10 * swing(t, 0.6), look=0.25, tilt=sway,
+    )  # fmt: skip
+
+
+def _trumpet(t: float) -> Posture:
     lift = 0.07 * swing(t, 0.6)
     return Posture(
         left=Arm((0.34, -0.17, 0.05 + lift), _OUT), right=Arm((0.46, -0.19, -0.04 + lift), _OUT),
@@ -103,7 +112,7 @@ def _flute(t: float) -> Posture:
 def _write(t: float) -> Posture:
     return Posture(
         left=Arm((0.32, -0.06, -0.26), _DOWN), nod=0.40,
-        right=Arm((0.34 + 0.02 * swing(t, 2.1), -0.16 + 0.05 * swing(t, 0.7), -0.16), _DOWN),
+        right=Arm((0.36 + 0.03 * swing(t, 1.7), -0.12 + 0.11 * swing(t, 0.45), -0.17), _DOWN),
     )  # fmt: skip
 
 
@@ -112,7 +121,7 @@ def _read(t: float) -> Posture:
     return Posture(left=arm, right=arm, nod=0.40, look=0.14 * swing(t, 0.5), tool=(0.2, 0.0, 1.0))
 
 
-_MOUTH: Point = (0.17, -0.17, 0.26)
+_MOUTH: Point = (0.19, -0.17, 0.20)
 _PLATE: Point = (0.38, -0.10, -0.26)
 
 
@@ -227,9 +236,9 @@ def _push(t: float) -> Posture:
 
 def _pull(t: float) -> Posture:
     effort = swing(t, 0.8)
-    arm = Arm((0.50 + 0.06 * effort, -0.12, -0.22), _DOWN)
-    return Posture(hips=(-0.26, 0.0, 0.74), lean=-0.36 - 0.08 * effort, nod=0.2, left=arm,
-                   right=arm, left_leg=Leg((0.22, 0.12, ANKLE)),
+    arm = Arm((0.46 + 0.12 * effort, -0.12, -0.20), _DOWN)
+    return Posture(hips=(-0.26 + 0.10 * effort, 0.0, 0.76), lean=-0.30 + 0.26 * effort,
+                   nod=0.2, left=arm, right=arm, left_leg=Leg((0.22, 0.12, ANKLE)),
                    right_leg=Leg((0.02, 0.14, ANKLE)))  # fmt: skip
 
 
@@ -257,9 +266,9 @@ DAILY: Mapping[str, Movement] = MappingProxyType(
     {
         "sit": _sit, "sit on ground": _sit_on_ground, "lie": _lie, "kneel": _kneel,
         "crouch": _crouch, "play guitar": _guitar, "play drums": _drums,
-        "play piano": _keys(2.5, 0.12), "type": _keys(5.0, 0.02), "play violin": _violin,
-        "play flute": _flute, "write": _write, "read": _read, "eat": _eat, "drink": _drink,
-        "phone": _phone, "text": _text, "photograph": _photograph, "sing": _sing, "dig": _dig,
+        "play piano": _keys(1.7, 0.16), "type": _keys(1.7, 0.10), "play violin": _violin,
+        "play flute": _flute, "play trumpet": _trumpet, "write": _write, "read": _read,
+        "eat": _eat, "drink": _drink, "phone": _phone, "text": _text, "photograph": _photograph, "sing": _sing, "dig": _dig,
         "sweep": _sweep, "chop wood": _chop, "cook": _stir(1.2, 0.07), "push": _push,
         "pull": _pull, "fish": _fish, "tie shoes": _tie_shoes,
     }

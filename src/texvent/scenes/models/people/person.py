@@ -12,6 +12,7 @@ from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import SEATED
 from texvent.scenes.models.people.acts.at_head import AT_HEAD_MOVEMENTS
+from texvent.scenes.models.people.acts.chores import CHORE_MOVEMENTS
 from texvent.scenes.models.people.acts.exercises import EXERCISE_MOVEMENTS
 from texvent.scenes.models.people.acts.getting import GETTING_MOVEMENTS
 from texvent.scenes.models.people.acts.music import MUSIC_MOVEMENTS
@@ -64,6 +65,8 @@ MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         **SPORTS,
         **DAILY,
         **GETTING_MOVEMENTS,
+        **CHORE_MOVEMENTS,
+        "mop": DAILY["sweep"],
         **AT_HEAD_MOVEMENTS,
         **EXERCISE_MOVEMENTS,
         **PLAY_MOVEMENTS,

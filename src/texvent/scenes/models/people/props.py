@@ -22,6 +22,7 @@ from texvent.scenes.models.materials import (
     striped,
 )
 from texvent.scenes.models.people.acts.at_head import AT_HEAD_PROPS
+from texvent.scenes.models.people.acts.chores import CHORE_PROPS
 from texvent.scenes.models.people.acts.exercises import EXERCISE_PROPS
 from texvent.scenes.models.people.acts.music import MUSIC_PROPS
 from texvent.scenes.models.people.acts.pairs import PAIR_PROPS
@@ -100,8 +101,17 @@ _VIOLIN = still(
     rod(DARK, (0.32, 0.26, 0.48), (0.50, 0.36, 0.48), 0.014),
 )  # fmt: skip
 _BOW = still(stick(_LEATHER, -0.05, 0.60, 0.009))
-_FLUTE = still(rod(DARK, (0.02, 0.0, -0.01), (0.48, 0.0, -0.20), 0.017),
-                spike(DARK, (0.52, 0.0, -0.22), (0.36, 0.0, -0.15), 0.05))  # fmt: skip
+_FLUTE = still(
+    rod(CHROME, (0.06, 0.10, -0.01), (0.10, -0.60, -0.05), 0.020),
+    *(ball(DARK, (0.085, -0.18 - 0.07 * k, -0.01 - 0.003 * k), (0.03, 0.03, 0.03))
+      for k in range(5)),
+)  # fmt: skip
+_BRASS = Material((0.80, 0.55, 0.12))
+_TRUMPET = still(
+    rod(_BRASS, (0.02, 0.0, -0.01), (0.52, 0.0, -0.12), 0.022),
+    rod(_BRASS, (0.16, 0.0, -0.10), (0.36, 0.0, -0.15), 0.030),
+    spike(_BRASS, (0.66, 0.0, -0.15), (0.36, 0.0, -0.09), 0.12),
+)
 
 
 def _drum(x: float, y: float, z: float, wide: float) -> list[ModelPart]:
@@ -194,6 +204,13 @@ def _juggled(t: float) -> list[ModelPart]:
     return parts
 
 
+_PULLED = still(rod(Material((0.62, 0.48, 0.28)), (-0.16, 0.0, -0.02), (3.2, 0.0, 0.10), 0.026))
+IN_HAND = (
+    "apple", "orange", "pear", "banana", "tomato", "carrot", "bread", "sandwich", "hamburger",
+    "hot dog", "pizza", "donut", "cupcake", "ice cream", "cheese", "sausage", "lollipop", "corn",
+    "cucumber", "cookie", "strawberry", "cherry", "lemon",
+)  # fmt: skip
+"""Food that is eaten from the hand."""
 _SURFBOARD = _board((2.0, 0.52, 0.07), Material(WHITE))
 PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
     {
@@ -202,6 +219,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         **PLAY_PROPS,
         **MUSIC_PROPS,
         **PAIR_PROPS,
+        **CHORE_PROPS,
         "punch": (),
         "swing bat": (Prop("right hand", BAT, ("baseball bat", "cricket bat")),),
         "swing racket": (
@@ -229,11 +247,21 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         ),
         "play piano": (Prop("ground", _PIANO, ("piano", "grand piano", "music keyboard")),),
         "play violin": (Prop("torso", _VIOLIN, ("violin",)), Prop("right hand", _BOW)),
-        "play flute": (Prop("mouth", _FLUTE, ("flute", "trumpet", "saxophone")),),
+        "play flute": (Prop("mouth", _FLUTE, ("flute",), is_own=True),),
+        "play trumpet": (
+            Prop("mouth", _TRUMPET, ("trumpet", "saxophone", "clarinet", "trombone"), is_own=True),
+        ),
+        "pull": (Prop("hands", _PULLED, ("rope", "chain", "hose"), is_own=True),),
         "type": (Prop("ground", _DESK, ("laptop", "keyboard", "desk")),),
-        "write": (Prop("left hand", _PAD), Prop("right hand", _PEN, ("pen", "pencil"))),
+        "write": (
+            Prop("left hand", _PAD, ("page",)),
+            Prop("right hand", _PEN, ("pen", "pencil")),
+        ),
         "read": (Prop("hands", _BOOK, ("book", "closed book", "newspaper")),),
-        "eat": (Prop("right hand", _SPOON), Prop("left hand", _BOWL, ("bowl",))),
+        "eat": (
+            Prop("right hand", _SPOON, IN_HAND),
+            Prop("left hand", _BOWL, ("bowl", *IN_HAND)),
+        ),
         "drink": (
             Prop(
                 "right hand",
@@ -246,7 +274,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "photograph": (Prop("hands", _CAMERA, ("photo camera", "cell phone")),),
         "sing": (Prop("right hand", _MICROPHONE, ("microphone",)),),
         "dig": (Prop("right hand", _SHOVEL, ("shovel", "spade")),),
-        "sweep": (Prop("right hand", _BROOM, ("broom", "mop")),),
+        "sweep": (Prop("right hand", _BROOM, ("broom",)),),
         "chop wood": (Prop("right hand", _AXE, ("axe",)),),
         "cook": (
             Prop("right hand", _LADLE, ("spoon",)),

@@ -184,7 +184,8 @@ def _implied_acts(objects: list[SceneObject], relations: list[Relation]) -> list
         said = (person.motion, *person.then)
         for prop in (one for motion in said for one in PROPS.get(motion.kind, ())):
             for number, thing in enumerate(objects):
-                if thing.noun in prop.nouns and number not in bound and prop.anchor != "ground":
+                is_held = prop.anchor != "ground" and not prop.is_own
+                if thing.noun in prop.nouns and number not in bound and is_held:
                     holds.append(Relation("hold", index, (number,)))
                     bound.add(number)
     return holds
@@ -272,7 +273,7 @@ def _tied_to_ground(actor: Actor) -> Actor:
 def _take_off_doubles(cast: Cast, actors: list[Actor]) -> None:
     """A piano, a desk or a board that comes with an activity is not shown twice."""
     for number, actor in enumerate(actors):
-        nouns = {noun for prop in cast.props(number) if prop.anchor == "ground"
+        nouns = {noun for prop in cast.props(number) if prop.anchor == "ground" or prop.is_own
                  for noun in prop.nouns}  # fmt: skip
         for other, thing in enumerate(actors):
             if thing.noun.name in nouns and actor is not thing:
@@ -357,7 +358,7 @@ def _move_along(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]
     target = replace(target, trajectory=moved, lead_m=subject.lead_m, is_mover=subject.is_mover)
     if kind == "pull":
         end = (0.5 * model.length, 0.0, 0.5 * model.height - lift)
-        target = replace(target, tether=Tether(subject, "right hand", end, 0.012))
+        target = replace(target, tether=Tether(subject, "right hand", end, 0.025))
     return subject, target
 
 

@@ -102,7 +102,7 @@ LOADS: Mapping[str, Vector] = MappingProxyType(
 CLOSED = frozenset({"car", "suv", "taxi", "police car", "van", "bus", "truck", "train", "pickup",
                     "fire engine", "airplane", "helicopter"})  # fmt: skip
 """Vehicles that hide who is in them."""
-PADDLED = frozenset({"canoe"})
+PADDLED = frozenset({"canoe", "kayak", "rowing boat"})
 """Narrow boats in which one sits low and paddles."""
 _BACK_SHARE = 0.42
 """Share of an animal's length on which people sit."""
@@ -199,8 +199,9 @@ def _paddle(rider: Actor, ridden: Actor, number: int, crew: int) -> Actor:
     """Low in a narrow boat, with a paddle where the boat moves."""
     x, y = _row_of_seats(ridden, crew)[number]
     seat = (x, y, find_support(ridden.model).height - _LOW_SEAT_M * size_of(rider.model))
-    path = Riding(ridden.trajectory, seat, "row")
-    props = PROPS.get("row", ()) if ridden.is_mover else ()
+    activity = "row oars" if ridden.noun.name == "rowing boat" else "row"
+    path = Riding(ridden.trajectory, seat, activity)
+    props = PROPS.get(activity, ()) if ridden.is_mover else ()
     return replace(rider, trajectory=path, is_mover=ridden.is_mover, lead_m=0.0, props=props)
 
 

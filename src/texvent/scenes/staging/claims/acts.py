@@ -14,6 +14,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Environment, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.acts.attached import HeldAt
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.surroundings.road import RoadLine
@@ -81,7 +82,7 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
             missing.append(Unmet(f"{name} on the road"))
         if index not in carried and not _has_support(stage, copies[0]):
             missing.append(Unmet(f"{name} on the ground"))
-        if scene_object.motion is None or index in bound:
+        if scene_object.motion is None or index in bound or _is_in_hand(copies[0]):
             continue
         for motion in (scene_object.motion, *scene_object.then):
             if motion.shore and not all(_goes_to_water(stage, one, motion) for one in copies):
@@ -93,6 +94,11 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
                 number = next((n for n, one in enumerate(said) if one is phase.motion), 0)
                 missing.append(Unmet(text, motion=(index, number)))
     return missing
+
+
+def _is_in_hand(actor: Actor) -> bool:
+    """Whether it goes with the hand of who eats it or plays it, which no word says."""
+    return isinstance(actor.trajectory, HeldAt)
 
 
 _SINGLE = tuple(name for name, act in ACTS.items() if act.is_single)

@@ -71,7 +71,9 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     if group.is_on_chairs and "chair" not in shown:
         props.append(draw_chair(size))
     return tuple(
-        prop for prop in props if prop.anchor == "ground" or not shown.intersection(prop.nouns)
+        prop
+        for prop in props
+        if prop.anchor == "ground" or prop.is_own or not shown.intersection(prop.nouns)
     )
 
 

@@ -36,6 +36,21 @@ class Spin:
 
 
 @dataclass(frozen=True)
+class SpinOnAxle:
+    """Turns about its axle, across its heading, where it stands."""
+
+    home: Vector
+    yaw: float
+    rate_rad_s: float
+    pivot_m: float
+    """Height of the axle above the body's origin, m."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        return BodyState(self.home, self.yaw, pitch=self.rate_rad_s * time_s, pivot_m=self.pivot_m)
+
+
+@dataclass(frozen=True)
 class Bounce:
     """Free flight between bounces, until the energy is spent; then it lies or rolls on.
 

@@ -30,6 +30,7 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Hover,
     RollOver,
     Spin,
+    SpinOnAxle,
     Sway,
     Swing,
     Wheelie,
@@ -85,6 +86,8 @@ class MotionPlan:
 
     headroom_m: float = math.inf
     """How high it may jump, m: a cage has a roof."""
+    is_wheel: bool = False
+    """Whether it spins about its axle."""
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
 
@@ -148,8 +151,9 @@ def plan_motion(
         is_wide = noun.name in FACING or model.length < _WIDE * model.width
         is_facing = is_wide and noun.habitat == "fixed" and motion.kind == "slide"
         return MotionPlan(
-            motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing
-        )
+            motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing,
+            is_wheel=noun.name == "wheel",
+        )  # fmt: skip
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
     return MotionPlan(motion, path.yaw, speed, duration_s, path)
 
@@ -313,6 +317,8 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     turn = 2.0 * math.pi * SPIN_RATE_HZ * pace
     if kind == "spin":
         sign = -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
+        if plan.is_wheel:
+            return SpinOnAxle(home, plan.yaw, sign * turn, 0.5 * model.height)
         return Spin(home, sign * turn, phase)
     if kind in ("bounce", "fall", "throw"):
         return _fly_freely(plan, model, home)

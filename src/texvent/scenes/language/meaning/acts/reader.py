@@ -155,6 +155,8 @@ class ActReader:
         """As in "a crane lifts a box": the box rises beside the crane."""
         for index in subjects[:1]:
             doer, target = self._draft.noun(index), self._draft.noun(targets[0])
+            if is_living(doer):
+                clause.verb_word.shown_as = f"{target.name} untouched"
             if not is_living(doer) and not is_hand(doer):
                 said = clause.verb_word.text
                 self._draft.note(f"the {doer.name} does not touch the {target.name} ({said})")
@@ -312,6 +314,8 @@ class ActReader:
         )
         if is_second:
             return []
+        if act == "pull" and self._pull_in_place(clause, subjects, targets):
+            return subjects
         clause.verb_word.is_used = self._draft.relate(act, subjects, targets)
         if act == "ride":
             return self._ride(clause, verb, subjects, targets)
@@ -321,9 +325,21 @@ class ActReader:
                 add_motion(self._draft, index, ObjectMotion("move", pace=verb.pace), clause)
         return subjects
 
+    def _pull_in_place(self, clause: Clause, subjects: list[int], targets: list[int]) -> bool:
+        """As in "pulls a rope": who does it stays and leans back."""
+        people = all(is_person(self._draft.noun(index)) for index in subjects)
+        if not people or any(self._draft.noun(index).name not in _LINES for index in targets):
+            return False
+        for index in subjects:
+            add_motion(self._draft, index, ObjectMotion("pull"), clause)
+        clause.verb_word.is_used = True
+        return True
+
     def _ride(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
     ) -> list[int]:
+        if verb.base == "row" and self._draft.noun(targets[0]).name == "boat":
+            self._draft.objects[targets[0]].noun = "rowing boat"
         noun = self._draft.noun(targets[0])
         kind = "fly" if noun.motion == "fly" else "move"
         if verb.kind == "work" and can_do(noun, "work"):
@@ -392,6 +408,8 @@ class ActReader:
 
 _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})
 """Prepositions of who goes somewhere with what it carries."""
+_LINES = frozenset({"rope", "chain", "hose"})
+"""What is pulled at, not along."""
 _AT_SHOES = "tie shoes"
 _UNSTEADY = ("wobble", "rock", "tilt")
 """How the whole of a thing moves that works in its place: a top, a metronome."""

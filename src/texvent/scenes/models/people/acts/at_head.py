@@ -103,9 +103,9 @@ def _laugh(t: float) -> Posture:
 
 def _shout(t: float) -> Posture:
     push = pulse(t, 0.9)
-    arm = Arm((0.19 + 0.03 * push, -0.09, 0.22), (0.0, 1.0, -0.4))
-    return Posture(left=arm, right=arm, lean=-0.10 + 0.32 * push, nod=-0.20 + 0.10 * push,
-                   look=0.3 * swing(t, 0.3))  # fmt: skip
+    arm = Arm((0.24 + 0.03 * push, -0.06, 0.20), (0.0, 0.7, -1.0))
+    return Posture(left=arm, right=arm, lean=-0.10 + 0.36 * push, nod=-0.25 + 0.10 * push,
+                   look=0.5 * swing(t, 0.3))  # fmt: skip
 
 
 def _smoke(t: float) -> Posture:
@@ -161,7 +161,7 @@ AT_HEAD_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         "shout": _shout,
         "smoke": _smoke,
         "turn head": _turn_head,
-        "nod": lambda t: Posture(nod=0.10 + 0.42 * swing(t, 0.9), lean=0.03 * swing(t, 0.9)),
+        "nod": lambda t: Posture(nod=0.22 + 0.62 * swing(t, 0.7), lean=0.06 + 0.08 * swing(t, 0.7)),
         "shake head": lambda t: Posture(look=0.70 * swing(t, 0.9)),
         "shrug": _shrug,
     }

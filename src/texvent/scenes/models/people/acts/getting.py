@@ -57,9 +57,9 @@ def _bend(ahead_m: float) -> Movement:
 
 def _fallen(t: float) -> Posture:
     """Flat on the front, arms ahead."""
-    leg = Leg((-0.80, 0.12, 0.10), (0.3, 0.2, -1.0), 1.4)
-    arm = Arm((0.10, 0.16, 0.42), (-0.2, 1.0, 0.0))
-    return Posture(hips=(0.0, 0.0, 0.14), lean=1.50, nod=-0.35, left=arm, right=arm, left_leg=leg,
+    leg = Leg((-0.86, 0.12, 0.14), (0.3, 0.2, -1.0), 1.4)
+    arm = Arm((0.02, 0.22, 0.40), (0.4, 1.0, 0.0))
+    return Posture(hips=(0.0, 0.0, 0.17), lean=1.45, nod=-0.35, left=arm, right=arm, left_leg=leg,
                    right_leg=leg)  # fmt: skip
 
 

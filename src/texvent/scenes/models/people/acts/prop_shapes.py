@@ -22,6 +22,8 @@ class Prop:
     """Its shapes at a time, s, in the axes of that place, m."""
     nouns: tuple[str, ...] = ()
     """Nouns that are the same thing: where the prompt shows one, the prop is left out."""
+    is_own: bool = False
+    """Whether it is drawn in place of a named one, not left out for it."""
     furniture: str = ""
     """Its name, where the prompt may show another one too: a table to work at."""
 
