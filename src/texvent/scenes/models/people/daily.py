@@ -268,8 +268,8 @@ DAILY: Mapping[str, Movement] = MappingProxyType(
         "crouch": _crouch, "play guitar": _guitar, "play drums": _drums,
         "play piano": _keys(1.7, 0.16), "type": _keys(1.7, 0.10), "play violin": _violin,
         "play flute": _flute, "play trumpet": _trumpet, "write": _write, "read": _read,
-        "eat": _eat, "drink": _drink, "phone": _phone, "text": _text, "photograph": _photograph, "sing": _sing,
-        "dig": _dig,
+        "eat": _eat, "drink": _drink, "phone": _phone, "text": _text, "photograph": _photograph,
+        "sing": _sing, "dig": _dig,
         "sweep": _sweep, "chop wood": _chop, "cook": _stir(1.2, 0.07), "push": _push,
         "pull": _pull, "fish": _fish, "tie shoes": _tie_shoes,
     }
