@@ -144,6 +144,22 @@ def test_kinds_are_shown_as_what_they_are_kinds_of_and_named() -> None:
     assert "waves" in description.shown
 
 
+@pytest.mark.parametrize(
+    ("prompt", "pairs"),
+    [
+        ("a mouse runs in a wheel", [("wheel", "wheel of a car")]),
+        ("a wheel rolls beside a truck", []),
+        ("a wheel", []),
+        ("a white circle moves left", []),
+        ("a gymnast swings into a circle", [("circle", "flat disc")]),
+    ],
+)
+def test_the_drawn_sense_of_a_noun_is_named_where_nothing_tells_it(
+    prompt: str, pairs: list[tuple[str, str]]
+) -> None:
+    assert [(one.said, one.shown) for one in parse_prompt(prompt).substituted] == pairs
+
+
 def test_every_word_is_in_one_list() -> None:
     description = parse_prompt("a purple wug and a chef drive left past two trees at dusk")
     said = [one.said for one in description.substituted]

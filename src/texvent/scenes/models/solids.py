@@ -104,7 +104,7 @@ def _checks(colour: Colour | None, seed: int) -> Material:
 
 NOUNS = (
     Noun("sphere", build_sphere, "ground", 1.5, "roll", ("orb",)),
-    fixed_noun("cube", partial(build_upright, box, (0.8, 0.8, 0.8)), ("block",)),
+    fixed_noun("cube", partial(build_upright, box, (0.8, 0.8, 0.8)), ()),
     fixed_noun(
         "cylinder",
         partial(build_upright, post, (0.7, 0.7, 1.0)),
@@ -112,5 +112,5 @@ NOUNS = (
     fixed_noun("cone", partial(build_upright, peak, (0.9, 0.9, 1.0))),
     fixed_noun("pyramid", build_pyramid),
     fixed_noun("box", build_crate, ("package", "parcel", "cardboard box", "carton")),
-    Noun("wheel", build_wheel, "ground", 2.5, "roll", ("tyre", "tire")),
+    Noun("wheel", build_wheel, "ground", 2.5, "roll", ("car wheel", "tyre", "tire")),
 )

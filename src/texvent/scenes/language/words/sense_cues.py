@@ -16,6 +16,7 @@ from texvent.scenes.language.vocabulary.senses import (
     WOODEN,
     Sense,
 )
+from texvent.scenes.language.vocabulary.usual_senses import USUAL_SENSES
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.word import Word
@@ -116,6 +117,10 @@ def _choose_noun(
     sense = _find_sense(SENSES.get(word.lemma, ()), others)
     if sense is not None:
         _give(word, sense, known, Pos.NOUN)
+        return
+    usual = USUAL_SENSES.get(word.lemma)
+    if usual is not None and others and not usual.cues & others:
+        word.usual_sense = usual.said_as
 
 
 def _give(word: Word, sense: Sense, known: Lexicon, pos: Pos) -> None:

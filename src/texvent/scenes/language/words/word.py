@@ -24,6 +24,8 @@ class Word:
     """Whether it says something of things that are shown, which the scene does not honour."""
     shown_as: str | None = None
     """What is shown in its place, if that is something else."""
+    usual_sense: str | None = None
+    """Which of its senses is drawn, where no other word tells that this one is meant."""
     others: tuple[Meaning, ...] = field(default=())
     """Its other readings."""
     is_absent: bool = False

@@ -148,10 +148,10 @@ _DOGS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
                         "body": (0.52, 0.17, 0.21)}, colours=((0.55, 0.36, 0.16),)), 0.42, ()),
     ("beagle", _dog({"ear": (0.15, "flop")}, colours=(_TAN,), leg_colour=WHITE, dark=WHITE,
                     extras=lambda b, c: [*_saddle(b, c), *_belly(WHITE, -0.30)(b, c)]), 0.75,
-     ("hound", "foxhound", "basset hound")),
+     ("foxhound",)),
     ("bulldog", _dog({"shoulder": 0.42, "body": (0.58, 0.32, 0.30), "head": (0.28, 0.07),
                       "thick": 1.6, "tail": (0.05, 0.3)}, colours=((0.62, 0.50, 0.36),),
-                     extras=_belly(WHITE, -0.25)), 0.85, ("french bulldog", "pug")),
+                     extras=_belly(WHITE, -0.25)), 0.85, ("french bulldog",)),
     ("puppy", _young(DOG), 0.48, ("puppy dog", "pup")),
 )  # fmt: skip
 
@@ -196,7 +196,7 @@ _OTHERS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
     ("lion cub", _young(_LIONESS), 0.42, ()),
     ("tiger cub", _young(quadrupeds.TIGER), 0.42, ()),
     ("bear cub", _young(quadrupeds.BEAR), 0.42, ()),
-    ("leopard", _LEOPARD, 0.95, ("jaguar", "ocelot")),
+    ("leopard", _LEOPARD, 0.95, ()),
     ("panther", _PANTHER, 0.95, ("black panther",)),
     ("bison", replace(_BULL, colours=((0.10, 0.05, 0.02),), build=replace(
         _BULL.build, mane="full", head=(0.50, 0.24), rise=-0.2)), 1.1, ("buffalo",)),

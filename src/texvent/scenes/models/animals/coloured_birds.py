@@ -65,7 +65,7 @@ _FLIERS: tuple[tuple[str, Plumage, float, tuple[str, ...]], ...] = (
         7.0, ()),
     ("robin", _bird((0.65, 0.18, 0.03), (0.16, 0.11, 0.07), (0.20, 0.13, 0.08), _BLACK), 5.0,
         ("redbreast",)),
-    ("crow", _bird(_BLACK, _BLACK, _BLACK, _BLACK, 0.5), 6.0, ("raven", "blackbird", "rook")),
+    ("crow", _bird(_BLACK, _BLACK, _BLACK, _BLACK, 0.5), 6.0, ("raven",)),
     ("pigeon", _bird((0.30, 0.32, 0.36), (0.40, 0.42, 0.46), (0.06, 0.20, 0.14), (0.2, 0.2, 0.2),
         0.36), 6.0, ()),
     ("dove", _bird((0.82, 0.82, 0.80), (0.82, 0.82, 0.80), (0.82, 0.82, 0.80), (0.55, 0.3, 0.2),
@@ -73,16 +73,16 @@ _FLIERS: tuple[tuple[str, Plumage, float, tuple[str, ...]], ...] = (
     ("cardinal", _bird((0.60, 0.02, 0.02), (0.45, 0.03, 0.03), (0.60, 0.02, 0.02), (0.75, 0.35,
         0.03)), 5.0, ("red cardinal",)),
     ("canary", _bird((0.80, 0.62, 0.04), (0.70, 0.52, 0.03), (0.80, 0.62, 0.04), (0.7, 0.4, 0.1),
-        0.25), 5.0, ("goldfinch",)),
+        0.25), 5.0, ()),
     ("hummingbird", replace(_bird((0.03, 0.36, 0.16), (0.10, 0.22, 0.18), (0.55, 0.03, 0.12),
         _BLACK, 0.12),
                             flap_hz=24.0, span=1.5), 3.0, ("colibri",)),
     ("bluebird", _bird((0.06, 0.22, 0.62), (0.04, 0.14, 0.46), (0.06, 0.22, 0.62), _BLACK, 0.28),
-        5.0, ("blue jay", "bluetit", "blue tit")),
+        5.0, ()),
 )  # fmt: skip
 _STRIDERS: tuple[tuple[str, Strider, float, tuple[str, ...]], ...] = (
-    ("chick", _CHICK, 0.25, ("baby chicken", "duckling", "gosling")),
-    ("heron", _HERON, 0.5, ("crane bird", "egret")),
+    ("chick", _CHICK, 0.25, ("baby chicken",)),
+    ("heron", _HERON, 0.5, ()),
     ("stork", _STORK, 0.5, ()),
 )
 NOUNS = (

@@ -165,5 +165,13 @@ ANIMAL_KINDS: dict[str, str] = {
     "rhino": "triceratops",
     "rat": "platypus, shrew, mole, opossum, possum",
     "dinosaur": "allosaur, godzilla, spinosaurus, monster",
+    "leopard": "jaguar, ocelot",
+    "beagle": "basset hound, hound",
+    "bulldog": "pug",
+    "chick": "duckling, gosling",
+    "heron": "crane bird, egret",
+    "canary": "goldfinch",
+    "crow": "blackbird, rook",
+    "bluebird": "blue jay, bluetit, blue tit",
 }
 """Noun of the models → kinds of it, separated by commas."""

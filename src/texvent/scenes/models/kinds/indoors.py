@@ -136,8 +136,10 @@ INDOOR_KINDS: dict[str, str] = {
         gym mat, exercise mat, floor mat, puzzle mat""",
     "laptop": "chromebook, ultrabook",
     "monitor": """
+        display,
         information screen, lcd screen, radar screen, gaming monitor, ultrasound
         machine, control panel, fish finder, touchscreen, touch screen""",
     "stapler": "staple gun, hole punch",
+    "blanket": "tablecloth",
 }
 """Noun of the models → kinds of it, separated by commas."""

@@ -85,6 +85,7 @@ OUTDOOR_KINDS: dict[str, str] = {
         root, stem, driftwood, thorn, vine branch, pussy willow, mistletoe, olive
         branch, kindling""",
     "log": """
+        timber,
         firewood log, wooden log, piece of oak, wooden beam, timber beam, balance beam,
         balancing beam, log pile, driftwood log, piece of driftwood""",
     "rock": """
@@ -141,6 +142,7 @@ OUTDOOR_KINDS: dict[str, str] = {
         flat tire, spare tire, spare wheel, hamster wheel, ship wheel, car tire, car
         tyre""",
     "propeller": """
+        rotor,
         ship propeller, drone propeller, propeller blade, jet engine, windmill blade,
         turbine wheel, turbine blade, rotor blade""",
     "sign": """
@@ -162,7 +164,7 @@ OUTDOOR_KINDS: dict[str, str] = {
     "campfire": "fire pit, camp fire, log fire, bonfire pile",
     "volcano": "crater, volcanic crater, mount fuji",
     "scarecrow": "straw man",
-    "hay bale": "pile of hay, straw bundle",
+    "hay bale": "hay, pile of hay, straw bundle",
     "park lamp": "victorian lamp, garden lantern, old street lamp, lantern post",
     "street lamp": "street lighting pole, lamp pole, light post",
     "traffic light": "traffic signal, red light, pedestrian light, signal light, railroad signal",
@@ -190,5 +192,14 @@ OUTDOOR_KINDS: dict[str, str] = {
     "wheelbarrow": "garden cart, barrow cart",
     "dragonfly": "firefly, mayfly, cicada, lacewing",
     "cloud": "thundercloud, puffy cloud, mushroom cloud",
+    "water tower": "water tank",
+    "moon": "crescent moon",
+    "stalagmite": "stalactite",
+    "canyon wall": "mesa, butte",
+    "tornado": "hurricane, cyclone",
+    "skate ramp": "ramp, quarter pipe, halfpipe, half pipe",
+    "lifebuoy": "pool float",
+    "fishing rod": "fishing tackle",
+    "spear": "lance, harpoon",
 }
 """Noun of the models → kinds of it, separated by commas."""

@@ -69,6 +69,22 @@ PEOPLE_KINDS: dict[str, str] = {
         paratrooper, marine, guardsman, sentry, sniper in camouflage, commando, swat
         officer, hunter in camouflage""",
     "witch": "sorceress, enchantress",
+    "waiter": "bartender, butler, sommelier",
+    "waitress": "maid",
+    "cowboy": "rancher, sheriff, rodeo rider",
+    "police officer": "security guard, traffic officer",
+    "pilot": "captain",
+    "doctor": "dentist, veterinarian, vet",
+    "technician": "pharmacist",
+    "nurse": "paramedic",
+    "painter": "artist",
+    "janitor": "street sweeper",
+    "businessman": "lawyer, banker, salesman",
+    "tennis player": "badminton player, table tennis player, ping pong player, squash player",
+    "american football player": "rugby player",
+    "cowboy hat": "sombrero",
+    "robe": "kimono, cloak",
+    "suit": "tracksuit",
 }
 """Noun of the models → kinds of it, separated by commas."""
 

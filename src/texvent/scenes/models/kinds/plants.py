@@ -89,11 +89,12 @@ FOOD_AND_PLANT_KINDS: dict[str, str] = {
         cocoa, americano, matcha""",
     "cup": "espresso, tea",
     "grape": "blueberry, blackberry, olive, currant, berry, raisin",
-    "peach": "lychee, passion fruit",
+    "peach": "mango, lychee, passion fruit",
     "onion": """
         garlic, fig, radish, beetroot, beet, turnip, garlic clove, shallot, red onion,
         fennel""",
     "cabbage": """
+        lettuce,
         kale, celery, leek, asparagus, bok choy, chard, artichoke, brussels sprout, head
         of lettuce""",
     "fried egg": "omelette, omelet, scrambled egg, breakfast, poached egg",
@@ -106,6 +107,17 @@ FOOD_AND_PLANT_KINDS: dict[str, str] = {
         honey, jam, mayonnaise, peanut butter, honey jar, pickle jar, spice jar,
         marmalade, jelly, glass jar, cookie jar""",
     "sushi": "nigiri, maki, dim sum, sashimi, dumpling, gyoza, wonton, pierogi",
-    "pancake": "flapjack, blini",
+    "pancake": "waffle, flapjack, blini",
+    "coral branch": "sea fan",
+    "lily pad": "lotus, lily, lotus flower, water lily",
+    "leaf pile": "dry leaves, fallen leaves, autumn leaves",
+    "autumn tree": "maple tree, maple",
+    "grass blade": "dewy grass",
+    "croissant": "pastry",
+    "powder heap": "flour, salt, sugar, powder, sawdust",
+    "dough": "lump of clay, modeling clay, clay lump, ball of clay",
+    "roast chicken": """
+        roast turkey, fried chicken, roast duck, chicken wing, chicken leg,
+        thanksgiving turkey, grilled chicken leg""",
 }
 """Noun of the models → kinds of it, separated by commas."""

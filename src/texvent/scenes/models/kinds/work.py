@@ -76,7 +76,9 @@ WORK_KINDS: dict[str, str] = {
     "microscope": "electron microscope, stereo microscope",
     "magnifying glass": """
         lens, glass lens, camera lens, optical lens, monocular, loupe glass, hand mirror""",
-    "test tube": "pipette, micropipette, test tube holder, row of vials, glass tube, syringe rack",
+    "test tube": """
+        pipette rack, vial, glass vial, pipette, micropipette, test tube holder, row of vials,
+        glass tube, syringe rack""",
     "circuit board": """
         breadboard, cpu, processor, resistor, transistor, integrated circuit, arduino,
         raspberry pi, graphics card, memory card, sim card, usb stick, usb drive, flash
@@ -190,5 +192,11 @@ WORK_KINDS: dict[str, str] = {
         glass case, trophy case, exhibit case, jewelry case, counter display, showcase
         window""",
     "wheelchair": "electric wheelchair, hospital wheelchair",
+    "led": "diode",
+    "zoetrope": "praxinoscope",
+    "marble run": "rube goldberg machine, chain reaction machine",
+    "bunsen burner": "alcohol burner",
+    "table saw": "circular saw",
+    "molecule": "atom",
 }
 """Noun of the models → kinds of it, separated by commas."""

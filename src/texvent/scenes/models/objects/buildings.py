@@ -216,6 +216,6 @@ NOUNS = (
         ("skyscraper", "high-rise", "tower block"),
     ),
     fixed_noun("barn", build_barn),
-    working_noun("windmill", build_windmill, ("mill",)),
+    working_noun("windmill", build_windmill, ()),
     working_noun("wind turbine", build_wind_turbine, ("turbine",)),
 )  # fmt: skip

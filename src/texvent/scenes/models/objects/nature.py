@@ -66,6 +66,6 @@ def build_cloud(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 NOUNS = (
     fixed_noun("rock", build_rock, ("stone", "boulder")),
-    fixed_noun("mountain", build_mountain, ("mountain peak", "summit")),
+    fixed_noun("mountain", build_mountain, ("mountain peak",)),
     Noun("cloud", build_cloud, "air", 1.5, "float"),
 )

@@ -73,7 +73,7 @@ _WATER = (
             0.05, 0.0)),
         plank(_CANVAS, (1.9, 0.0, 1.0), (0.6, 0.0, 6.2), chord=(1.6, 0.0, 0.0), thickness=(0.0,
             0.04, 0.0))],
-        ("trimaran",), goes=("water", "sail", 5.0)),
+        (), goes=("water", "sail", 5.0)),
     thing("gondola", ((0.02, 0.02, 0.022),), lambda p: [
         *_hull(p, 7.0, 1.1, 0.6), limb(p, (3.3, 0.0, 0.3), (3.9, 0.0, 1.5), 0.12), limb(p, (-2.7,
             0.0, 0.3), (-3.6, 0.0, 1.0), 0.12),
@@ -89,7 +89,7 @@ _WATER = (
                 2.3)) for x in range(6) for z in range(3)),
         box(PALE, (-24.0, 0.0, 8.0), (6.0, 8.0, 9.0)), box(_PANE, (-20.9, 0.0, 11.3), (0.2, 7.4,
             1.2)), post(p, (-26.0, 0.0, 13.6), (2.4, 2.4, 3.0))],
-        ("container ship", "freighter", "tanker", "oil tanker"), goes=("water", "sail", 6.0)),
+        ("container ship", "freighter"), goes=("water", "sail", 6.0)),
     thing("cruise ship", (PALE.colour,), lambda p: [
         box(p, (-2.0, 0.0, 2.0), (60.0, 10.0, 6.0)), plank(p, (27.0, 0.0, 1.6), (35.0, 0.0, 3.6),
             chord=(0.0, 5.0, 0.0), thickness=(2.0, 0.0, 6.0)),
@@ -98,7 +98,7 @@ _WATER = (
             0.9)) for k in range(4) for s in (1, -1)),
         box(BLUE_PAINT, (-2.0, 0.0, 0.4), (60.2, 10.1, 0.6)), *(post(RED_PAINT, (x, 0.0, 16.8),
             (3.0, 3.0, 4.0)) for x in (-12.0, -4.0))],
-        ("ocean liner", "liner", "ferry", "passenger ship"), goes=("water", "sail", 7.0)),
+        ("ocean liner", "liner"), goes=("water", "sail", 7.0)),
 )  # fmt: skip
 
 

@@ -144,7 +144,7 @@ NOUNS = placed("road", (
         spike(p, (-0.4, 0.0, 0.75), (-1.8, 0.0, 0.5), 0.26), ball(YELLOW_PAINT, (-0.1, 0.0,
             0.72), (0.32, 0.3, 0.3)),
         ball(_PANE, (0.05, 0.0, 0.72), (0.12, 0.26, 0.12))],
-        ("formula one car", "race car", "go kart", "kart"),
+        ("formula one car", "race car"),
         wheels=_wheels((1.6, -1.6), 0.75, 0.34, 0.34), goes=("ground", "drive", 25.0)),
     thing("steamroller", (YELLOW_PAINT.colour,), lambda p: [
         box(p, (-0.6, 0.0, 1.3), (2.2, 1.4, 0.8)), box(p, (0.2, 0.0, 2.6), (2.0, 1.5, 0.1)),
@@ -192,16 +192,14 @@ NOUNS = placed("road", (
     thing("covered wagon", (WOOD_BROWN,), lambda p: [
         box(p, (0.0, 0.0, 1.0), (3.0, 1.4, 0.5)), rod(_CANVAS, (-1.5, 0.0, 1.5), (1.5, 0.0, 1.5),
             0.85),
-        rod(INK, (1.5, 0.0, 1.55), (1.52, 0.0, 1.55), 0.6)], ("pioneer wagon", "ox cart",
-            "horse cart"),
+        rod(INK, (1.5, 0.0, 1.55), (1.52, 0.0, 1.55), 0.6)], ("pioneer wagon",),
         wheels=_wheels((1.0, -1.0), 0.8, 0.55, 0.1), goes=("ground", "roll", 1.5)),
     thing("rickshaw", ((0.05, 0.25, 0.10), YELLOW_PAINT.colour), lambda p: [
         box(p, (-0.3, 0.0, 0.8), (1.5, 1.2, 0.8)), box(INK, (-0.2, 0.0, 1.85), (1.9, 1.25, 0.10)),
         *(rod(INK, (x, y, 1.1), (x, y, 1.85), 0.03) for x in (-0.9, 0.6) for y in (0.58, -0.58)),
         spike(p, (0.5, 0.0, 0.75), (1.4, 0.0, 0.6), 0.45), box(_PANE, (0.65, 0.0, 1.45), (0.04,
             1.1, 0.6)),
-        ball(HEADLIGHT, (1.25, 0.0, 0.75), (0.14, 0.2, 0.2))], ("auto rickshaw", "tuk tuk",
-            "tricycle taxi"),
+        ball(HEADLIGHT, (1.25, 0.0, 0.75), (0.14, 0.2, 0.2))], ("tricycle taxi",),
         wheels=(Wheel((1.0, 0.0, 0.26), 0.26, 0.14), *_wheels((-0.7,), 0.55, 0.26, 0.14)),
             goes=("ground", "drive", 7.0)),
     thing("steam locomotive", ((0.03, 0.03, 0.035), (0.05, 0.18, 0.08)), lambda p: [

@@ -281,7 +281,7 @@ class Referents(Antecedents):
             self._draft.objects[index].owner = group.determiner.text
         head.is_used = True
         is_other = meaning.is_substitute or (noun != meaning.value and not is_drinks)
-        head.shown_as = noun if is_other else None
+        head.shown_as = noun if is_other else head.usual_sense
         return Referent("things", group, [index], attributes=attributes)
 
     def _read_noun(

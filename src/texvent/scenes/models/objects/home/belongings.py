@@ -187,7 +187,7 @@ _ROOM = placed("indoor", (
         *(limb(PALE, (0.30, -0.38 + 0.076 * k, 0.04), (0.37, -0.38 + 0.076 * k, 0.01), 0.010)
             for k in range(11))],
         ("duvet", "bedsheet", "bed sheet", "comforter", "bedspread", "quilted blanket",
-         "tablecloth", "picnic blanket", "wool blanket", "bed cover")),
+         "picnic blanket", "wool blanket", "bed cover")),
     thing("grandfather clock", (DARK_WOOD,), _clock_case, ("pendulum clock", "longcase clock"),
           moving=(Moving(lambda p: [
               rod(BRASS, (0.15, 0.0, 1.3), (0.15, 0.0, 0.62), 0.008),
@@ -225,16 +225,15 @@ _ROOM = placed("indoor", (
             0.05, 0.02), bar(p, (0.0, 0.20), (0.0, 0.02), 0.05, 0.02),
         disc(SILVER, (0.0, 0.20), 0.025, 0.06)], ("car steering wheel",)),
     thing("windshield", (BLACKISH, (0.40, 0.03, 0.02)), _windshield, ("windscreen",
-          "wiper", "windshield wiper", "windscreen wiper", "car windshield", "dashboard"),
+          "car windshield"),
           moving=(_wiper(-0.5), _wiper(0.05))),
     thing("pistol", (BLACKISH, SILVERY), _gun, ("gun", "handgun", "revolver", "toy gun",
           "water gun", "water pistol", "squirt gun")),
-    thing("rifle", (WOOD_BROWN,), _rifle, ("shotgun", "hunting rifle", "machine gun", "musket")),
+    thing("rifle", (WOOD_BROWN,), _rifle, ("shotgun", "hunting rifle", "musket")),
     thing("round bomb", (BLACKISH,), lambda p: [
         ball(p, (0.0, 0.0, 0.14), (0.28, 0.28, 0.28)), post(p, (0.0, 0.0, 0.29),
             (0.09, 0.09, 0.05)), *chain(Material((0.55, 0.42, 0.22)), [(0.0, 0.0, 0.31),
-            (0.0, 0.03, 0.38), (0.0, 0.09, 0.40)], 0.010)], ("bomb", "grenade", "hand grenade",
-            "land mine", "dynamite")),
+            (0.0, 0.03, 0.38), (0.0, 0.09, 0.40)], 0.010)], ("bomb",)),
     thing("boot", ((0.14, 0.07, 0.03), BLACKISH, (0.55, 0.40, 0.02)), lambda p: [
         *_boot(p, 0.09), *moved(_boot(p, -0.09), shift(x=0.06))],
         ("rain boot", "cowboy boot", "wellington boot", "rubber boot", "leather boot",
@@ -256,7 +255,7 @@ _ROOM = placed("indoor", (
             (((0.05, 0.17, 0.26), PALE), ((0.0, -0.18, 0.24), PALE), ((0.02, 0.05, 0.38),
             BLUE_PAINT), ((-0.05, 0.20, 0.06), INK)) for part in (
             rod(IRON, (0.0, 0.0, 0.16), (x, y, z), 0.016), ball(skin, (x, y, z), (0.11,) * 3)))],
-        ("atom model", "molecule model", "atom")),
+        ("atom model", "molecule model")),
     thing("plastic heart", (RED_PAINT.colour,), lambda p: [
         *(limb(p, (0.0, 0.085 * s, 0.22), (0.0, 0.0, 0.06), 0.085) for s in (1.0, -1.0)),
         spike(p, (0.0, 0.0, 0.12), (0.0, 0.0, 0.0), 0.10)], ("heart", "red heart", "heart shape")),
@@ -277,14 +276,13 @@ _ROOM = placed("indoor", (
     thing("powder heap", ((0.78, 0.76, 0.70),), lambda p: [
         peak(mottled(p.colour, contrast=0.1), (0.0, 0.0, 0.07), (0.30, 0.30, 0.14)),
         ball(mottled(p.colour, contrast=0.1), (0.0, 0.0, 0.02), (0.36, 0.36, 0.06))],
-        ("flour", "heap of flour", "salt", "sugar", "heap of sand", "sand pile",
-         "powder", "sawdust", "heap of salt")),
+        ("heap of flour", "heap of sand", "sand pile",
+         "heap of salt")),
     thing("dough", ((0.68, 0.56, 0.36),), lambda p: [
         ball(mottled(p.colour, contrast=0.1), (0.0, 0.0, 0.055), (0.30, 0.34, 0.13)),
         ball(mottled(p.colour, contrast=0.1), (0.02, 0.06, 0.09), (0.18, 0.18, 0.10)),
         *lathe(PALE, [(0.0, 0.24), (0.006, 0.24)], 1)],
-        ("bread dough", "pizza dough", "ball of dough", "lump of dough", "lump of clay",
-         "modeling clay", "clay lump", "ball of clay")),
+        ("bread dough", "pizza dough", "ball of dough", "lump of dough")),
     thing("french fries", ((0.70, 0.46, 0.08),), lambda p: [
         box(RED_PAINT, (0.0, 0.0, 0.05), (0.05, 0.11, 0.10)), *(box(p, (-0.015 + 0.01 * (k % 4),
             -0.045 + 0.0128 * k, 0.10 + 0.012 * ((k * 5) % 4)), (0.010, 0.010, 0.10))
@@ -303,8 +301,7 @@ _ROOM = placed("indoor", (
             limb(p, (-0.06, 0.10 * s, 0.10), (0.0, 0.13 * s, 0.06), 0.022))),
         *(ball(Material((0.06, 0.22, 0.03)), (0.15 * math.cos(a), 0.13 * math.sin(a), 0.03),
             (0.05, 0.05, 0.02)) for a in (0.4, 1.6, 2.8, 4.0, 5.2))],
-        ("roasted chicken", "roast turkey", "fried chicken", "roast duck", "chicken wing",
-         "chicken leg", "thanksgiving turkey", "grilled chicken leg")),
+        ("roasted chicken",)),
     thing("shrimp", ((0.75, 0.30, 0.16),), lambda p: lying([
         *ring(striped(p.colour, toned(p, 1.4).colour, 2.0), (0.0, 0.0, 0.05), (0.035, 0.04), 0.016,
             span=(-60.0, 190.0), pieces=9), *(limb(p, (0.0, 0.02, 0.01), (0.0, 0.05 + 0.012 * k,

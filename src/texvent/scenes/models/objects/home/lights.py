@@ -87,7 +87,7 @@ NOUNS = placed("indoor", (
             post(INK, (0.0, 0.0, 0.002), (0.014, 0.014, 0.004))],
         ("lightbulb", "bulb", "electric bulb", "incandescent lamp")),
     thing("led", ((0.75, 0.02, 0.02),), _led,
-        ("led lamp", "light emitting diode", "diode", "led light", "indicator light")),
+        ("led lamp", "light emitting diode", "led light", "indicator light")),
     thing("flashlight", (BLACKISH, (0.50, 0.04, 0.03)), lambda p: [
         rod(p, (0.0, -0.12, 0.03), (0.0, 0.05, 0.03), 0.018),
         rod(p, (0.0, 0.05, 0.03), (0.0, 0.10, 0.03), 0.03),

@@ -150,7 +150,7 @@ _INDOOR = placed("indoor", (
           ("television", "tv set", "television set", "flat screen", "flatscreen")),
     thing("monitor", (BLACKISH,),
         lambda p: [*_standing(p, SCREEN, 0.58, 0.36, 0.14), *_windows(0.029, 0.32, 0.54, 0.32)],
-          ("computer monitor", "display", "computer screen")),
+          ("computer monitor", "computer screen")),
     thing("screen", ((0.80, 0.80, 0.78),), lambda p: [
         box(p, (0.02, 0.0, 1.40), (0.02, 1.80, 1.30)),
         *rectangle(INK, (0.0, 1.40), (1.90, 1.40), 0.05, 0.03),

@@ -32,8 +32,7 @@ NOUNS = (
     thing("pancake", ((0.62, 0.36, 0.10),), lambda p: [*_plate(), *(post(p if k % 2 else toned(p,
         0.8), (0.0, 0.0, 0.03 + 0.018 * k), (0.17, 0.17, 0.016)) for k in range(5)),
         box(YELLOW_PAINT, (0.0, 0.0, 0.125), (0.04, 0.04, 0.02)), ball(Material((0.30, 0.12,
-            0.02)), (0.06, 0.04, 0.10), (0.06, 0.05, 0.06))], ("crepe",
-                "waffle")),
+            0.02)), (0.06, 0.04, 0.10), (0.06, 0.05, 0.06))], ("crepe",)),
     thing("popcorn", ((0.82, 0.78, 0.60),), lambda p: [*(box(c, (0.075 * math.cos(a),
         0.075 * math.sin(a), 0.09), (0.05, 0.05, 0.18)) for c, a in (
         (RED_PAINT, 0.0), (PALE, 0.785), (RED_PAINT, 1.57), (PALE, 2.36), (RED_PAINT, 3.14),
@@ -67,14 +66,14 @@ NOUNS = (
         (0.05 * math.cos(a) - 0.02, 0.075 * math.sin(a), 0.025),
             (0.05 * math.cos(a + 0.4) - 0.02, 0.075 * math.sin(
         a + 0.4), 0.025), 0.026 - 0.006 * abs(k - 3)) for k,
-            a in enumerate(-1.6 + 0.46 * j for j in range(7))], ("pastry",)),
+            a in enumerate(-1.6 + 0.46 * j for j in range(7))], ()),
     thing("onion", ((0.50, 0.24, 0.08),), lambda p: [ball(p, (0.0, 0.0, 0.04), (0.085, 0.085,
         0.075)), spike(p, (0.0, 0.0, 0.07), (0.0, 0.0, 0.11), 0.015)]),
     thing("peach", ((0.80, 0.38, 0.16),), lambda p: [ball(p, (0.0, 0.0, 0.036), (0.078, 0.078,
         0.074)), ball(RED_PAINT, (0.014, 0.012, 0.042), (0.055, 0.055, 0.055)),
             blade(Material((0.06, 0.25, 0.03)), (
         0.0, 0.0, 0.07), (0.03, 0.03, 0.09), chord=(0.0, 0.03, 0.0), thickness=(0.0, 0.0,
-            0.004))], ("apricot", "nectarine", "mango"), plurals=("peaches",)),
+            0.004))], ("apricot", "nectarine"), plurals=("peaches",)),
     thing("coconut", ((0.16, 0.08, 0.04),), lambda p: [ball(mottled(p.colour, contrast=0.4,
         scale=6.0), (0.0, 0.0, 0.07), (0.15, 0.14, 0.14)), *(ball(INK, (0.065, 0.025 * y,
             0.09 + z), (0.02, 0.02, 0.02))
@@ -84,7 +83,7 @@ NOUNS = (
             0.01), (
         0.13 * math.cos(k), 0.13 * math.sin(k), 0.13), chord=(-0.12 * math.sin(k),
             0.12 * math.cos(k), 0.0), thickness=(0.01 * math.cos(k), 0.01 * math.sin(k),
-                0.0)) for k in range(6))], ("lettuce",)),
+                0.0)) for k in range(6))], ()),
     thing("cocktail", ((0.80, 0.25, 0.05),), lambda p: [post(_GLASS, (0.0, 0.0, 0.004), (0.07,
         0.07, 0.008)), rod(_GLASS, (0.0, 0.0, 0.0), (0.0, 0.0, 0.09), 0.005), spike(p, (0.0, 0.0,
             0.16), (0.0, 0.0, 0.08), 0.055),

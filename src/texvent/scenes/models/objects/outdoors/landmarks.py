@@ -207,7 +207,7 @@ _OPEN = placed("grass", (
         *(part for k in range(9) for part in ring(mottled(toned(p, 0.8 + 0.05 * (k % 4)).colour),
             (0.25 * math.sin(0.8 * k), 0.3 * math.sin(0.6 * k), 0.20 + 0.62 * k),
             (0.16 + 0.02 * k * k, 0.16 + 0.02 * k * k), 0.22 + 0.05 * k,
-            axis="z", pieces=6))], ("twister", "whirlwind", "hurricane", "cyclone")),
+            axis="z", pieces=6))], ("twister", "whirlwind")),
     thing("diamond", ((0.70, 0.82, 0.88), (0.55, 0.02, 0.08), (0.02, 0.35, 0.14)), lambda p: [
         spike(p, (0.0, 0.0, 0.05), (0.0, 0.0, 0.0), 0.045),
         *(spike(toned(p, 0.6 + 0.35 * (k % 3)), (0.022 * math.cos(0.785 * k), 0.022 * math.sin(

@@ -137,7 +137,7 @@ NOUNS = placed("grass", (
                 post(p, (0.0, 0.0, 15.2), (6.8, 6.8, 3.8)),
                 peak(toned(p, 0.75), (0.0, 0.0, 18.2), (7.2, 7.2, 2.2)),
                 *ring(IRON, (0.0, 0.0, 13.6), (3.7, 3.7), 0.1, axis="z", pieces=14)],
-                ("water tank", "water-tower")),
+                ("water-tower",)),
     thing("church", ((0.66, 0.62, 0.54),),
         lambda p: [*_gabled(p, (16.0, 8.0, 6.5), 4.2), *_roof(ROOF, (16.0, 8.0, 4.2), 6.5),
             box(p, (8.0, 0.0, 7.5), (4.5, 4.5, 15.0)),

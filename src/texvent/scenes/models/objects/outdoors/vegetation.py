@@ -84,7 +84,7 @@ _WEED = Moving(lambda p: [part for k in range(7) for part in (
 NOUNS = (
     *placed("underwater", (
         thing("coral branch", ((0.80, 0.25, 0.22), (0.75, 0.45, 0.08), (0.55, 0.20, 0.55)), _coral,
-              ("staghorn coral", "branching coral", "sea fan")),
+              ("staghorn coral", "branching coral")),
         thing("seaweed", ((0.05, 0.20, 0.04),), nothing, ("kelp", "algae", "sea grass"),
             moving=(_WEED,)),
         thing("anemone", ((0.75, 0.25, 0.45),), nothing, ("sea anemone",),
@@ -105,7 +105,7 @@ NOUNS = (
             *(_leaf(Material((0.85, 0.55, 0.65)), (0.05, 0.0, 0.08), 0.785 * k,
                 0.2) for k in range(8)),
             ball(Material((0.8, 0.6, 0.1)), (0.05, 0.0, 0.12), (0.09, 0.09, 0.07))],
-            ("water lily", "lotus", "lily", "lotus flower"), plurals=("water lilies", "lilies")),
+            ()),
         thing("reed", ((0.20, 0.28, 0.06),), nothing, ("cattail", "bulrush"), plurals=("reeds",),
             moving=(Moving(lambda p: [
             part for k in range(9) for part in (limb(p, (0.3 * math.cos(2.4 * k),
@@ -123,10 +123,9 @@ NOUNS = (
                 0.85 * math.sin(2.4 * k) * (k % 5) / 4,
                                                       0.36 - 0.06 * (k % 5)), 1.7 * k,
                         0.22) for k in range(36))],
-              ("dry leaves", "fallen leaves", "autumn leaves",
-                  ), plurals=("dry leaves",)),
+              ()),
         thing("autumn tree", ((0.66, 0.26, 0.03),), lambda p: _crown(BARK, foliage(p.colour), 6.0),
-              ("maple tree", "maple", "golden tree", "fall tree")),
+              ("golden tree", "fall tree")),
         thing("cherry tree", ((0.82, 0.48, 0.56),), lambda p: _crown(BARK, foliage(p.colour), 5.0),
               ("cherry blossom", "cherry blossom tree", "blossoming tree", "sakura",
                   "blossom tree")),
@@ -150,7 +149,7 @@ NOUNS = (
                        0.16), 0.006, side_radius=0.002),
             *(ball(_CLEAR, (0.004 + 0.004 * k, 0.002, 0.03 + 0.03 * k), (0.012, 0.012,
                 0.012)) for k in range(5))],
-            ("blade of grass", "grass stalk", "stalk of grass", "dewy grass"),
+            ("blade of grass", "grass stalk", "stalk of grass"),
                 plurals=("blades of grass",)),
         thing("anthill", ((0.28, 0.16, 0.08),), lambda p: [peak(mottled(p.colour, contrast=0.3,
             scale=8.0), (0.0, 0.0, 0.25), (0.9, 0.9, 0.5)),
@@ -175,7 +174,7 @@ NOUNS = (
             (0.0, 0.0, 0.0), (4.0, 4.0, 4.0)),
             *(ball(Material((0.55, 0.55, 0.52), emission=0.4), (1.5, y, z), (1.0, w, w)) for y,
                 z, w in ((0.5, 0.6, 1.1), (-0.7, 0.2, 0.8), (0.1, -0.8, 0.9)))],
-            ("crescent moon",), goes=("air", "float", 0.3)),
+            (), goes=("air", "float", 0.3)),
     )),
     thing("dripping icicle", ((0.72, 0.82, 0.88),), lambda p: [spike(p, (0.12 * k,
         0.16 * (k - 3), 1.0), (0.12 * k, 0.16 * (k - 3), 0.5 - 0.07 * (k % 3)), 0.05)

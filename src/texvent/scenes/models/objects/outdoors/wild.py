@@ -177,7 +177,7 @@ _GARDEN = placed("grass", (
             *(rod(Material((0.45, 0.30, 0.15)), (0.0, 0.8 * s, 0.20), (0.0, 0.803 * s, 0.20),
                 0.18) for s in (1.0, -1.0)),
                 rod(mottled(p.colour), (0.0, 0.2, 0.30), (0.05, 0.35, 0.52), 0.05)],
-                ("tree trunk", "wood log", "timber", "fallen tree")),
+                ("tree trunk", "wood log", "fallen tree")),
     thing("stump", (BARK.colour,),
         lambda p: [*lathe(mottled(p.colour, contrast=0.5, scale=6.0),
             [(0.0, 0.36), (0.12, 0.28), (0.42, 0.26)], 5),
@@ -208,7 +208,7 @@ _GARDEN = placed("grass", (
                 for s in (1.0, -1.0)),
                 *(rod(toned(p, 0.8), (0.0, 0.6 * s, 0.65), (0.0, 0.607 * s, 0.65), 0.25)
                     for s in (1.0, -1.0))],
-                    ("bale of hay", "straw bale", "bale", "hay")),
+                    ("bale of hay", "straw bale", "bale")),
     thing("pine cone", ((0.20, 0.10, 0.05),),
         lambda p: [ball(toned(p, 0.6), (0.0, 0.0, 0.05), (0.05, 0.05, 0.10)),
             *(blade(p, (0.018 * math.cos(2.4 * k), 0.018 * math.sin(2.4 * k), 0.012 + 0.0034 * k),

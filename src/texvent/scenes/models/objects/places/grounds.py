@@ -282,7 +282,7 @@ NOUNS = (
     thing("cliff", ((0.44, 0.36, 0.28),), lambda p: _rock_wall(p, (9.0, 22.0, 18.0), 9),
           ("cliff face", "rock face", "crag", "bluff")),
     thing("canyon wall", ((0.56, 0.24, 0.10),), lambda p: _rock_wall(p, (10.0, 24.0, 20.0), 8),
-          ("mesa", "butte", "red cliff")),
+          ("red cliff",)),
     thing("rock waterfall", ((0.34, 0.32, 0.29),), lambda p: [
         *_rock_wall(p, (4.0, 12.0, 9.0), 5)[:5],
         *(limb(_HAZE, (1.9 - 0.05 * k, -1.2 + 0.4 * k, 0.2), (1.4, -1.0 + 0.34 * k, 8.8), 0.42)

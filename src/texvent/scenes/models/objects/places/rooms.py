@@ -123,7 +123,7 @@ NOUNS = (
         *(box(INK, (0.05, 0.0, z), (0.004, 0.03, 0.003)) for z in (0.04, 0.07, 0.10))],
         ("glass beaker",)),
     thing("test tube", ((0.10, 0.45, 0.15),), lambda p: tube_rack((0.0, 0.0, 0.0), 0.24, 6, p),
-          ("test tube rack", "glass vial", "vial", "pipette rack")),
+          ("test tube rack",)),
     thing("petri dish", ((0.55, 0.20, 0.15),), lambda p: [
         post(_CLEAR, (0.0, 0.0, 0.008), (0.10, 0.10, 0.016)), post(p, (0.0, 0.0, 0.016),
                                                                    (0.09, 0.09, 0.004)),
@@ -289,7 +289,7 @@ NOUNS = (
         ("car wash roller",)),
     thing("stalagmite", ((0.30, 0.25, 0.20),), lambda p: [
         peak(p, (0.0, 0.0, 0.7), (0.7, 0.7, 1.4)), peak(p, (0.3, 0.4, 0.4), (0.5, 0.5, 0.8)),
-        peak(p, (-0.2, -0.4, 0.28), (0.4, 0.4, 0.56))], ("stalactite",)),
+        peak(p, (-0.2, -0.4, 0.28), (0.4, 0.4, 0.56))], ()),
     thing("cell bars", (SILVERY,), lambda p: [
         *(rod(p, (0.0, -1.2 + 0.2 * k, 0.0), (0.0, -1.2 + 0.2 * k, 2.4),
             0.025) for k in range(13)),

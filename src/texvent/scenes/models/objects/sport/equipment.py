@@ -133,13 +133,13 @@ _OUTSIDE = placed("grass", (
         ball(RED_PAINT, (0.0, 0.95, 0.30), (0.05, 0.05, 0.06)),
         ball(PALE, (0.0, 0.95, 0.275), (0.045, 0.045, 0.04)),
         *(rod(Material(WOOD_BROWN), (0.06 * s, -0.45, 0.0), (-0.02 * s, -0.45, 0.48), 0.014)
-            for s in (1, -1))], ("fishing pole", "angling rod", "fishing tackle")),
+            for s in (1, -1))], ("fishing pole", "angling rod")),
     thing("spear", (WOOD_BROWN,), lambda p: lying([
         rod(p, (0.0, 0.0, 0.0), (0.0, 0.0, 2.0), 0.018), spike(SILVER, (0.0, 0.0, 2.0),
             (0.0, 0.0, 2.28), 0.045), rod(RED_PAINT, (0.0, 0.0, 1.93), (0.0, 0.0, 2.01), 0.024)]),
-        ("javelin", "lance", "harpoon")),
+        ("javelin",)),
     thing("skate ramp", ((0.50, 0.40, 0.28), (0.42, 0.43, 0.44)), _ramp,
-          ("ramp", "quarter pipe", "halfpipe", "half pipe", "skateboard ramp", "bmx ramp")),
+          ("skateboard ramp", "bmx ramp")),
     thing("saddle", ((0.20, 0.085, 0.035),), lambda p: [
         rod(Material(WOOD_BROWN), (-0.45, 0.0, 0.42), (0.45, 0.0, 0.42), 0.10),
         *(limb(Material(WOOD_BROWN), (x, 0.0, 0.42), (x, 0.28 * s, 0.0), 0.025)
@@ -156,7 +156,7 @@ _OUTSIDE = placed("grass", (
         *(part for k in range(8) for part in chain(p if k % 2 else PALE,
             [(0.0, 0.30 * c, 0.38 + 0.30 * s) for c, s in _arc(k)], 0.07))],
         ("life ring", "life buoy", "life preserver", "swim ring", "inflatable ring",
-         "rubber ring", "pool float")),
+         "rubber ring")),
     thing("barbed fence", (SILVERY,), lambda p: [
         *(rod(Material(WOOD_BROWN), (0.0, y, 0.0), (0.0, y, 1.3), 0.05) for y in (-1.5, 0.0, 1.5)),
         *(rod(p, (0.06, -1.5, z), (0.06, 1.5, z), 0.022) for z in (0.4, 0.8, 1.2)),

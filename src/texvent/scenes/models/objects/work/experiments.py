@@ -150,7 +150,7 @@ _SCIENCE = (
                swinging("x", 1.5, 0.45, (0.0, 0.0, 0.98))))),
     thing("zoetrope", (INK.colour,), lambda p: [post(_WOOD, (0.0, 0.0, 0.03), (0.26, 0.26,
         0.06)), rod(IRON, (0.0, 0.0, 0.0), (0.0, 0.0, 0.14), 0.015)],
-        ("praxinoscope",), moving=(Moving(lambda p: [post(toned(p, 0.6), (0.0, 0.0, 0.15), (0.40,
+        (), moving=(Moving(lambda p: [post(toned(p, 0.6), (0.0, 0.0, 0.15), (0.40,
             0.40, 0.02)), *(box(p, (0.19 * math.cos(a), 0.19 * math.sin(a), 0.24), (
             0.05, 0.05, 0.18)) for a in (2.0 * math.pi * k / 16 for k in range(16))),
                 *(ball(RED_PAINT, (0.15 * math.cos(a), 0.15 * math.sin(a), 0.21 + 0.02 * (k % 3)), (
@@ -162,12 +162,12 @@ _SCIENCE = (
         *(box(p, (0.0, 0.018 * s, 0.15), (0.008, 0.008, 0.14)) for s in (1, -1)), box(_WOOD,
             (0.0, 0.0, 0.01), (0.06, 0.14, 0.03))]),
     thing("marble run", (PALE_WOOD,), _track, ("marble track", "zigzag track",
-        "wooden marble run", "ball track", "rube goldberg machine", "chain reaction machine")),
+        "wooden marble run", "ball track")),
     thing("bunsen burner", (IRON.colour,), lambda p: [post(p, (0.0, 0.0, 0.01), (0.10, 0.10,
         0.02)), rod(SILVER, (0.0, 0.0, 0.0), (0.0, 0.0, 0.14), 0.012),
         peak(glowing((0.1, 0.25, 1.0), 2.0), (0.0, 0.0, 0.20), (0.04, 0.04, 0.12)),
             peak(glowing((0.9, 0.5, 0.1), 1.5), (0.0, 0.0, 0.18), (0.02, 0.02, 0.06))],
-        ("gas burner", "alcohol burner")),
+        ("gas burner",)),
     thing("prism", ((0.70, 0.78, 0.82),), lambda p: [plank(p, (0.0, -0.06, 0.0), (0.0, 0.0,
         0.10), chord=(0.2, 0.0, 0.0), thickness=(0.0, 0.03, 0.0)),
         plank(p, (0.0, 0.06, 0.0), (0.0, 0.0, 0.10), chord=(0.2, 0.0, 0.0), thickness=(0.0,
@@ -238,7 +238,7 @@ _WORKSHOP = placed("workshop", (
     thing("table saw", (STEEL.colour,), lambda p: [box(RED_PAINT, (0.0, 0.0, 0.4), (0.7, 0.8,
         0.8)), box(p, (0.0, 0.0, 0.83), (1.0, 1.2, 0.05)), box(_WOOD, (0.0, 0.35, 0.87), (0.8,
             0.3, 0.03))],
-        ("circular saw", "bench saw", "saw bench"), moving=(Moving(lambda p: [rod(SILVER, (0.0,
+        ("bench saw", "saw bench"), moving=(Moving(lambda p: [rod(SILVER, (0.0,
             -0.006, 0.90), (0.0, 0.006, 0.90), 0.18), *(box(INK, (
             0.16 * math.cos(a), 0.0, 0.90 + 0.16 * math.sin(a)), (0.03, 0.016,
                 0.03)) for a in (0.0, 1.05, 2.09, 3.14, 4.19, 5.24))], spinning("y", 11.3, (0.0,

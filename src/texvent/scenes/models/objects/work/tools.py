@@ -222,7 +222,7 @@ NOUNS = placed("indoor", (
         lambda p: [post(IRON, (-0.10, 0.0, 0.35), (0.07, 0.07, 0.70)),
             box(IRON, (-0.10, 0.0, 0.02), (0.35, 0.35, 0.04)),
             rod(IRON, (-0.15, 0.0, 0.72), (0.0, 0.0, 0.72), 0.055)],
-            ("rotor", "airscrew", "propellor"), moving=(Moving(lambda p: [
+            ("airscrew", "propellor"), moving=(Moving(lambda p: [
         *(blade(p, (0.02, 0.04 * math.sin(a), 0.72 + 0.04 * math.cos(a)),
             (0.02, 0.62 * math.sin(a), 0.72 + 0.62 * math.cos(a)),
             chord=(0.05, 0.11 * math.cos(a), -0.11 * math.sin(a)), thickness=(0.02, 0.0, 0.0))

@@ -76,7 +76,7 @@ _SWEATER = partial(draw_top, long=0.66, is_open=False, has_hood=False)
 _HOODIE = partial(draw_top, long=0.68, is_open=False, has_hood=True)
 
 NOUNS = (
-    _hat("cowboy hat", "cowboy", (0.16, 0.08, 0.03), "stetson", "sombrero"),
+    _hat("cowboy hat", "cowboy", (0.16, 0.08, 0.03), "stetson"),
     _hat("straw hat", "straw", _STRAW, "sun hat"),
     _hat("top hat", "top hat", _DARK),
     _hat("chef hat", "toque", (0.80, 0.80, 0.78), "toque", "chef s hat"),
@@ -86,12 +86,12 @@ NOUNS = (
     _hat("woolly hat", "woolly", (0.45, 0.05, 0.04), "beanie", "bobble hat", "knit cap"),
     _over("apron", "apron", (0.80, 0.80, 0.78)),
     _hung("skirt", draw_skirt, None),
-    _hung("robe", draw_robe, None, "bathrobe", "cloak", "kimono", "gown robe"),
+    _hung("robe", draw_robe, None, "bathrobe", "gown robe"),
     _hung("cape", draw_cape, (0.55, 0.03, 0.02)),
     _over("tutu", "tutu", (0.80, 0.45, 0.50)),
     _over("overalls", "overalls", (0.04, 0.10, 0.28), "dungarees", "overall"),
     _hung("wetsuit", partial(draw_suit, legs=0.78), _DARK, "diving suit"),
-    _hung("suit", partial(draw_suit, legs=0.78), _DARK, "tuxedo", "business suit", "tracksuit"),
+    _hung("suit", partial(draw_suit, legs=0.78), _DARK, "tuxedo", "business suit"),
     _hung("pyjamas", partial(draw_suit, legs=0.78), (0.35, 0.50, 0.68), "pajamas", "onesie"),
     _hung("spacesuit", partial(draw_suit, legs=0.78), (0.80, 0.80, 0.78), "space suit"),
     _hung("sweater", _SWEATER, None, "pullover", "jumper", "sweatshirt", "cardigan", "jersey"),

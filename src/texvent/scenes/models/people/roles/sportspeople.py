@@ -101,10 +101,6 @@ SPORTS = (
     role(
         "tennis player",
         replace(PLAYER, shirts=(WHITE,), trousers=WHITE, hat="headband"),
-        "badminton player",
-        "table tennis player",
-        "ping pong player",
-        "squash player",
     ),
     role(
         "football player",
@@ -138,7 +134,6 @@ SPORTS = (
         ),
         "quarterback",
         "linebacker",
-        "rugby player",
     ),
     role("boxer", replace(PLAYER, shirts=(BARE,), trousers=RED, hat="headband")),
     role("fencer", suit(WHITE, gloves=WHITE, hat="race helmet", hat_colour=GREY)),

@@ -53,14 +53,10 @@ TRADES = (
     role(
         "waiter",
         suit(WHITE, trousers=DARK, garments=(("bow tie", None), ("knee coat", DARK))),
-        "bartender",
-        "butler",
-        "sommelier",
     ),
     role(
         "waitress",
         replace(WOMAN, shirts=(DARK,), has_sleeves=True, garments=(("skirt", DARK), *APRON)),
-        "maid",
         plurals=("waitresses",),
     ),
     role("potter", replace(ADULT, shirts=(CREAM,), garments=(("apron", (0.30, 0.14, 0.07)),))),
@@ -106,9 +102,6 @@ TRADES = (
             shoes=BROWN,
             garments=wears("belt", "star"),
         ),
-        "rancher",
-        "sheriff",
-        "rodeo rider",
     ),
     role(
         "firefighter",
@@ -129,8 +122,6 @@ TRADES = (
         suit(NAVY, hat="peaked", hat_colour=NAVY, garments=wears("belt", "star")),
         "policeman",
         "cop",
-        "security guard",
-        "traffic officer",
         "policewoman",
         plurals=("policemen", "policewomen"),
     ),
@@ -152,7 +143,6 @@ TRADES = (
     role(
         "pilot",
         suit(NAVY, shirts=(WHITE,), hat="peaked", hat_colour=NAVY, garments=wears("tie")),
-        "captain",
         "airline pilot",
     ),
     role(
@@ -169,7 +159,7 @@ TRADES = (
         "spaceman",
         "space walker",
     ),
-    role("doctor", WHITE_COAT, "physician", "dentist", "veterinarian", "vet"),
+    role("doctor", WHITE_COAT, "physician"),
     role(
         "scientist",
         replace(WHITE_COAT, hat="wild hair"),
@@ -179,7 +169,7 @@ TRADES = (
         "researcher",
         "biologist",
     ),
-    role("technician", WHITE_COAT, "pharmacist"),
+    role("technician", WHITE_COAT),
     role(
         "surgeon",
         suit(
@@ -192,7 +182,6 @@ TRADES = (
     role(
         "nurse",
         suit((0.35, 0.58, 0.68), hat="beret", hat_colour=WHITE, long_hair=True, height=0.96),
-        "paramedic",
     ),
     role(
         "mechanic",
@@ -280,13 +269,11 @@ TRADES = (
             hat_colour=RED,
             garments=wears("apron", colour=CREAM),
         ),
-        "artist",
     ),
     role(
         "janitor",
         suit((0.20, 0.24, 0.30), hat="cap", hat_colour=NAVY),
         "cleaner",
-        "street sweeper",
     ),
     role(
         "postman",
@@ -305,9 +292,6 @@ TRADES = (
     role(
         "businessman",
         suit(DARK, garments=wears("tie")),
-        "lawyer",
-        "banker",
-        "salesman",
         "man in a suit",
         plurals=("businessmen",),
     ),
