@@ -14,13 +14,16 @@ _IRREGULAR = {
 _UNCHANGED = ("fish", "sheep", "deer", "moose", "bison", "squid", "salmon", "tuna", "trout", "cod")
 """Ends of nouns whose plural is the same word."""
 
+_SINGULAR = ("ss", "us", "is", "as", "lens")
+"""Ends of singular nouns in s; others in s are plurals: "stairs", "headphones"."""
+
 
 def pluralise(noun: str) -> str:
     """The plural a person would write.
 
     Example:
-        >>> pluralise("person"), pluralise("tree")
-        ('people', 'trees')
+        >>> pluralise("person"), pluralise("tree"), pluralise("pitch lines")
+        ('people', 'trees', 'pitch lines')
     """
     return list_plurals(noun)[0]
 
@@ -38,7 +41,8 @@ def list_plurals(noun: str) -> tuple[str, ...]:
     if of:
         return tuple(f"{plural}{of}{rest}" for plural in list_plurals(head))
     first, last = noun[: noun.rfind(" ") + 1], noun.split()[-1]
-    usual = noun if last.endswith(_UNCHANGED) else None
+    is_plural = last.endswith("s") and not last.endswith(_SINGULAR)
+    usual = noun if is_plural or last.endswith(_UNCHANGED) else None
     usual = f"{first}{_IRREGULAR[last]}" if last in _IRREGULAR else usual
     regular = _list_regular_plurals(noun)
     return regular if usual is None else (usual, *(one for one in regular if one != usual))
