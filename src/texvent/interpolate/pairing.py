@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, closing
 from dataclasses import replace
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count_policy import CountPolicy
+from texvent.interpolate.flicker.known_light import KnownLight
+from texvent.interpolate.flicker.windows import note_invisible, with_light
 from texvent.interpolate.protocol import Interpolator
 from texvent.pairs.deflicker import steady_frames
 from texvent.pairs.frame_pair import FramePair, hold_earlier
@@ -54,13 +56,17 @@ def plan_pairs(
     """
     if config.interpolate == "motion" and isinstance(video, MovingStream):
         # Every instant of such a stream is known: nothing can be cut, and nothing flickers unseen.
-        video, config = video.with_motion(), replace(config, detect_cuts=False, deflicker=False)
+        video = video.with_motion()
+        config = replace(config, detect_cuts=False, deflicker=False, flicker_hz=None)
+    if config.flicker_hz is not None:
+        note_invisible(config.flicker_hz, video.fps)
     interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
     policy = CountPolicy(
         config, video, interpolator, balance=balance, contrast_threshold=contrast_threshold
     )
     if video.is_live:
-        return _release_memory(pair_frames(video, interpolator, config, policy))
+        pairs = pair_frames(video, interpolator, config, policy, looks_ahead=False)
+        return _release_memory(pairs)
     frames = threads.enter_context(closing(prefetch(_with_luma(video), depth=FRAMES_AHEAD)))
     pairs = pair_frames(frames, interpolator, config, policy)
     ahead = threads.enter_context(closing(prefetch(pairs, depth=PAIRS_AHEAD)))
@@ -72,31 +78,68 @@ def pair_frames(
     interpolator: Interpolator,
     config: InterpolateConfig,
     policy: CountPolicy,
+    *,
+    looks_ahead: bool = True,
 ) -> Iterator[FramePair]:
     """Source frames as pairs with the frames between them; the first pair has no earlier frame.
 
     What a pair costs once, such as its optical flow, is computed here; its intermediate frames are
     made when `FramePair.between` is read. So one thread may run ahead here while another reads.
 
+    Args:
+        frames: source frames.
+        interpolator: makes the intermediate frames.
+        config: whether flicker, a lamp and cuts are looked for.
+        policy: how many intermediate frames there are.
+        looks_ahead: whether some frames may be read before the pairs of earlier ones are made,
+            which a known lamp needs to be found from its first frame on.
+
     Raises:
         InputError: a source frame has another size than the first, a time that does not
             increase, or a pixel that is NaN, infinite or negative.
     """
     previous: Frame | None = None
-    checked = map(StreamChecker().check, frames)
-    for frame in steady_frames(checked) if config.deflicker else checked:
-        change = SceneChange.NONE if previous is None else _scene_change(previous, frame, config)
-        times_us: Sequence[int] = ()
-        between: Iterable[Frame] = ()
-        if previous is not None and change is not SceneChange.NONE:
-            between = hold_earlier(previous, frame)
-        elif previous is not None:
-            count = policy.count(previous, frame)
-            times_us = intermediate_times_us(previous.t_us, frame.t_us, count)
-            if times_us:
-                between = interpolator.between(previous, frame, times_us)
-        yield FramePair(previous, frame, change, times_us, between)
+    for frame, light in _with_light(frames, config, looks_ahead=looks_ahead):
+        if previous is None:
+            yield FramePair(None, frame, SceneChange.NONE, (), ())
+        else:
+            yield _make_pair(previous, frame, light, interpolator, config, policy)
         previous = frame
+
+
+def _make_pair(
+    previous: Frame,
+    frame: Frame,
+    light: KnownLight | None,
+    interpolator: Interpolator,
+    config: InterpolateConfig,
+    policy: CountPolicy,
+) -> FramePair:
+    first, second = previous, frame
+    if light is not None:
+        first, second = light.take_off(previous), light.take_off(frame)
+    change = _scene_change(first, second, config)
+    if change is not SceneChange.NONE:
+        return FramePair(previous, frame, change, (), hold_earlier(previous, frame))
+    count = policy.count(previous, frame, flicker_hz=None if light is None else light.hz)
+    times_us = intermediate_times_us(previous.t_us, frame.t_us, count)
+    between: Iterable[Frame] = ()
+    if times_us:
+        between = interpolator.between(first, second, times_us)
+        between = between if light is None else light.put_back(between)
+    return FramePair(previous, frame, change, times_us, between)
+
+
+def _with_light(
+    frames: Iterable[Frame], config: InterpolateConfig, *, looks_ahead: bool
+) -> Iterator[tuple[Frame, KnownLight | None]]:
+    """The frames, checked, with the light of the lamp that is known."""
+    checked = map(StreamChecker().check, frames)
+    if config.flicker_hz is not None:
+        yield from with_light(checked, config.flicker_hz, looks_ahead=looks_ahead)
+        return
+    for frame in steady_frames(checked) if config.deflicker else checked:
+        yield frame, None
 
 
 def _scene_change(first: Frame, second: Frame, config: InterpolateConfig) -> SceneChange:

@@ -10,16 +10,16 @@ from typing import Literal, TypeAlias
 from texvent._registry import SIMULATORS
 from texvent.bench.oracle.recording import TrueFrames, render_video
 from texvent.bench.oracle.scenes import Scene
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
 from texvent.run.settings import Settings, resolve
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
 
-Track: TypeAlias = Literal["frames", "true frames", "recorded"]
-"""What a simulator gets: frames as a camera records them, or the scene at any instant. "recorded"
-marks events of a real sensor."""
+Track: TypeAlias = Literal["frames", "frames, lamp known", "true frames", "recorded"]
+"""What a simulator gets: frames as a camera records them, those and the frequency of a lamp, or the
+scene at any instant. "recorded" marks events of a real sensor."""
 
 INTERPOLATIONS = ("none", "blend", "flow", "exact")
 """Interpolators that are compared; "exact" gets the true frames, all others the camera's frames."""
@@ -35,24 +35,35 @@ class Entry:
     """Name of the options; default: the simulator's first preset."""
     is_rate_matched: bool = True
     """Whether the contrast threshold is fitted to the number of true events, or kept."""
+    flicker_hz: float | None = None
+    """Frequency of the lamp that the interpolator is told, Hz."""
 
     @property
     def name(self) -> str:
         """How tables call it."""
         preset = f" {self.preset}" if self.preset else ""
-        return f"{self.simulator}{preset}, {self.interpolate}"
+        lamp = "" if self.flicker_hz is None else f" {self.flicker_hz:g} Hz"
+        return f"{self.simulator}{preset}, {self.interpolate}{lamp}"
 
     @property
     def track(self) -> Track:
-        """Whether it is given the true intermediate frames."""
+        """Whether it is given the true intermediate frames, or a lamp."""
+        if self.flicker_hz is not None:
+            return "frames, lamp known"
         return "true frames" if self.interpolate == "exact" else "frames"
 
     @classmethod
     def parse(cls, name: str) -> Entry:
         """The entry that tables call so."""
-        model, _, interpolate = name.rpartition(", ")
+        model, _, filled = name.rpartition(", ")
         simulator, _, preset = model.partition(" ")
-        return cls(simulator=simulator, preset=preset or None, interpolate=interpolate)
+        interpolate, _, lamp = filled.removesuffix(" Hz").partition(" ")
+        return cls(
+            simulator=simulator,
+            preset=preset or None,
+            interpolate=interpolate,
+            flicker_hz=float(lamp) if lamp else None,
+        )
 
     def settings(self, seed: int) -> Settings:
         """Resolved options of a run.
@@ -64,6 +75,7 @@ class Entry:
             "simulator": self.simulator,
             "preset": self.preset,
             "interpolate": self.interpolate,
+            "flicker_hz": self.flicker_hz,
             "seed": seed,
         }
         return resolve("simulate", options)
@@ -92,7 +104,9 @@ class Entry:
         Raises:
             TexventError: the simulator cannot run as it is, such as without its weights.
         """
-        video: FrameStream = render_video(scene) if self.track == "frames" else TrueFrames(scene)
+        video: FrameStream = (
+            TrueFrames(scene) if self.track == "true frames" else render_video(scene)
+        )
         return simulate_video(video, self.settings(seed), threshold)
 
 
@@ -122,7 +136,11 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
 
     Args:
         simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare.
-        interpolations: names of interpolators, separated by commas; None means `INTERPOLATIONS`.
+        interpolations: `NAME` or `NAME:HZ` of a lamp that it is told, separated by commas; None
+            means `INTERPOLATIONS`.
+
+    Raises:
+        ConfigError: a frequency is no number.
     """
     chosen = simulators_to_compare()
     if simulators is not None:
@@ -130,7 +148,17 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
         chosen = [(simulator, preset or None) for simulator, _, preset in words]
     names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
     return [
-        Entry(simulator=simulator, preset=preset, interpolate=interpolate)
+        Entry(simulator=simulator, preset=preset, interpolate=interpolate, flicker_hz=hz)
         for simulator, preset in chosen
-        for interpolate in names
+        for interpolate, hz in map(_name_and_hz, names)
     ]
+
+
+def _name_and_hz(word: str) -> tuple[str, float | None]:
+    name, _, hz = word.partition(":")
+    try:
+        return name, float(hz) if hz else None
+    except ValueError:
+        raise ConfigError(
+            f"interpolations: {shown(hz)} after {shown(name)} is no frequency; write {name}:37"
+        ) from None

@@ -27,7 +27,7 @@ class FidelityOptions:
     default: all that are registered, and texvent:accurate."""
     interpolations: str | None = None
     """Names of interpolators, separated by commas; default: none,blend,flow,exact (the true
-    frames). Others, such as rife, need their weights."""
+    frames). flow:37 is told of a lamp of 37 Hz. Others, such as rife, need their weights."""
     jobs: int = 2
     """Processes to use."""
 
