@@ -29,7 +29,7 @@ _CITY_WORDS = frozenset({"city", "town", "downtown", "urban"})
 _ROOMS = ("living room", "kitchen", "bedroom", "office", "workshop", "warehouse", "gym",
           "construction site")  # fmt: skip
 _GROUNDS = {
-    "sea": WATER, "river": WATER, "lake": WATER, "road": ROAD,
+    "sea": WATER, "river": WATER, "lake": WATER, "beach": WATER, "road": ROAD,
         "dirt road": ROAD, "space": SKY,
 }  # fmt: skip
 

@@ -142,7 +142,8 @@ class CameraMove:
 
     kind: str
     """"static", "pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "follow",
-    "crane" (up or down over what it looks at), "dolly zoom", "handheld" or "travel" (ego-motion:
+    "crane" (up or down over what it looks at), "dolly zoom", "handheld", "dutch" (held aslant)
+    or "travel" (ego-motion:
     along the road or through the place; from the air with an "aerial" view)."""
     direction: str | None = None
     """"left", "right", "up", "down", "in", "out", "clockwise" or "counter-clockwise"; for travel
@@ -176,7 +177,7 @@ class Shot:
     @property
     def is_moving(self) -> bool:
         """Whether the camera moves."""
-        return any(move.kind != "static" for move in self.moves)
+        return any(move.kind not in ("static", "dutch") for move in self.moves)
 
 
 @dataclass(frozen=True)

@@ -501,7 +501,7 @@ def test_a_bell_swings_if_it_rings(prompt: str, kind: str) -> None:
 def test_a_game_without_players_is_one_person_and_reported() -> None:
     description = parse_prompt("table tennis rally on a beach")
     assert [one.noun for one in description.objects] == ["person"]
-    assert description.surroundings.place == "sand"
+    assert description.surroundings.place == "beach"
     assert {one.shown for one in description.substituted} == {"one person, swing racket"}
 
 

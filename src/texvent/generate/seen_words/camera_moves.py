@@ -20,7 +20,7 @@ MOST_STILL = 0.004
 MOST_DRIFT = 0.35
 """How far what a camera follows may go in the picture, a share of its width."""
 _OF_PLACE = frozenset({"travel", "dolly", "truck", "pedestal", "crane", "orbit", "dolly zoom"})
-_WITH_STATIC = frozenset({"static", "travel", "handheld", "follow", "pan", "tilt", "zoom"})
+_WITH_STATIC = frozenset({"static", "dutch", "travel", "handheld", "follow", "pan", "tilt", "zoom"})
 """Moves beside which a camera may be said to be fixed: to what goes, or where it only turns."""
 _TURNS = frozenset({"pan", "tilt", "zoom", "roll"})
 

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from texvent.generate.seen_words.picture import USUAL, Picture
+from texvent.generate.seen_words.picture import USUAL, Picture, View
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import Actor
 
 MOST_RED = 0.04
 """How much more red than blue water may be, as a share of white."""
 LEAST_STRIP, LEAST_EDGE = 0.02, 0.05
 """Share of the picture that water or a road covers; its difference from the ground beside it."""
 _WATER_WORDS = frozenset({"water", "waters"})
+LEAST_FLYER = 0.05
+"""Extent of what is in the sky, as a share of the picture's width or height."""
 LEAST_GROUND = 0.05
 """Share of the picture that a ground such as grass covers."""
 _GROUNDS = ("grass", "savanna", "gravel", "soil", "sand", "snow", "construction site")
@@ -28,14 +31,12 @@ _LACKS: dict[str, tuple[str, ...]] = {
         "snowy slope",
         "hillside",
     ),
-    "sand without the sea": ("beach", "shore", "coast"),
     "the water is calm": ("surf",),
     "a plain road": ("avenue",),
     "a wood of firs and broadleaf trees": ("jungle", "rainforest"),
     "no furrows": ("ploughed field", "plowed field"),
     "as wide as a lake": ("pond",),
     "as wide as a river": ("brook", "creek", "canal", "ditch"),
-    "a street": ("square",),
 }
 """What a place is shown as, or lacks → its words."""
 _NEEDS: dict[str, tuple[str, ...]] = {
@@ -43,7 +44,7 @@ _NEEDS: dict[str, tuple[str, ...]] = {
     "garden": ("flower", "fence", "garden fence"),
 }  # fmt: skip
 """Word → things one of which makes a lawn such a place."""
-_WATERS = ("river", "lake", "sea")
+_WATERS = ("river", "lake", "sea", "beach")
 
 
 def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
@@ -61,7 +62,7 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         return f"no {' or '.join(needed)}"
     place = description.surroundings.place
     if claim.value == "sky" and place != "sky":
-        return None if _is_anything_aloft(picture) else "on the ground"
+        return None if _is_anything_aloft(picture) else "nothing is seen there"
     if claim.word in _WATER_WORDS and place not in (*_WATERS, "underwater"):
         return None if place in ("sky", "space", None) else "no water in view"
     if claim.value in _WATERS and place in _WATERS:
@@ -109,11 +110,28 @@ def _differ(strip: Float64Array, beside: Float64Array) -> bool:
 
 
 def _is_anything_aloft(picture: Picture) -> bool:
-    """Whether something in view is above the ground by its own height."""
+    """Whether something in view, no speck, is above the ground and above all that stands there."""
+    actors = picture.scene.actors
     for view in picture.views:
-        seen = set(np.unique(view.instance))
-        for actor in picture.scene.actors:
+        tops = [float(one.corners(view.time_s)[:, 2].max()) for one in actors if not _flies(one)]
+        for actor in actors:
             height = actor.trajectory.at(view.time_s).position[2]
-            if actor.instance in seen and height > max(actor.model.height, 0.3):
+            is_high = height > max(actor.model.height, 0.3) and (
+                not _flies(actor) or height >= max(tops, default=0.0)
+            )
+            if is_high and _extent(picture, view, actor.instance) >= LEAST_FLYER:
                 return True
     return False
+
+
+def _flies(actor: Actor) -> bool:
+    return actor.noun.habitat == "air"
+
+
+def _extent(picture: Picture, view: View, instance: int) -> float:
+    """Of a thing in a view, as a share of the picture's width or height."""
+    at = picture.points[view.instance == instance]
+    if not len(at):
+        return 0.0
+    edge = np.array([picture.size.width, picture.size.height])
+    return float((np.ptp(at, axis=0) / edge).max())

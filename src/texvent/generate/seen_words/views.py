@@ -24,6 +24,9 @@ LEAST_CLOSE = 0.5
 """Share of the picture's width or height that a thing in close-up fills."""
 MOST_WIDE = 0.5
 """The same up to which a shot is wide."""
+LEAST_UP = 0.15
+"""How much higher than the camera something seen from below is, per metre of distance."""
+_BELOW = ("below", "underneath", "worm eye", "worm eye view", "worm eye shot")
 EYES_M, MOST_SLANT = (0.15, 2.4), 0.3
 """Heights of a camera at the level of eyes, m; and sine of the angle at which it looks at most."""
 MOST_OF_CLIP = 0.6
@@ -42,7 +45,7 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
     if claim.value == "aerial" and max(down) < SLANT_DOWN:
         return "the camera does not look down"
     if claim.value == "low":
-        return _judge_low(picture)
+        return _judge_low(picture) or _judge_below(picture, description, claim)
     if claim.value == "level":
         return _judge_level(picture)
     if claim.value == "wide" and _greatest_extent(picture) > MOST_WIDE:
@@ -64,6 +67,19 @@ def _judge_low(picture: Picture) -> str | None:
         if height <= LOW_M or (height <= KNEE_M and up >= LOOKING_UP):
             return None
     return "the camera is not low"
+
+
+def _judge_below(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """From below one looks up at a thing: its middle is well above the camera."""
+    actors = picture.scene.actors
+    if not claim.word.endswith(_BELOW) or not actors:
+        return None
+    main = choose_main(description, actors)
+    for view in picture.views:
+        x, y, z = main.middle(view.time_s) - view.camera.position
+        if z >= LEAST_UP * math.hypot(x, y):
+            return None
+    return f"the {main.noun.name} is not seen from below"
 
 
 def _judge_level(picture: Picture) -> str | None:

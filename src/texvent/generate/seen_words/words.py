@@ -16,6 +16,8 @@ from texvent.scenes.staging.surroundings.environment import is_room
 
 _OF_THINGS = frozenset({"name", "colour", "size", "material", "part", "side", "count"})
 _OF_SCENE = ("light", "weather", "effect", "dust")
+_WAVES = ("wave", "waves")
+"""What a surfer is said to ride."""
 _LEAST_PAINTED = 0.05
 
 
@@ -35,6 +37,8 @@ def judge_words(
     words: dict[str, str] = {}
     qualities: dict[tuple[str, int], str] = {}
     for claim in description.claims:
+        if claim.word in _WAVES and claim.aspect == "name" and claim.motion is not None:
+            words.setdefault(claim.word, "the sea is calm")
         if claim.things and claim.aspect in _OF_THINGS:
             for index in claim.things:
                 fault = judge_thing(picture, description, claim, index)

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import SceneDescription, Substitution
-from texvent.scenes.inflection import list_plurals
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.vocabulary.place_cues import ENCLOSED
-from texvent.scenes.language.vocabulary.scene import PLACES
 from texvent.scenes.models.protocol import Noun
 
 _FAST_FLYER_M_S = 4.0
 """What flies faster than this is shown in the sky, far from the ground."""
+_PIER = "pier"
+"""What stands in the water, with what is on it."""
 _AFLOAT_MOTIONS = ("sail", "paddle")
 
 _IN_WATER = ("swim", "surf")
 """What people and animals of the land do in water only."""
 _ON_SNOW = ("ski", "snowboard")
 """What people do on snow only."""
-SHORE = "lake"
-"""Where what stands on land is beside the sea: water with land before it."""
+SHORE, BEACH = "lake", "beach"
+"""Where what stands on land is beside a lake, or the sea: water with land before it."""
 _PLACE_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 """How a camera travels → where it does so."""
 _USUAL_PLACES: dict[str, tuple[str, ...]] = {
@@ -51,8 +51,8 @@ _NEUTRAL = ("grass", "plain")
 """Places that say nothing where the program chose them."""
 _UNREMARKABLE = (*_NEUTRAL, "sky", "indoor", "road")
 """Places that need no note where the program chose them: vehicles are on roads anyway."""
-_NAMES = {"snow": "snow", "sand": "sand", "hills": "hills", "underwater": "under water",
-          "sea": "the sea", "soil": "bare soil"}  # fmt: skip
+_NAMES = {"snow": "snow", "sand": "sand", "hills": "hills",
+          "underwater": "under water", "sea": "the sea", "soil": "bare soil"}  # fmt: skip
 """Place → its name in a sentence, where that is not the word itself with "a"."""
 _INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", "gym",
            "laboratory")  # fmt: skip
@@ -63,7 +63,7 @@ def choose_place(
 ) -> str:
     """The place of the scene: as stated, or the usual one for its objects.
 
-    Fish "in the sea" are shown under water, and a house "by the sea" beside a lake. What is not
+    Fish "in the sea" are shown under water, and a house "by the sea" on the beach. What is not
     stated is never inside where a word tells of outdoors, and never outdoors where one tells of a
     room; where words tell of both, the objects decide.
     """
@@ -72,45 +72,46 @@ def choose_place(
         return usual
     is_open = usual in _NEUTRAL or (usual == SHORE and cues.outdoor == "sea")
     if cues.is_outdoors and cues.outdoor and (usual in ENCLOSED or is_open):
-        return cues.outdoor
+        is_ashore = {nouns[one.noun].habitat for one in description.objects} <= {"ground", "fixed"}
+        return BEACH if cues.outdoor == "sea" and is_ashore else cues.outdoor
     if cues.is_indoors and cues.indoor and (usual not in ENCLOSED or usual == "indoor"):
         return cues.indoor
     return usual
 
 
-def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
-    """The place as stated, or where its objects usually are."""
-    said = description.surroundings
+def _list_members(description: SceneDescription, nouns: Mapping[str, Noun]) -> list[Noun]:
+    """Nouns of its objects, but of those that others have with them."""
     carried = {
         target
         for relation in description.relations
         if relation.kind in ("carry", "hold", "wear")
         for target in relation.targets
     }
-    members = [
+    return [
         nouns[scene_object.noun]
         for index, scene_object in enumerate(description.objects)
         if index not in carried
     ]
+
+
+def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
+    """The place as stated, or where its objects usually are."""
+    said = description.surroundings
+    members = _list_members(description, nouns)
     is_in_water = any(
         one.motion is not None
         and one.motion.kind in _IN_WATER
         and nouns[one.noun].habitat == "ground"
         for one in description.objects
     )
-    habitats = {noun.habitat for noun in members}
     is_submerged = bool(members) and all(
         noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in members
     )
-    if said.place == "sea":
-        goes = any(one.motion is not None and one.motion.shore for one in description.objects)
-        return SHORE if goes else _choose_sea(
-            habitats, is_submerged=is_submerged, is_in_water=is_in_water
-        )  # fmt: skip
-    if said.place in ("lake", "river") and is_submerged:
-        return "underwater"
-    if said.place is not None or _is_of_clouds(description):
-        return said.place or "sky"
+    stated = _fit_stated(description, members, nouns, is_submerged=is_submerged)
+    if stated is not None:
+        return stated
+    if _is_of_clouds(description):
+        return "sky"
     if is_submerged:
         return "underwater"
     if is_in_water:
@@ -130,38 +131,78 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
     return _choose_usual(members, rests=rests, is_wet=said.weather in ("rain", "snow"))
 
 
+_ALOFT = frozenset({"fly", "hover", "float", "fall", "rise", "sink", "throw", "blow", "orbit"})
+"""Motions in which what lives on the ground is in the air."""
+_AT_SEA = frozenset({"swim", "surf", "sail", "paddle", "float", "dive", "row", "sink"})
+"""Motions in which it is in the water."""
+_OFFSHORE = frozenset({_PIER, "bridge", "lighthouse", "oil rig", "iceberg", "rock", "island"})
+"""Things that stand in the sea."""
+
+
+def _needs_ground(
+    description: SceneDescription, nouns: Mapping[str, Noun], kinds: frozenset[str]
+) -> bool:
+    """Whether something stands in no sky, and no sea: who watches a balloon drift overhead.
+
+    What flies, floats or falls by itself needs none, nor who is in or on it; `kinds` are the
+    motions in which others do so, too.
+    """
+    borne = {
+        index
+        for index, one in enumerate(description.objects)
+        if nouns[one.noun].habitat in ("air", "water")
+        or one.noun in _OFFSHORE
+        or any(move is not None and move.kind in kinds for move in (one.motion, *one.then))
+    }
+    for one in description.relations:
+        if one.kind in _BEARING and borne.intersection(one.targets):
+            borne.add(one.subject)
+        elif one.kind in ("hold", "carry") and one.subject in borne:
+            borne.update(one.targets)
+    return not borne >= set(range(len(description.objects)))
+
+
+_BEARING = frozenset({"in", "on", "ride", "ride along"})
+"""Relations of what goes through the air in or on something else."""
+_NO_GROUND = ("space", "underwater", "sky")
+
+
 def _is_of_clouds(description: SceneDescription) -> bool:
     """As in "timelapse of clouds"."""
     return description.is_timelapse and {one.noun for one in description.objects} == {"cloud"}
 
 
-def _choose_sea(habitats: Set[str], *, is_submerged: bool, is_in_water: bool) -> str:
-    if is_submerged:
+def _fit_stated(
+    description: SceneDescription,
+    members: Sequence[Noun],
+    nouns: Mapping[str, Noun],
+    *,
+    is_submerged: bool,
+) -> str | None:
+    """The place as stated; ground below sky, or water beside land, as its things need it."""
+    place = description.surroundings.place
+    has_pier = any(noun.name == _PIER for noun in members)
+    if place == "sky" and _needs_ground(description, nouns, _ALOFT):
+        usual = _choose_usual(members, rests=False, is_wet=False)
+        return "grass" if usual in ENCLOSED or usual in _NO_GROUND else usual
+    if place in ("sea", "lake", "river") and is_submerged:
         return "underwater"
-    is_beside = bool(habitats) and habitats <= {"ground", "fixed"} and not is_in_water
-    return SHORE if is_beside else "sea"
+    if has_pier and place in (None, "sea", BEACH):
+        return "sea"
+    goes_in = any(one.motion is not None and one.motion.shore for one in description.objects)
+    if place == "sea" and (goes_in or _needs_ground(description, nouns, _AT_SEA)):
+        return BEACH
+    return place
 
 
 def report_place(description: SceneDescription, place: str) -> SceneDescription:
-    """The description with a note where the program chose the place.
-
-    Where the sea that the prompt names is shown as a lake, the description says so too.
-    """
+    """The description with a note where the program chose the place."""
     if description.surroundings.place is None and place not in _UNREMARKABLE:
         article = "an" if place[0] in "aeiou" else "a"
         name = _NAMES.get(place, f"{article} {place}")
         note = f"no place is said: {name} is chosen"
-        description = replace(description, notes=(*description.notes, note))
-    if description.surroundings.place != "sea" or place != SHORE:
-        return description
-    said = (word for word in PLACES["sea"] if "water" not in word)
-    known = {form for word in said for form in (word, *list_plurals(word))}
-    words = [word for word in description.shown if word in known]
-    return replace(
-        description,
-        shown=tuple(word for word in description.shown if word not in words),
-        substituted=(*description.substituted, *(Substitution(word, SHORE) for word in words)),
-    )
+        return replace(description, notes=(*description.notes, note))
+    return description
 
 
 def _choose_usual(members: Sequence[Noun], *, rests: bool, is_wet: bool) -> str:

@@ -14,6 +14,7 @@ from texvent.scenes.description import (
 )
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.default_place import choose_place, report_place
+from texvent.scenes.language.lanes import go_along
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.objects.patterns import FACING
@@ -44,7 +45,8 @@ def complete_description(
     place = choose_place(description, nouns, cues)
     description = report_place(description, place)
     said = replace(description.surroundings, place=place)
-    description = _give_usual_work(replace(description, surroundings=said))
+    description = go_along(_give_usual_work(replace(description, surroundings=said)))
+    objects = description.objects
     is_active = any(relation.kind in ACTIVE for relation in description.relations)
     if (
         description.shot.is_moving
@@ -219,6 +221,11 @@ def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
             objects[target] = replace(objects[target], motion=ObjectMotion("drive", pace=0.5))
         if relation.kind == "follow" and objects[target].motion is None and usual != "stand":
             objects[target] = replace(objects[target], motion=ObjectMotion(usual))
+    aim = description.shot.target
+    if aim is not None and any(move.kind == "follow" for move in description.shot.moves):
+        noun = nouns[objects[aim].noun]
+        if objects[aim].motion is None and noun.speed_m_s > 0.0:
+            objects[aim] = replace(objects[aim], motion=ObjectMotion(noun.motion))
     return replace(description, objects=tuple(objects))
 
 

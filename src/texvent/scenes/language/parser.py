@@ -27,14 +27,14 @@ from texvent.scenes.language.word_claims import (
     list_claims,
     says_something,
 )
-from texvent.scenes.language.words.english import list_readings
+from texvent.scenes.language.words.english import is_of_other_grammar, list_readings
 from texvent.scenes.language.words.film import read_film_words
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.language.words.sense_cues import choose_senses
 from texvent.scenes.language.words.tagging import tag_words
 from texvent.scenes.language.words.telegrams import read_telegrams
 from texvent.scenes.language.words.tokens import tokenize_prompt
-from texvent.scenes.language.words.viewpoint import mark_viewpoints
+from texvent.scenes.language.words.viewpoint import find_means, mark_viewpoints
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
@@ -70,7 +70,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         )
     known = _known_words() if nouns is NOUNS else Lexicon(nouns)
     words, notes = tag_words(tokenize_prompt(prompt), known)
-    if _is_foreign(words):
+    if _is_foreign(words) or is_of_other_grammar(prompt):
         raise InputError(
             f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
             "write it in English, or use a model that takes any text (texvent generators)"
@@ -80,7 +80,9 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     choose_senses(words, known)
     is_carried = mark_viewpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))
-    meaning = ClauseMeaning(nouns, is_carried=is_carried)
+    meaning = ClauseMeaning(
+        nouns, is_carried=is_carried, means=find_means(words) if is_carried else None
+    )
     clauses = read_clauses(words[:MOST_WORDS])
     link_companions(clauses)
     for clause in clauses:

@@ -168,6 +168,8 @@ _NOUNS: tuple[str, ...] = (
     "horse trough", "striped awning", "unicorn", "skeleton", "ghost", "alien", "dragon",
     "car wash arch", "check-in desk", "flight board", "locker row", "corridor door", "ticket gate",
     "terrace table", "drive slab", "garage front",
+    "corridor walls", "locker walls", "alley walls", "roof parapet", "roof unit", "balcony rail",
+    "ward walls",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

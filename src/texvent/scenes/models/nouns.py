@@ -54,7 +54,7 @@ from texvent.scenes.models.objects.outdoors import (
     vegetation,
     wild,
 )
-from texvent.scenes.models.objects.places import grounds, halls, rooms
+from texvent.scenes.models.objects.places import enclosures, grounds, halls, rooms
 from texvent.scenes.models.objects.play import music
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, equipment, gear
@@ -146,6 +146,7 @@ _MODULES = (
     landmarks,
     tales,
     halls,
+    enclosures,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}

@@ -49,8 +49,9 @@ from texvent.scenes.staging.surroundings.environment import (
 )
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.road_choice import find_road
+from texvent.scenes.staging.surroundings.scatter_rule import is_structure
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
-from texvent.scenes.staging.surroundings.scenery_along import line_route
+from texvent.scenes.staging.surroundings.scenery_along import is_placed_by_view, line_route
 from texvent.scenes.staging.surroundings.scenery_tables import BACKDROPS, SCENERY, ScatterRule
 from texvent.scenes.staging.surroundings.wading import goes_over_shore, wade
 from texvent.scenes.staging.surroundings.waterside import STRIPS, WATERSIDE, water_line
@@ -360,7 +361,8 @@ def _scatter_all(
                     [rule], view.travel, actors, allowed, rng=rng, road_half_m=view.road_half_width
                 )
             around.extend((target, item) for item in found)
-    rules = [] if description.surroundings.is_empty else list(SCENERY.get(place, ()))
+    is_empty = description.surroundings.is_empty
+    rules = [rule for rule in SCENERY.get(place, ()) if is_structure(rule) or not is_empty]
     for backdrop in description.surroundings.backdrops:
         rules.extend(BACKDROPS[backdrop])
     taken = [item for _, item in around]
@@ -371,7 +373,7 @@ def _scatter_all(
         lined = line_route(
             rules, view.travel, actors, unsaid, rng=rng, road_half_m=view.road_half_width
         )
-        far = [rule for rule in rules if rule.is_metres]
+        far = [rule for rule in rules if is_placed_by_view(rule)]
         return lined + scatter(far, view, actors, unsaid, rng=rng, taken=taken), around
     return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
 

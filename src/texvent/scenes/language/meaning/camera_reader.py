@@ -35,6 +35,16 @@ _STATIONS = {"behind": "back", "in front of": "front", "beside": "side", "next t
              "over": "aerial"}  # fmt: skip
 """Where the camera stands beside what has a front → view."""
 _ALONG = frozenset({"past", "along", "across", "by"})
+_WITH: dict[str, str | None] = {
+    "alongside": "side", "beside": "side", "next to": "side", "with": None, "after": None,
+    "behind": "behind", "in front of": "front", "ahead of": "front",
+}  # fmt: skip
+"""Preposition of a camera that goes with something → from where it follows."""
+_FREE = frozenset({"travel", "truck", "pan", "dolly", "pedestal"})
+_OUT_OF_WINDOW = CameraMove("truck", "right", 2.0)
+_HIGH = ("aerial", "top")
+_RISE_PACE = 1.6
+"""Pace of a crane that rises from the ground to a view from above."""
 _OWN_TRAVEL = CameraMove("travel", "forward")
 """What "first person" alone means."""
 _TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truck", "left"),
@@ -46,20 +56,25 @@ _TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truc
 class CameraReader:
     """Collects camera moves, view and framing."""
 
-    def __init__(self, draft: Draft, *, is_carried: bool = False) -> None:
+    def __init__(self, draft: Draft, *, is_carried: bool = False, means: str | None = None) -> None:
         """Start a shot.
 
         Args:
             draft: what is known of the scene.
             is_carried: whether the camera rides in or on something that the prompt names.
+            means: how that goes, or "window" where it looks out sideways.
         """
         self._draft = draft
-        self._moves: list[CameraMove] = [_OWN_TRAVEL] if is_carried else []
-        self._view: str | None = None
+        self._own = _OUT_OF_WINDOW if means == "window" else replace(_OWN_TRAVEL, means=means)
+        """Move of what carries it."""
+        self._moves: list[CameraMove] = [self._own] if is_carried else []
+        self._view: str | None = "aerial" if means == "fly" else None
         self._framing: str | None = None
         self._target: int | None = None
         self._station: int | None = None
         """What the camera stands beside."""
+        self._claimed: Word | None = None
+        """The verb of its last move."""
         self._is_placed = False
         """Whether its moves so far say only where it is."""
         self._phase = 0
@@ -157,7 +172,7 @@ class CameraReader:
         move = word.read_as(Role.CAMERA_MOVE)
         own = _OF_CAMERA.get(word.lemma) if move is None and means is None else None
         if own is not None:
-            is_carried = self._moves[:1] == [_OWN_TRAVEL]
+            is_carried = self._moves[:1] == [self._own]
             goes_on = own == ("dolly", "in") and (is_carried or self._goes_through(phrases))
             value = ("travel", "forward") if goes_on else own
             word.meaning = Meaning(Role.CAMERA_MOVE, word.pos, value, word.meaning.form)
@@ -170,6 +185,7 @@ class CameraReader:
         elif move is not None and not self._goes_through(phrases):
             kind, direction = move.value
             self._add(CameraMove(kind, direction))
+            self._claimed = word
             word.is_used = True
         elif word.role is Role.VERB and isinstance(word.meaning.value, Verb):
             self._read_motion(word, word.meaning.value, phrases)
@@ -202,7 +218,7 @@ class CameraReader:
 
     def _claim(self, word: Word) -> None:
         """This word asks for the last move."""
-        last = self._moves[-1]
+        last, self._claimed = self._moves[-1], word
         value = (last.kind, last.direction)
         word.meaning = Meaning(Role.CAMERA_MOVE, word.pos, value, word.meaning.form)
         word.is_used = True
@@ -237,7 +253,7 @@ class CameraReader:
             self._moves.pop()
         if self._moves and self._moves[-1] == move:
             return
-        if self._moves and move.kind == "travel" and self._moves[-1] == _OWN_TRAVEL:
+        if self._moves and move.kind == "travel" and self._moves[-1] == self._own:
             self._moves.pop()
         self._moves.append(move)
 
@@ -281,6 +297,7 @@ class CameraReader:
         if referent.is_things:
             if self.stand_by(word, referent) or not self._moves:
                 return
+            self._go_with(word, referent)
             last = self._moves[-1]
             if word.text in _ALONG and last.kind == "dolly" and last.direction is None:
                 self._moves[-1] = replace(last, kind="truck")
@@ -298,11 +315,31 @@ class CameraReader:
         elif referent.kind == "place" and word.text in _TRAVEL_PREPOSITIONS | {"at", "on"}:
             word.is_used = True
 
+    def _go_with(self, word: Word, referent: Referent) -> None:
+        """As in "moves alongside her", "pans after the ball": it follows what goes."""
+        last = self._moves[-1]
+        noun = self._draft.noun(referent.things[0])
+        if word.text in _WITH and last.kind in _FREE and last.means is None and noun.speed_m_s:
+            self._moves[-1] = replace(last, kind="follow", direction=_WITH[word.text])
+            if self._claimed is not None:
+                self._claim(self._claimed)
+
     def _tilt_towards(self, referent: Referent) -> None:
         """As in "tilts toward the street": down."""
         last = self._moves[-1]
         if last.kind == "tilt" and last.direction is None and referent.kind in ("place", "sky"):
             self._moves[-1] = replace(last, direction="up" if referent.kind == "sky" else "down")
+
+    def _rise_to_view(self) -> None:
+        """As in "rises to a high aerial view": it begins low."""
+        goes = [move for move in self._moves if move.kind in ("pedestal", "crane")]
+        if self._view not in _HIGH or not goes or goes[0].direction != "up":
+            return
+        self._moves = [
+            replace(move, kind="crane", pace=_RISE_PACE) if move is goes[0] else move
+            for move in self._moves
+        ]
+        self._view = "rising"
 
     def stand_by(self, word: Word, referent: Referent) -> bool:
         """As in "the camera is placed behind the catcher": whether it is read so."""
@@ -326,4 +363,5 @@ class CameraReader:
     def build(self) -> Shot:
         """The shot as understood."""
         target = self._station if self._target is None else self._target
+        self._rise_to_view()
         return Shot(tuple(self._moves), self._view, self._framing, target)

@@ -48,10 +48,12 @@ POSTER = "poster"
 class ClauseMeaning:
     """Reads clauses in order and collects the scene."""
 
-    def __init__(self, nouns: Mapping[str, Noun], *, is_carried: bool = False) -> None:
+    def __init__(
+        self, nouns: Mapping[str, Noun], *, is_carried: bool = False, means: str | None = None
+    ) -> None:
         self._draft = Draft(nouns)
         self._referents = Referents(self._draft)
-        self._camera = CameraReader(self._draft, is_carried=is_carried)
+        self._camera = CameraReader(self._draft, is_carried=is_carried, means=means)
         self._surroundings = SurroundingsReader()
         self._acts = ActReader(self._draft)
         self._around = CircumstanceReader(self._draft, self._referents, self._surroundings)

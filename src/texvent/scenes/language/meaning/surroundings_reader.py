@@ -14,7 +14,7 @@ from texvent.scenes.language.words.word import Word, mark_used
 _BRIGHT = ("bright", "harsh", "brilliant", "strong", "clear")
 """What the light of the day is anyway."""
 _WATER = ("water", "waters")
-_WATERY = ("lake", "river", "underwater")
+_WATERY = ("lake", "river", "beach", "underwater")
 """Places that have the water that is named after them."""
 _USUAL_HZ = {
     "sine": vocabulary_scene.DEFAULT_FLICKER_HZ,
@@ -22,8 +22,8 @@ _USUAL_HZ = {
     "switch": vocabulary_scene.SWITCH_HZ,
 }
 _BACKDROPS = ("mountain", "forest", "city")
-_OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "lake", "river", "sand", "snow",
-                "mountain")  # fmt: skip
+_OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "lake", "river", "sand", "beach",
+                "snow", "mountain")  # fmt: skip
 _ROADS = ("road", "dirt road", "city")
 _SCENE_ROLES = frozenset(
     {Role.WEATHER, Role.CLOUDS, Role.SNOW, Role.STEEP, Role.DUST, Role.FLICKER, Role.SHADOW,

@@ -47,6 +47,8 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
     ("handheld", None): ("handheld", "hand held", "shaky", "camera shake", "handheld camera",
                          "hand held camera", "shaky camera", "shaky cam", "handheld footage",
                          "handheld shot", "hand held shot", "handheld video"),
+    ("dutch", None): ("dutch angle", "dutch tilt", "canted angle", "tilted angle",
+                      "tilted horizon", "dutch angle shot", "slanted angle", "oblique angle"),
     ("travel", "forward"): (
         "dashcam", "dash cam", "dashboard camera", "dashboard cam", "driving footage", "fpv",
         "egocentric", "dashcam footage", "dashcam view", "dashcam video", "dash cam footage",

@@ -5,7 +5,8 @@ from __future__ import annotations
 ROOMS = frozenset(
     {"indoor", "living room", "kitchen", "bedroom", "gym", "classroom", "bathroom", "ballroom",
      "stage", "operating theatre", "hospital room", "train carriage", "cave", "boxing hall",
-     "basketball court", "ice rink", "corridor", "school hallway", "airport hall", "storeroom"}
+     "basketball court", "ice rink", "corridor", "hospital corridor",
+     "school hallway", "airport hall", "storeroom"}
 )  # fmt: skip
 """Enclosed places that are not known by their outside."""
 BUILDINGS = frozenset(

@@ -21,7 +21,7 @@ PLACES: dict[str, tuple[str, ...]] = {
     "gravel": ("gravel",),
     "soil": ("soil", "dirt", "ploughed field", "plowed field", "earth", "clay ground"),
     "underwater": ("seabed", "reef", "coral reef", "coral", "deep sea"),
-    "sand": ("beach", "sand", "shore", "coast"),
+    "sand": ("sand",),
     "snow": ("snowy field", "snowfield", "arctic", "snow covered ground"),
     "mountain": (
         "mountain", "mountain slope", "mountain side", "mountainside", "alps", "valley", "slope",
@@ -47,10 +47,12 @@ PLACES: dict[str, tuple[str, ...]] = {
 PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "road": ("race track", "racetrack"),
     "city": (
-        "plaza", "square", "avenue", "london", "paris", "new york", "tokyo", "campus",
-        "boulevard", "promenade", "high street", "main street", "courtyard", "rooftop", "balcony",
-        "bus station", "railroad crossing", "railway crossing", "alley",
+        "avenue", "london", "paris", "new york", "tokyo", "campus",
+        "boulevard", "promenade", "high street", "main street",
+        "bus station", "railroad crossing", "railway crossing",
     ),
+    "square": ("square", "courtyard", "cloister"),
+    "church hall": ("church",),
     "grass": (
         "orchard", "zoo", "golf course", "riverbank", "campsite", "campground", "picnic area",
         "clearing",
@@ -64,11 +66,11 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "river": ("rapids", "ditch"),
     "forest": ("park trail", "bamboo grove", "swamp forest"),
     "indoor": (
-        "studio", "church", "lobby", "palace", "court", "circus", "club", "courtroom", "dungeon",
+        "studio", "lobby", "palace", "court", "circus", "club", "courtroom", "dungeon",
         "waiting hall", "vestibule", "entrance hall", "foyer",
     ),
     "storeroom": ("attic", "basement", "cellar", "loft", "pantry", "shed interior"),
-    "living room": ("dining room", "conservatory", "apartment", "flat", "bar", "hotel lobby"),
+    "living room": ("dining room", "conservatory", "apartment", "flat", "hotel lobby"),
     "kitchen": ("bakery", "restaurant kitchen", "canteen"),
     "bedroom": ("hotel room", "nursery", "dormitory"),
     "office": ("conference room", "meeting room", "control room", "server room", "call center",
@@ -81,6 +83,8 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
 """Place → words for places that are shown as it, and reported so."""
 
 PLACE_ADVERBS: dict[str, tuple[str, ...]] = {
+    "rooftop": ("on a roof", "on the rooftop", "on a rooftop", "on the roof of a building",
+                "on the roof of a skyscraper"),
     "sky": ("in the sky", "through the sky", "across the sky", "in the air", "through the air",
             "in midair", "mid air", "midair", "in the clouds", "through the clouds", "overhead"),
     "underwater": ("underwater", "under water", "under the sea", "under the water",
@@ -101,8 +105,8 @@ ROAD_SHAPES: dict[str, tuple[str, ...]] = {
 }
 
 COLOURABLE = frozenset(
-    {"grass", "savanna", "sand", "indoor", "plain", "living room", "kitchen", "bedroom", "office",
-     "workshop", "warehouse", "gym"}
+    {"grass", "savanna", "sand", "indoor", "plain", "beach", "living room", "kitchen", "bedroom",
+     "office", "workshop", "warehouse", "gym"}
 )  # fmt: skip
 """Places whose ground takes the colour that the prompt says."""
 NATURAL_COLOURS: dict[str, tuple[str, ...]] = {

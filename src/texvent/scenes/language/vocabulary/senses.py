@@ -26,6 +26,7 @@ _STRINGS = "violin violinist cello cellist fiddle fiddler viola bass string orch
 _SPORT = """team player match game school child kid practice training whistle soccer shout yell
     instruct clap gym athlete runner swimmer tennis badminton basketball football court hockey
     gymnast boxer skater lesson pupil cheer sideline huddle shuttlecock shuttle"""
+_VEHICLES = "car van truck lorry suv taxi pickup limousine"
 _CARWASH = "wash carwash windshield windscreen"
 
 SENSES: dict[str, tuple[Sense, ...]] = {
@@ -49,6 +50,7 @@ SENSES: dict[str, tuple[Sense, ...]] = {
         _sense("student member book"),
     ),
     "track": (
+        _sense("toy marble slot wooden plastic"),
         _sense("train locomotive rail railway tram", "railway"),
         _sense("racing race car motorcycle kart", "race track"),
         _sense("song music album animal paw snow footprint"),
@@ -61,7 +63,8 @@ SENSES: dict[str, tuple[Sense, ...]] = {
                      " chick hop flap leg dance courtship migrate"),),
     "mouse": (_sense("computer click laptop monitor cursor keyboard", "computer mouse"),),
     "ring": (
-        _sense("boxer boxing fighter wrestler referee punch", "boxing ring"),
+        _sense("sumo wrestler wrestling"),
+        _sense("boxer boxing fighter referee punch", "boxing ring"),
         _sense("circus phone bell smoke gymnast tree saturn"),
     ),
     "stage": (_sense("rocket booster race launch"),),
@@ -92,7 +95,7 @@ SENSES: dict[str, tuple[Sense, ...]] = {
                    " synthesizer xylophone"),),
     "bass": (_sense("band guitar jazz musician stage concert amplifier drummer"),),
     "organ": (_sense("heart donor transplant surgeon body"),),
-    "pipe": (_sense("smoke puff tobacco grandfather sailor"),),
+    "pipe": (_sense("blowpipe smoke puff tobacco grandfather sailor"),),
     "block": (_sense("ice city starting sprinter runner butcher"),),
     "bun": (_sense("hair ballerina ballet dancer"),),
     "cap": (_sense("bottle pen lens jar tube"),),
@@ -128,12 +131,16 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "spade": (_sense("card poker ace"),),
     "squash": (_sense("racket court player"),),
     "stall": (_sense("horse toilet bathroom restroom shower stable"),),
-    "star": (_sense("movie film celebrity pop carpet sheriff"),),
+    "star": (
+        _sense("movie film celebrity pop carpet sheriff"),
+        _sense("satellite telescope planet galaxy milky constellation comet spaceship spacecraft"
+               " astronaut night sky twinkle", "starry night"),
+    ),
     "stump": (_sense("wicket cricket bowler batsman"),),
     "tablet": (_sense("medicine pill swallow headache"),),
     "tie": (_sense("railway railroad"),),
     "torch": (_sense("weld welder blowtorch propane"),),
-    "trunk": (_sense("swim swimmer beach elephant mammoth"),),
+    "trunk": (_sense("swim swimmer beach elephant mammoth car suitcase luggage"),),
     "wave": (_sense("hair crowd stadium sound radio"),),
     "brush": (_sense(_CARWASH),),
     "calf": (_sense("muscle stretch tattoo cramp runner leg"),),
@@ -152,6 +159,68 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "saw": (_sense("seesaw"),),
     "screen": (_sense("wipe"),),
     "shot": (_sense("block goalie fire gun drink espresso tequila whiskey score rifle save"),),
+    "wheel": (
+        _sense("hamster mouse gerbil rat rodent cheese"),
+        _sense("potter pottery clay", "potter wheel"),
+        _sense("ship captain helm", "steering wheel"),
+    ),
+    "piste": (_sense("fencer fencing sabre foil epee duel"),),
+    "rotor": (_sense("centrifuge brake engine motor turbine"),),
+    "bubble": (_sense("gum chewing glass molten blowpipe boil champagne soda beer speech aquarium"
+                      " diver scuba"),),
+    "circle": (_sense("gymnast gymnastics bar dancer child friend people crowd drum sit"),),
+    "door": (_sense(f"{_VEHICLES} airplane aircraft"),),
+    "lens": (_sense("camera wide long telephoto zoom film shot flare macro seen fisheye filmed"
+                    " focus angle anamorphic contact eye"),),
+    "step": (_sense("take quick few back forward dance behind baby careful slow two three first"
+                    " hesitant"),),
+    "swing": (_sense("golf golfer club bat batter baseball pillow racket punch boxer axe sword"
+                     " hammer trapeze"),),
+    "carriage": (_sense("train locomotive engine railway steam platform subway"),),
+    "apron": (_sense("airport airliner plane aircraft jet marshaller taxi", "airfield"),),
+    "gate": (_sense("airport airliner plane flight aircraft boarding passenger"),),
+    "perch": (_sense("parrot bird budgie canary cage owl falcon hawk"),),
+    "horn": (_sense("car truck honk driver rhino rhinoceros bull goat ram unicorn buffalo antelope"
+                    " viking"),),
+    "fan": (_sense("team stadium cheer supporter football concert crowd scarf autograph goal"),),
+    "pitcher": (_sense("mound baseball batter catcher fastball inning throw", "baseball player"),),
+    "nut": (_sense("bolt wrench screw spanner wheel"),),
+    "tear": (_sense("cry eye cheek sob weep"),),
+    "toast": (_sense("champagne wedding raise speech wine"),),
+    "wing": (_sense("hospital building museum hotel stage"),),
+    "diamond": (_sense("baseball infield card"),),
+    "jam": (_sense("traffic session paper"),),
+    "boot": (_sense("suitcase luggage car taxi computer"),),
+    "bonnet": (_sense(f"{_VEHICLES} engine mechanic"),),
+    "hood": (_sense(f"{_VEHICLES} engine mechanic"),),
+    "barrel": (_sense("gun rifle cannon surfer surf wave pistol"),),
+    "tube": (_sense("surfer surf wave london toothpaste"),),
+    "jack": (_sense("glass blower artisan card queen"),),
+    "driver": (_sense("golf golfer tee screw"),),
+    "hole": (_sense("golf golfer putt"),),
+    "ray": (_sense("sun light sunlight laser moon morning window dust"),),
+    "range": (_sense("shooting golf rifle driving"),),
+    "needle": (_sense("pine compass gauge speedometer record"),),
+    "note": (_sense("music musical piano guitar bank sing"),),
+    "button": (_sense("press push click elevator remote"),),
+    "shade": (_sense("tree sun umbrella parasol"),),
+    "stand": (_sense("taxi crowd spectator"),),
+    "suit": (_sense("card poker"),),
+    "roll": (_sense("drum kitchen toilet film"),),
+    "mine": (_sense("land explode coal gold miner"),),
+    "press": (_sense("bench barbell weightlifter conference journalist"),),
+    "leaf": (_sense("rosetta latte espresso gold table"),),
+    "mouth": (_sense("river cave tunnel"),),
+    "face": (_sense("wave surfer cliff rock clock watch dial"),),
+    "foot": (_sense("mountain stairs hill bed"),),
+    "boxer": (_sense("puppy leash bark tail", "dog"),),
+    "turkey": (_sense("roast oven thanksgiving carve plate", "roast chicken"),),
+    "chicken": (_sense("roast grill fry oven plate cook barbecue knife fork", "roast chicken"),),
+    "kiwi": (_sense("slice fruit peel bowl spoon salad"),),
+    "swallow": (_sense("pill water throat drink"),),
+    "cabin": (_sense("plane airplane aircraft airliner cruise ship passenger pilot"),),
+    "jumper": (_sense("ski high long horse cable"),),
+    "racket": (_sense("noise loud"),),
 }  # fmt: skip
 """Noun → its senses other than the usual one; the first whose cue is said counts."""
 ONLY_WITH: dict[str, frozenset[str]] = {
@@ -181,7 +250,7 @@ VERB_SENSES: dict[str, tuple[Sense, ...]] = {
     "skate": (_sense("ice hockey rink puck goalie figure", "ice skate"),),
     "drill": (_sense("soldier troop army parade platoon cadet"),),
     "draw": (_sense("bow archer violinist cellist curtain sword gun breath bath blind knife"
-                    " blood weapon fiddler"),),
+                    " blood weapon fiddler iron forge blacksmith bar cart plough crowd syringe"),),
     "cut": (_sense("bow keel prow wave boat ship swimmer shark fin surfboard"),),
     "plane": (_sense("board plank wood carpenter"),),
     "play": (_sense("trick dead"),),

@@ -173,3 +173,35 @@ def correct_spelling(word: str, known: Collection[str]) -> str | None:
         return min(swapped)
     found = difflib.get_close_matches(word, near, n=1, cutoff=LIKENESS)
     return found[0] if found else None
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+_ENGLISH = _words(
+    "the a and of on is are with to from by at his her its into through over under their as who"
+    " while two three past near"
+)
+_OTHER_GRAMMARS = (
+    _words("der das ein eine einer einem einen und mit auf im ist zum zur nach dem des durch vor"
+           " neben am über unter sich"),
+    _words("le la les un une du et dans sur avec qui au aux est"),
+    _words("el la los las un una y en con por del que sobre hacia"),
+    _words("il lo gli un una con nel nella sul sulla che di della"),
+)  # fmt: skip
+"""Small words of German, French, Spanish, Italian."""
+_FEWEST_OTHERS = 2
+
+
+def is_of_other_grammar(prompt: str) -> bool:
+    """Whether its small words are those of German, French, Spanish or Italian, none English.
+
+    Nouns alone do not tell: many German ones are English words too.
+
+    Example:
+        >>> is_of_other_grammar("ein Ball im Sand"), is_of_other_grammar("a ball in the sand")
+        (True, False)
+    """
+    said = set(prompt.casefold().replace(",", " ").replace(".", " ").split())
+    return not said & _ENGLISH and any(len(said & one) >= _FEWEST_OTHERS for one in _OTHER_GRAMMARS)

@@ -23,6 +23,10 @@ from texvent.scenes.language.words.word import Word
 
 _SHAPES = frozenset({"circle", "ring", "square", "triangle", "disc", "line"})
 """What "of" makes an arrangement: "a circle of friends"."""
+_LIGHTS = frozenset({"spark", "sparks", "light", "glow", "flame", "fire"})
+"""What is orange in colour, where "orange" might be read as the fruit."""
+_OF_SHOTS = frozenset({Role.FRAMING, Role.VIEW, Role.CAMERA, Role.CAMERA_MOVE})
+"""Roles of what "overhead" is a view of: "overhead close-up"."""
 _BECOMING = frozenset({"shrink", "dwindle", "reduce", "fade", "melt", "blur"})
 """Verbs of what comes to look like something that is not there: "shrink to dots"."""
 _OWNERS = ("his", "her", "their", "its", "my", "your", "our")
@@ -48,6 +52,18 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
             _forget_result(words[index + 2 :])
         if word.pos is Pos.NOUN:
             _choose_noun(word, before, follower, others, known)
+        if word.text == "overhead" and follower is not None and follower.role in _OF_SHOTS:
+            word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, "top"), ()
+        if word.text == "orange" and follower is not None and follower.lemma in _LIGHTS:
+            word.meaning, word.others = (
+                next(
+                    (one for one in (word.meaning, *word.others) if one.role is Role.COLOUR),
+                    word.meaning,
+                ),
+                (),
+            )
+        if word.text == "lamp lights":
+            _forget(word, Pos.NOUN)
         if word.text == "spray" and follower is not None and follower.lemma == "paint":
             _forget(word, Pos.ADVERB)
 
@@ -114,13 +130,19 @@ def _choose_noun(
     ):
         _forget(word, Pos.NOUN)
         return
-    sense = _find_sense(SENSES.get(word.lemma, ()), others)
+    singular = next((one for one in _singulars(word.lemma) if one in SENSES), word.lemma)
+    sense = _find_sense(SENSES.get(singular, ()), others)
     if sense is not None:
         _give(word, sense, known, Pos.NOUN)
         return
     usual = USUAL_SENSES.get(word.lemma)
     if usual is not None and others and not usual.cues & others:
         word.usual_sense = usual.said_as
+
+
+def _singulars(word: str) -> tuple[str, ...]:
+    """The word, and what it may be the plural of: kinds of things keep their plural."""
+    return (word, word.removesuffix("s"), word.removesuffix("es"))
 
 
 def _give(word: Word, sense: Sense, known: Lexicon, pos: Pos) -> None:

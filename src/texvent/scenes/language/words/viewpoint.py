@@ -19,12 +19,18 @@ _LOOKING = frozenset({"look", "point", "face", "aim"})
 _NEAR = 3
 """Words before "from" of which one says that it is a view."""
 _WINDOW = "window"
+_MEANS = {"drive": "drive", "sail": "sail", "fly": "fly", "swim": "swim", "walk": "walk",
+          "run": "run"}  # fmt: skip
+"""Usual motion of what carries the camera → how the camera travels."""
+_THROUGH = ("out of", "out", "through")
 _FARTHEST = 5
 _MOVING = frozenset({"moving", "speeding", "driving", "inside", "flying", "rolling"})
 _MOUNTED = frozenset(
     {"mount", "attach", "fix", "place", "strap", "sit", "ride", "clip", "bolt", "position",
      "fasten", "perch", "be", "rig", "station", "stay", "film", "set"}
 )  # fmt: skip
+_FASTENED = frozenset({"mount", "attach", "fix", "strap", "clip", "bolt", "fasten", "rig"})
+_ACTION_CAMERAS = ("gopro", "go pro", "action cam", "onboard")
 _MOUNTS = ("on", "to", "in", "inside", "onto", "at", "aboard", "from", "under", "is")
 _PARTS = frozenset(
     {"bow", "hood", "bonnet", "dashboard", "dash", "bumper", "windshield", "windscreen",
@@ -51,15 +57,17 @@ def mark_viewpoints(words: Sequence[Word]) -> bool:
     for index, word in enumerate(words):
         if word.lemma in _CARRIERS and _looks_down(words[index + 1 :]):
             _mark([word], {word.lemma})
-        if word.role is Role.CAMERA:
+        if word.role is Role.CAMERA or word.text.startswith(_ACTION_CAMERAS):
             _read_mount(words, index)
         if word.text.startswith(_DASHCAM) or word.meaning.value == "first person":
             _read_own_view(words, index)
+        if word.text in _THROUGH and (_is_view(words[:index]) or _looks(words[:index])):
+            _look_out(words, index)
         if word.text != "from" or not _is_view(words[:index]):
             continue
         after = _take_phrase(words[index + 1 :])
         texts = [one.text for one in after]
-        lemmas = {one.lemma for one in after}
+        lemmas = {part for one in after for part in one.lemma.split()}
         carried = lemmas & _CARRIERS
         if "itself" in texts or _WINDOW in lemmas:
             _mark(words, carried)
@@ -72,6 +80,34 @@ def mark_viewpoints(words: Sequence[Word]) -> bool:
             _mark(after, carried)
             _take_in(after, _MOVING)
     return any(word.is_viewpoint for word in words)
+
+
+def find_means(words: Sequence[Word]) -> str | None:
+    """How what carries the camera goes, or "window" where it looks out sideways; None = unknown."""
+    carriers = [word for word in words if word.is_viewpoint]
+    if any(_WINDOW in word.lemma.split() for word in carriers):
+        return _WINDOW
+    nouns = [NOUNS[value] for one in carriers if (value := _value(one) or "") in NOUNS]
+    return next((_MEANS[noun.motion] for noun in nouns if noun.motion in _MEANS), None)
+
+
+def _look_out(words: Sequence[Word], index: int) -> None:
+    """As in "view out of a train window", "looking through the window of a bus"."""
+    after = _take_phrase(words[index + 1 :])
+    parts = {part for one in after for part in one.lemma.split()}
+    if _WINDOW in parts and parts & _CARRIERS:
+        glass = {one.lemma for one in after if _WINDOW in one.lemma.split()}
+        _mark(after, glass | (parts & _CARRIERS))
+        _take_in([words[index], *after], {_WINDOW} | _MOVING)
+        words[index].is_used = True
+        for one in words[max(index - 1, 0) : index]:
+            one.is_used = one.is_used or one.lemma in _LOOKING
+
+
+def _looks(before: Sequence[Word]) -> bool:
+    """As in "looking out of the window of a train", where nobody is said who looks."""
+    is_alone = not any(one.pos is Pos.NOUN for one in before)
+    return bool(before) and is_alone and before[-1].lemma in _LOOKING
 
 
 def _read_mount(words: Sequence[Word], index: int) -> None:
@@ -90,13 +126,15 @@ def _read_mount(words: Sequence[Word], index: int) -> None:
     lemmas = {part for one in phrase for part in (one.lemma, one.text.split()[-1])}
     is_part, is_worn = bool(lemmas & _PARTS), bool(lemmas & _WORN)
     is_riding = any(one.lemma == "ride" for one in words[index + 1 : at])
-    is_inside = words[at].text in ("inside", "aboard") or is_riding
+    is_fixed = any(one.lemma in _FASTENED for one in words[index + 1 : at])
+    is_fixed |= words[index].text.startswith(_ACTION_CAMERAS)
+    is_inside = words[at].text in ("inside", "aboard") or is_riding or is_fixed
     own = [one for one in phrase if (_is_living if is_worn else _is_vehicle)(one)]
     if not own and (is_part or is_worn):
         own = [one for one in words if (_is_living if is_worn else _is_vehicle)(one)][:1]
     if not own or not (is_part or is_worn or is_inside):
         return
-    kinds = {_value(one) for one in own}
+    kinds = {_value(one) for one in own} | {_value(words[index])} - {None}
     for word in words:
         if _value(word) in kinds:
             word.is_viewpoint = True
@@ -109,6 +147,8 @@ def _read_mount(words: Sequence[Word], index: int) -> None:
 def _read_own_view(words: Sequence[Word], index: int) -> None:
     """As in "dashcam view of a car driving", "POV of a skier": who looks is not in the picture."""
     is_dashcam = words[index].text.startswith(_DASHCAM)
+    if is_dashcam:
+        _mark_own_car(words[index:])
     if index + 1 < len(words) and words[index + 1].text in ("of", "from"):
         after = _take_phrase(words[index + 2 :])
     elif words[index].text.endswith(" of"):
@@ -124,6 +164,13 @@ def _read_own_view(words: Sequence[Word], index: int) -> None:
             if is_car if is_dashcam else (_is_living(one) or _is_vehicle(one)):
                 one.is_viewpoint = True
             return
+
+
+def _mark_own_car(after: Sequence[Word]) -> None:
+    """As in "a dashcam view of a road. The car brakes": the one with the camera."""
+    cars = [number for number, one in enumerate(after) if _value(one) in ("car", "van")]
+    if cars and cars[0] and after[cars[0] - 1].text == "the":
+        after[cars[0]].is_viewpoint = True
 
 
 def _take_in(words: Sequence[Word], taken: frozenset[str] | set[str]) -> None:

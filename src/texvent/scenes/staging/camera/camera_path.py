@@ -20,6 +20,8 @@ PAN_RAD = 0.36
 """Turn of a pan over the clip."""
 TILT_RAD = 0.24
 ROLL_RAD = 0.7
+DUTCH_RAD = 0.3
+"""Roll of a camera in a Dutch angle, over all of the clip."""
 ORBIT_RAD = 1.0
 CRANE_RAD = 0.5
 """Change of the angle under which a crane looks at its subject."""
@@ -82,7 +84,8 @@ class CameraPath:
             camera = self._travel(self.journey, time_s)
         else:
             camera = self._watch(share, time_s)
-        return _rolled(camera, ROLL_RAD * self._centred("roll", share))
+        slant = DUTCH_RAD if any(move.kind == "dutch" for move in self.moves) else 0.0
+        return _rolled(camera, slant + ROLL_RAD * self._centred("roll", share))
 
     def _centred(self, kind: str, share: float) -> float:
         return self._channels.centred(kind, share) if self._channels.has(kind) else 0.0

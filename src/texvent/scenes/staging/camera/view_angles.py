@@ -10,11 +10,12 @@ import numpy as np
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.surroundings.environment import is_room
+from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
 
 FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""
 _ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05, "level": 0.03,
-               "shoulder": 0.16}  # fmt: skip
+               "shoulder": 0.16, "rising": 0.5}  # fmt: skip
 _BEARINGS = {"side": 0.0, "front": 0.5 * math.pi, "back": -0.5 * math.pi, "shoulder": -1.25}
 """View → azimuth of the camera from the side of what it looks at, to its right; radians."""
 _FLAT_MOST_M = 3.0
@@ -23,6 +24,8 @@ _FLAT_ELEVATION = 0.85
 _FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
 _ROOM_ELEVATION = 0.24
+_BETWEEN_WALLS = 0.06
+"""Azimuth of a camera between two walls, which looks along them."""
 
 
 def choose_angles(
@@ -43,11 +46,14 @@ def choose_angles(
     if goes_in_depth:
         azimuth = math.copysign(0.42, wander)
     follow = next((move for move in moves if move.kind == "follow"), None)
-    if follow is not None and follow.direction in ("behind", "front"):
+    is_tied = follow is not None and follow.direction in ("behind", "front")
+    if follow is not None and is_tied:
         heading = state.yaw if follow.direction == "behind" else state.yaw + math.pi
         azimuth = heading - 0.5 * math.pi + 0.1 * wander
     elif follow is not None and goes_in_depth:
         azimuth = state.yaw + math.copysign(0.5, wander)
+    if not is_tied and any(rule.encloses for rule in SCENERY.get(place, ())):
+        azimuth = math.copysign(_BETWEEN_WALLS, wander)
     view = description.shot.view
     if view in _BEARINGS:
         azimuth = _face(view, state.yaw)

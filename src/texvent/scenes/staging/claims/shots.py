@@ -13,6 +13,7 @@ _LEAST_RAD = 0.015
 _LEAST_RATIO = 1.03
 _LEAST_SHARE = 0.01
 """Of the distance to what it looks at, for moves of its place."""
+_STEADY = ("static", "handheld", "follow", "dutch")
 _SIGNS = {"left": -1.0, "down": -1.0, "out": -1.0, "counter-clockwise": -1.0}
 
 
@@ -30,7 +31,7 @@ def list_moves_not_shown(shot: Shot, path: CameraPath, duration_s: float) -> lis
         is_alone = sum(other.phase == move.phase for other in shot.moves) == 1
         amount = _progress(move, begin, end, path.framing.distance_m)
         if amount is None or path.journey is not None:
-            is_shown = move.kind in ("static", "handheld", "follow") or _changes(begin, end)
+            is_shown = move.kind in _STEADY or _changes(begin, end)
         else:
             is_shown = amount > 1.0 if is_alone else _changes(begin, end)
         if not is_shown:

@@ -62,6 +62,13 @@ BUILT_GROUNDS: dict[str, GroundAppearance] = {
     "street court": _plain(((0.16, 0.20, 0.24), (0.20, 0.24, 0.28)), Texture.ASPHALT),
     "corridor": room(Texture.CARPET, ((0.28, 0.08, 0.07), (0.34, 0.11, 0.09)), Texture.PLASTER,
                      (0.70, 0.66, 0.56)),
+    "hospital corridor": room(Texture.TILES, _PALE, Texture.PLASTER, (0.66, 0.74, 0.76)),
+    "alley": _plain(((0.20, 0.20, 0.20), (0.26, 0.25, 0.24)), Texture.PAVING),
+    "rooftop": _plain(((0.40, 0.39, 0.37), (0.33, 0.32, 0.31)), Texture.CONCRETE),
+    "balcony": _plain(((0.52, 0.47, 0.42), (0.44, 0.39, 0.34)), Texture.TILES),
+    "square": _plain(((0.46, 0.43, 0.38), (0.38, 0.35, 0.31)), Texture.PAVING),
+    "beach": GroundAppearance(Ground.LAKE, (0.62, 0.49, 0.30), (0.016, 0.13, 0.17),
+                              surface=Texture.SAND),
     "school hallway": room(Texture.TILES, _PALE, Texture.PLASTER, (0.62, 0.66, 0.60)),
     "airport hall": room(Texture.TILES, _PALE, Texture.CONCRETE, (0.62, 0.64, 0.66)),
     "storeroom": room(Texture.BOARDS, _DARK_BOARDS, Texture.WOOD, (0.34, 0.22, 0.13)),
@@ -111,6 +118,23 @@ def _under(noun: str) -> ScatterRule:
     return ScatterRule(noun, 1, 0.0, 0.0, (1.0, 1.0), is_under=True)
 
 
+def _both_sides(noun: str) -> tuple[ScatterRule, ...]:
+    """Walls along the view, wider where what goes there needs it."""
+    return tuple(
+        ScatterRule(noun, 1, 0.0, 0.0, (wide, wide), encloses=True) for wide in (1.0, 1.4, 2.0)
+    )
+
+
+def _across(noun: str) -> ScatterRule:
+    return ScatterRule(noun, 1, 0.0, 0.0, (1.0, 1.0), is_beyond=True)
+
+
+def _skyline(count: int, near_m: float, far_m: float) -> ScatterRule:
+    """Houses beyond a parapet, whose feet it hides."""
+    return ScatterRule("building", count, near_m, far_m, (0.6, 1.1), is_metres=True,
+                       faces_camera=True)  # fmt: skip
+
+
 BUILT_SCENERY: dict[str, tuple[ScatterRule, ...]] = {
     "laboratory": (*along_walls(("lab bench", 4), ("centrifuge", 1)), _stands("lab bench", 1,
         0.2, 0.6)),
@@ -151,8 +175,18 @@ BUILT_SCENERY: dict[str, tuple[ScatterRule, ...]] = {
         1.0), _stands("corral fence", 6, 0.9, 1.6), ScatterRule("building", 3, 2.0, 4.0, (0.5,
         0.8)),
                      ScatterRule("tree", 4, 1.6, 3.5)),
-    "corridor": along_walls(("corridor door", 6), ("potted plant", 1), ("bench", 1)),
-    "school hallway": along_walls(("locker row", 6), ("corridor door", 2), ("bench", 1)),
+    "corridor": _both_sides("corridor walls"),
+    "hospital corridor": _both_sides("ward walls"),
+    "school hallway": _both_sides("locker walls"),
+    "alley": _both_sides("alley walls"),
+    "rooftop": (_across("roof parapet"), _stands("roof unit", 2, 0.05, 0.35, 1.0),
+                _skyline(10, 45.0, 130.0)),
+    "balcony": (_across("balcony rail"), ScatterRule("potted plant", 3, 0.02, 0.3),
+                _skyline(8, 40.0, 100.0), ScatterRule("tree", 4, 25.0, 50.0, is_metres=True)),
+    "square": (_stands("fountain", 1, 0.5, 1.2, 1.0), _stands("building", 6, 1.3, 2.4, 0.6),
+               ScatterRule("bench", 3, 0.2, 1.0), ScatterRule("street lamp", 3, 0.3, 1.2)),
+    "beach": (ScatterRule("palm", 2, 0.1, 0.5), ScatterRule("rock", 4, 0.02, 0.4, (0.2, 0.5)),
+              ScatterRule("sailboat", 1, 3.0, 6.0, (0.8, 1.0), is_afloat=True)),
     "airport hall": (*along_walls(("check-in desk", 4), ("flight board", 2)), _stands("train seat",
         4, 0.2, 1.0), _stands("flight board", 1, 0.5, 0.9)),
     "storeroom": (*along_walls(("chest", 2), ("crate", 3), ("rocking chair", 1), ("box", 3),

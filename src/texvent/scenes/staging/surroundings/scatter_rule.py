@@ -28,8 +28,17 @@ class ScatterRule:
     """Whether it lies flat under what the camera looks at: the lines of a court."""
     is_afloat: bool = False
     """Whether it lies in the water beside the land."""
+    encloses: bool = False
+    """Whether it is walls on both sides of all that is there, along the view."""
+    is_beyond: bool = False
+    """Whether it lies right across the view, just beyond all that is there."""
     faces_camera: bool = False
     """Whether its front is turned to the camera."""
+
+
+def is_structure(rule: ScatterRule) -> bool:
+    """Whether it is part of a place that is empty, too."""
+    return rule.encloses or rule.is_beyond
 
 
 def along_walls(*furniture: tuple[str, int]) -> tuple[ScatterRule, ...]:

@@ -19,6 +19,7 @@ from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.surroundings.scenery_tables import ScatterRule
+from texvent.scenes.staging.surroundings.walls import stand_across, stand_along
 from texvent.scenes.staging.trajectories.trajectory import BodyState
 
 
@@ -144,6 +145,8 @@ def _find_place(
         middle = bodies[:, :2].mean(axis=0) if len(bodies) else np.zeros(2)
         place = (float(middle[0]), float(middle[1]))
         return SceneryItem(rule.noun, model, place, view.road.angle, is_flat=True)
+    if rule.encloses or rule.is_beyond:
+        return _close_off(rule, model, view, bodies, items)
     for _ in range(ATTEMPTS):
         camera = view.cameras[int(rng.integers(len(view.cameras)))]
         if rule.is_at_wall:
@@ -163,6 +166,25 @@ def _find_place(
         if _is_free(item, view, bodies, items, is_afloat=rule.is_afloat):
             return item
     return None
+
+
+def _close_off(
+    rule: ScatterRule,
+    model: Model,
+    view: ViewClearance,
+    bodies: Float64Array,
+    items: Sequence[SceneryItem],
+) -> SceneryItem | None:
+    """Walls beside or beyond everything; of several widths the first that has room."""
+    if any(item.noun == rule.noun for item in items):
+        return None
+    if rule.encloses:
+        spot = stand_along(model, view.cameras, bodies)
+    else:
+        spot = stand_across(view.cameras, bodies)
+    if spot is None:
+        return None
+    return SceneryItem(rule.noun, model, spot[:2], spot[2], is_flat=True)
 
 
 def _stand_at_wall(

@@ -14,6 +14,7 @@ from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.journey import VIEW_M, TravelPlan
+from texvent.scenes.staging.surroundings.scatter_rule import is_structure
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, list_bodies
 from texvent.scenes.staging.surroundings.scenery_tables import ScatterRule
 
@@ -30,6 +31,11 @@ _ASIDE = {"building": (2.5, 5.0), "house": (3.0, 10.0), "street lamp": (0.2, 0.4
 """Noun → least and most metres from the free strip to its edge."""
 _USUAL_ASIDE = (0.8, 9.0)
 _SQUARE = ("building", "house", "barrier", "street lamp")
+
+
+def is_placed_by_view(rule: ScatterRule) -> bool:
+    """Whether it stands where the camera looks, not beside the route."""
+    return rule.is_metres or is_structure(rule)
 
 
 def line_route(
@@ -51,7 +57,7 @@ def line_route(
         rng: decides places, sizes and turns.
         road_half_m: half width of the road, which stays free; None = there is none.
     """
-    known = [rule for rule in rules if rule.noun in nouns and not rule.is_metres]
+    known = [rule for rule in rules if rule.noun in nouns and not is_placed_by_view(rule)]
     strips = [_strip_of(travel)]
     half = road_half_m or 0.0
     strips += [

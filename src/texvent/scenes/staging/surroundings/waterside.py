@@ -12,8 +12,9 @@ from texvent.scenes.staging.surroundings.road import RoadLine
 
 STRIPS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY, Ground.RIVER)
 """Grounds with a strip that scenery keeps off."""
-WATERSIDE = ("river", "lake", "harbour", "swimming pool")
+WATERSIDE = ("river", "lake", "harbour", "swimming pool", "beach")
 """Places with water beside land."""
+_IN_WATER = ("swim", "surf", "swim breaststroke")
 _GAP = 0.22
 """Land between what the camera looks at and the water, as a share of the camera's distance."""
 
@@ -38,7 +39,11 @@ def water_line(
     forward = path.at(0.0).rotation[2, :2]
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
-    swimmers = [actor for actor in actors if actor.noun.habitat == "water"]
+    swimmers = [
+        actor
+        for actor in actors
+        if actor.noun.habitat == "water" or actor.trajectory.at(0.0).activity in _IN_WATER
+    ]
     distance = path.framing.distance_m
     if goes_over_shore:
         # It is met half way.

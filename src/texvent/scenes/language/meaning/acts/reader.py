@@ -364,6 +364,8 @@ class ActReader:
             verb = replace(verb, kind="fly")
         if verb.kind == "fly" and nouns and all(noun.motion == "swim" for noun in nouns):
             verb = replace(verb, kind="swim")
+        if verb.base == "glide" and not any(noun.habitat == "air" for noun in nouns):
+            verb = replace(verb, kind="slide" if any(map(is_person, nouns)) else "move")
         added = []
         for index in things:
             noun = self._draft.noun(index)
