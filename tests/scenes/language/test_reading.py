@@ -147,7 +147,7 @@ def test_kinds_are_shown_as_what_they_are_kinds_of_and_named() -> None:
 @pytest.mark.parametrize(
     ("prompt", "pairs"),
     [
-        ("a mouse runs in a wheel", [("wheel", "wheel of a car")]),
+        ("a cat runs in a wheel", [("wheel", "wheel of a car")]),
         ("a wheel rolls beside a truck", []),
         ("a wheel", []),
         ("a white circle moves left", []),

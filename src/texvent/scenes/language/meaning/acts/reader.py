@@ -395,6 +395,7 @@ class ActReader:
         """As in "a person falls": over, unless it is said from where."""
         noun = self._draft.noun(index)
         is_from = any(phrase.preposition.text in _FROM_ABOVE for phrase in clause.phrases)
+        is_from |= any(word.meaning.value == "sky" for word in clause.adverbs)
         stands = is_living(noun) and noun.habitat == "ground"
         if motion.kind == "fall" and stands and not is_from:
             return replace(motion, kind="fall over" if is_person(noun) else "topple")
