@@ -133,7 +133,7 @@ class Relation:
     """Indices into `SceneDescription.objects`."""
     way: str = ""
     """What its preposition says besides: "into", "onto", "out of", "off", "against", "across",
-    "along" or "opposite"; "" = nothing."""
+    "along", "opposite" or "not on"; "" = nothing."""
 
 
 @dataclass(frozen=True)

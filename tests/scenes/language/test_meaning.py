@@ -344,3 +344,36 @@ def test_a_part_that_is_to_be_missing_is_reported() -> None:
 
 def test_a_camera_that_brakes_is_reported() -> None:
     assert "brake" in parse_prompt("we drive through a tunnel, and we brake").not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "summary", "shown"),
+    [
+        ("A cup isn't on the table", "1 cup, stands still, beside 1 table", "table"),
+        ("A man does not sit on the chair", "1 man, stands still, beside 1 chair", "no sit"),
+        ("A man isn't wearing a hat", "left out as asked: hat", "no hat"),
+        ("There are no cars on the road", "place: road", "road"),
+    ],
+)
+def test_a_negation_before_a_preposition_or_a_verb_denies_it(prompt, summary, shown) -> None:
+    description = parse_prompt(prompt)
+    assert summary in description.summary()
+    assert shown in description.shown
+    assert not description.not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "shore", "lost"),
+    [
+        ("A dog runs into the lake", "into", ()),
+        ("A man comes out of the river", "out of", ()),
+        ("A boxer steps out of the ring", None, ("out", "of")),
+        ("A skier goes down a mountain", None, ("down",)),
+    ],
+)
+def test_ways_to_a_place_lead_over_its_shore_or_are_reported(prompt, shore, lost) -> None:
+    description = parse_prompt(prompt)
+    motion = description.objects[0].motion
+    assert motion is not None
+    assert motion.shore == shore
+    assert description.not_understood == lost

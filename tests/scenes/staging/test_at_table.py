@@ -86,3 +86,9 @@ def test_two_who_talk_are_turned_to_each_other_and_to_the_camera() -> None:
 def test_what_watches_from_a_chair_is_on_it() -> None:
     (relation,) = parse_prompt("a cat watches from a chair").relations
     assert relation.kind == "on"
+
+
+def test_who_brings_a_table_works_at_the_named_one() -> None:
+    description = parse_prompt("Two men play chess at a stone table")
+    scene = compose_scene(description, seed=0, size=SensorSize(96, 72), duration_s=1.0)
+    assert [actor.noun.name for actor in scene.actors] == ["man", "man"]

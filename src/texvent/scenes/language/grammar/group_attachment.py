@@ -27,6 +27,8 @@ class GroupAttachment(ClauseState):
     """Attaches groups to the clause being read."""
 
     def _read_preposition(self, word: Word, negation: Word | None = None) -> None:
+        before = self._words[self._at - 1] if self._at else None
+        denial = self._negation if self._negation is before else None
         self._at += 1
         if self._at < len(self._words) and self._words[self._at].pos is Pos.NEGATION:
             negation = self._words[self._at]
@@ -51,7 +53,8 @@ class GroupAttachment(ClauseState):
             self._clause.subjects.append(group)
             self._last = self._anchor = group
             return
-        phrase = PrepPhrase(word, [group], self._last if is_of else self._anchor, negation)
+        near = self._last if is_of else self._anchor
+        phrase = PrepPhrase(word, [group], near, negation, denial)
         self._attach(phrase)
         self._phrase, self._last, self._is_joined = phrase, group, ""
         if not is_of:

@@ -51,6 +51,9 @@ class PrepPhrase:
     near: NounGroup | None = None
     """The noun group it follows."""
     negation: Word | None = None
+    """As in "without a net": its nouns are not there."""
+    denial: Word | None = None
+    """As in "not on the table": the nouns are there, the relation is not."""
 
     @property
     def has_pronoun(self) -> bool:

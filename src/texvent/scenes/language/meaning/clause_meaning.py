@@ -26,6 +26,7 @@ from texvent.scenes.language.meaning.clause_rewrites import (
     turn_views,
 )
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.meaning.negations import deny
 from texvent.scenes.language.meaning.referents.owners import lose_owners
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import PERSON, Referents
@@ -189,6 +190,7 @@ class ClauseMeaning:
         take_partners(clause)
         take_fellows(clause)
         take_receivers(clause)
+        deny(clause)
         brought = list_brought(clause) if self._referents.has_body else []
         groups = [one for one in clause.objects if not any(one is group for group in brought)]
         objects = [self._referents.resolve(group) for group in groups]
@@ -213,11 +215,8 @@ class ClauseMeaning:
         has_verb = clause.verb is not None
         is_shown = has_verb and clause.verb is not None and clause.verb.is_used
         has_object = bool(clause.objects) and not is_picture
-        acted_on = (
-            tuple(index for one in objects if one.is_things for index in one.things)
-            if not self._acts.is_activity
-            else ()
-        )
+        acted_on = tuple(i for one in objects if one.is_things for i in one.things)
+        acted_on = () if self._acts.is_activity else acted_on
         scope = Scope(things, movers, is_lost, has_verb, is_shown, has_object, acted_on)
         if has_verb and not is_shown:
             self._lose_verb([*things, *acted_on])
@@ -253,8 +252,8 @@ class ClauseMeaning:
         """As in "jumping jacks", "right arm clockwise", "thumbs up"."""
         words = [word for group in clause.subjects for word in group.words]
         if clause.verb is not None:
-            # What seems to be a verb is none if it does not agree: "a tennis serve".
             is_plural = any(word.text != word.lemma for word in words)
+            # What seems to be a verb is none if it does not agree: "a tennis serve".
             if clause.verb.text != clause.verb.lemma or clause.auxiliaries or is_plural:
                 return False
             words.append(clause.verb)
@@ -305,7 +304,7 @@ class ClauseMeaning:
         return any(found)
 
     def _lose_verb(self, things: Sequence[int]) -> None:
-        """What does something that is not shown stands still: it does nothing else either."""
+        """What does something that is not shown stands still."""
         for index in things:
             self._draft.objects[index].is_verb_lost = True
 
@@ -350,7 +349,9 @@ class ClauseMeaning:
                 self._around.add_effect(one, Scope([], []))
             elif one.kind == "picture":
                 rest.append(self._hang(one))
-            elif one.kind != "absent":
+            elif one.kind == "absent":  # As in "no cars on the road": the road is there.
+                self._around.read_extra(one)
+            else:
                 rest.append(one)
         return rest
 

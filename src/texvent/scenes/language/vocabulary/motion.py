@@ -297,6 +297,9 @@ PREPOSITION_WAYS: dict[str, str] = {
 }  # fmt: skip
 """Preposition → `Relation.way`: what it says besides the kind of the relation."""
 
+APART = "not on"
+"""The way of what is "not on" or "not in" something."""
+
 SHORE_WAYS: dict[str, tuple[str, str]] = {
     "into": ("into", "away"), "to": ("towards", "away"), "towards": ("towards", "away"),
     "toward": ("towards", "away"), "out of": ("out of", "towards"),

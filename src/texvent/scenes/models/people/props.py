@@ -252,7 +252,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("mouth", _TRUMPET, ("trumpet", "saxophone", "clarinet", "trombone"), is_own=True),
         ),
         "pull": (Prop("hands", _PULLED, ("rope", "chain", "hose"), is_own=True),),
-        "type": (Prop("ground", _DESK, ("laptop", "keyboard", "desk")),),
+        "type": (Prop("ground", _DESK, ("laptop", "keyboard", "desk", "table")),),
         "write": (
             Prop("left hand", _PAD, ("page",)),
             Prop("right hand", _PEN, ("pen", "pencil")),

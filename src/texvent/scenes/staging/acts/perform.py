@@ -42,6 +42,7 @@ from texvent.scenes.staging.acts.holding import (
     shoulder_height,
     size_of,
 )
+from texvent.scenes.staging.acts.named_props import name_all_props
 from texvent.scenes.staging.acts.on_body import ON_BODY, put_on_body
 from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
 from texvent.scenes.staging.trajectories.trajectory import Vector
@@ -256,6 +257,7 @@ def perform_acts(
         for relation in relations:
             if relation.kind == kind:
                 _perform(cast, relation, duration_s)
+    name_all_props(description, cast, len(actors))
     _take_off_doubles(cast, actors)
     take_along(cast, description.relations, actors)
     return [_tied_to_ground(actor) for actor in cast.actors()]
@@ -278,7 +280,7 @@ def _take_off_doubles(cast: Cast, actors: list[Actor]) -> None:
         for other, thing in enumerate(actors):
             if thing.noun.name in nouns and actor is not thing:
                 cast.put(other, None)
-                break
+                nouns.discard(thing.noun.name)
 
 
 def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:

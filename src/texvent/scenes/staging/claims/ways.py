@@ -83,6 +83,17 @@ def _goes_along(subject: Body, targets: list[Body]) -> bool:
     return bool(np.mean(near) > 0.5) and (is_parallel or not is_long)
 
 
+def _rests(subject: Body, targets: list[Body]) -> bool:
+    return any(
+        holds(one, other, time_s)
+        for one in subject.copies
+        for target in targets
+        for other in target.copies
+        for holds in (is_on, is_in)
+        for time_s in (0.0, subject.duration_s)
+    )
+
+
 def _is_opposite(subject: Body, targets: list[Body]) -> bool:
     others = [copy for target in targets for copy in target.copies]
     return faces(subject.copies, others, subject.duration_s)
@@ -98,5 +109,6 @@ WAYS: Mapping[str, Way] = {
     "across": _goes_across,
     "along": _goes_along,
     "opposite": _is_opposite,
+    "not on": lambda subject, targets: not _rests(subject, targets),
 }  # fmt: skip
 """`Relation.way` → whether a scene shows it."""

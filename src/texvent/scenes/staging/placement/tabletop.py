@@ -115,7 +115,7 @@ def _list_loose(description: SceneDescription, nouns: Mapping[str, Noun]) -> lis
     small = {n for n in small if objects[n].noun not in in_use}
     bound = {one.source for one in description.effects if one.source is not None}
     for one in description.relations:
-        if one.kind in _LOOSE:
+        if one.kind in _LOOSE and not one.way:
             continue
         ends = {one.subject, *one.targets}
         is_stack = one.kind in ("on", "in") and ends <= small

@@ -66,8 +66,10 @@ FLAT = 0.62
 """Objects whose length is below this share of their width show their front to the camera."""
 _WIDE = 0.7
 """The same of what slides: a board, a mirror."""
-_SIDEWAYS = frozenset({"flag", "crane", "bridge"})
+_SIDEWAYS = frozenset({"flag", "crane"})
 """Objects that are known by their side."""
+_DECKS = frozenset({"bridge", "pier"})
+"""Objects along which others go from side to side of the picture."""
 _WEAVING = frozenset({"swim"})
 
 
@@ -210,6 +212,8 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
         and ACTIVITIES[motion.kind].is_sideways
     ):
         return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
+    if noun.name in _DECKS:
+        return 0.0
     if noun.name in _SIDEWAYS or motion.kind == "roll over":
         return 0.3 * tilt
     if noun.name in FACING:

@@ -185,7 +185,7 @@ class ActReader:
             or not word.meaning.value.kind
         ):
             return []
-        word.is_used = negation.is_used = True
+        word.is_used = negation.is_used = word.is_absent = True
         for index in subjects:
             add_motion(self._draft, index, STAND, clause)
         return subjects

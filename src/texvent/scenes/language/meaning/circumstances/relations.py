@@ -12,7 +12,7 @@ from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
-from texvent.scenes.language.vocabulary.motion import PREPOSITION_WAYS
+from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, SEATS
@@ -55,6 +55,9 @@ class RelationReader:
             word.is_used = not scope.is_lost
             word.is_lost = scope.is_lost
             return
+        if phrase.denial is not None:
+            self._deny(phrase, things, scope)
+            return
         is_used, before = False, len(self._draft.relations)
         kind = self._at_bench(self._relation_kind(word, things), things, scope)
         kind = "at" if self._is_at_table(word, things, scope) else kind
@@ -72,6 +75,16 @@ class RelationReader:
             is_used = self._read_kind(kind, word, things, scope)
         word.is_used, word.is_lost = is_used, not is_used
         word.relations = tuple(self._draft.relations[before:])
+
+    def _deny(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
+        """As in "is not on the table": beside it; what is "not behind" it may be anywhere."""
+        word, denial = phrase.preposition, phrase.denial
+        is_read = word.text in _DENIED and self._draft.relate(
+            "beside", scope.subjects, things, APART
+        )
+        word.is_used, word.is_lost = is_read, not is_read
+        if denial is not None:
+            denial.is_used = denial.is_used or is_read
 
     def _read_kind(self, kind: str, word: Word, things: list[int], scope: Scope) -> bool:
         """A relation of the clause's subjects, or of what is acted on."""
@@ -302,6 +315,7 @@ _TABLES = frozenset({"table", "desk"})
 _DECKS = frozenset({"pier", "bridge"})
 _WALKED = {"along": "along", "across": "across", "over": "across", "down": "along"}
 """Preposition → way of who walks or drives over what has a deck."""
+_DENIED = ("on", "in", "inside", "on top of", "into", "onto")
 _FULL = ("full of", "filled with", "loaded with", "packed with")
 _LEANT_ON = frozenset({"fence", "wall", "gate", "door", "railing", "car", "tree", "lamp post"})
 _GOALS = ("towards", "past")

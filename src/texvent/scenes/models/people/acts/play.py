@@ -346,7 +346,7 @@ PLAY_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         ),
         "mow": (Prop("ground", still(*_mower()), ("lawn mower",)),),
         "jackhammer": (Prop("ground", _hammer, ("jackhammer", "drill")),),
-        "play chess": (Prop("ground", _BOARD, ("chessboard", "chess", "playing card")),),
+        "play chess": (Prop("ground", _BOARD, ("chessboard", "chess", "playing card", "table")),),
         "play video games": (Prop("ground", still(STOOL)), Prop("hands", _CONTROLLER)),
     }
 )
