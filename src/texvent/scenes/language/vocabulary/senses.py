@@ -154,6 +154,10 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "vessel": (_sense("blood vein artery"),),
     "bridge": (_sense("nose violin guitar gymnast dental"),),
     "bark": (_sense("dog seal"),),
+    "gate": (
+        _sense("ski skier slalom piste snow snowboarder", "slalom gate"),
+        _sense("airport flight boarding logic"),
+    ),
     "patch": (_sense("eye pirate knee elbow jacket"),),
     "deck": (_sense("card"),),
     "saw": (_sense("seesaw"),),

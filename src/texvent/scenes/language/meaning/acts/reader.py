@@ -155,11 +155,8 @@ class ActReader:
         """As in "a crane lifts a box": the box rises beside the crane."""
         for index in subjects[:1]:
             doer, target = self._draft.noun(index), self._draft.noun(targets[0])
-            if is_living(doer):
+            if not is_hand(doer):
                 clause.verb_word.shown_as = f"{target.name} untouched"
-            if not is_living(doer) and not is_hand(doer):
-                said = clause.verb_word.text
-                self._draft.note(f"the {doer.name} does not touch the {target.name} ({said})")
 
     def undergo(self, clause: Clause, subjects: list[int], agents: list[int]) -> list[int]:
         """A passive: the subjects undergo the verb."""
