@@ -38,9 +38,10 @@ _TEXT = """
     daisy chain, bicycle chain lock, feather boa, boa scarf, hair slide, mud slide, landslide,
     slide rule, slide show, microscope slide, hair pin, rolling mill, pepper mill, saw mill,
     sawmill, coffee mill, steel mill, tread mill, paper mill, rock star, movie star, film star,
-    butterfly stroke, breast stroke, back stroke, side stroke, brush stroke, heat stroke, sun stroke,
-    parking space, living space, tight space, narrow space, small space, open space, white space,
-    storage space, office space, pop star, star ship, star sign, death star, sheriff star, road fork, bicycle fork, jack knife,
+    butterfly stroke, breast stroke, back stroke, side stroke, brush stroke, heat stroke,
+    sun stroke, parking space, living space, tight space, narrow space, small space, open space,
+    white space, storage space, office space, pop star, star ship, star sign, death star,
+    sheriff star, road fork, bicycle fork, jack knife,
     butterfly knife trick, tooth pick, guitar pick, finger nail, fingernail, toe nail, toenail,
     nail file, jig saw, drill sergeant, oil filter, coffee filter, water filter, water meter, gas
     meter, speed meter, parking brake, disk brake, hand brake, floppy disk, disk jockey, piano

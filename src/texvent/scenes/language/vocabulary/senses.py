@@ -154,10 +154,6 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "vessel": (_sense("blood vein artery"),),
     "bridge": (_sense("nose violin guitar gymnast dental"),),
     "bark": (_sense("dog seal"),),
-    "gate": (
-        _sense("ski skier slalom piste snow snowboarder", "slalom gate"),
-        _sense("airport flight boarding logic"),
-    ),
     "patch": (_sense("eye pirate knee elbow jacket"),),
     "deck": (_sense("card"),),
     "saw": (_sense("seesaw"),),
@@ -182,7 +178,10 @@ SENSES: dict[str, tuple[Sense, ...]] = {
                      " hammer trapeze"),),
     "carriage": (_sense("train locomotive engine railway steam platform subway"),),
     "apron": (_sense("airport airliner plane aircraft jet marshaller taxi", "airfield"),),
-    "gate": (_sense("airport airliner plane flight aircraft boarding passenger"),),
+    "gate": (
+        _sense("ski skier slalom piste snowboarder", "slalom gate"),
+        _sense("airport airliner plane flight aircraft boarding passenger"),
+    ),
     "perch": (_sense("parrot bird budgie canary cage owl falcon hawk"),),
     "horn": (_sense("car truck honk driver rhino rhinoceros bull goat ram unicorn buffalo antelope"
                     " viking"),),
