@@ -316,8 +316,8 @@ def test_a_blank_prompt_is_an_error(prompt: str) -> None:
 
 def test_something_always_moves() -> None:
     still = parse_prompt("a house")
-    assert [move.kind for move in still.shot.moves] == ["pan"]
-    assert any("the camera pans slowly" in line for line in still.summary())
+    assert [move.kind for move in still.shot.moves] == ["handheld"]
+    assert any("the camera sways a little" in line for line in still.summary())
     dog = parse_prompt("a dog")
     assert dog.objects[0].motion is not None
     assert dog.objects[0].motion.kind == "walk"

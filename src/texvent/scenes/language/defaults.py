@@ -21,7 +21,7 @@ from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
 from texvent.scenes.models.protocol import Noun
 
-SLOW_PAN = CameraMove("pan", "right", 0.8)
+SWAY = CameraMove("handheld")
 """What the camera does where nothing else moves: a still image has no events."""
 
 
@@ -31,7 +31,7 @@ def complete_description(
     """The description with every object's motion decided and something that moves.
 
     Objects that live in the air or water always move unless the prompt says that they rest. When
-    nothing moves, objects that can move do what they usually do; when none can, the camera pans.
+    nothing moves, objects that can move do what they usually do; when none can, the camera sways.
     """
     description = _add_crew(description, nouns)
     description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
@@ -321,14 +321,16 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
             objects = (*description.objects[:index], moved, *description.objects[index + 1 :])
             note = f"no motion is said of the {scene_object.noun}, so it does what it usually does"
             return replace(description, objects=objects, notes=(*description.notes, note))
-    if description.shot.moves:
-        note = "nothing moves in the prompt and the camera is static: there will be no events"
-        return replace(description, notes=(*description.notes, note))
     light, weather = description.light, description.surroundings.weather
     if light.flicker_hz is not None or weather in ("rain", "snow"):
         return description
-    shot = replace(description.shot, moves=(SLOW_PAN,))
-    note = "nothing moves in the prompt, so the camera pans slowly"
+    if description.shot.moves:
+        if description.is_timelapse:
+            return description
+        note = "nothing moves in the prompt and the camera is static: there will be no events"
+        return replace(description, notes=(*description.notes, note))
+    shot = replace(description.shot, moves=(SWAY,))
+    note = "nothing moves in the prompt, so the camera sways a little, as in a hand"
     return replace(description, shot=shot, notes=(*description.notes, note))
 
 

@@ -38,6 +38,15 @@ _PLAIN_VERBS: dict[str, frozenset[str]] = {
 """Kind of what a clause is about → verbs that say nothing new of it: "rain falls"."""
 
 
+_FROM_THE_SKY = frozenset({"day", "sunny", "overcast", "dawn", "dusk", "moonlight"})
+"""Lights that do not flicker: where sunlight does, leaves move before it."""
+
+
+def _is_steady(word: Word, one: Referent) -> bool:
+    """Whether the verb says that it flickers, and it cannot."""
+    return word.role is Role.FLICKER and one.kind == "light" and one.value in _FROM_THE_SKY
+
+
 class SceneClauses:
     """Reads clauses whose subject is no object."""
 
@@ -60,7 +69,8 @@ class SceneClauses:
             self._surroundings.read_referent(one, is_negated=clause.negation is not None)
             self._around.read_group_phrases(one, Scope([], [], has_verb=False))
         if word is not None:
-            shown = self._read_scene_verb(word, {one.kind for one in subjects})
+            able = [one for one in subjects if not _is_steady(word, one)]
+            shown = self._read_scene_verb(word, {one.kind for one in able})
             word.is_used = word.is_used or shown
         for group in clause.complements:
             self._read_scene_complement(self._referents.resolve(group))

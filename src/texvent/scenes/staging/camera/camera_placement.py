@@ -23,6 +23,7 @@ from texvent.scenes.staging.camera.framed_points import (
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
+from texvent.scenes.staging.camera.upper_body import come_near_arms
 from texvent.scenes.staging.camera.view_angles import choose_angles
 from texvent.scenes.staging.surroundings.environment import is_room
 
@@ -146,7 +147,8 @@ def _fit_path(
         others = [actor for actor in actors if actor.object_index not in known]
         is_clear = partial(has_clear_view, main=main, others=others, times=times, aspect=aspect)
         path = come_near(framings, path_of, prominence, goals, is_clear)
-        return come_near_small(description, actors, main, path, path_of, times, aspect)
+        path = come_near_small(description, actors, main, path, path_of, times, aspect)
+        return come_near_arms(description, actors, main, path, path_of, times, aspect)
 
     paths: list[CameraPath] = []
     for times in _instants(main, duration_s):

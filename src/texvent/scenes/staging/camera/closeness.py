@@ -29,7 +29,14 @@ _PROMINENCE, _ALONE = 0.36, 0.55
 nothing else that the prompt names would leave the image for it."""
 _STILL = 0.3
 """How far, in its sizes, a subject may go whose legs need not be seen."""
-_STAYING = frozenset({"handheld", "static", "follow", "pan"})
+STAYING = frozenset({"handheld", "static", "follow", "pan"})
+"""Moves of a camera that may stand nearer than it would."""
+
+
+def is_open(description: SceneDescription) -> bool:
+    """Whether the prompt leaves open how near the camera is."""
+    shot = description.shot
+    return shot.framing is None and shot.view in (None, "side", "front")
 
 
 def come_near_small(
@@ -55,9 +62,8 @@ def come_near_small(
     Returns:
         The path, from nearer where small things are at a person who stays in place.
     """
-    shot = description.shot
-    is_open = shot.framing is None and shot.view in (None, "side", "front")
-    if not is_open or any(move.kind not in _STAYING for move in (*shot.moves, *path.moves)):
+    moves = (*description.shot.moves, *path.moves)
+    if not is_open(description) or any(move.kind not in STAYING for move in moves):
         return path
     small = [actor for actor in actors if _is_small(actor, main, times)]
     if not small or not _stays(main, times):
