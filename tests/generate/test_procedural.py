@@ -118,7 +118,8 @@ def test_a_flicker_faster_than_the_frames_fires_events_everywhere() -> None:
     events = texvent.generate(
         prompt, duration=0.125, fps=24, sensor="32x24", noise="none", multi_event=False
     )
-    steady = texvent.generate("in a room", duration=0.125, fps=24, sensor="32x24", noise="none")
+    pans = "in a room, the camera pans right"
+    steady = texvent.generate(pans, duration=0.125, fps=24, sensor="32x24", noise="none")
     assert len(events) > 4 * 2 * 32 * 24
     assert len(steady) < len(events) / 10
     assert 0.4 < events.p.mean() < 0.6
