@@ -67,9 +67,7 @@ def train(
     state = read_state(folder, tables) or TrainingState(tables=tables)
     network = task.make_network().to(device)
     optimizer = schedule.make_optimizer(network)
-    if state.epochs:
-        network.load_state_dict(state.network)
-        optimizer.load_state_dict(state.optimizer)
+    _take_up(state, network, optimizer)
     computed = torch.compile(network) if hardware.compile else network
     while not _is_over(state, schedule):
         started = time.perf_counter()
@@ -88,6 +86,13 @@ def train(
         write_state(folder, state)
         progress.announce(_row_text(row, schedule.epochs))
     return state
+
+
+def _take_up(state: TrainingState, network: Any, optimizer: Any) -> None:
+    """Give network and optimizer what they were when the state was stored, if it was."""
+    if state.epochs:
+        network.load_state_dict(state.network)
+        optimizer.load_state_dict(state.optimizer)
 
 
 def _make_folder(folder: Path) -> None:

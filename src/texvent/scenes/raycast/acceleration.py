@@ -211,13 +211,8 @@ def build_world(
     shapes["is_thin"] |= _mesh_widths(primitives, shapes["extent"]) < wanted
     corner = instant["plane_corner"][0][[0, 0, 1, 1]]
     tiles = _tile_lists(shapes["window"] - corner, depth, exists, plane_size)
-    sun = instant["sun"][0]
-    plane = _sun_plane(sun)
-    margin = np.where(shapes["is_thin"], 2.0 * wanted, 0.0)
-    shapes["sun_window"] = _sun_windows(primitives, np.vstack([plane, sun]), margin)
-    casts = np.flatnonzero(exists & (np.asarray(primitives.emission) <= 0.0))
-    sun_cells, grid = _sun_lists(shapes["sun_window"], casts)
-    instant["sun_plane"], instant["sun_grid"] = plane, grid
+    casts = exists & (np.asarray(primitives.emission) <= 0.0)
+    sun_cells = _describe_sun_cells(instant[0], shapes, primitives, casts, wanted)
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)
     world = World(
@@ -229,6 +224,31 @@ def build_world(
         glows=np.zeros(0, dtype=GLOW_RECORD),
     )
     return world if surfaces is None else own_world(world, *surfaces[:4])
+
+
+def _describe_sun_cells(
+    instant: NDArray[Any],
+    shapes: NDArray[Any],
+    primitives: Primitives,
+    casts: NDArray[np.bool_],
+    wanted: Float64Array,
+) -> Bins:
+    """Write where shapes stand as the sun sees them; returns the shapes of each cell.
+
+    Args:
+        instant: the record of the instant; its sun is known.
+        shapes: the records of the shapes; which ones are thin is known.
+        primitives: the shapes.
+        casts: [n] whether a shape casts a shadow.
+        wanted: [n] widths that thin shapes are widened to, m.
+    """
+    sun = instant["sun"]
+    plane = _sun_plane(sun)
+    margin = np.where(shapes["is_thin"], 2.0 * wanted, 0.0)
+    shapes["sun_window"] = _sun_windows(primitives, np.vstack([plane, sun]), margin)
+    cells, grid = _sun_lists(shapes["sun_window"], np.flatnonzero(casts))
+    instant["sun_plane"], instant["sun_grid"] = plane, grid
+    return cells
 
 
 def _describe_distortion(

@@ -11,7 +11,7 @@ import numpy as np
 from texvent.errors import InputError
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Unmet
-from texvent.scenes.models.nouns import AFLOAT, NOUNS
+from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import (
     PUFF_COLUMNS,
@@ -48,6 +48,7 @@ from texvent.scenes.staging.surroundings.environment import (
     choose_lighting,
 )
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
+from texvent.scenes.staging.surroundings.levels import choose_levels
 from texvent.scenes.staging.surroundings.road_choice import find_road
 from texvent.scenes.staging.surroundings.scatter_rule import is_structure
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
@@ -180,40 +181,40 @@ def compose_scene(
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    ground = PLACES[place].ground
     actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
     view = _describe_view(description, place, camera_path, actors, duration_s)
     actors = wade(description, actors, place, view.road, PLACES[place].road_half_width)
-    if travel is not None:
-        view = replace(view, road=travel.road, travel=travel)
+    view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
-    missing += list_not_shown(said, actors, duration_s)
-    missing += _list_missing_scenery(description, surrounding)
-    first_free = len(actors) + 1
-    placed = [item.place(0) for item in items]
-    placed += [item.place(first_free + number) for number, (_, item) in enumerate(surrounding)]
+    placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
     names, object_of = _name_bodies(actors, surrounding, len(said.objects))
-    distance = camera_path.framing.distance_m
     animated_environment = build_environment(
-        description, place=place, road=view.road,
-        distance_m=distance, room_m=camera_path.room_m if ground is Ground.FLOOR else 9.0,
+        description, place=place, road=view.road, distance_m=camera_path.framing.distance_m,
+        room_m=camera_path.room_m if PLACES[place].ground is Ground.FLOOR else 9.0,
     )  # fmt: skip
     staged = replace(said, objects=description.objects)
     stage = Stage(staged, actors, camera_path, animated_environment.at(0.0), place, duration_s)
-    missing += list_acts_not_shown(stage)
-    missing += list_moves_not_shown(description.shot, camera_path, duration_s)
-    strength = choose_lighting(place, description.light).lamps
+    missing += _list_missing(said, description, surrounding, stage)
     lamps = plan_lamps(
-        description, actors, strength=strength, instant_s=0.5 * duration_s,
-        framing=camera_path.framing, items=items,
+        description, actors, strength=choose_lighting(place, description.light).lamps,
+        instant_s=0.5 * duration_s, framing=camera_path.framing, items=items,
     )  # fmt: skip
-    setting = Setting(actors, camera_path.framing, place, duration_s, seed)
-    particles = stage_effects(description, setting)
+    particles = stage_effects(
+        description, Setting(actors, camera_path.framing, place, duration_s, seed)
+    )
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
         notes=tuple(one for one in description.notes if one not in said.notes),
     )  # fmt: skip
+
+
+def _place_scenery(
+    items: Sequence[SceneryItem], surrounding: Sequence[tuple[int, SceneryItem]], *, first_free: int
+) -> list[PlacedModel]:
+    """Scenery of the place, which is no instance, then what the prompt names, from `first_free`."""
+    named = [item.place(first_free + number) for number, (_, item) in enumerate(surrounding)]
+    return [item.place(0) for item in items] + named
 
 
 def _name_bodies(
@@ -269,36 +270,6 @@ def _name_shapes(
 ) -> tuple[str, ...]:
     nouns = [item.noun for item in (*items, *(item for _, item in surrounding))]
     return tuple(noun for noun, model in zip(nouns, placed, strict=True) for _ in model.parts)
-
-
-_HIGH_PLACES = ("mountain", "forest", "city")
-"""Where what flies does so above the trees and streets."""
-
-
-def choose_levels(
-    place: str, description: SceneDescription, nouns: Mapping[str, Noun]
-) -> dict[str, float]:
-    """Height of origins above the ground: habitat or noun → multiple of an object's size.
-
-    "clear" is in metres, on top of that, for what flies.
-    """
-    if place in ("sky", "space"):
-        everything = {nouns[scene_object.noun].name: 0.0 for scene_object in description.objects}
-        return {"air": 2.0, "water": 0.0, **everything}
-    levels = {
-        "air": 1.5,
-        "water": 0.0,
-        "clear": 8.0 if place in _HIGH_PLACES else 0.0,
-    }
-    if place == "underwater":
-        levels["water"] = 0.9
-    elif place == "sea" or place in WATERSIDE:
-        levels.update({noun.name: -0.18 for noun in nouns.values() if noun.habitat == "water"})
-        levels.update(dict.fromkeys(AFLOAT, 0.0))
-    else:
-        levels["water"] = 0.5
-        levels.update(dict.fromkeys(AFLOAT, 0.25))
-    return levels
 
 
 def _describe_view(
@@ -376,6 +347,24 @@ def _scatter_all(
         far = [rule for rule in rules if is_placed_by_view(rule)]
         return lined + scatter(far, view, actors, unsaid, rng=rng, taken=taken), around
     return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
+
+
+def _list_missing(
+    said: SceneDescription,
+    description: SceneDescription,
+    surrounding: Sequence[tuple[int, SceneryItem]],
+    stage: Stage,
+) -> list[Unmet]:
+    """Objects, scenery, acts and camera moves that the scene does not show.
+
+    `said` is what the prompt says; `description` may have objects beside, such as a table.
+    """
+    return [
+        *list_not_shown(said, stage.actors, stage.duration_s),
+        *_list_missing_scenery(description, surrounding),
+        *list_acts_not_shown(stage),
+        *list_moves_not_shown(description.shot, stage.camera, stage.duration_s),
+    ]
 
 
 def _list_missing_scenery(

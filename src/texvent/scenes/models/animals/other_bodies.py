@@ -44,19 +44,8 @@ def build_ape(
         parts = [
             limb(coat, hips, chest, 0.17 * bulk * h, side_radius=0.18 * bulk * h),
             ball(coat, chest, (0.36 * bulk * h, 0.42 * bulk * h, 0.38 * bulk * h)),
-            ball(coat, head, (0.30 * h, 0.27 * h, 0.32 * h)),
-            ball(
-                face, (head[0] + 0.09 * h, 0.0, head[2] - 0.04 * h), (0.18 * h, 0.21 * h, 0.22 * h)
-            ),
-            ball(
-                face, (head[0] + 0.16 * h, 0.0, head[2] - 0.09 * h), (0.12 * h, 0.15 * h, 0.11 * h)
-            ),
+            *_ape_head(coat, face, head, h),
         ]
-        for side in (1.0, -1.0):
-            eye = (head[0] + 0.17 * h, side * 0.05 * h, head[2] + 0.03 * h)
-            parts.append(ball(Material(BLACK), eye, (0.04 * h, 0.04 * h, 0.04 * h)))
-            ear = (head[0] - 0.01 * h, side * 0.15 * h, head[2])
-            parts.append(ball(face, ear, (0.05 * h, 0.05 * h, 0.09 * h)))
         for side, phase in ((1.0, 0.0), (-1.0, 0.5)):
             x, z = foot_path(gait, distance, phase, amount)
             parts += _draw_limb(
@@ -80,6 +69,22 @@ def build_ape(
         return [*parts, *_curl(coat, hips, tail * h, 0.15 * math.sin(2.0 * pose.time_s + start))]
 
     return ArticulatedModel([], scale=scale, articulate=articulate)
+
+
+def _ape_head(coat: Material, face: Material, head: Point, h: float) -> list[ModelPart]:
+    """Skull, face, muzzle, eyes and ears around the point `head` of an ape `h` metres high."""
+    x, _, z = head
+    parts = [
+        ball(coat, head, (0.30 * h, 0.27 * h, 0.32 * h)),
+        ball(face, (x + 0.09 * h, 0.0, z - 0.04 * h), (0.18 * h, 0.21 * h, 0.22 * h)),
+        ball(face, (x + 0.16 * h, 0.0, z - 0.09 * h), (0.12 * h, 0.15 * h, 0.11 * h)),
+    ]
+    for side in (1.0, -1.0):
+        eye = (x + 0.17 * h, side * 0.05 * h, z + 0.03 * h)
+        parts.append(ball(Material(BLACK), eye, (0.04 * h, 0.04 * h, 0.04 * h)))
+        ear = (x - 0.01 * h, side * 0.15 * h, z)
+        parts.append(ball(face, ear, (0.05 * h, 0.05 * h, 0.09 * h)))
+    return parts
 
 
 def _draw_limb(

@@ -289,8 +289,7 @@ def build_environment(
         room_m: half the side of a room, m.
     """
     ground = PLACES[place]
-    lighting = choose_lighting(place, description.light)
-    said = description.surroundings
+    lighting, said = choose_lighting(place, description.light), description.surroundings
     colour, second = _ground_colours(ground, said)
     is_white = said.has_snow and ground.ground in _SNOWED_OVER
     is_backdrop = place == "plain" and said.sky is None
@@ -302,9 +301,8 @@ def build_environment(
         if description.objects and all(one.noun in FACING for one in description.objects):
             ground = replace(ground, ground=Ground.NONE)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
-    if said.weather in ("rain", "snow"):
-        lighting = replace(lighting, sun=mix(lighting.sun, (0.0, 0.0, 0.0), 0.4))
-    sun = np.array(lighting.sun_direction)
+    is_dim = said.weather in ("rain", "snow")
+    sun_colour = mix(lighting.sun, (0.0, 0.0, 0.0), 0.4) if is_dim else lighting.sun
     base = Environment(
         ground=ground.ground,
         ground_colour=_array(colour),
@@ -315,8 +313,8 @@ def build_environment(
         sky_top=_array(sky_top),
         sky_horizon=_array(horizon),
         clouds=clouds,
-        sun_direction=sun / np.linalg.norm(sun),
-        sun_colour=_array(lighting.sun),
+        sun_direction=_unit(lighting.sun_direction),
+        sun_colour=_array(sun_colour),
         ambient=_array(lighting.ambient),
         shadows=lighting.shadows,
         fog_distance=fog_distance,
@@ -332,6 +330,13 @@ def build_environment(
         road_curvature=road.curvature,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
+    return _animate(base, description, has_lightning=has_lightning)
+
+
+def _animate(
+    base: Environment, description: SceneDescription, *, has_lightning: bool
+) -> AnimatedEnvironment:
+    """The surroundings with the flicker, lightning and pace that the prompt asks for."""
     light = description.light
     return AnimatedEnvironment(
         base, light.flicker_hz, light.wave,
@@ -385,3 +390,8 @@ def _choose_fog(
 
 def _array(colour: Colour) -> Float32Array:
     return np.array(colour, dtype=np.float32)
+
+
+def _unit(direction: tuple[float, float, float]) -> Float64Array:
+    unit: Float64Array = np.array(direction) / np.linalg.norm(direction)
+    return unit
