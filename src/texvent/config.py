@@ -23,6 +23,14 @@ from texvent.errors import ConfigError, shown
 from texvent.options.fields import RemovedOption, renamed
 from texvent.runtime.memory import parse_memory
 
+UNITS = {
+    "duration": " s",
+    "start": " s",
+    "stop": " s",
+    "fps": " frames per second",
+    "target_rate": " events per second",
+}
+"""What errors say after the numbers of options whose names do not have a unit."""
 FPS_RANGE = 1e-9, 1e6
 """Frame rates, 1/s: from one frame in 32 years to one in a microsecond."""
 
@@ -36,12 +44,19 @@ def check_range(
         ConfigError: with the option's name, its value and the range, or that it is no number.
     """
     if value is not None and not isinstance(value, numbers.Real):
-        raise ConfigError(f"{name} is {shown(value)}; it must be a number")
+        raise _refusal(name, shown(value), "a number")
     if value is not None and not (low <= value <= high and value != math.inf):
         allowed = f"at least {low:g}" if high == math.inf else f"{_number(low)}..{_number(high)}"
         if value == math.inf:
             allowed += " and finite"
-        raise ConfigError(f"{name} is {_number(value)}; it must be {allowed}")
+        unit = UNITS.get(name, "")
+        raise _refusal(name, f"{_number(value)}{unit}", f"{allowed}{unit}")
+
+
+def _refusal(name: str, value: str, allowed: str) -> ConfigError:
+    error = ConfigError(f"{name} is {value}; it must be {allowed}")
+    error.option = name
+    return error
 
 
 def check_whole(name: str, value: Any, low: float = -math.inf, high: float = math.inf) -> None:
@@ -52,7 +67,7 @@ def check_whole(name: str, value: Any, low: float = -math.inf, high: float = mat
     """
     is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
     if not (is_number and math.isfinite(value) and value == int(value)):
-        raise ConfigError(f"{name} is {shown(value)}; it must be a whole number")
+        raise _refusal(name, shown(value), "a whole number")
     check_range(name, value, low, high)
 
 

@@ -118,6 +118,9 @@ class InputError(TexventError, ValueError):
 class ConfigError(InputError):
     """An option, a preset name or a config file is wrong."""
 
+    option: str | None = None
+    """The option whose value the message begins with, if it does: a command names its flag."""
+
 
 class FileFormatError(InputError):
     """A file is damaged, truncated, or not of the format its name claims."""

@@ -223,7 +223,7 @@ def test_a_prompt_without_quotes_is_told_to_take_them(folder, capsys):
 
 def test_a_value_that_begins_with_a_hyphen_is_read(folder, capsys):
     assert "unknown sensor '-3x5'" in fails(capsys, "simulate", CLIP, "--sensor", "-3x5")
-    assert "Missing value" in fails(capsys, "simulate", CLIP, "--sensor", "--quiet")
+    assert "--sensor needs a value" in fails(capsys, "simulate", CLIP, "--sensor", "--quiet")
     assert "did you mean 'davis346'" in fails(capsys, "simulate", CLIP, "--sensor=davis34")
     assert not list(folder.iterdir())
 
@@ -236,10 +236,34 @@ def test_a_missing_file_and_a_missing_argument_are_named(folder, capsys):
     assert not list(folder.iterdir())
 
 
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--duration", "2s"), "--duration is '2s', not a number (Length of the video, in seconds"),
+        (("--duration", "-1"), "--duration is -1 s; it must be 1e-06..86400 s"),
+        (("--fps", "0"), "--fps is 0 frames per second; it must be"),
+        (("--contrast-threshold", "0"), "--contrast-threshold is 0; it must be 0.0001..10"),
+        (("--seed", "1.5"), "--seed is '1.5', not a whole number"),
+        (("--noise", "5"), "--noise is '5'; allowed: adaptive, gaussian, random, none"),
+        (("--duration",), "--duration needs a value"),
+    ],
+)
+def test_a_wrong_value_is_named_with_its_flag_its_unit_and_what_is_allowed(
+    folder, capsys, words, message
+):
+    assert message in fails(capsys, "generate", "a ball", *words)
+
+
+def test_a_prompt_that_is_missing_is_asked_for(folder, capsys):
+    assert "texvent generate needs PROMPT What to show" in fails(capsys, "generate")
+
+
 def test_empty_texts_are_refused_first(folder, capsys):
-    assert "PROMPT is empty; give: What to show" in fails(capsys, "generate", " ")
-    assert "SOURCE is empty; give: Video file" in fails(capsys, "simulate", "")
-    assert "PATH is empty; give: Event file" in fails(capsys, "view", "")
+    assert "PROMPT must not be empty (What to show, in plain English" in fails(
+        capsys, "generate", " "
+    )
+    assert "SOURCE must not be empty (Video file" in fails(capsys, "simulate", "")
+    assert "PATH must not be empty (Event file" in fails(capsys, "view", "")
     with pytest.raises(InputError, match="the path is empty; give the name"):
         texvent.simulate("")
 

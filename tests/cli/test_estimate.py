@@ -54,6 +54,7 @@ def test_a_preview_shows_the_scene_and_says_what_is_shown_and_nothing_more(capsy
     assert said.out == "scene.png\n"
     assert "scene    1 ball, red, bounces" in said.err
     assert "warning  prompt words not understood: wug" in said.err
+    assert "warning  --preview stops before the events, so -o has no effect" in said.err
     assert not Path("out.h5").exists()
     image = cv2.imread("scene.png")
     assert image.shape == (48, 3 * 64 + 2 * 4, 3)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from texvent._registry import SIMULATORS
-from texvent.cli.options import parse_options, peek_options
+from texvent.cli.options import naming_flags, parse_options, peek_options
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import ConfigError
 from texvent.options.fields import former_names, option_names
@@ -61,7 +61,8 @@ def resolve_command(
     values = parse_options(
         arguments, groups, prog=prog or f"texvent {command}", description=description
     )
-    own, output = _take(subject, values), _take(output, values)
+    with naming_flags():
+        own, output = _take(subject, values), _take(output, values)
     shown = {
         name: getattr(group, name)
         for title, group in groups.items()
@@ -71,7 +72,8 @@ def resolve_command(
     given = {name: value for name, value in values.items() if value != shown[name]}
     for name in DECIDING:  # they have had their effect; a sensor file is a size by now
         given.pop(name, None)
-    return apply_options(defaults, given, where="options"), own, output
+    with naming_flags():
+        return apply_options(defaults, given, where="options"), own, output
 
 
 def _refuse_options_of_others(

@@ -30,6 +30,8 @@ from texvent.options.fields import (
 
 MOST_MESSAGE = 240
 """Characters of the parser's messages that are shown."""
+LONGEST_HELP = 120
+"""Characters of an option's help that an error repeats."""
 
 
 def parse_options(
@@ -66,7 +68,8 @@ def parse_options(
     words = _current_flags(arguments, list(map(type, groups.values())))
     lists = set(_list_flags(groups.values()))
     _refuse_second_lists(words, lists)
-    parsed = _parse(form, words, prog)
+    helps = {name: text for one in groups.values() for name, text in option_help(type(one)).items()}
+    parsed = _parse(form, words, prog, helps)
     values: dict[str, Any] = {}
     for part in dataclasses.fields(parsed):
         group = getattr(parsed, part.name)
@@ -78,8 +81,8 @@ def parse_options(
     return values
 
 
-def _parse(form: type, words: Sequence[str], prog: str) -> Any:
-    """An instance of `form`.
+def _parse(form: type, words: Sequence[str], prog: str, helps: Mapping[str, str]) -> Any:
+    """An instance of `form`; `helps` says what each option is.
 
     Raises:
         ConfigError: the parser's message, in one line.
@@ -93,7 +96,7 @@ def _parse(form: type, words: Sequence[str], prog: str) -> Any:
     except SystemExit as stop:
         if not stop.code:
             raise
-        message = _first_message(complaint.getvalue())
+        message = _plain_message(_first_message(complaint.getvalue()), helps)
         if len(message) > MOST_MESSAGE:
             # It echoes a value; what is allowed comes last.
             message = f"{message[: MOST_MESSAGE // 2]} ... {message[-MOST_MESSAGE // 2 :]}"
@@ -165,7 +168,7 @@ def _refuse_empty(values: Mapping[str, Any], groups: Iterable[Any]) -> None:
             given = values[name] if isinstance(values[name], tuple) else (values[name],)
             if any(str(one).strip() == "" or one == Path() for one in given):
                 what = option_help(type(group)).get(name, "")
-                raise ConfigError(f"{name.upper()} is empty; give: {what[:200]}")
+                raise ConfigError(f"{name.upper()} must not be empty ({what[:200].rstrip('.')})")
 
 
 def parse_configs(
@@ -176,10 +179,26 @@ def parse_configs(
     Arguments and errors are those of `parse_options`; a config may refuse a value.
     """
     values = parse_options(arguments, groups, prog=prog, description=description)
-    return tuple(
-        dataclasses.replace(config, **{name: values[name] for name in option_names(type(config))})
-        for config in groups.values()
-    )
+    with naming_flags():
+        return tuple(
+            dataclasses.replace(
+                config, **{name: values[name] for name in option_names(type(config))}
+            )
+            for config in groups.values()
+        )
+
+
+@contextlib.contextmanager
+def naming_flags() -> Iterator[None]:
+    """Let errors about the value of an option name its flag: --duration, not duration."""
+    try:
+        yield
+    except ConfigError as error:
+        name = error.option
+        if name is None or not str(error).startswith(f"{name} "):
+            raise
+        flag = f"--{name.replace('_', '-')}"
+        raise ConfigError(f"{flag}{str(error)[len(name) :]}") from None
 
 
 def refuse_arguments(arguments: Sequence[str], *, prog: str, description: str) -> None:
@@ -342,3 +361,23 @@ def _first_message(complaint: str) -> str:
     close = re.search(r"--[\w-]+", filled[1]) if len(filled) > 1 else None
     is_helpful = close is not None and close[0] != "--help"
     return f"{message}; did you mean {close[0]}?" if close and is_helpful else message
+
+
+def _plain_message(message: str, helps: Mapping[str, str]) -> str:
+    """The parser's message as one that begins with the option and says what it is."""
+    wrong = re.match(r"Error parsing (\S+): (.*) is not (.*)", message)
+    if wrong:
+        what = helps.get(wrong[1].lstrip("-").lower().replace("-", "_"), "").split(". ")[0]
+        more = f" ({what.rstrip('.')})" if 0 < len(what) <= LONGEST_HELP else ""
+        return f"{wrong[1]} is {wrong[2]}, not {wrong[3]}{more}"
+    lacking = re.match(r"Missing value for argument '(\S+)'", message)
+    if lacking:
+        return f"{lacking[1]} needs a value"
+    choice = re.match(
+        r"invalid choice (.*) for argument '(\S+)'\. Expected one of \((.*)\)", message
+    )
+    if choice:
+        allowed = choice[3].replace("'", "").rstrip(",")
+        return f"{choice[2]} is {choice[1]}; allowed: {allowed}"
+    absent = re.match(r"Missing from ([\w ]+): (.*?)\.? \(required\)", message)
+    return f"{absent[1]} needs {absent[2]}" if absent else message

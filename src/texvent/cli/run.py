@@ -54,8 +54,9 @@ class Tally:
         self.on_events += int(packet.p.sum())
         self.source_frames += frame.is_source
         self.intermediate_frames += not frame.is_source
-        self.first_us = frame.t_us if self.first_us is None else self.first_us
-        self.last_us = frame.t_us
+        if len(packet):
+            self.first_us = int(packet.t[0]) if self.first_us is None else self.first_us
+            self.last_us = int(packet.t[-1])
 
     def add_scene_change(self, change: SceneChange, t_us: int) -> None:
         """Note a scene cut or flash at `t_us`."""
@@ -63,7 +64,7 @@ class Tally:
 
     @property
     def seconds(self) -> float:
-        """Time covered, s."""
+        """From the first event to the last, s: as `texvent info` counts."""
         return (self.last_us - (self.first_us or 0)) / MICROSECONDS
 
 

@@ -70,11 +70,12 @@ class PromptReport:
         """
         return not (self.substituted or self.not_shown or self.not_understood)
 
-    def faults(self, most: int | None = None) -> list[str]:
+    def faults(self, most: int | None = None, *, rest: str = "") -> list[str]:
         """What is not shown as it says: a line for each kind.
 
         Args:
             most: words that a line names; None: all.
+            rest: said at the end of a line that names fewer: where all of them are.
         """
         kinds = {
             "shown as something else": [str(one) for one in self.substituted],
@@ -84,6 +85,7 @@ class PromptReport:
         }
         return [
             f"{kind}: {', '.join(words) if most is None else few(words, most)}"
+            f"{rest if most is not None and len(words) > most else ''}"
             for kind, words in kinds.items()
             if words
         ]

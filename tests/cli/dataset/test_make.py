@@ -23,6 +23,7 @@ splits = { train = 0.75, test = 0.25 }
 [options]
 duration = 0.1
 sensor = "32x24"
+interpolate = "none"
 
 [[sources]]
 template = "a {colour} {thing} drives left"
@@ -36,8 +37,6 @@ seeds = 2
 [variants.esim]
 simulator = "esim"
 """
-
-QUICK = SPECIFICATION.replace("[options]", '[options]\ninterpolate = "none"')
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +126,6 @@ def test_a_plan_of_a_learned_model_costs_gpu_hours(folder, capsys):
 
 
 def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
-    (folder / "cars.toml").write_text(QUICK)
     assert run("plan", "cars.toml", "--trial", 4, "--workers", 1) == 0
     rows = [line.split() for line in capsys.readouterr().out.splitlines()]
     planned = {row[0]: int(row[2].replace(",", "")) for row in rows if row[0] in ("paper", "esim")}
@@ -139,7 +137,6 @@ def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
 
 
 def test_making_again_changes_nothing_and_going_on_needs_the_folder_alone(folder, capsys):
-    (folder / "cars.toml").write_text(QUICK)
     assert run("make", "cars.toml", "--workers", 1) == 0
     assert "12 samples" in capsys.readouterr().out
     before = digests(folder / "cars")
@@ -188,7 +185,7 @@ def test_a_killed_data_set_goes_on_without_loss(folder, whole, workers, number):
         time.sleep(0.02)
     process.send_signal(number)  # to the one that leads: its workers must end by themselves
     process.communicate(timeout=300)
-    subprocess.run([*words, "-o", "killed", "-q"], check=True, timeout=300)
+    assert run("make", "cars.toml", "-o", "killed", "--workers", 1, "-q") == 0
     assert digests(folder / "killed") == whole
     hidden = [path for path in Path("killed").rglob(".texvent-*") if not is_locked(path)]
     assert hidden == []

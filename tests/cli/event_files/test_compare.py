@@ -147,19 +147,6 @@ def test_bench_lists_its_benchmarks(capsys):
     assert main(["bench"]) == 2
 
 
-def test_bench_fidelity_writes_tables_and_json(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    chosen = ["--scenes", "static", "--simulators", "esim", "--interpolations", "none"]
-    assert main(["bench", "fidelity", *chosen, "-o", "r.json", "--jobs", "1", "-q"]) == 0
-    shown = capsys.readouterr()
-    assert "### static, noisy pixels" in shown.out
-    assert not shown.err
-    document = json.loads((tmp_path / "r.json").read_text())
-    assert document["scores"][0]["entry"] == "esim, none"
-    # Nothing moves, so a model without noise has no event to place.
-    assert document["scores"][0]["default_ratio"] == 0
-
-
 @pytest.fixture
 def candidates(tmp_path, monkeypatch):
     """A truth of 1.2 s, a candidate that is 1 ms late, and one that is 4 ms late."""

@@ -10,6 +10,8 @@ from texvent.scenes.language.vocabulary.opaque import OPAQUE_COMPOUNDS
 from texvent.scenes.models.kinds import KINDS, find_kind
 from texvent.scenes.models.nouns import NOUNS
 
+from ..every_row import for_every
+
 COCO = (
     "person", "bicycle", "car", "motorcycle", "airplane", "bus", "train", "truck", "boat",
     "traffic light", "fire hydrant", "stop sign", "parking meter", "bench", "bird", "cat", "dog",
@@ -60,18 +62,12 @@ def test_every_alias_is_a_synonym_or_a_kind_of_one_noun() -> None:
     assert {word: find_kind(word) for word in owner} == owner
 
 
-@pytest.mark.parametrize("noun", sorted(KINDS))
+@for_every(sorted(KINDS))
 def test_every_kind_is_shown_as_its_noun_and_named(noun: str) -> None:
     for word in KINDS[noun]:
         nouns, substituted, _ = read(f"the {word}")
         assert nouns == [noun], word
         assert substituted == {word.replace("-", " "): noun}, word
-
-
-@pytest.mark.parametrize("noun", sorted(NOUNS))
-def test_a_synonym_is_no_substitution(noun: str) -> None:
-    for word in NOUNS[noun].synonyms:
-        assert read(f"the {word}")[1] == {}, word
 
 
 OTHERS = (
@@ -128,7 +124,7 @@ def test_a_kind_is_shown_as_its_thing_and_named(prompt: str, noun: str, said: st
     assert substituted == {said: noun}
 
 
-@pytest.mark.parametrize("compound", OPAQUE_COMPOUNDS)
+@for_every(OPAQUE_COMPOUNDS)
 def test_a_compound_that_misleads_is_not_shown_as_its_last_word(compound: str) -> None:
     try:
         nouns, _, lost = read(f"a {compound} on a rock")

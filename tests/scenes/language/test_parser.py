@@ -15,6 +15,8 @@ from texvent.scenes.language.words.lexicon import Lexicon
 from texvent.scenes.language.words.tokens import tokenize_prompt
 from texvent.scenes.models.nouns import NOUNS
 
+from ..every_row import for_every
+
 SUV_PROMPT = (
     "The camera follows behind a white SUV with a black roof rack as it speeds up a steep dirt "
     "road surrounded by pine trees on a steep mountain slope, dust kicks up from it's tires, the "
@@ -348,12 +350,13 @@ def test_what_is_left_out_of_a_long_list_is_said() -> None:
     assert description.not_understood == tuple(nouns[MAX_OBJECTS:])
 
 
-@pytest.mark.parametrize("name", sorted(NOUNS))
+@for_every(sorted(NOUNS))
 def test_every_noun_and_synonym_is_known_in_singular_and_plural(name: str) -> None:
     noun = NOUNS[name]
     for word in (name, *noun.synonyms, *noun.plurals):
-        objects = parse_prompt(f"a {word}").objects
-        assert [scene_object.noun for scene_object in objects] == [name], word
+        description = parse_prompt(f"a {word}")
+        assert [scene_object.noun for scene_object in description.objects] == [name], word
+        assert word not in noun.synonyms or description.substituted == (), word
 
 
 KNOWN_WORDS = Lexicon(NOUNS).words

@@ -2,8 +2,7 @@
 
 import inspect
 import math
-from collections.abc import Callable
-from functools import cache, wraps
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +19,8 @@ from texvent.scenes.models.objects.home.screens import PICTURE_FACES
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.vehicles.wheels import Wheel, rolled
 from texvent.scenes.scene import Shape
+
+from ..every_row import for_every
 
 ALL = list(NOUNS.values())
 POSES = [
@@ -50,21 +51,7 @@ def build(noun: Noun, *, scale: float = 1.0, seed: int = 0) -> Model:
     return noun.build(colour=None, scale=scale, seed=seed)
 
 
-def for_every_noun(check: Callable[[Noun], None]) -> Callable[[], None]:
-    """One test of all nouns, which names those that fail and says why."""
-
-    @wraps(check)
-    def test() -> None:
-        failures = {}
-        for noun in ALL:
-            try:
-                check(noun)
-            except AssertionError as error:
-                failures[noun.name] = str(error)
-        assert not failures
-
-    del test.__wrapped__  # pytest would look for a fixture called noun
-    return test
+for_every_noun = for_every(ALL)
 
 
 @cache
@@ -226,7 +213,8 @@ def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
             before = model.parts(Pose(time_s, speed * time_s, speed, activity))
             time_s += 1e-3
             after = model.parts(Pose(time_s, speed * time_s, speed, activity))
-            change = np.array([b.to_body - a.to_body for a, b in zip(before, after, strict=True)])
+            assert len(before) == len(after)
+            change = np.array([b.to_body for b in after]) - np.array([a.to_body for a in before])
             assert np.abs(change).max() <= bound
             fade = [
                 [*np.subtract(b.colour, a.colour), (b.emission - a.emission) / 3.0]

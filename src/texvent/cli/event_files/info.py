@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from texvent.capture.camera_path.opening import is_still
+from texvent.capture.image_folder import read_image
 from texvent.capture.open import open_frames
 from texvent.cli.event_files.event_file_options import EventFileOptions
 from texvent.cli.notices import write_out
@@ -66,6 +68,8 @@ def run(arguments: Sequence[str]) -> int:
     )
     if options.format or is_event_path(options.path) or not options.path.exists():
         facts = describe_events(options.open())
+    elif is_still(options.path):
+        facts = describe_image(options.path)
     else:
         facts = describe_frames(open_frames(options.path, CaptureConfig()))
     if options.json:
@@ -143,6 +147,21 @@ def describe_frames(video: FrameStream) -> dict[str, Any]:
         "seconds": (last_us - first_us) / MICROSECONDS,
         "pixels": ", ".join(sorted(kinds)),
         **{key: value for key, value in video.metadata.items() if value is not None},
+    }
+
+
+def describe_image(path: Path) -> dict[str, Any]:
+    """Size and kind of one image, and what makes events of it.
+
+    Raises:
+        FileFormatError: it cannot be read.
+    """
+    pixels = read_image(path)
+    return {
+        "size": f"{pixels.shape[1]}x{pixels.shape[0]}",
+        "frames": 1,
+        "pixels": f"{pixels.dtype} {'RGB' if pixels.ndim == 3 else 'grey'}",
+        "note": "one image; texvent simulate --camera saccade, shake or pan makes events of it",
     }
 
 

@@ -16,7 +16,7 @@ from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import execute, print_settings, run_source
 from texvent.cli.simulation.preview import check_preview, write_preview
 from texvent.config import CaptureConfig
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
@@ -91,6 +91,8 @@ def run(arguments: Sequence[str]) -> int:
     if own.preview is not None:
         generator_class = GENERATORS.load(str(settings.generator))
         check_preview(own.preview, generator_class, overwrite=output.overwrite)
+        if output.out and not output.dry_run:
+            warn("--preview stops before the events, so -o has no effect; run again without it")
         write_preview(
             own.prompt, settings, own.preview, upsample=own, overwrite=output.overwrite,
             is_quiet=output.quiet,

@@ -28,8 +28,12 @@ from texvent.scenes.models.people.timing import ease, follow_keys, pulse
 from texvent.scenes.models.people.work.verbs import HANDWORK
 from texvent.scenes.models.protocol import Pose
 
+from ...every_row import for_every
+
 STEP_S = 1e-3
 MOVING = sorted(set(ACTIVITIES) - {"walk", "run", "jump"})
+ADULT_MODEL = person.build_person(ADULT, colour=None, scale=1.0, seed=0)
+PARTS = len(ADULT_MODEL.parts(Pose(0.0, 0.0, 0.0, "stand")))
 
 
 def joints(activity: str, time_s: float, speed: float = 0.0) -> Skeleton:
@@ -58,7 +62,7 @@ def test_the_eleven_classes_of_dvs_gesture_are_there() -> None:
     assert set(DVS_GESTURES.values()) <= set(GESTURES)
 
 
-@pytest.mark.parametrize("activity", MOVING)
+@for_every(MOVING)
 def test_a_millisecond_moves_no_joint_far(activity: str) -> None:
     for time_s in np.arange(0.0, 5.0, 0.113):
         before, after = joints(activity, float(time_s)), joints(activity, float(time_s) + STEP_S)
@@ -66,7 +70,7 @@ def test_a_millisecond_moves_no_joint_far(activity: str) -> None:
         assert np.abs(points(after) - points(before)).max() < 0.02, time_s
 
 
-@pytest.mark.parametrize("activity", MOVING)
+@for_every(MOVING)
 def test_bones_keep_their_length(activity: str) -> None:
     for time_s in (0.1, 0.43, 0.9, 1.7):
         body = joints(activity, time_s)
@@ -79,15 +83,13 @@ def test_bones_keep_their_length(activity: str) -> None:
             assert thigh + shin == pytest.approx(THIGH + SHIN, abs=1e-6)
 
 
-@pytest.mark.parametrize("activity", MOVING)
+@for_every(MOVING)
 def test_nothing_reaches_into_the_ground(activity: str) -> None:
-    model = person.build_person(ADULT, colour=None, scale=1.0, seed=0)
     for time_s in (0.0, 0.3, 0.8, 1.4):
         body = joints(activity, time_s)
         low = -0.6 if activity == "swim" else -0.01
         assert points(body)[:, 2].min() > low
-        count = len(model.parts(Pose(time_s, 0.0, 0.0, activity)))
-        assert count == len(model.parts(Pose(0.0, 0.0, 0.0, "stand")))
+        assert len(ADULT_MODEL.parts(Pose(time_s, 0.0, 0.0, activity))) == PARTS
 
 
 @pytest.mark.parametrize(
