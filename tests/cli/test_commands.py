@@ -195,8 +195,8 @@ def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
     assert "it must be 0..2^63 - 1" in fails(capsys, "simulate", CLIP, "--seed", "-1")
     assert "unknown palette" in fails(capsys, "simulate", CLIP, "--palette", "pink")
     assert "'cold'" in fails(capsys, "simulate", CLIP, "--noise", "cold")
-    assert "'x' is not a rate" in fails(capsys, "simulate", CLIP, "--fps", "x")
-    assert "contrast_threshold is -1" in fails(
+    assert "--fps is 'x', not a rate such as 24" in fails(capsys, "simulate", CLIP, "--fps", "x")
+    assert "--contrast-threshold is -1" in fails(
         capsys, "simulate", CLIP, "--contrast-threshold", "-1"
     )
     assert not list(folder.iterdir())
