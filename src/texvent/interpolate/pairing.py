@@ -10,7 +10,7 @@ from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.flicker.known_light import KnownLight
-from texvent.interpolate.flicker.windows import note_invisible, with_light
+from texvent.interpolate.flicker.windows import can_be_seen, with_light
 from texvent.interpolate.protocol import Interpolator
 from texvent.pairs.deflicker import steady_frames
 from texvent.pairs.frame_pair import FramePair, hold_earlier
@@ -58,8 +58,8 @@ def plan_pairs(
         # Every instant of such a stream is known: nothing can be cut, and nothing flickers unseen.
         video = video.with_motion()
         config = replace(config, detect_cuts=False, deflicker=False, flicker_hz=None)
-    if config.flicker_hz is not None:
-        note_invisible(config.flicker_hz, video.fps)
+    if config.flicker_hz is not None and not can_be_seen(config.flicker_hz, video.fps):
+        config = replace(config, flicker_hz=None)
     interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
     policy = CountPolicy(
         config, video, interpolator, balance=balance, contrast_threshold=contrast_threshold

@@ -14,7 +14,7 @@ from texvent.errors import ConfigError
 from texvent.interpolate.densify import densify
 from texvent.interpolate.flicker.fit_reference import WINDOW_FRAMES
 from texvent.interpolate.flicker.known_light import KnownLight, from_light, to_light
-from texvent.interpolate.flicker.windows import note_invisible, with_light
+from texvent.interpolate.flicker.windows import can_be_seen, with_light
 from texvent.transfer import Transfer
 from texvent.video import Frame, Video, frame_time_us
 
@@ -121,10 +121,10 @@ def test_what_is_taken_off_comes_back(level, swing, gain, t_us, transfer):
 
 def test_a_lamp_that_frames_cannot_show_is_told_once():
     with pytest.warns(texvent.TexventWarning, match="show light of 120 Hz as 0 Hz") as warnings:
-        note_invisible(120.0, Fraction(24))
+        assert not can_be_seen(120.0, Fraction(24))
     assert len(warnings) == 1
-    note_invisible(100.0, Fraction(24))
-    note_invisible(120.0, None)
+    assert can_be_seen(100.0, Fraction(24))
+    assert can_be_seen(120.0, None)
 
 
 def test_a_lamp_makes_events(moving_texture):

@@ -109,23 +109,24 @@ class _Window:
         return KnownLight(self._hz, origin_us, gain, pixel, amplitude.reshape(-1, 2)[pixel])
 
 
-def note_invisible(hz: float, fps: Fraction | None) -> None:
-    """Warn, once and before any work, if frames at a rate cannot show a lamp.
+def can_be_seen(hz: float, fps: Fraction | None) -> bool:
+    """Whether frames at a rate may show a lamp; a warning says why not.
 
     Args:
         hz: frequency of the light, Hz.
-        fps: frames per second; None where they are irregular.
+        fps: frames per second; None where they are irregular, which may show any lamp.
     """
     if fps is None:
-        return
+        return True
     times_us = np.array([frame_time_us(index, fps) for index in range(WINDOW_FRAMES)], np.int64)
-    if design_fit(times_us, 0, hz).is_enough:
-        return
-    seen_hz = alias_hz(hz, fps)
-    warn(
-        f"flicker_hz: frames at {float(fps):g} per second show light of {hz:g} Hz as "
-        f"{seen_hz:.3g} Hz, which {WINDOW_FRAMES} frames cannot tell; it is left as it is"
-    )
+    is_seen = design_fit(times_us, 0, hz).is_enough
+    if not is_seen:
+        warn(
+            f"flicker_hz: frames at {float(fps):g} per second show light of {hz:g} Hz as "
+            f"{alias_hz(hz, fps):.3g} Hz, which {WINDOW_FRAMES} frames cannot tell; it is left "
+            "as it is"
+        )
+    return is_seen
 
 
 def alias_hz(hz: float, fps: Fraction) -> float:
