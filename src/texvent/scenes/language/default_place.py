@@ -18,10 +18,10 @@ _AFLOAT_MOTIONS = ("sail", "paddle")
 
 _IN_WATER = ("swim", "surf")
 """What people and animals of the land do in water only."""
-_ON_SNOW = ("ski", "snowboard")
-"""What people do on snow only."""
 SHORE, BEACH = "lake", "beach"
 """Where what stands on land is beside a lake, or the sea: water with land before it."""
+_PLACE_OF_ACT = {"ski": "snow", "snowboard": "snow", "fish": SHORE}
+"""What people do in one place only → where."""
 _PLACE_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 """How a camera travels → where it does so."""
 _USUAL_PLACES: dict[str, tuple[str, ...]] = {
@@ -107,6 +107,7 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
     is_submerged = bool(members) and all(
         noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in members
     )
+    is_submerged = is_submerged and not _leaps(description)
     stated = _fit_stated(description, members, nouns, is_submerged=is_submerged)
     if stated is not None:
         return stated
@@ -121,9 +122,13 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
             return _PLACE_OF_TRAVEL[move.means]
     if "city" in said.backdrops:
         return "city"
-    kinds = {one.motion.kind for one in description.objects if one.motion is not None}
-    if said.has_snow or kinds & set(_ON_SNOW):
-        return "snow"
+    of_act = [
+        _PLACE_OF_ACT[one.motion.kind]
+        for one in description.objects
+        if one.motion is not None and one.motion.kind in _PLACE_OF_ACT
+    ]
+    if said.has_snow or of_act:
+        return "snow" if said.has_snow else of_act[0]
     rests = all(
         one.motion is not None and one.motion.kind in ("stand", "sit", "lie")
         for one in description.objects
@@ -165,6 +170,11 @@ def _needs_ground(
 _BEARING = frozenset({"in", "on", "ride", "ride along"})
 """Relations of what goes through the air in or on something else."""
 _NO_GROUND = ("space", "underwater", "sky")
+
+
+def _leaps(description: SceneDescription) -> bool:
+    """As in "a dolphin jumps": out of the water."""
+    return all(one.motion is not None and one.motion.kind == "jump" for one in description.objects)
 
 
 def _is_of_clouds(description: SceneDescription) -> bool:

@@ -31,9 +31,11 @@ OPENING: Mapping[str, str] = MappingProxyType(
     }
 )
 """Noun → what of it opens."""
-OPENS = frozenset({"open", "close"})
+OPENS = frozenset({"open", "close", "open and close", "close and open"})
 """Motions of these."""
 _START_S, _STOP_S = 0.3, 1.5
+_THERE_S, _BACK_S = (0.1, 0.8), (1.15, 1.85)
+"""When what does both, one after the other, does the first and the second, s."""
 _LEAF_SHADE = 0.78
 """Brightness of a leaf that is added, of the model's own."""
 _INSIDE = Material((0.04, 0.035, 0.03))
@@ -71,7 +73,9 @@ class OpeningModel:
         share = 0.0
         if pose.activity in OPENS:
             share = ease(pose.time_s, _START_S, _STOP_S)
-            share = share if pose.activity == "open" else 1.0 - share
+            if " and " in pose.activity:
+                share = ease(pose.time_s, *_THERE_S) - ease(pose.time_s, *_BACK_S)
+            share = share if pose.activity.startswith("open") else 1.0 - share
         turn = self._move(share)
         rest = [
             part.at(compose(turn, part.to_body)) if index in self._own else part
@@ -125,6 +129,12 @@ class OpeningModel:
         leaf = self._slab((0.0, 0.0, high + 0.012), (self.length, wide, 0.03))
         inside = box(_INSIDE, (0.0, 0.0, high), (0.88 * self.length, 0.88 * wide, 0.012))
         return [leaf], [inside], lambda share: turn_y(-1.9 * share, (-x, 0.0, high))
+
+
+def opens_after(before: str | None, kind: str) -> str:
+    """The motion of what does one after the other, as in "opens and closes"."""
+    both = f"{before} and {kind}"
+    return both if both in OPENS else kind
 
 
 def opening(models: list[Model], noun: str, kinds: set[str]) -> list[Model]:

@@ -34,10 +34,10 @@ def _clap(t: float) -> Posture:
 
 
 def _point(t: float) -> Posture:
-    reach = 0.5 + 0.5 * pulse(t, 0.8)
+    reach = 0.35 + 0.65 * pulse(t, 0.7)
     return Posture(
-        right=Arm((0.16 + 0.22 * reach, 0.16 + 0.24 * reach, 0.02 + 0.10 * reach), _DOWN),
-        look=-0.5, tool=(1.0, 0.5, 0.1),
+        right=Arm((0.10 + 0.08 * reach, 0.10 + 0.50 * reach, -0.10 + 0.20 * reach), _DOWN),
+        look=-0.9, tool=(0.3, 1.0, 0.1),
     )  # fmt: skip
 
 

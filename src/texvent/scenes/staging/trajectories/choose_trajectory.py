@@ -90,6 +90,8 @@ class MotionPlan:
     """How high it may jump, m: a cage has a roof."""
     is_wheel: bool = False
     """Whether it spins about its axle."""
+    is_swimmer: bool = False
+    """Whether it lives in the water: it leaps out by a good part of its length."""
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
 
@@ -154,7 +156,7 @@ def plan_motion(
         is_facing = is_wide and noun.habitat == "fixed" and motion.kind == "slide"
         return MotionPlan(
             motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing,
-            is_wheel=noun.name == "wheel",
+            is_wheel=noun.name == "wheel", is_swimmer=noun.habitat == "water",
         )  # fmt: skip
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
     return MotionPlan(motion, path.yaw, speed, duration_s, path)
@@ -336,6 +338,8 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         return Swing(home, length, 0.5, pace)
     if kind == "jump":
         height = min(min(max(0.35 * model.height, 0.12), 1.5) * pace, plan.headroom_m)
+        if plan.is_swimmer:
+            height = max(height, 0.7 * model.length)
         hop = 0.0 if plan.motion.direction is None else 0.5 * model.length * 2.0
         return Hop(home, height, hop_m=hop, yaw=plan.yaw, mid_s=0.5 * plan.duration_s)
     if kind == "dance":

@@ -15,7 +15,7 @@ from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.lamps import LAMPS
-from texvent.scenes.models.opening_model import OPENING
+from texvent.scenes.models.opening_model import OPENING, opens_after
 
 _SWITCHES = ("turn", "change", "switch", "go")
 _SIGNALS = ("red", "yellow", "amber", "green")
@@ -70,6 +70,8 @@ def open_up(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
         return False
     doers = [index for index in subjects if draft.noun(index).name in OPENING]
     for index in doers:
+        before = draft.objects[index].motions
+        kind = opens_after(before[-1].kind if before else None, kind)
         draft.objects[index].motions = [ObjectMotion(kind)]
     clause.verb_word.is_used = clause.verb_word.is_used or bool(doers)
     draft.link_motion([clause.verb_word], doers)

@@ -14,7 +14,7 @@ from texvent.scenes.language.meaning.referents.resolver import PERSON
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.opening_model import OPENING, OPENS
+from texvent.scenes.models.opening_model import OPENING, OPENS, opens_after
 from texvent.scenes.models.people.activities import SEATS
 from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED, ONTO
 from texvent.scenes.models.protocol import Noun
@@ -123,7 +123,14 @@ def work_on(draft: Draft, word: Word, people: Sequence[int], objects: Sequence[R
     seen = work.shown_as if work is not None else ""
     opened = [index for index in targets[:1] if draft.noun(index).name in OPENING]
     if word.lemma in OPENS and opened:
-        draft.objects[opened[0]].motions = [ObjectMotion(word.lemma)]
+        # As in "opens and closes a box".
+        before = draft.objects[people[0]].motions[-2:-1] if people else []
+        kind = opens_after(before[0].kind if before else None, word.lemma)
+        draft.objects[opened[0]].motions = [ObjectMotion(kind)]
+        if kind != word.lemma:
+            # The hands stay at it for both.
+            for index in people:
+                del draft.objects[index].motions[1:]
         seen = ""
     if seen:
         word.shown_as = seen

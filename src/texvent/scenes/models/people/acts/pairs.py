@@ -20,7 +20,7 @@ _OUT: Point = (-0.3, 1.0, -0.5)
 
 PAIR_GAPS: Mapping[str, float] = MappingProxyType(
     {
-        "hug": 0.36, "kiss": 0.46, "shake hands": 0.92, "high five": 0.92, "wrestle": 0.86,
+        "hug": 0.36, "kiss": 0.41, "shake hands": 0.92, "high five": 0.92, "wrestle": 0.86,
         "arm wrestle": 0.98, "argue": 0.95, "tango": 0.50, "tug of war": 2.1, "give": 0.95,
         "receive": 0.95, "box": 1.02, "fence": 1.9, "play chess": 1.32,
     }
@@ -44,7 +44,7 @@ def _kiss(t: float) -> Posture:
     near = ease(t, 0.1, 0.8) - 0.25 * pulse(t, 0.7) * ease(t, 0.9, 1.2)
     left, right = (Arm((0.40, side * 0.16, 1.02 + 0.14 * side), _OUT, True)
                    for side in (1.0, -1.0))  # fmt: skip
-    return Posture(hips=(-0.06, 0.0, 0.94), lean=-0.10 + 0.29 * near, nod=-0.10, tilt=0.06 * near,
+    return Posture(hips=(-0.03, 0.0, 0.94), lean=-0.14 + 0.34 * near, nod=-0.10, tilt=0.06 * near,
                    left=left, right=right)  # fmt: skip
 
 

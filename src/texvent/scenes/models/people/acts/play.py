@@ -55,10 +55,14 @@ def _fence(t: float) -> Posture:
     )  # fmt: skip
 
 
+SHOT_S = 1.1
+"""When the arrow leaves the bow, s."""
+
+
 def _archery(t: float) -> Posture:
     """Draws the string to the cheek, holds it, lets go."""
     u = t % 2.6
-    drawn = ease(u, 0.1, 1.1) - ease(u, 1.5, 1.58)
+    drawn = ease(u, 0.1, 0.8) - ease(u, SHOT_S, SHOT_S + 0.08)
     back = 0.34 * drawn
     return Posture(
         left=Arm((0.58, -0.16, 0.06), (0.0, 1.0, -0.4)), turn=-0.35 * drawn,
@@ -303,7 +307,16 @@ _BOW = still(
     ),
     rod(Material(WHITE), (-0.20, 0.0, -0.62), (-0.20, 0.0, 0.62), 0.006),
 )  # fmt: skip
-_ARROW = still(stick(WOOD, -0.04, 0.70, 0.010), stick(Material(RED), -0.04, 0.06, 0.022))
+
+
+def _arrow(t: float) -> list[ModelPart]:
+    """On the string, then on its way, as far as the picture shows it."""
+    away = min(5.0 * max(t % 2.6 - SHOT_S, 0.0), 2.2)
+    return [stick(WOOD, away - 0.04, away + 0.74, 0.020),
+            stick(Material(RED), away - 0.04, away + 0.10, 0.036),
+            stick(DARK, away + 0.70, away + 0.82, 0.034)]  # fmt: skip
+
+
 _RACKET_FACE = 0.48
 _RACKET = still(
     stick(DARK, -0.08, 0.26, 0.016),
@@ -330,7 +343,10 @@ _CONTROLLER = still(
 PLAY_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
     {
         "fence": (Prop("right hand", _FOIL, ("sword",)),),
-        "archery": (Prop("left hand", _BOW, ("bow",)), Prop("right hand", _ARROW, ("arrow",))),
+        "archery": (
+            Prop("left hand", _BOW, ("bow",)),
+            Prop("right hand", _arrow, ("arrow",), is_own=True),
+        ),
         "bowl": (Prop("ground", _bowling_ball, ("bowling ball", "ball")),),
         "serve": (
             Prop("right hand", _RACKET, ("tennis racket", "badminton racket")),

@@ -107,6 +107,15 @@ def _pluck(t: float, half: float) -> Stroke:
     )
 
 
+def _knit(t: float, half: float) -> Stroke:
+    """Both hands close before the body; the needles go up and down against each other."""
+    go = swing(t, 1.3)
+    return Stroke(
+        (-0.02, -0.09 + 0.02 * go, 0.07 + 0.05 * go), (-0.02, 0.09 - 0.02 * go, 0.05 - 0.05 * go),
+        (0.25, 0.75, 0.35 + 0.25 * go),
+    )  # fmt: skip
+
+
 def _tie(t: float, half: float) -> Stroke:
     apart, up = pulse(t, RATE_HZ), 0.12 * pulse(t, RATE_HZ, 0.2)
     return Stroke((-0.02, -0.03 - 0.14 * apart, 0.02 + up), (-0.02, 0.03 + 0.14 * apart, 0.02 + up))
@@ -296,6 +305,7 @@ PATTERNS: Mapping[str, Pattern] = MappingProxyType(
         "stroke": _stroke,
         "scribble": _scribble,
         "pluck": _pluck,
+        "knit": _knit,
         "tie": _tie,
         "twist": _twist,
         "drill": _drill,

@@ -51,7 +51,8 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("rub", "trowel"), "plaster spread smear frost"),
     # Small movements at a spot.
     (HandWork("scribble", "pen"), "sign draw sketch trace engrave label doodle"),
-    (HandWork("pluck", "needle", "hands"), "sew stitch embroider mend darn knit crochet suture"),
+    (HandWork("pluck", "needle", "hands"), "sew stitch embroider mend darn suture"),
+    (HandWork("knit", "needles", "hands"), "knit crochet"),
     (HandWork("tie"), "tie untie knot lace unlace braid plait wrap unwrap bandage fasten buckle "
      "button unbutton zip unzip arrange decorate"),
     (HandWork("twist", "wrench"), "tighten loosen screw unscrew bolt unbolt repair fix service "
@@ -104,5 +105,5 @@ MOVED = frozenset({"put", "take", "drop"})
 ONTO = frozenset({"pour", "sprinkle", "dab", "offer"})
 """Patterns of what is done with one thing to another: the last one named is worked on."""
 
-HOVERING = frozenset({"pour", "sprinkle", "spray", "hold", "pluck"})
+HOVERING = frozenset({"pour", "sprinkle", "spray", "hold", "pluck", "knit"})
 """Patterns in which the tool stays above the thing, or goes out of it and comes back."""
