@@ -12,6 +12,7 @@ from texvent.generate.seen_words.picture import Picture
 from texvent.generate.seen_words.verb_senses import judge_sense
 from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
 from texvent.scenes.language.vocabulary.motion import GETTING, PACE_ADJECTIVES, PACES
+from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.work.verbs import MOVED
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
@@ -156,8 +157,13 @@ class _Judge:
         for relation in claim.relations:
             for actor in self._actors(relation.subject):
                 path = actor.trajectory
-                if isinstance(path, WorkingAt) and path.work.pattern in MOVED:
-                    moves = [it for n in relation.targets for it in self._measure(n, whole)]
+                if not isinstance(path, WorkingAt):
+                    continue
+                moves = [it for n in relation.targets for it in self._measure(n, whole)]
+                said = [self.description.objects[n].motion for n in relation.targets]
+                if any(one is not None and one.kind in OPENS for one in said):
+                    return any(one.change >= LEAST_WAY for one in moves)
+                if path.work.pattern in MOVED:
                     return any(one.shift >= LEAST_WAY for one in moves)
         return False
 

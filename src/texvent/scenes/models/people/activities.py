@@ -82,6 +82,7 @@ _SPORTS: dict[str, Activity] = {
                                "play basketball"),
     "juggle": Activity(("juggle", "juggle balls")),
     "climb": Activity(("climb", "scale"), is_sideways=True),
+    "climb down": seen_from_side("climb down",),
     "crawl": _travels("crawl",),
     "swim": _travels("swim",),
     "surf": _travels("surf", "ride a wave", "ride the waves", "ride waves", "catch a wave"),

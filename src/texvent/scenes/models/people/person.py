@@ -67,6 +67,7 @@ MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         **GETTING_MOVEMENTS,
         **CHORE_MOVEMENTS,
         "mop": DAILY["sweep"],
+        "climb down": lambda t: SPORTS["climb"](-t),
         **AT_HEAD_MOVEMENTS,
         **EXERCISE_MOVEMENTS,
         **PLAY_MOVEMENTS,

@@ -11,7 +11,12 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.hand_work.surface_points import sample_surface
 from texvent.scenes.staging.acts.holding import is_person, size_of
-from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector, ahead
+from texvent.scenes.staging.trajectories.trajectory import (
+    BodyState,
+    Stationary,
+    Vector,
+    ahead,
+)
 
 _REACH_M = 0.27
 """From the middle of a climber to what the hands hold, m."""
@@ -19,26 +24,62 @@ _BAND_M = 0.3
 _TRUNK_M = 0.7
 """Radius within which what is at the height of an animal is the trunk, m."""
 _START_M, _SPEED_M_S = 0.12, 0.45
+_STEPPING_M_S, _BEFORE_M, _LANDING_M = 0.95, 0.35, 0.15
+"""Speed on stairs, m/s; how far before the lowest step and the end of the highest one walks, m."""
+_FIRST = 0.06
+"""Share of the rise that a foot on a step is above the line of the steps' edges."""
+_STAIRS_YAW = -0.35
+"""Heading of stairs that are climbed: their way up is seen from the side, rad."""
+_TREAD_SHARE = 0.605
+"""Height of the highest step, as a share of the model's, whose railing is higher."""
+_DOWN_M = 1.0
+"""From how high one climbs down, m."""
 _OVER_M = 1.2
 """How far below the top of a thing a climber stops, m."""
 
 
 @dataclass(frozen=True)
 class ClimbingAt:
-    """Goes straight up before a thing, and stops below its top."""
+    """Goes straight up before a thing, and stops below its top; or down to the ground."""
 
     home: Vector
     yaw: float
     highest_m: float
     slope: float = 0.0
     """Metres ahead per metre up: a ladder leans."""
+    is_down: bool = False
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         z = self.home[2]
-        height = min(z + _SPEED_M_S * time_s, self.highest_m)
+        way = _SPEED_M_S * time_s
+        height = min(z + way, self.highest_m)
+        if self.is_down:
+            height = max(min(z + _DOWN_M, self.highest_m) - way, z)
         place = ahead(self.home, self.yaw, self.slope * (height - z), height)
-        return BodyState(place, self.yaw, activity="climb")
+        return BodyState(place, self.yaw, activity="climb down" if self.is_down else "climb")
+
+
+@dataclass(frozen=True)
+class OnStairs:
+    """Walks up a flight of stairs, or down."""
+
+    foot: Vector
+    """Where the steps begin, on the ground, m."""
+    yaw: float
+    """Heading of the way up."""
+    run_m: float
+    rise_m: float
+    is_down: bool = False
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        way = min(_STEPPING_M_S * time_s, self.run_m + _BEFORE_M - _LANDING_M)
+        along = self.run_m - _LANDING_M - way if self.is_down else way - _BEFORE_M
+        share = min(max(along / self.run_m + _FIRST, 0.0), 1.0)
+        place = ahead(self.foot, self.yaw, along, self.foot[2] + share * self.rise_m)
+        yaw = self.yaw + (math.pi if self.is_down else 0.0)
+        return BodyState(place, yaw, distance_m=way, speed_m_s=_STEPPING_M_S, activity="walk")
 
 
 @dataclass(frozen=True)
@@ -78,6 +119,20 @@ def climb_up(subject: Actor, target: Actor) -> Actor:
     return replace(subject, trajectory=path, is_mover=True, lead_m=0.0)
 
 
+def climb_stairs(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """A person on stairs, which turn their side to the camera."""
+    path, model = target.trajectory, target.model
+    if not isinstance(path, Stationary):
+        return subject, target
+    # The steps rise towards -x.
+    target = replace(target, trajectory=replace(path, yaw=_STAIRS_YAW))
+    up = _STAIRS_YAW + math.pi
+    foot = ahead(path.home, up, -0.5 * model.length, path.home[2])
+    is_down = subject.trajectory.at(0.0).activity == "climb down"
+    walk = OnStairs(foot, up, model.length, _TREAD_SHARE * model.height, is_down)
+    return replace(subject, trajectory=walk, is_mover=True, lead_m=0.0), target
+
+
 def climb_at(subject: Actor, target: Actor) -> Actor:
     """The climber at the left of a thing that stays, facing it; a wide wall is climbed in front."""
     if target.is_mover or not is_person(subject):
@@ -97,7 +152,8 @@ def climb_at(subject: Actor, target: Actor) -> Actor:
     slope = 0.0 if is_wall else min(max((second - first) / (0.6 * size), 0.0), 0.8)
     ground = middle + (first - _REACH_M * size) * heading
     top = max(float(high[2]) - _OVER_M * size, _START_M)
-    path = ClimbingAt((float(ground[0]), float(ground[1]), _START_M), yaw, top, slope)
+    is_down = subject.trajectory.at(0.0).activity == "climb down"
+    path = ClimbingAt((float(ground[0]), float(ground[1]), _START_M), yaw, top, slope, is_down)
     return replace(subject, trajectory=path, is_mover=True, lead_m=0.0)
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import Relation
 from texvent.scenes.staging.acts.cast import Cast
-from texvent.scenes.staging.acts.climbing import climb_at, climb_up
+from texvent.scenes.staging.acts.climbing import climb_at, climb_stairs, climb_up
 from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged
 from texvent.scenes.staging.acts.hand_work.working import (
     SMALL_M,
@@ -47,8 +47,8 @@ def put_to_work(cast: Cast, relations: Sequence[Relation], every: Sequence[Relat
                     cast.put(subject, climb_up(cast.get(subject), cast.get(target)))
                     continue
                 cast.put(target, before_mouth(cast.get(subject), cast.get(target)))
-            elif cast.get(subject).trajectory.at(0.0).activity == "climb":
-                cast.put(subject, climb_at(cast.get(subject), cast.get(target)))
+            elif _climbs(cast, subject):
+                _set_climbing(cast, subject, target)
             else:
                 used = tools.get(subject)
                 _set_to_work(cast, (subject, target, used), under[:1], (place, len(crew)))
@@ -78,7 +78,16 @@ def _lay_beside(cast: Cast, subject: int, target: int, idle: Sequence[int]) -> N
 
 
 def _climbs(cast: Cast, number: int) -> bool:
-    return cast.get(number).trajectory.at(0.0).activity == "climb"
+    return cast.get(number).trajectory.at(0.0).activity.startswith("climb")
+
+
+def _set_climbing(cast: Cast, subject: int, target: int) -> None:
+    if cast.get(target).noun.name != "stairs":
+        cast.put(subject, climb_at(cast.get(subject), cast.get(target)))
+        return
+    climber, stairs = climb_stairs(cast.get(subject), cast.get(target))
+    cast.put(subject, climber)
+    cast.put(target, stairs)
 
 
 def _set_to_work(

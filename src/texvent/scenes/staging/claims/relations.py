@@ -14,7 +14,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.work.verbs import HOVERING
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
-from texvent.scenes.staging.acts.climbing import ClimbingAt
+from texvent.scenes.staging.acts.climbing import ClimbingAt, OnStairs
 from texvent.scenes.staging.acts.hand_work.surface_points import sample_surface
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt, tool_tip
 from texvent.scenes.staging.acts.holding import WORN
@@ -224,6 +224,8 @@ def _is_worked_on(subject: Body, targets: list[Body]) -> bool:
                 return False
             continue
         path = worker.trajectory
+        if isinstance(path, OnStairs):
+            continue
         hovers = isinstance(path, WorkingAt) and path.work.pattern in HOVERING
         least = _HOVER_M if hovers else _TOUCH_M
         least = _GRASP_M if isinstance(path, ClimbingAt) else least

@@ -17,6 +17,8 @@ _ON_GROUND = ("drive", "walk", "run", "jump")
 _STEPS = ("climb", "ascend", "descend")
 _HELD_ON_TO = frozenset({"ladder", "wall", "tree", "rope", "pole", "fence", "cliff", "mast"})
 """What is climbed with hands and feet."""
+_STAIRS = frozenset({"stair", "stairs", "staircase", "stairway"})
+_WAY = {"descend": "down"}
 _DOLLS = frozenset({"toy robot", "doll", "teddy bear"})
 """Figures without joints, which slide where they walk."""
 _TOPPLING = frozenset({"domino", "bowling pin"})
@@ -54,9 +56,8 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     """The verb with the motion by which this thing does it; None if that is the usual one."""
     objects = {group.head.lemma for group in clause.objects if group.head is not None}
     is_on_ground = noun.motion in _ON_GROUND and noun.habitat == "ground"
-    climbs = is_person(noun) or (is_living(noun) and noun.motion in ("walk", "run"))
-    if verb.base == "climb" and climbs and objects & _HELD_ON_TO:
-        return replace(verb, kind="climb", pace=1.0)
+    if _climbs(verb, noun, objects):
+        return replace(verb, kind="climb", pace=1.0, direction=_WAY.get(verb.base))
     if noun.name in _TOPPLING and verb.kind == "fall":
         return replace(verb, kind="topple")
     if noun.name in _DOLLS and verb.kind in ("walk", "run"):
@@ -78,6 +79,14 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     if verb.base == "roll" and noun.motion in ("sail", "paddle"):
         return replace(verb, kind="sway")
     return None
+
+
+def _climbs(verb: Verb, noun: Noun, objects: set[str]) -> bool:
+    """Whether it goes up or down a ladder, a tree, stairs ... with hands or feet."""
+    if is_person(noun) and verb.base in _STEPS and objects & _STAIRS:
+        return True
+    is_able = is_person(noun) or (is_living(noun) and noun.motion in ("walk", "run"))
+    return verb.base == "climb" and is_able and bool(objects & _HELD_ON_TO)
 
 
 _OF_TENNIS = frozenset(

@@ -248,7 +248,8 @@ class ActReader:
             return self._give(clause, replace(verb, kind=verb.object_kind), targets)
         if verb.kind and verb.kind not in OF_ONESELF - {"jump", "walk", "run"}:
             movers = self._give(clause, verb, subjects)
-            if movers and verb.kind == "rise":
+            climbs = any(self._draft.objects[n].motions[-1].kind == "climb" for n in movers)
+            if movers and (verb.kind == "rise" or climbs):
                 # As in "climbs a ladder": it moves beside it.
                 kind = self._draft.objects[movers[0]].motions[-1].kind
                 is_at = kind == "climb" and is_living(doer)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
@@ -69,6 +70,8 @@ class RelationReader:
             is_used = self._read_with(things, scope)
         elif self._ride_along(word, things, scope) or self._is_in_use(scope, things):
             is_used = True
+        elif word.text in ("up", "down"):
+            is_used = self._go_on_stairs(word, things, scope)
         elif self._is_walked(word, things, scope):
             is_used = self._relate("on", scope.movers or scope.subjects, things, _WALKED[word.text])
         elif kind is not None:
@@ -153,6 +156,17 @@ class RelationReader:
         if not near.is_things or set(near.things) == set(things):
             return scope
         return Scope(near.things, [], has_verb=False)
+
+    def _go_on_stairs(self, word: Word, things: list[int], scope: Scope) -> bool:
+        """As in "walks down the stairs", "climbs up a ladder"."""
+        is_flight = self._draft.noun(things[0]).name in ("stairs", "ladder")
+        are_people = all(is_person(self._draft.noun(n)) for n in scope.movers)
+        if not (is_flight and are_people and scope.movers):
+            return False
+        for index in scope.movers:
+            motions = self._draft.objects[index].motions
+            motions[-1] = ObjectMotion("climb", word.text, motions[-1].pace)
+        return self._draft.relate("work on", scope.movers, things)
 
     def _rest(self, word: Word, kind: str | None, things: list[int], scope: Scope) -> bool:
         """What does something that is not shown is where it is, if it acts on nothing.
