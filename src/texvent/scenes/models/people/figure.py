@@ -48,7 +48,7 @@ def _skirt(outfit: Outfit, joints: Skeleton) -> ModelPart:
     hips = joints.torso[:, 3]
     knees = 0.5 * (np.array(joints.knees[0]) + np.array(joints.knees[1]))
     way = knees - hips
-    level = float(np.linalg.norm(way[:2]) / max(np.linalg.norm(way), 1e-9))
+    level = float(np.linalg.norm(way[:2])) / max(float(np.linalg.norm(way)), 1e-9)
     level = max(level - 0.5, 0.0) * 2.0
     tip = joints.torso @ np.array([0.02, 0.0, 0.46 - 0.34 * level, 1.0])
     x, y, z = hips + 1.12 * way
