@@ -92,3 +92,11 @@ def test_who_brings_a_table_works_at_the_named_one() -> None:
     description = parse_prompt("Two men play chess at a stone table")
     scene = compose_scene(description, seed=0, size=SensorSize(96, 72), duration_s=1.0)
     assert [actor.noun.name for actor in scene.actors] == ["man", "man"]
+
+
+def test_a_painting_hangs_on_the_face_of_a_wall() -> None:
+    painting, wall = stage("A painting hangs on a wall").actors
+    low, high = (painting.corners(0.0)[:, 2].min(), painting.corners(0.0)[:, 2].max())
+    assert low > 0.3
+    assert high < wall.model.height
+    assert stage("A painting hangs on a wall").unmet == ()

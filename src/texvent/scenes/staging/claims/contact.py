@@ -67,6 +67,14 @@ def is_on(subject: Actor, target: Actor, time_s: float) -> bool:
     return bool(surface < low[2] + _SUNK_SHARE * (high[2] - low[2]) + _TOUCH_M)
 
 
+def hangs_on(subject: Actor, target: Actor, time_s: float) -> bool:
+    """It touches the target, off the ground and not above its top."""
+    own, other = part_boxes(subject, time_s), part_boxes(target, time_s)
+    (low, high), (base, top) = own.hull, other.hull
+    is_up = low[2] > base[2] + _TOUCH_M and high[2] < top[2] + _TOUCH_M
+    return bool(is_up) and gap(own, other) <= _tolerance(own, other)
+
+
 def is_in(subject: Actor, target: Actor, time_s: float) -> bool:
     """It is no larger than the target, over its ground, and partly below its rim."""
     own, other = part_boxes(subject, time_s), part_boxes(target, time_s)

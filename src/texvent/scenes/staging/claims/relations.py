@@ -21,6 +21,7 @@ from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.claims.contact import (
     collide,
+    hangs_on,
     holds_for_all,
     is_in,
     is_on,
@@ -51,7 +52,7 @@ from texvent.scenes.staging.claims.positions import (
 from texvent.scenes.staging.claims.ways import WAYS
 from texvent.scenes.staging.placement.at_table import turned_to
 from texvent.scenes.staging.placement.cages import CAGES
-from texvent.scenes.staging.placement.looked_at import LOOKED_AT
+from texvent.scenes.staging.placement.faced import LOOKED_AT, hangs
 from texvent.scenes.wording import RELATION_WORDS
 
 _INSTANTS = 13
@@ -151,6 +152,8 @@ def _by_copies(holds: _Course) -> Callable[[Body, list[Body]], bool]:
 def _is_on(subject: Body, targets: list[Body]) -> bool:
     """On it; where the target's parts move and it stays in its place, it is carried along."""
     target = targets[0]
+    if hangs(subject.copies[0].noun, target.copies[0].noun):
+        return holds_for_all(hangs_on, subject.copies, target.copies, subject.duration_s)
     if not holds_for_all(is_on, subject.copies, target.copies, subject.duration_s):
         return False
     if not target.copies[0].noun.is_working or subject.copies[0].is_mover:

@@ -28,9 +28,9 @@ from texvent.scenes.staging.placement.dressing import (
     dressed,
     find_waist,
 )
+from texvent.scenes.staging.placement.faced import face
 from texvent.scenes.staging.placement.fitting import fit_contents
 from texvent.scenes.staging.placement.formation import form_up
-from texvent.scenes.staging.placement.looked_at import face
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     half_extents_over_clip,

@@ -13,6 +13,7 @@ from texvent.scenes.description import STANDING
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.at_table import place_at
+from texvent.scenes.staging.placement.faced import hang_on, hangs
 from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
@@ -51,6 +52,8 @@ def place_on_targets(
     """
     if kind == "at":
         return Goal(place_at(group, targets[0], neighbours), _FIXED)
+    if kind == "on" and hangs(group.noun, targets[0].noun):
+        return Goal(hang_on(group, targets[0], neighbours), _FIXED)
     if kind in ("on", "in"):
         rest = rest_on if kind == "on" else rest_in
         return Goal(rest(group, targets[0], neighbours), _FIXED)

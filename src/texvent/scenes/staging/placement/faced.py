@@ -1,0 +1,90 @@
+"""Things with a face: who is before a mirror or a screen looks at it; pictures hang on walls."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import is_centred
+from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
+
+LOOKED_AT = frozenset(
+    {"mirror", "television", "tv", "monitor", "computer", "aquarium", "easel", "blackboard",
+     "whiteboard", "vending machine"}
+)  # fmt: skip
+"""Nouns with a face at which one looks who is in front of them."""
+_TO_CAMERA_RAD = 0.45
+"""How far both are turned to the camera out of facing each other."""
+_APART_M = 0.55
+
+
+def face(subject: ObjectGroup, target: ObjectGroup) -> tuple[float, float] | None:
+    """Turn a group that stays in its place and what it is in front of to each other.
+
+    Returns:
+        Metres to the right and away at which the target stands; None: nothing is turned.
+    """
+    plan = subject.plan
+    goes = plan.is_path or plan.path is not None or subject.carrier is not None
+    if target.noun.name not in LOOKED_AT or goes or subject.noun.habitat != "ground":
+        return None
+    subject.plan = replace(plan, yaw=-_TO_CAMERA_RAD)
+    target.plan = replace(target.plan, yaw=math.pi + _TO_CAMERA_RAD)
+    for group in (subject, target):
+        group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+    apart = 0.5 * (subject.models[0].length + target.models[0].length) + _APART_M
+    apart = max(apart, 0.5 * target.models[0].width)
+    return apart * math.cos(_TO_CAMERA_RAD), -0.5 * apart * math.sin(_TO_CAMERA_RAD)
+
+
+_HUNG = frozenset(
+    {"picture frame", "poster", "clock", "mirror", "tv", "map", "sign", "dartboard", "mask",
+     "guitar"}
+)  # fmt: skip
+"""Flat things with their front at +x."""
+_UPRIGHT = frozenset({"wall", "fence", "door", "garage front"})
+"""What they hang on, at its front."""
+_UNDER_TOP_M = 0.12
+_EYE_M = 1.5
+"""Height of the middle of what hangs, where there is room."""
+
+
+def hangs(own: Noun, target: Noun) -> bool:
+    """Whether the one is "on" the other as a picture is on a wall."""
+    return own.name in _HUNG and target.name in _UPRIGHT
+
+
+def hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> Float64Array:
+    """Put a group side by side before the face of another object.
+
+    Args:
+        group: flat things; they get the target's heading.
+        target: what they hang on.
+        neighbours: indices of all objects there, which share its width.
+
+    Returns:
+        [3] the middle of the group, m.
+    """
+    model, face = group.models[0], target.models[0]
+    yaw = target.plan.yaw
+    group.plan = replace(group.plan, yaw=yaw)
+    ahead, aside = (math.cos(yaw), math.sin(yaw)), (-math.sin(yaw), math.cos(yaw))
+    step = 1.2 * model.width
+    count = len(group.models)
+    group.offsets = [
+        (shift * aside[0], shift * aside[1], 0.0)
+        for shift in (step * (n - 0.5 * (count - 1)) for n in range(count))
+    ]
+    group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+    share = (neighbours.index(group.index) + 0.5) / len(neighbours) - 0.5
+    out, along = 0.5 * (face.length + model.length), -share * face.width
+    middle = min(_EYE_M, face.height - 0.5 * model.height - _UNDER_TOP_M)
+    foot = max(middle - 0.5 * model.height, 0.0)
+    height = foot + (0.5 * model.height if is_centred(group.noun) else 0.0)
+    x = target.centre[0] + out * ahead[0] + along * aside[0]
+    y = target.centre[1] + out * ahead[1] + along * aside[1]
+    return np.array([x, y, height])
