@@ -3,11 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -25,6 +20,7 @@ from texvent.train.reading import read_training  # noqa: E402
 from texvent.train.run import train_from_file  # noqa: E402
 from texvent.train.schedule import Hardware  # noqa: E402
 
+from .killed_training import kill_after_epochs  # noqa: E402
 from .written_samples import write_bars  # noqa: E402
 
 pytestmark = pytest.mark.torch
@@ -86,13 +82,7 @@ def test_a_killed_training_ends_with_equal_weights(specification: Path, tmp_path
     words = ["train", "classification", str(specification), "-o", str(tmp_path / "killed")]
     words += ["--device", "cpu", "-q"]
     for rows in (1, 5):
-        process = subprocess.Popen([sys.executable, "-m", "texvent.cli.app", *words])
-        history, deadline = tmp_path / "killed" / "history.json", time.monotonic() + 120
-        while time.monotonic() < deadline:
-            if history.exists() and len(json.loads(history.read_text())["epochs"]) >= rows:
-                break
-        os.kill(process.pid, signal.SIGKILL)
-        assert process.wait() == -signal.SIGKILL
+        kill_after_epochs(words, tmp_path / "killed", rows)
     config = read_training(specification, ClassificationConfig())
     stopped = read_state(tmp_path / "killed", plain(config))
     assert stopped is not None

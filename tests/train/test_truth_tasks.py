@@ -24,7 +24,7 @@ from texvent.train.reading import read_training  # noqa: E402
 from texvent.train.run import train_from_file  # noqa: E402
 from texvent.train.schedule import Hardware  # noqa: E402
 
-from .killed_training import kill_after_an_epoch  # noqa: E402
+from .killed_training import kill_after_epochs  # noqa: E402
 from .sequences.windowed_specification import TEXT, write_specification  # noqa: E402
 
 pytestmark = pytest.mark.torch
@@ -60,7 +60,7 @@ def test_a_training_learns_goes_on_after_a_kill_and_its_weights_score_as_they_di
     rows = history["epochs"]
     assert rows[-1]["training loss"] < rows[0]["training loss"]
 
-    kill_after_an_epoch([*words, "-o", str(killed)], killed)
+    kill_after_epochs([*words, "-o", str(killed)], killed)
     assert len(json.loads((killed / "history.json").read_text())["epochs"]) < 4
     assert main([*words, "-o", str(killed)]) == 0
     one, other = weights(whole), weights(killed)

@@ -19,7 +19,7 @@ from texvent.metrics.structural_similarity import structural_similarity
 from texvent.represent.voxel_grid import voxel_e2vid
 
 from ...metrics.lpips.lpips_files import narrow_weights
-from ..killed_training import kill_after_an_epoch
+from ..killed_training import kill_after_epochs
 from ..sequences.windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
@@ -153,7 +153,7 @@ def test_a_killed_training_ends_with_equal_weights(folder: Path, tmp_path: Path)
     train_from_file(ReconstructionConfig, path, tmp_path / "whole", CPU)
     words = ["train", "reconstruction", str(path), "-o", str(tmp_path / "killed")]
     words += ["--device", "cpu", "-q"]
-    kill_after_an_epoch(words, tmp_path / "killed")
+    kill_after_epochs(words, tmp_path / "killed")
     assert len(json.loads((tmp_path / "killed" / "history.json").read_text())["epochs"]) < 6
     assert main(words) == 0
     whole, killed = weights(tmp_path / "whole"), weights(tmp_path / "killed")
