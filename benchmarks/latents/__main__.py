@@ -24,7 +24,7 @@ from texvent.bench.machine import describe_environment
 from texvent.latents.autoencoder import Autoencoder
 from texvent.latents.head import load_head
 from texvent.options.values import plain
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.progress import Progress
 from texvent.train.checkpoint import WEIGHTS_FILE
 from texvent.train.latents.config import LatentsConfig

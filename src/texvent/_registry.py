@@ -193,7 +193,7 @@ METRICS = Registry(
         "ef_psnr": "texvent.metrics.event_frames:EventFramePsnr",
         "ef_ssim": "texvent.metrics.event_frames:EventFrameSsim",
         "ef_lpips": "texvent.metrics.event_frames:EventFrameLpips",
-        "kernel": "texvent.metrics.kernel_distance:KernelDistance",
+        "kernel": "texvent.metrics.kernel.distance:KernelDistance",
         "victor_purpura": "texvent.metrics.spike_trains.victor_purpura:VictorPurpura",
         "time_surface": "texvent.metrics.time_surface_difference:TimeSurfaceDifference",
         "lfs": "texvent.metrics.rvt.latent_similarity:LatentSimilarity",

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.progress import NoProgress, open_progress
 
 
@@ -47,7 +47,9 @@ def test_a_bar_shows_in_a_terminal_unless_told_otherwise(monkeypatch, option, st
 def test_short_work_draws_no_bar_and_long_work_does(monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr("texvent.runtime.console_progress.time.monotonic", lambda: clock[0])
+    monkeypatch.setattr(
+        "texvent.runtime.displays.console_progress.time.monotonic", lambda: clock[0]
+    )
     monkeypatch.setenv("TERM", "xterm")
     clock = [0.0]
     with ConsoleProgress() as progress:

@@ -22,7 +22,7 @@ from texvent.pipeline import NO_EVENTS, Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
 from texvent.run.settings import Settings, unmeasured_sensor
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import PromptReport
 from texvent.video import MICROSECONDS, Frame, FrameStream
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import Protocol, TypeAlias
 
-from texvent.runtime.notebook_progress import NotebookProgress, is_notebook
+from texvent.runtime.displays.notebook_progress import NotebookProgress, is_notebook
 
 ProgressCallback: TypeAlias = Callable[[int, int | None, str], object]
 """Called with steps done, steps in all (None where that is unknown) and what is being done."""
@@ -74,7 +74,9 @@ def _open_bar(*, is_forced: bool) -> AbstractContextManager[Progress]:
     """The bar of a notebook, or else of a terminal."""
     if is_notebook():
         return NotebookProgress(is_forced=is_forced)
-    from texvent.runtime.console_progress import ConsoleProgress  # rich takes 50 ms to import
+    from texvent.runtime.displays.console_progress import (
+        ConsoleProgress,  # rich takes 50 ms to import
+    )
 
     return ConsoleProgress(is_forced=is_forced)
 

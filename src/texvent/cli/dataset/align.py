@@ -27,7 +27,7 @@ from texvent.errors import ConfigError
 from texvent.generate.videos.clip_model import ClipModel
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import load_reconstructor
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 
 SCHEMA = "texvent-alignment-1"
 DESCRIPTION = """Does the text that a recording was made from fit it better than other texts? A CLIP

@@ -32,7 +32,7 @@ from texvent.dataset.nt_imagenet.selection import (
 )
 from texvent.errors import ConfigError, InputError, TexventError, shown
 from texvent.generate.prompts.caption import INSTRUCTION, Captioner, Dtype
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 
 DESCRIPTION = """The paper's NT-ImageNet from your copies of N-ImageNet and ImageNet: streams are
 chosen, captions of their images made by LLaVA-1.5 or taken from a file, checked, and written as

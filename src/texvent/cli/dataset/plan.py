@@ -22,7 +22,7 @@ from texvent.dataset.generation.prompt_check import MOST_READ, tally_prompts
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.trial import StageEstimate, try_samples
 from texvent.dataset.specification.reading import read_specification
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 
 HOUR_S = 3600.0

@@ -22,7 +22,7 @@ from texvent.metrics.protocol import Metric
 from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
 from texvent.metrics.stpp import Stpp
 from texvent.metrics.uncertainty.window_scores import check_window, score_windows
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.video import MICROSECONDS
 from texvent.view.page.comparison import write_comparison

@@ -21,7 +21,7 @@ from texvent.options.fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent.represent.packet_slices import slice_by_count, slice_regularly
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
 from texvent.view.video.image_sink import check_image_output, open_image_sink
 

@@ -12,7 +12,7 @@ from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.view.render import RenderConfig, render_events
 
 DESCRIPTION = """Render an event file as a video (.mp4, .gif), an image (.png), an interactive page

@@ -16,7 +16,7 @@ from texvent.io.atomic import check_output
 from texvent.io.files import load, open_events
 from texvent.run.files import RunFiles, write_run
 from texvent.run.replay import describe_differences, prepare_replay
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 
 DESCRIPTION = """Make an event file again from the prompt or video, options and seed stored in it,
 and say whether the bytes are the same. If the version, a weights file or the source is another one,

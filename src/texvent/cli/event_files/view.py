@@ -16,7 +16,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
 from texvent.view.render import RenderConfig, render_events
 

@@ -29,7 +29,7 @@ from texvent.options.values import plain
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run, prepare_prompt, prepare_source, report_prompt
 from texvent.run.settings import Settings
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import ReportTally
 from texvent.truth.parts import check_generator
 

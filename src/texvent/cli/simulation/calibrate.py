@@ -27,7 +27,7 @@ from texvent.events import EventStream
 from texvent.io.atomic import check_outputs
 from texvent.io.files import load
 from texvent.run.settings import resolve
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
 from texvent.simulate.physical.cameras.presets import PRESETS
 from texvent.simulate.physical.config import PhysicalConfig

@@ -15,7 +15,7 @@ from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.prompts.caption import INSTRUCTION, Captioner, find_images
 from texvent.io.atomic import atomic_file, check_output
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 
 DESCRIPTION = """Describe images with a vision-language model of yours (such as LLaVA, run by
 transformers), one line each. The result of -o is a file for texvent batch:

@@ -15,7 +15,7 @@ from texvent.cli.command import resolve_command
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.run.check import WholeCheck, check_frames, open_source
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
 from texvent.video_check.report import Finding
 

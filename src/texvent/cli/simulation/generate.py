@@ -24,7 +24,7 @@ from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, make_video, prepare_prompt
 from texvent.run.settings import Settings, default_settings
 from texvent.run.truth import TruthFolder
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 

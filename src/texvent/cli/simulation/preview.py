@@ -13,7 +13,7 @@ from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import make_video
 from texvent.run.settings import Settings
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import frame_time_us
 
 EXTENSION = ".png"

@@ -14,7 +14,7 @@ from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.ros.config import RosConfig
 from texvent.run.prepare import prepare_prompt, prepare_source
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 
 DESCRIPTION = """A ROS 2 node: sensor_msgs/Image in, event_camera_msgs/EventPacket (evt3) out.
 

@@ -11,7 +11,7 @@ from texvent._registry import TASKS
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.train.schedule import Hardware
 
 DESCRIPTION = """Train a network on events, as a TOML or YAML file says. The same command goes on

@@ -28,6 +28,7 @@ from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
 from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.relations import list_not_shown
 from texvent.scenes.staging.claims.shots import list_moves_not_shown
+from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
     Staged,
@@ -48,7 +49,6 @@ from texvent.scenes.staging.surroundings.environment import (
     choose_lighting,
 )
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
-from texvent.scenes.staging.surroundings.levels import choose_levels
 from texvent.scenes.staging.surroundings.road_choice import find_road
 from texvent.scenes.staging.surroundings.scatter_rule import is_structure
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter

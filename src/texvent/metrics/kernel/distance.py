@@ -47,7 +47,7 @@ class KernelDistance(Metric):
         check_range("sd_px", self.sd_px, 1e-3, 1e3)
 
     def _score(self, predicted: EventStream, reference: EventStream) -> float:
-        from texvent.metrics.kernel_sums_cpu import sum_pairs  # brings Numba
+        from texvent.metrics.kernel.sums_cpu import sum_pairs  # brings Numba
 
         height, width = predicted.size.shape
         reach = min(int(np.ceil(REACH * self.sd_px)), max(height, width) - 1)

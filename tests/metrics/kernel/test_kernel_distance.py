@@ -8,11 +8,11 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.kernel_distance import KernelDistance
+from texvent.metrics.kernel.distance import KernelDistance
 from texvent.sensor import SensorSize
 
-from . import slow
-from .recordings import one_event, random_events
+from .. import slow
+from ..recordings import one_event, random_events
 
 
 @pytest.mark.parametrize(("delay_ms", "expected"), [(2, 0.1175), (4, 0.3935), (8, 0.8647)])

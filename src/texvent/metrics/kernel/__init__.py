@@ -1,0 +1,1 @@
+"""Both streams smoothed by a kernel in time and space."""

@@ -1,0 +1,1 @@
+"""How progress is shown: in a terminal, in a notebook."""
