@@ -289,7 +289,7 @@ def test_who_does_what_in_everyday_sentences(prompt: str, lines: list[str]) -> N
     [
         ("a car with black wheels drives", ["car"], ("black",)),
         ("a bird with red wings flies", ["bird"], ("red",)),
-        ("a boy kicks a ball and then throws a stone", ["child", "ball", "rock"], ("throws",)),
+        ("a boy kicks a ball and then throws a stone", ["child", "ball", "stone"], ("throws",)),
         ("0 cars and a dog", ["dog"], ()),
         ("a car starts", ["car"], ("starts",)),
         ("a car crashes", ["car"], ("crashes",)),

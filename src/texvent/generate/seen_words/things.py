@@ -144,13 +144,18 @@ def _judge_size(
     if word == "long":
         return None if max(length, width) >= 3.0 * min(length, width, height) else "not long"
     is_large = description.objects[index].scale > 1.0
+    fault = "nothing to tell its size by"
     for other in picture.scene.actors:
         if other.object_index == index or not _is_seen(picture, other.instance):
             continue
         ratio = own.size_m / max(other.size_m, 1e-9)
-        if (ratio > 1.0) == is_large and max(ratio, 1.0 / ratio) > 1.3:
+        if (ratio > 1.0) != is_large or max(ratio, 1.0 / ratio) <= 1.3:
+            continue
+        seen = _extent(picture, index) / max(_extent(picture, other.object_index), 1e-9)
+        if (seen > 1.0) == is_large:
             return None
-    return "nothing to tell its size by"
+        fault = "looks larger than it is" if seen > 1.0 else "looks smaller than it is"
+    return fault
 
 
 def _is_seen(picture: Picture, instance: int) -> bool:

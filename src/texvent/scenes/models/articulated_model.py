@@ -48,6 +48,7 @@ class ArticulatedModel:
         is_centred: bool = False,
         anchor: Anchorage | None = None,
         poses: Sequence[Pose] = _SAMPLE_POSES,
+        is_wheeled: bool = False,
     ) -> None:
         """Measure the figure.
 
@@ -58,6 +59,7 @@ class ArticulatedModel:
             is_centred: whether the origin is its middle rather than the ground below it.
             anchor: places at which other things are held; None = those of its box.
             poses: what its size is measured over.
+            is_wheeled: whether it rolls on wheels; what does not rolls as a whole.
 
         Raises:
             InputError: scale is not a positive number.
@@ -69,6 +71,7 @@ class ArticulatedModel:
         self._articulate = articulate
         self._anchor = anchor
         self.is_centred = is_centred
+        self.is_wheeled = is_wheeled
         low, high = (self._scale * corner for corner in _measure(rigid, articulate, poses))
         reach = np.maximum(np.abs(low), np.abs(high))
         self.length = float(2.0 * reach[0])

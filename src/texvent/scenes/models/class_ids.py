@@ -169,7 +169,7 @@ _NOUNS: tuple[str, ...] = (
     "car wash arch", "check-in desk", "flight board", "locker row", "corridor door", "ticket gate",
     "terrace table", "drive slab", "garage front",
     "corridor walls", "locker walls", "alley walls", "roof parapet", "roof unit", "balcony rail",
-    "ward walls",
+    "ward walls", "stone",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

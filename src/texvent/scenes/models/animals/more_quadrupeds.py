@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from texvent.scenes.models.animals.quadruped_build import Build, Coat
@@ -47,6 +48,25 @@ def _nose_horn(build: Build, coat: Coat) -> list[ModelPart]:
     z = build.shoulder - 0.36 * height - 0.15 * skull
     bone = Material((0.45, 0.41, 0.34))
     return [spike(bone, (x, 0.0, z), (x + 0.10, 0.0, z + 0.48), 0.09)]
+
+
+def _raccoon_marks(build: Build, coat: Coat) -> list[ModelPart]:
+    """A dark mask round the eyes under a pale brow, and dark rings on the tail."""
+    length, _, height = build.body
+    skull, (long, rise) = build.head[0], build.tail
+    x = 0.36 * length + (build.neck + 0.2 * height) * math.cos(build.rise)
+    z = build.shoulder - 0.36 * height + (build.neck + 0.2 * height) * math.sin(build.rise)
+    pale = fur((0.70, 0.68, 0.64))
+    marks = [
+        ball(skin, (x + 0.40 * skull, 0.22 * s * skull, z + up * skull), (0.40 * skull,) * 3)
+        for s in (1.0, -1.0)
+        for skin, up in ((pale, 0.20), (coat.dark, 0.08))
+    ]
+    for share in (0.35, 0.60, 0.85):
+        ring = (-0.46 * length - share * long * math.cos(rise), 0.0,
+                build.shoulder - 0.28 * height + share * long * math.sin(rise))  # fmt: skip
+        marks.append(ball(coat.dark, ring, (0.09 * long, 0.34 * long, 0.36 * long)))
+    return marks
 
 
 def _belt(build: Build, coat: Coat) -> list[ModelPart]:
@@ -120,14 +140,14 @@ HAMSTER = Animal(
 PANDA = replace(BEAR, colours=((0.78, 0.77, 0.74),), dark=(0.02, 0.02, 0.02), extras=_belt,
                 leg_colour=(0.02, 0.02, 0.02))  # fmt: skip
 KOALA = replace(
-    BEAR, build=replace(BEAR.build, shoulder=0.42, body=(0.52, 0.30, 0.32), neck=0.02,
-                        head=(0.24, 0.07), ear=(0.15, "round"), stride=0.5, tail=(0.02, 0.0)),
-    colours=((0.30, 0.29, 0.30),), dark=(0.03, 0.03, 0.03),
+    BEAR, build=replace(BEAR.build, shoulder=0.42, body=(0.40, 0.30, 0.34), neck=0.08, rise=0.8,
+                        head=(0.30, 0.06), ear=(0.20, "round"), stride=0.5, tail=(0.02, 0.0)),
+    colours=((0.36, 0.35, 0.37),), dark=(0.03, 0.03, 0.03),
 )  # fmt: skip
 RACCOON = replace(
     CAT, build=replace(CAT.build, bushy_tail=True, tail=(0.34, 0.4), ear=(0.05, "round"),
                        thick=1.4, body=(0.50, 0.22, 0.25)),
-    colours=((0.22, 0.21, 0.20),), dark=(0.03, 0.03, 0.03),
+    colours=((0.22, 0.21, 0.20),), dark=(0.03, 0.03, 0.03), extras=_raccoon_marks,
 )  # fmt: skip
 RHINO = Animal(
     Build(1.65, (2.60, 1.05, 1.25), 0.30, 0.1, (0.52, 0.42), (0.55, -0.9), (0.18, "prick"),
@@ -146,9 +166,9 @@ CROCODILE = Animal(
     (_SCALES,), extras=_back_plates,
 )  # fmt: skip
 LIZARD = Animal(
-    Build(0.075, (0.20, 0.065, 0.05), 0.02, 0.15, (0.055, 0.03), (0.26, -0.08), (0.004, "round"),
+    Build(0.075, (0.20, 0.080, 0.06), 0.03, 0.25, (0.065, 0.04), (0.26, -0.08), (0.004, "round"),
           stride=0.13, thick=0.8),
-    ((0.10, 0.28, 0.06), (0.28, 0.20, 0.09)),
+    ((0.50, 0.34, 0.14), (0.16, 0.44, 0.10)),
 )  # fmt: skip
 SAUROPOD = Animal(
     Build(3.4, (4.2, 1.9, 2.0), 4.2, 0.85, (0.62, 0.42), (4.6, -0.15), (0.02, "round"),

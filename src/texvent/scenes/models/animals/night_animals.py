@@ -64,8 +64,8 @@ def build_owl(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedM
 
 def build_fruit_bat(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a bat in flight, 0.5 m across; `colour` is its fur."""
-    hue = paint(colour, seed, "fur", ((0.06, 0.04, 0.03), (0.12, 0.07, 0.05)))
-    coat, web = fur(hue), skin(shade(hue, 0.7))
+    hue = paint(colour, seed, "fur", ((0.16, 0.09, 0.05), (0.12, 0.07, 0.05)))
+    coat, web = fur(hue), skin(shade(hue, 0.5))
     start = fraction(seed, "flap")
     rigid = [
         limb(coat, (-0.06, 0.0, 0.0), (0.04, 0.0, 0.0), 0.032),

@@ -105,9 +105,9 @@ HORSE = Animal(
     Build(
         1.45,
         (1.55, 0.46, 0.58),
-        0.80,
-        0.95,
-        (0.34, 0.30),
+        0.62,
+        0.85,
+        (0.36, 0.36),
         tail=(0.70, -1.1),
         ear=(0.13, "prick"),
         stride=2.6,
@@ -229,7 +229,7 @@ CHEETAH = Animal(
     ((0.60, 0.38, 0.13),),
     pattern="checks",
     second_colour=(0.10, 0.05, 0.02),
-    checks=6.0,
+    checks=3.4,
 )
 GOAT = Animal(
     Build(

@@ -106,7 +106,7 @@ def build_insect(
         parts: list[ModelPart] = []
         for pair in kind.wings:
             for side in (1.0, -1.0):
-                lift = side * (0.35 + kind.flap * beat)
+                lift = side * (0.55 + kind.flap * beat)
                 parts += moved(_wing(kind, wing, pair, side), turn_x(lift))
         return parts
 
@@ -136,18 +136,19 @@ def _wing(
 ) -> list[ModelPart]:
     """A wing, and for a butterfly a dark rim under it and a pale spot on it."""
     x, span, chord = pair
-    root = (x, 0.0, 0.004)
+    up = 0.035 * span
+    root = (x, 0.0, up)
     lean = 0.35 * span if x > 0.0 else -0.45 * span
-    tip = (x + (0.0 if kind.clear_wings else lean), side * span, 0.004)
-    thin = (0.0, 0.0, 0.003)
+    tip = (x + (0.0 if kind.clear_wings else lean), side * span, up)
+    thin = (0.0, 0.0, 0.026 * span)
     parts = [blade(material, root, tip, chord=(chord, 0.0, 0.0), thickness=thin)]
     if not kind.clear_wings:
-        far = (1.10 * tip[0] - 0.10 * x, 1.10 * tip[1], 0.004)
-        wide, flat = (1.2 * chord, 0.0, 0.0), (0.0, 0.0, 0.0015)
+        far = (1.10 * tip[0] - 0.10 * x, 1.10 * tip[1], up)
+        wide, flat = (1.2 * chord, 0.0, 0.0), (0.0, 0.0, 0.013 * span)
         rim = blade(Material(BLACK), root, far, chord=wide, thickness=flat)
-        spot = (0.4 * x + 0.6 * tip[0], 0.6 * tip[1], 0.004)
+        spot = (0.4 * x + 0.6 * tip[0], 0.6 * tip[1], up)
         light = Material(shade(material.colour, 2.2))
-        parts += [rim, ball(light, spot, (0.3 * chord, 0.3 * chord, 0.0045))]
+        parts += [rim, ball(light, spot, (0.3 * chord, 0.3 * chord, 0.039 * span))]
     return parts
 
 

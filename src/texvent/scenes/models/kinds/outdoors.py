@@ -89,8 +89,10 @@ OUTDOOR_KINDS: dict[str, str] = {
         firewood log, wooden log, piece of oak, wooden beam, timber beam, balance beam,
         balancing beam, log pile, driftwood log, piece of driftwood""",
     "rock": """
-        fossil, mineral stone, gold nugget, nugget, lump of coal, coal, geode, piece of
-        rock, paving stone, cobble, stepping stone, concrete block, charcoal""",
+        mineral stone, piece of rock, stepping stone, concrete block""",
+    "stone": """
+        fossil, gold nugget, nugget, lump of coal, coal, geode, paving stone, cobble,
+        charcoal""",
     "brick": """
         cinder block, gold bar, ingot, gold brick, paver, adobe, tile, floor tile, roof
         tile, stone block, bar of gold, butter stick""",

@@ -110,7 +110,7 @@ FOOD_AND_PLANT_KINDS: dict[str, str] = {
     "pancake": "waffle, flapjack, blini",
     "coral branch": "sea fan",
     "lily pad": "lotus, lily, lotus flower, water lily",
-    "leaf pile": "dry leaves, fallen leaves, autumn leaves",
+    "leaf pile": "dry leaves, fallen leaves, pile of leaves",
     "autumn tree": "maple tree, maple",
     "grass blade": "dewy grass",
     "croissant": "pastry",

@@ -82,6 +82,7 @@ def build_figure(
         scale=scale,
         articulate=articulate if groups or figure.wheels else None,
         is_centred=figure.is_centred,
+        is_wheeled=bool(figure.wheels),
     )
 
 

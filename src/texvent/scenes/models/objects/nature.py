@@ -1,4 +1,4 @@
-"""Rock, mountain, cloud."""
+"""Rock, stone, mountain, cloud."""
 
 from __future__ import annotations
 
@@ -29,6 +29,16 @@ def build_rock(*, colour: Colour | None, scale: float, seed: int) -> Articulated
         at = (0.45 * math.cos(angle), 0.36 * math.sin(angle), 0.38 * size)
         boulder = ball(stone(shade(hue, 0.85)), at, (size, 0.8 * size, 0.76 * size))
         parts += moved([boulder], turn_z(0.7 * angle, at))
+    return ArticulatedModel(parts, scale=scale)
+
+
+def build_stone(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Make a smooth stone that a hand holds, 0.2 m; `colour` is its surface."""
+    hue = colour if colour is not None else shade(_STONE, between(seed, "stone", 0.9, 1.5))
+    parts = [
+        ball(stone(hue, scale=4.0), (0.0, 0.0, 0.055), (0.20, 0.15, 0.11)),
+        ball(stone(hue, scale=4.0), (0.03, 0.01, 0.06), (0.13, 0.13, 0.11)),
+    ]
     return ArticulatedModel(parts, scale=scale)
 
 
@@ -65,7 +75,8 @@ def build_cloud(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 
 NOUNS = (
-    fixed_noun("rock", build_rock, ("stone", "boulder")),
+    fixed_noun("rock", build_rock, ("boulder",)),
+    fixed_noun("stone", build_stone),
     fixed_noun("mountain", build_mountain, ("mountain peak",)),
     Noun("cloud", build_cloud, "air", 1.5, "float"),
 )

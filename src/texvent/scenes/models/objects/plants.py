@@ -26,6 +26,7 @@ from texvent.scenes.models.shapes import (
     peak,
     post,
     rod,
+    spike,
     turn_x,
     turn_y,
 )
@@ -139,17 +140,31 @@ def build_flower(*, colour: Colour | None, scale: float, seed: int) -> Articulat
 
 
 def build_cactus(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a cactus with two arms, about 3 m."""
-    skin = mottled(colour if colour is not None else (0.07, 0.20, 0.07), contrast=0.3, scale=6.0)
-    arm = between(seed, "arm", 1.2, 1.5)
+    """Make a ribbed cactus with two arms and spines, about 1.9 m."""
+    hue = colour if colour is not None else (0.07, 0.24, 0.07)
+    skin, dark, pale = mottled(hue, contrast=0.2, scale=6.0), Material(shade(hue, 0.5)), Material(
+        (0.80, 0.76, 0.60))  # fmt: skip
+    arm = between(seed, "arm", 0.75, 0.95)
     rigid = [
-        limb(skin, (0.0, 0.0, 0.2), (0.0, 0.0, 2.9), 0.30),
-        rod(skin, (0.0, 0.0, 0.0), (0.0, 0.0, 2.2), 0.28),
-        limb(skin, (0.0, 0.1, arm), (0.0, 0.8, arm), 0.17),
-        limb(skin, (0.0, 0.8, arm - 0.05), (0.0, 0.85, arm + 1.0), 0.18),
-        limb(skin, (0.0, -0.1, arm + 0.3), (0.0, -0.7, arm + 0.3), 0.16),
-        limb(skin, (0.0, -0.7, arm + 0.25), (0.0, -0.75, arm + 1.1), 0.17),
+        rod(skin, (0.0, 0.0, 0.0), (0.0, 0.0, 1.66), 0.19),
+        ball(skin, (0.0, 0.0, 1.66), (0.38, 0.38, 0.42)),
     ]
+    for side, low, tall in ((1.0, arm, 0.62), (-1.0, arm + 0.15, 0.50)):
+        elbow, tip = (0.0, side * 0.46, low), (0.0, side * 0.46, low + tall)
+        rigid += [
+            limb(skin, (0.0, side * 0.1, low), elbow, 0.105),
+            rod(skin, elbow, tip, 0.11),
+            ball(skin, elbow, (0.22, 0.22, 0.22)),
+            ball(skin, tip, (0.22, 0.22, 0.26)),
+        ]
+    for k in range(10):
+        c, s = math.cos(math.tau * k / 10), math.sin(math.tau * k / 10)
+        rigid.append(rod(dark, (0.183 * c, 0.183 * s, 0.0), (0.183 * c, 0.183 * s, 1.68), 0.016))
+        for z in (0.4, 0.8, 1.2, 1.6):
+            up = z + 0.10 * (k % 3)
+            rigid.append(
+                spike(pale, (0.18 * c, 0.18 * s, up), (0.25 * c, 0.25 * s, up + 0.02), 0.011)
+            )
     return ArticulatedModel(rigid, scale=scale)
 
 

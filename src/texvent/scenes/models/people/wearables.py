@@ -14,10 +14,12 @@ from texvent.scenes.models.materials import (
     YELLOW,
     Material,
     cloth,
+    shade,
 )
+from texvent.scenes.models.objects.figures import ring
 from texvent.scenes.models.people.roles.hanging import draw_dress, draw_top
 from texvent.scenes.models.protocol import ModelPart, fixed_noun
-from texvent.scenes.models.shapes import ball, limb, post, rod, spike
+from texvent.scenes.models.shapes import ball, box, limb, post, rod, spike
 from texvent.scenes.models.variation import paint
 from texvent.scenes.scene import Colour
 
@@ -40,19 +42,29 @@ def build_scarf(*, colour: Colour | None, scale: float, seed: int) -> Articulate
     """Make a scarf as it lies round a neck, one end hanging; `colour` is its wool."""
     wool = cloth(paint(colour, seed, "scarf", CLOTH_COLOURS))
     parts = [
-        ball(wool, (0.0, 0.0, 0.38), (0.22, 0.26, 0.10)),
-        ball(wool, (0.015, 0.0, 0.43), (0.19, 0.21, 0.08)),
-        limb(wool, (0.11, 0.05, 0.37), (0.15, 0.07, 0.04), 0.022, side_radius=0.055),
+        *ring(wool, (0.0, 0.0, 0.41), (0.10, 0.11), 0.045, axis="z", pieces=12),
+        ball(wool, (0.11, 0.05, 0.39), (0.08, 0.10, 0.09)),
     ]
+    for y, low in ((0.10, 0.02), (0.02, 0.10)):
+        step = (0.36 - low) / 6
+        for k in range(6):
+            stripe = wool if k % 2 == 0 else Material(shade(wool.colour, 2.2))
+            parts.append(box(stripe, (0.13, y, low + (k + 0.5) * step), (0.022, 0.085, step)))
+        parts += [
+            rod(wool, (0.13, y + 0.018 * k, low), (0.13, y + 0.018 * k, low - 0.02), 0.005)
+            for k in (-2, -1, 0, 1, 2)
+        ]
     return ArticulatedModel(parts, scale=scale)
 
 
 def build_mask(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a face mask with its ribbons; `colour` is its front."""
     surface = cloth(colour if colour is not None else (0.35, 0.55, 0.68))
-    parts = [ball(surface, (0.0, 0.0, 0.06), (0.09, 0.17, 0.12))]
-    parts += [rod(Material(WHITE), (-0.01, y, 0.07), (-0.13, 1.12 * y, 0.09), 0.004)
-              for y in (0.08, -0.08)]  # fmt: skip
+    parts = [ball(surface, (0.0, 0.0, 0.06), (0.07, 0.17, 0.12))]
+    parts += [box(Material(shade(surface.colour, 0.6)), (0.030, 0.0, z), (0.012, 0.12, 0.006))
+              for z in (0.035, 0.06, 0.085)]  # fmt: skip
+    for side in (1.0, -1.0):
+        parts += ring(Material(WHITE), (-0.02, 0.095 * side, 0.06), (0.034, 0.045), 0.005)
     return ArticulatedModel(parts, scale=scale)
 
 

@@ -43,7 +43,10 @@ def wheeled_model(
 ) -> ArticulatedModel:
     """A vehicle of which only the wheels turn."""
     return ArticulatedModel(
-        rigid, scale=scale, articulate=lambda pose: car_wheels(wheels, pose.distance_m)
+        rigid,
+        scale=scale,
+        articulate=lambda pose: car_wheels(wheels, pose.distance_m),
+        is_wheeled=True,
     )
 
 

@@ -245,7 +245,7 @@ BUILT_SCENERY: dict[str, tuple[ScatterRule, ...]] = {
         ScatterRule("tree", 4, 0.8, 3.0),
               ScatterRule("flower", 6, 0.1, 0.8, (0.8, 1.3))),
     "dunes": (ScatterRule("dune mound", 8, 1.0, 4.5, (0.8, 1.8)),),
-    "desert": (ScatterRule("cactus", 5, 0.3, 2.5, (0.8, 1.4)), ScatterRule("dune mound", 5, 1.8,
+    "desert": (ScatterRule("cactus", 5, 0.3, 2.5, (1.1, 2.0)), ScatterRule("dune mound", 5, 1.8,
         5.0, (0.8, 1.8)),
                ScatterRule("rock", 5, 0.2, 2.0, (0.4, 1.0))),
     "canyon": (_stands("canyon wall", 7, 1.0, 3.5, 0.8), ScatterRule("rock", 6, 0.2, 1.5, (0.4,

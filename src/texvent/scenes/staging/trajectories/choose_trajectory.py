@@ -312,7 +312,7 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     )
     if kind == "wheelie":
         return Wheelie(path, 0.30 * model.length, 0.3 * model.height)
-    if kind == "roll":
+    if kind == "roll" and not getattr(model, "is_wheeled", False):
         return Rolling(path, 0.5 * model.height, 0.5 * model.height)
     return path
 

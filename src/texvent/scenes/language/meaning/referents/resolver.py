@@ -40,6 +40,7 @@ from texvent.scenes.language.vocabulary.objects import MAX_COUNT, PLURAL_COUNT, 
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
+from texvent.scenes.models.kinds.looks import LOOKS
 from texvent.scenes.models.kinds.people import TRAFFIC
 
 PERSON = "person"
@@ -281,7 +282,7 @@ class Referents(Antecedents):
             self._draft.objects[index].owner = group.determiner.text
         head.is_used = True
         is_other = meaning.is_substitute or (noun != meaning.value and not is_drinks)
-        head.shown_as = noun if is_other else head.usual_sense
+        head.shown_as = LOOKS.get(noun, noun if is_other else head.usual_sense)
         return Referent("things", group, [index], attributes=attributes)
 
     def _read_noun(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.models.materials import Material, cloth, leather, mottled, striped
+from texvent.scenes.models.materials import Material, checked, cloth, leather, mottled, striped
 from texvent.scenes.models.objects.figures import (
     Moving,
     bar,
@@ -182,8 +182,10 @@ def _leg(x: float, y: float, side: float) -> Moving:
 
 _ROOM = placed("indoor", (
     thing("blanket", ((0.36, 0.12, 0.10), (0.10, 0.20, 0.36), (0.55, 0.48, 0.36)), lambda p: [
-        *(box(striped(p.colour, toned(p, 1.6).colour, 3.0), (0.0, 0.0, 0.03 + 0.05 * k),
+        *(box(checked(p.colour, toned(p, 1.9).colour, 2.0), (0.0, 0.0, 0.03 + 0.05 * k),
             (0.62 - 0.03 * k, 0.82 - 0.04 * k, 0.045)) for k in range(3)),
+        *(limb(p, (-0.29, 0.40 - 0.02 * k, 0.03 + 0.05 * k), (0.29, 0.40 - 0.02 * k,
+            0.03 + 0.05 * k), 0.028) for k in range(3)),
         *(limb(PALE, (0.30, -0.38 + 0.076 * k, 0.04), (0.37, -0.38 + 0.076 * k, 0.01), 0.010)
             for k in range(11))],
         ("duvet", "bedsheet", "bed sheet", "comforter", "bedspread", "quilted blanket",
@@ -201,10 +203,13 @@ _ROOM = placed("indoor", (
         *(limb(toned(p, 0.7), (0.0, 0.15 * s, 0.035), (0.0, 0.24 * s, 0.035), 0.014)
             for s in (1.0, -1.0))]),
     thing("sack", ((0.42, 0.31, 0.17),), lambda p: [
-        ball(cloth(p.colour), (0.0, 0.0, 0.32), (0.50, 0.56, 0.66)),
-        limb(cloth(p.colour), (0.0, 0.0, 0.55), (0.0, 0.02, 0.74), 0.09),
-        *ring(Material((0.25, 0.16, 0.07)), (0.0, 0.0, 0.62), (0.10, 0.10), 0.016, axis="z"),
-        ball(cloth(p.colour), (0.0, 0.02, 0.78), (0.22, 0.26, 0.10))],
+        ball(cloth(p.colour), (0.0, 0.0, 0.26), (0.52, 0.58, 0.54)),
+        *(ball(cloth(p.colour), (0.10 * a, 0.13 * b, 0.13), (0.32, 0.34, 0.26))
+            for a in (1, -1) for b in (1, -1)),
+        spike(cloth(p.colour), (0.0, 0.0, 0.40), (0.0, 0.0, 0.78), 0.24),
+        *ring(Material((0.75, 0.68, 0.50)), (0.0, 0.0, 0.63), (0.10, 0.10), 0.022, axis="z"),
+        *(spike(cloth(toned(p, 1.2).colour), (0.09 * math.cos(a), 0.11 * math.sin(a), 0.84),
+            (0.0, 0.0, 0.60), 0.085) for a in (0.0, 1.26, 2.5, 3.8, 5.0))],
         ("burlap sack", "potato sack", "sack of potatoes", "sack of flour", "sack of grain")),
     thing("fire extinguisher", (RED_PAINT.colour,), lambda p: [
         post(p, (0.0, 0.0, 0.24), (0.17, 0.17, 0.44)), ball(p, (0.0, 0.0, 0.46),

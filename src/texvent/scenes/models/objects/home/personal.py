@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from texvent.scenes.models.materials import Material
+from texvent.scenes.models.materials import Material, fur
 from texvent.scenes.models.objects.figures import (
     bar,
     chain,
@@ -77,6 +77,17 @@ def _shirt(skin: Material) -> list[ModelPart]:
         disc(toned(skin, 0.4), (0.0, 0.655), 0.07, 0.034),
         bar(toned(skin, 0.75), (-0.23, 0.04), (0.23, 0.04), 0.03, 0.034),
     ])  # fmt: skip
+
+
+def _fold(skin: Material, layer: int) -> list[ModelPart]:
+    """A layer of a folded towel: soft edges, a pale stripe at both ends."""
+    z, wide, long = 0.02 + 0.036 * layer, 0.13 - 0.004 * layer, 0.20 - 0.006 * layer
+    return [
+        box(skin, (0.0, 0.0, z), (2.0 * wide, 2.0 * long, 0.034)),
+        *(limb(skin, (-wide, s * long, z), (wide, s * long, z), 0.019) for s in (1.0, -1.0)),
+        *(limb(skin, (s * wide, -long, z), (s * wide, long, z), 0.019) for s in (1.0, -1.0)),
+        *(box(PALE, (0.0, s * 0.145, z), (2.0 * wide + 0.01, 0.02, 0.0355)) for s in (1.0, -1.0)),
+    ]
 
 
 NOUNS = placed("indoor", (
@@ -180,14 +191,14 @@ NOUNS = placed("indoor", (
         lambda p: [box(p, (0.0, 0.0, 0.01), (0.10, 0.12, 0.02)),
             box(toned(p, 0.5), (0.0, 0.0, 0.0205), (0.09, 0.11, 0.001)),
             box(BRASS, (0.045, 0.0, 0.02), (0.012, 0.02, 0.004))], ("billfold",)),
-    thing("hair drier", ((0.50, 0.05, 0.20), BLACKISH), lambda p: lying([
-        rod(p, (0.0, -0.09, 0.17), (0.0, 0.05, 0.17), 0.042),
-        ball(p, (0.0, 0.05, 0.17), (0.09, 0.08, 0.09)),
-        rod(toned(p, 0.4), (0.0, -0.13, 0.17), (0.0, -0.09, 0.17), 0.032),
-        limb(p, (0.0, 0.02, 0.15), (0.0, 0.045, 0.02), 0.020),
-        *chain(INK, [(0.0, 0.047, 0.01), (0.0, 0.06, -0.06), (0.0, 0.03, -0.12),
-            (0.0, 0.08, -0.16)], 0.006),
-        box(PALE, (0.022, 0.035, 0.10), (0.012, 0.016, 0.03)),
+    thing("hair drier", ((0.50, 0.05, 0.20), (0.05, 0.16, 0.40)), lambda p: lying([
+        rod(p, (0.0, -0.08, 0.17), (0.0, 0.05, 0.17), 0.046),
+        ball(p, (0.0, 0.05, 0.17), (0.094, 0.08, 0.094)),
+        spike(toned(p, 0.4), (0.0, -0.08, 0.17), (0.0, -0.22, 0.17), 0.044),
+        rod(toned(p, 0.4), (0.0, -0.15, 0.17), (0.0, -0.08, 0.17), 0.030),
+        limb(p, (0.0, 0.015, 0.15), (0.0, 0.05, 0.0), 0.028),
+        *chain(INK, [(0.0, 0.05, -0.01), (0.0, 0.07, -0.05), (0.0, 0.05, -0.08)], 0.006),
+        box(PALE, (0.026, 0.035, 0.10), (0.012, 0.016, 0.03)),
         disc(INK, (0.095, 0.17), 0.03, 0.05)]),
         ("hair dryer", "hairdryer", "blow dryer", "hand blower", "hairdrier")),
     thing("toothbrush", _BLUE_RED, lambda p: lying([
@@ -219,9 +230,8 @@ NOUNS = placed("indoor", (
             ball(p, (0.0, 0.0, 0.012), (0.066, 0.09, 0.028)),
             box(toned(p, 0.7), (0.0, 0.0, 0.0265), (0.02, 0.04, 0.001))], ("bar of soap",)),
     thing("towel", _BLUE_RED,
-        lambda p: [*(box(p, (0.0, 0.0, 0.02 + 0.035 * i), (0.26, 0.40, 0.032)) for i in range(3)),
-            *(box(PALE, (0.0, y, 0.02 + 0.035 * i), (0.262, 0.02, 0.033)) for i in range(3)
-                for y in (0.15, -0.15))], ("bath towel",)),
+        lambda p: [*(part for i in range(4) for part in _fold(fur(p.colour), i))],
+            ("bath towel",)),
     thing("toilet paper", (PALE.colour,),
         lambda p: [rod(p, (-0.05, 0.0, 0.055), (0.05, 0.0, 0.055), 0.055),
             disc(Material((0.40, 0.26, 0.14)), (0.0, 0.055), 0.021, 0.102),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from texvent.scenes.models.materials import Material, mottled
-from texvent.scenes.models.objects.figures import disc, lathe, ring, thing, toned
+from texvent.scenes.models.objects.figures import centred, disc, lathe, ring, thing, toned
 from texvent.scenes.models.objects.palette import (
     INK,
     PALE,
@@ -14,7 +14,7 @@ from texvent.scenes.models.objects.palette import (
     YELLOW_PAINT,
 )
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import ball, blade, box, limb, post, rod, spike
+from texvent.scenes.models.shapes import ball, blade, box, moved, post, rod, spike, turn_y
 
 _WOOD = Material(WOOD_BROWN)
 _CHINA = Material((0.80, 0.80, 0.78))
@@ -62,11 +62,10 @@ NOUNS = (
         Material((0.85, 0.30, 0.12)), (0.0, -0.09 + 0.06 * k, 0.05), (0.08, 0.042, 0.018)),
             box(INK, (0.0, -0.09 + 0.06 * k, 0.04), (0.018, 0.044, 0.04))))], ("sushi roll",),
                 plurals=("sushi",)),
-    thing("croissant", ((0.62, 0.34, 0.09),), lambda p: [limb(p if k % 2 else toned(p, 0.75),
-        (0.05 * math.cos(a) - 0.02, 0.075 * math.sin(a), 0.025),
-            (0.05 * math.cos(a + 0.4) - 0.02, 0.075 * math.sin(
-        a + 0.4), 0.025), 0.026 - 0.006 * abs(k - 3)) for k,
-            a in enumerate(-1.6 + 0.46 * j for j in range(7))], ()),
+    thing("croissant", ((0.62, 0.34, 0.09),), lambda p: centred(moved([
+        ball(p if k % 2 else toned(p, 0.6), (0.06 * math.cos(a), 0.075 * math.sin(a), 0.0),
+            (0.062 - 0.009 * abs(k - 4), 0.050 - 0.006 * abs(k - 4), 0.060 - 0.010 * abs(k - 4)))
+        for k, a in enumerate(-1.8 + 0.45 * j for j in range(9))], turn_y(0.5))), ()),
     thing("onion", ((0.50, 0.24, 0.08),), lambda p: [ball(p, (0.0, 0.0, 0.04), (0.085, 0.085,
         0.075)), spike(p, (0.0, 0.0, 0.07), (0.0, 0.0, 0.11), 0.015)]),
     thing("peach", ((0.80, 0.38, 0.16),), lambda p: [ball(p, (0.0, 0.0, 0.036), (0.078, 0.078,

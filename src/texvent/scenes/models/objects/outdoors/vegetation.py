@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from texvent.scenes.models.materials import BARK, Material, foliage, glowing, mottled
@@ -16,7 +17,18 @@ from texvent.scenes.models.objects.figures import (
 )
 from texvent.scenes.models.objects.palette import EARTH, LEAF, PALE, WATER
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import Point, ball, blade, limb, peak, post, rod, spike
+from texvent.scenes.models.shapes import (
+    Point,
+    ball,
+    blade,
+    box,
+    limb,
+    peak,
+    plank,
+    post,
+    rod,
+    spike,
+)
 
 _CLEAR = Material((0.70, 0.82, 0.86), emission=0.15)
 _AUTUMN = (Material((0.62, 0.16, 0.02)), Material((0.70, 0.38, 0.03)), Material((0.42, 0.10, 0.03)),
@@ -29,6 +41,21 @@ def _leaf(skin: Material, at: Point, angle: float, size: float) -> ModelPart:
     return blade(skin, at, tip, chord=(-0.55 * size * math.sin(angle),
         0.55 * size * math.cos(angle),
                                        0.1 * size), thickness=(0.0, 0.0, 0.03 * size))  # fmt: skip
+
+
+def _frond(skin: Material, angle: float, long: float) -> list[ModelPart]:
+    """A fern's leaf: a stalk that arches outwards, with pairs of leaflets."""
+    c, s = math.cos(angle), math.sin(angle)
+    arch = [(long * u, long * (1.3 * u - 1.05 * u * u)) for u in (0.0, 0.3, 0.65, 1.0)]
+    points = [(r * c, r * s, z) for r, z in arch]
+    parts = [limb(skin, a, b, 0.012 * long) for a, b in itertools.pairwise(points)]
+    for k, (x, y, z) in enumerate(points[1:], 1):
+        wide = long * (0.34 - 0.07 * k)
+        for side in (1.0, -1.0):
+            tip = (x + wide * (0.4 * c - side * s), y + wide * (0.4 * s + side * c), z - 0.02)
+            parts.append(blade(skin, (x, y, z), tip, chord=(0.6 * wide * c, 0.6 * wide * s, 0.0),
+                thickness=(0.0, 0.0, 0.006)))  # fmt: skip
+    return parts
 
 
 def _crown(trunk: Material, crown: Material, tall: float) -> list[ModelPart]:
@@ -119,10 +146,9 @@ NOUNS = (
     *placed("grass", (
         thing("leaf pile", ((0.35, 0.12, 0.03),), lambda p: [ball(mottled(p.colour, contrast=0.5,
             scale=8.0), (0.0, 0.0, 0.17), (
-            1.6, 1.8, 0.34)), *(_leaf(_AUTUMN[k % 4], (0.75 * math.cos(2.4 * k) * (k % 5) / 4,
-                0.85 * math.sin(2.4 * k) * (k % 5) / 4,
-                                                      0.36 - 0.06 * (k % 5)), 1.7 * k,
-                        0.22) for k in range(36))],
+            1.3, 1.5, 0.30)), *(_leaf(_AUTUMN[k % 4], (1.0 * math.sqrt(k / 58) * math.cos(2.4 * k),
+                1.1 * math.sqrt(k / 58) * math.sin(2.4 * k), 0.02 + 0.32 * (1.0 - k / 58)**0.6),
+                        1.7 * k, 0.34 + 0.06 * (k % 3)) for k in range(58))],
               ()),
         thing("autumn tree", ((0.66, 0.26, 0.03),), lambda p: _crown(BARK, foliage(p.colour), 6.0),
               ("golden tree", "fall tree")),
@@ -139,16 +165,16 @@ NOUNS = (
             *(_leaf(LEAF, (0.54 * math.cos(2.4 * k), 0.54 * math.sin(2.4 * k), z), 2.0 * k + z,
                 0.6) for z in (2.6, 3.6)))],
             ("bamboo stalk", "bamboo grove")),
-        thing("fern", ((0.06, 0.26, 0.04),), lambda p: [rod(p, (0.0, 0.0, 0.0), (0.0, 0.0, 0.12),
-            0.02)] + [_leaf(p, (0.0, 0.0,
-            0.12 + 0.02 * (k % 4)), 0.52 * k, 0.7 - 0.08 * (k % 3)) for k in range(24)]),
+        thing("fern", ((0.06, 0.26, 0.04),), lambda p: [
+            part for k in range(6) for part in _frond(toned(p, 0.8 + 0.1 * (k % 4)), 1.05 * k,
+                0.75 - 0.08 * (k % 3))]),
         thing("grass blade", ((0.08, 0.30, 0.03),), lambda p: [
-            *(limb(p, (0.006 * k, 0.012 * (k - 3), 0.0), (0.006 * k + 0.01 * ((k * 5) % 3),
-                0.014 * (k - 3), 0.10 + 0.015 * (k % 3)), 0.0025,
-                   side_radius=0.001) for k in range(7)), limb(p, (0.0, 0.0, 0.0), (0.02, 0.0,
-                       0.16), 0.006, side_radius=0.002),
-            *(ball(_CLEAR, (0.004 + 0.004 * k, 0.002, 0.03 + 0.03 * k), (0.012, 0.012,
-                0.012)) for k in range(5))],
+            *(spike(toned(p, 0.8 + 0.1 * (k % 3)), (0.006 * k - 0.02, 0.014 * (k - 3), 0.0),
+                (0.006 * k + 0.01 * ((k * 5) % 3), 0.026 * (k - 3), 0.10 + 0.015 * (k % 3)),
+                0.006) for k in range(7)), spike(toned(p, 1.3), (0.02, 0.0, 0.0), (0.03, 0.01,
+                       0.17), 0.010),
+            *(ball(_CLEAR, (0.032 - 0.001 * k, 0.004 * k, 0.04 + 0.035 * k), (0.010, 0.010,
+                0.010)) for k in range(3))],
             ("blade of grass", "grass stalk", "stalk of grass"),
                 plurals=("blades of grass",)),
         thing("anthill", ((0.28, 0.16, 0.08),), lambda p: [peak(mottled(p.colour, contrast=0.3,
@@ -179,7 +205,9 @@ NOUNS = (
     thing("dripping icicle", ((0.72, 0.82, 0.88),), lambda p: [spike(p, (0.12 * k,
         0.16 * (k - 3), 1.0), (0.12 * k, 0.16 * (k - 3), 0.5 - 0.07 * (k % 3)), 0.05)
         for k in range(7)] + [ball(PALE, (0.3, 0.0, 1.05), (1.0, 1.4, 0.16))], ("icicle",)),
-    thing("ice block", ((0.62, 0.76, 0.84),), lambda p: [ball(p, (0.0, 0.0, 0.25), (0.66, 0.66,
-        0.5)), blade(WATER, (-0.3, 0.0, 0.2), (0.3, 0.1, 0.42), chord=(
-        0.0, 0.5, 0.0), thickness=(0.0, 0.0, 0.02))], ()),
+    thing("ice block", ((0.62, 0.76, 0.84),), lambda p: [
+        box(p, (0.0, 0.0, 0.24), (0.60, 0.66, 0.44)), box(p, (0.0, 0.0, 0.24), (0.56, 0.62, 0.48)),
+        *(plank(PALE, (0.301, -0.2 + 0.2 * k, 0.1 + 0.06 * k), (0.301, -0.05 + 0.2 * k, 0.3),
+            chord=(0.0, 0.03, -0.02), thickness=(0.004, 0.0, 0.0)) for k in range(3)),
+        ball(WATER, (0.1, 0.0, 0.0), (1.0, 1.1, 0.02))], ("block of ice", "ice cube")),
 )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from texvent.scenes.models.materials import (
     RED,
@@ -33,7 +34,7 @@ from texvent.scenes.models.objects.palette import (
     WOOD_BROWN,
 )
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import Point, ball, box, limb, plank, post, rod
+from texvent.scenes.models.shapes import Point, ball, box, limb, moved, plank, post, rod, turn_z
 
 _LINE = Material((0.85, 0.85, 0.83))
 _ORANGES = (Material((0.80, 0.28, 0.01)), Material((0.60, 0.03, 0.02)), Material((0.20, 0.42,
@@ -113,13 +114,18 @@ STEEL_POST = Material((0.45, 0.46, 0.48))
 def _rock_wall(p: Material, size: Point, layers: int) -> list[ModelPart]:
     """A steep face of layered rock."""
     long, wide, tall = size
-    parts = []
-    for k in range(layers):
-        share = 1.0 - 0.35 * k / layers
-        skin = stone(p.colour) if k % 2 else stone(shade(p.colour, 0.78))
-        z = tall * (k + 0.5) / layers
-        parts.append(box(skin, (0.05 * long * (k % 3), 0.03 * wide * ((k * 2) % 3), z), (
-            share * long, (0.9 + 0.1 * (k % 2)) * share * wide, tall / layers)))  # fmt: skip
+    parts: list[ModelPart] = []
+    count = layers
+    for k in range(count):
+        high = tall * (0.86 + 0.14 * math.sin(2.4 * k) ** 2)
+        skin = replace(stone(shade(p.colour, 0.75 + 0.12 * (k % 3))), scale=3.0)
+        y = wide * ((k + 0.5) / count - 0.5)
+        deep = long * (0.75 + 0.25 * math.cos(1.9 * k))
+        buttress = box(skin, (0.5 * (deep - long), y, 0.5 * high), (
+            deep, 2.1 * wide / count, high), lean=-0.16)  # fmt: skip
+        parts += moved([buttress], turn_z(0.8 * math.sin(2.1 * k + 0.4), (0.0, y, 0.0)))
+        rubble = (0.5 * long + 0.10 * long * math.sin(5.0 * k), y, 0.0)
+        parts.append(ball(skin, rubble, (0.14 * tall, 0.12 * tall, 0.16 * tall)))
     return parts
 
 

@@ -49,6 +49,7 @@ from texvent.scenes.models.shapes import (
     turn_x,
     turn_z,
 )
+from texvent.scenes.models.vehicles.wheels import Wheel
 from texvent.scenes.scene import Colour
 
 _BRIGHT: tuple[Colour, ...] = ((0.55, 0.03, 0.02), (0.03, 0.15, 0.50), (0.05, 0.35, 0.08))
@@ -192,9 +193,10 @@ _INDOOR = placed("indoor", (
         lambda p: [box(p, (0.0, 0.0, 0.026), (0.14, 0.06, 0.026)),
             box(toned(p, 0.9), (-0.01, 0.0, 0.046), (0.07, 0.054, 0.022)),
             box(INK, (-0.01, 0.0, 0.047), (0.05, 0.056, 0.014)),
-            *(rod(INK, (x, -0.034, 0.016), (x, 0.034, 0.016), 0.016) for x in (0.045, -0.045)),
             *(ball(YELLOW_PAINT, (0.07, y, 0.028), (0.006, 0.012, 0.010)) for y in (0.02, -0.02))],
-            ("model car", "rc car", "remote control car"), goes=("ground", "roll", 0.8)),
+            ("model car", "rc car", "remote control car"), goes=("ground", "roll", 0.8),
+            wheels=tuple(Wheel((x, y, 0.017), 0.017, 0.012) for x in (0.045, -0.045)
+                for y in (0.029, -0.029))),
     thing("toy train", _BRIGHT, lambda p: [
         rod(p, (-0.02, 0.0, 0.075), (0.13, 0.0, 0.075), 0.035),
         box(_HUES[2], (-0.06, 0.0, 0.085), (0.09, 0.085, 0.11)),
@@ -204,9 +206,9 @@ _INDOOR = placed("indoor", (
         box(INK, (-0.06, 0.0, 0.105), (0.05, 0.087, 0.04)),
         box(_HUES[3], (-0.21, 0.0, 0.065), (0.14, 0.085, 0.06)),
         box(INK, (-0.13, 0.0, 0.035), (0.05, 0.02, 0.01)),
-        *(rod(RED_PAINT, (x, -0.05, 0.025), (x, 0.05, 0.025), 0.025)
-            for x in (0.11, 0.04, -0.06, -0.17, -0.25))], ("model train",),
-            goes=("ground", "roll", 0.6)),
+        ], ("model train",), goes=("ground", "roll", 0.6),
+            wheels=tuple(Wheel((x, y, 0.025), 0.025, 0.012) for y in (0.044, -0.044)
+                for x in (0.11, 0.04, -0.06, -0.17, -0.25))),
     thing("rubik cube", (INK.colour,),
         lambda p: [box(p, (0.0, 0.0, 0.0285), (0.057, 0.057, 0.057)),
         *(box(_HUES[(i * 3 + k) % 4], (0.0285, 0.0185 * (i - 1), 0.0285 + 0.0185 * (k - 1)),
@@ -351,14 +353,18 @@ _AIR = placed("grass", (
             goes=("air", "fly", 3.0)),
     thing("soap bubble", ((0.62, 0.70, 0.78),),
         lambda p: [ball(Material(p.colour), (0.0, 0.0, 0.0), (0.10, 0.10, 0.10)),
-            ball(PALE, (0.026, -0.028, 0.024), (0.02, 0.02, 0.02)),
-            ball(Material((0.60, 0.45, 0.62)), (-0.016, -0.02, -0.022), (0.045, 0.04, 0.036))],
+            *(ball(PALE, (0.026 * a, 0.028 * b, 0.024), (0.02, 0.02, 0.02))
+                for a in (1, -1) for b in (1, -1)),
+            *(ball(Material((0.60, 0.45, 0.62)), (0.016 * a, -0.020 * b, -0.022),
+                (0.045, 0.04, 0.036)) for a in (1, -1) for b in (1, -1))],
             ("bubble",), goes=("air", "float", 0.3)),
-    thing("feather", (PALE.colour, (0.05, 0.15, 0.40)), nothing, ("plume", "quill"),
+    thing("feather", (PALE.colour, (0.62, 0.44, 0.24)), nothing, ("plume", "quill"),
         moving=(Moving(lambda p: [
-        blade(p, (-0.09, 0.0, 0.0), (0.10, 0.0, 0.012), chord=(0.0, 0.05, 0.0),
-            thickness=(0.0, 0.0, 0.005)),
-        rod(toned(p, 1.3), (-0.14, 0.0, -0.006), (0.08, 0.0, 0.014), 0.002)],
+        *(blade(toned(p, 0.85 if k % 2 else 1.0), (0.022 * k - 0.07, 0.0, 0.0),
+            (0.022 * k - 0.030, 0.010, s * (0.036 - 0.003 * abs(k - 3))),
+            chord=(0.034, 0.0, 0.0), thickness=(0.0, 0.003, 0.0))
+            for k in range(9) for s in (1.0, -1.0)),
+        rod(toned(p, 0.6), (-0.16, 0.0, -0.012), (0.10, 0.0, 0.0), 0.003)],
         swinging("x", 0.9, 0.7)),), goes=("air", "float", 0.3)),
 ))  # fmt: skip
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.models.materials import Material, checked, mottled, striped
+from texvent.scenes.models.materials import Material, checked, mottled
 from texvent.scenes.models.objects.figures import (
     Draw,
     Motion,
@@ -30,7 +30,18 @@ from texvent.scenes.models.objects.palette import (
     YELLOW_PAINT,
 )
 from texvent.scenes.models.protocol import ModelPart, Noun
-from texvent.scenes.models.shapes import Point, ball, box, compose, limb, post, rod, spike, turn_x
+from texvent.scenes.models.shapes import (
+    Point,
+    ball,
+    blade,
+    box,
+    compose,
+    limb,
+    post,
+    rod,
+    spike,
+    turn_x,
+)
 from texvent.scenes.scene import Colour
 
 
@@ -145,7 +156,11 @@ NOUNS = placed("indoor", (
     thing("shuttlecock", (PALE.colour,), lambda p: [
         ball(PALE, (0.0, 0.0, 0.013), (0.026, 0.026, 0.026)),
         post(RED_PAINT, (0.0, 0.0, 0.02), (0.0265, 0.0265, 0.004)),
-        *lathe(striped(p.colour, toned(p, 0.8).colour, 1.0), [(0.02, 0.013), (0.08, 0.034)], 6)],
+        *(blade(toned(p, 0.8 if k % 2 else 1.0), (0.012 * c, 0.012 * s, 0.024),
+            (0.034 * c, 0.034 * s, 0.090), chord=(-0.017 * s, 0.017 * c, 0.0),
+            thickness=(0.002 * c, 0.002 * s, 0.0)) for k in range(14)
+            for c, s in ((math.cos(k * math.tau / 14), math.sin(k * math.tau / 14)),)),
+        *ring(RED_PAINT, (0.0, 0.0, 0.050), (0.021, 0.021), 0.0015, axis="z")],
         ("birdie", "badminton birdie")),
     thing("puck", (BLACKISH,),
         lambda p: [post(p, (0.0, 0.0, 0.0125), (0.076, 0.076, 0.025)),

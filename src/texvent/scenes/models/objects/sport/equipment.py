@@ -126,13 +126,13 @@ _IN_HALLS = placed("indoor", (
 
 _OUTSIDE = placed("grass", (
     thing("fishing rod", (BLACKISH,), lambda p: [
-        limb(p, (0.0, -0.9, 0.25), (0.0, 0.9, 1.25), 0.012), limb(Material((0.45, 0.30, 0.15)),
+        limb(p, (0.0, -0.9, 0.25), (0.0, 0.9, 1.25), 0.020), limb(Material((0.45, 0.30, 0.15)),
             (0.0, -1.0, 0.19), (0.0, -0.7, 0.36), 0.022),
         disc(SILVER, (-0.66, 0.31), 0.05, 0.05, 0.04), disc(INK, (-0.66, 0.31), 0.03, 0.08, 0.04),
-        rod(PALE, (0.0, 0.9, 1.25), (0.0, 0.95, 0.30), 0.003),
+        rod(PALE, (0.0, 0.9, 1.25), (0.0, 0.95, 0.30), 0.006),
         ball(RED_PAINT, (0.0, 0.95, 0.30), (0.05, 0.05, 0.06)),
         ball(PALE, (0.0, 0.95, 0.275), (0.045, 0.045, 0.04)),
-        *(rod(Material(WOOD_BROWN), (0.06 * s, -0.45, 0.0), (-0.02 * s, -0.45, 0.48), 0.014)
+        *(rod(Material(WOOD_BROWN), (0.06 * s, -0.45, 0.0), (-0.02 * s, -0.45, 0.48), 0.022)
             for s in (1, -1))], ("fishing pole", "angling rod")),
     thing("spear", (WOOD_BROWN,), lambda p: lying([
         rod(p, (0.0, 0.0, 0.0), (0.0, 0.0, 2.0), 0.018), spike(SILVER, (0.0, 0.0, 2.0),

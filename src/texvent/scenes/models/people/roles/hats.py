@@ -19,6 +19,7 @@ from texvent.scenes.models.materials import (
     YELLOW,
     Material,
     cloth,
+    shade,
 )
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, blade, box, limb, peak, post, rod, spike
@@ -246,7 +247,10 @@ def _beard(skin: Material, size: float) -> list[ModelPart]:
 def _pirate(_: Material, size: float) -> list[ModelPart]:
     black = Material((0.02, 0.02, 0.022))
     return [
-        _ball(black, size, (0.0, 0.0, 0.48), (0.95, 1.90, 0.62)),
+        _ball(black, size, (0.0, 0.0, 0.48), (1.05, 1.10, 0.72)),
+        _ball(black, size, (0.0, 0.0, 0.40), (1.85, 2.10, 0.22)),
+        _ball(black, size, (-0.62, 0.0, 0.56), (0.30, 1.50, 0.50)),
+        *(_ball(black, size, (0.25, 0.72 * s, 0.58), (1.30, 0.24, 0.52)) for s in (1.0, -1.0)),
         _ball(Material(WHITE), size, (0.48, 0.0, 0.52), (0.10, 0.26, 0.24)),
         _ball(black, size, (0.46, 0.17, 0.06), (0.20, 0.24, 0.20)),
         *_beard(Material((0.05, 0.03, 0.02)), size),
@@ -372,6 +376,11 @@ HATS: Mapping[str, HatDraw] = MappingProxyType(
         "woolly": _shell(
             0.26,
             1.04,
+            lambda paint, size: post(
+                Material(shade(paint.colour, 1.5)),
+                _at(size, -0.03, 0.0, 0.10),
+                (1.12 * size, 1.16 * size, 0.26 * size),
+            ),
             lambda _, size: _ball(Material(WHITE), size, (-0.03, 0.0, 0.78), (0.32, 0.32, 0.32)),
         ),
         "beret": lambda skin, size: [_ball(skin, size, (-0.08, 0.12, 0.46), (1.22, 1.22, 0.30))],

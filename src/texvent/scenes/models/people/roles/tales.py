@@ -164,6 +164,7 @@ AGES = (
         "elderly woman",
         replace(
             WOMAN,
+            shirts=((0.20, 0.12, 0.24),),
             hair=SILVER_HAIR,
             hat="bun",
             stoop=0.34,

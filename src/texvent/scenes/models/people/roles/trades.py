@@ -324,8 +324,8 @@ TRADES = (
         "sightseer",
     ),
     role("lifeguard", replace(PLAYER, shirts=(YELLOW,), trousers=RED, hat="cap", hat_colour=RED)),
-    role("guitarist", replace(ADULT, shirts=(DARK,), trousers=DENIM)),
-    role("violinist", suit(DARK, garments=wears("bow tie"))),
+    role("guitarist", replace(ADULT, shirts=(DARK,), trousers=DENIM), motion="play guitar"),
+    role("violinist", suit(DARK, garments=wears("bow tie")), motion="play violin"),
     role("conductor", suit(DARK, garments=(("bow tie", None), ("knee coat", DARK)))),
     role(
         "singer",
