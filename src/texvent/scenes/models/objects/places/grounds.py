@@ -124,7 +124,7 @@ def _rock_wall(p: Material, size: Point, layers: int) -> list[ModelPart]:
         buttress = box(skin, (0.5 * (deep - long), y, 0.5 * high), (
             deep, 2.1 * wide / count, high), lean=-0.16)  # fmt: skip
         parts += moved([buttress], turn_z(0.8 * math.sin(2.1 * k + 0.4), (0.0, y, 0.0)))
-        rubble = (0.5 * long + 0.10 * long * math.sin(5.0 * k), y, 0.0)
+        rubble = (0.5 * long + 0.10 * long * math.sin(5.0 * k), y, 0.085 * tall)
         parts.append(ball(skin, rubble, (0.14 * tall, 0.12 * tall, 0.16 * tall)))
     return parts
 
