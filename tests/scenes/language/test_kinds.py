@@ -8,6 +8,7 @@ from texvent.errors import InputError
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.language.vocabulary.opaque import OPAQUE_COMPOUNDS
 from texvent.scenes.models.kinds import KINDS, find_kind
+from texvent.scenes.models.kinds.looks import LOOKS
 from texvent.scenes.models.nouns import NOUNS
 
 from ..every_row import for_every
@@ -67,7 +68,7 @@ def test_every_kind_is_shown_as_its_noun_and_named(noun: str) -> None:
     for word in KINDS[noun]:
         nouns, substituted, _ = read(f"the {word}")
         assert nouns == [noun], word
-        assert substituted == {word.replace("-", " "): noun}, word
+        assert substituted == {word.replace("-", " "): LOOKS.get(noun, noun)}, word
 
 
 OTHERS = (
