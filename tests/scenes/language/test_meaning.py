@@ -64,10 +64,24 @@ def test_a_lost_verb_keeps_its_directions_from_the_camera() -> None:
     assert {"dodging", "left"} <= set(description.not_understood)
 
 
-def test_where_it_is_filmed_from_is_not_in_the_picture() -> None:
-    description = parse_prompt("A whale swims. Filmed from a boat that rocks gently.")
-    assert [one.noun for one in description.objects] == ["whale"]
-    assert {"from", "boat", "rocks"} <= set(description.not_understood)
+@pytest.mark.parametrize(
+    ("prompt", "nouns", "said", "lost"),
+    [
+        ("A whale swims. Filmed from a boat that rocks gently.", ["whale"], "boat", "rocks"),
+        ("a cat jumps, watched from the sofa", ["cat"], "sofa", None),
+        ("a man walks, filmed from behind a fence", ["man"], "fence", "behind"),
+        ("an arrow shot from a bow", ["arrow", "bow"], None, "shot"),
+        ("a bird filmed from below", ["bird"], None, None),
+    ],
+)
+def test_where_it_is_filmed_from_is_not_in_the_picture(
+    prompt: str, nouns: list[str], said: str | None, lost: str | None
+) -> None:
+    description = parse_prompt(prompt)
+    assert [one.noun for one in description.objects] == nouns
+    told = [(one.said, one.shown) for one in description.substituted]
+    assert told == ([] if said is None else [(said, "where the camera stands")])
+    assert lost is None or lost in description.not_understood
 
 
 def test_owners_that_are_not_there_are_not_added() -> None:

@@ -31,6 +31,7 @@ from texvent.scenes.language.words.english import is_of_other_grammar, list_read
 from texvent.scenes.language.words.film import read_film_words
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.language.words.sense_cues import choose_senses
+from texvent.scenes.language.words.standpoint import mark_standpoints
 from texvent.scenes.language.words.tagging import tag_words
 from texvent.scenes.language.words.telegrams import read_telegrams
 from texvent.scenes.language.words.tokens import tokenize_prompt
@@ -79,6 +80,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     words = read_telegrams(words, known)
     choose_senses(words, known)
     is_carried = mark_viewpoints(words)
+    mark_standpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))
     meaning = ClauseMeaning(
         nouns, is_carried=is_carried, means=find_means(words) if is_carried else None

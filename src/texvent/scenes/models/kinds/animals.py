@@ -110,7 +110,7 @@ ANIMAL_KINDS: dict[str, str] = {
     "owl": "great grey owl, snowy owl, owlet, barn owl",
     "gull": "albatross, tern, petrel, sea bird, gannet",
     "duck": """
-        mallard, drake, merganser, red breasted merganser, goose, teal, american coot,
+        mallard, drake, merganser, red breasted merganser, goose, american coot,
         coot, moorhen, cormorant, loon""",
     "swan": "black swan, cygnet, mute swan, pelican",
     "chicken": """
