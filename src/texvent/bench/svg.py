@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from html import escape
 
-COLOURS = {"frames": "#4c78a8", "true frames": "#59a14f", "recorded": "#8c8c96"}
+COLOURS = {
+    "frames": "#4c78a8",
+    "frames, lamp known": "#e0a030",
+    "true frames": "#59a14f",
+    "recorded": "#8c8c96",
+}
 """Track → colour of its entries."""
 STYLE = "font-family='sans-serif' font-size='11' fill='#26262e'"
 
