@@ -1,6 +1,7 @@
 """What closes a place off: walls of corridors and alleys, parapets of roofs, rails of balconies.
 
-Walls on both sides stand along x; what is right across the view spans y.
+Walls on both sides stand along x, which is where the camera looks: doors are from a little behind
+it on. What is right across the view spans y.
 """
 
 from __future__ import annotations
@@ -59,8 +60,8 @@ def _walled(wall: Material, door: Material) -> list[ModelPart]:
         *(box(toned(door, 0.6), (0.0, s * (CORRIDOR_M - 0.01), 0.09), (LONG_M, 0.04, 0.18))
           for s in (1.0, -1.0)),
     ]  # fmt: skip
-    for k in range(10):
-        x = -18.0 + 4.0 * k
+    for k in range(7):
+        x = -4.0 + 4.0 * k
         parts += [
             *_door(door, x, CORRIDOR_M, 1.0),
             *_door(door, x + 2.0, -CORRIDOR_M, -1.0),
@@ -75,10 +76,12 @@ def _lockers(p: Material) -> list[ModelPart]:
     parts = [box(wall, (0.0, s * (CORRIDOR_M + 0.4), 1.5), (LONG_M, 0.2, 3.0)) for s in (1.0, -1.0)]
     for s in (1.0, -1.0):
         parts.append(box(p, (0.0, s * (CORRIDOR_M + 0.15), 0.95), (LONG_M, 0.3, 1.9)))
-        for k in range(50):
-            x = -19.6 + 0.8 * k
+        for k in range(20):
+            x = -3.0 + 0.8 * k
             parts.append(box(INK, (x, s * (CORRIDOR_M - 0.01), 0.95), (0.03, 0.02, 1.86)))
-            parts.append(box(SILVER, (x + 0.3, s * (CORRIDOR_M - 0.01), 1.0), (0.06, 0.04, 0.16)))
+        for k in range(7):
+            x = 0.4 + 0.8 * k
+            parts.append(box(SILVER, (x, s * (CORRIDOR_M - 0.01), 1.0), (0.06, 0.04, 0.16)))
     return parts
 
 
@@ -87,17 +90,16 @@ def _alley(p: Material) -> list[ModelPart]:
     wall = brick(p.colour)
     glass, frame = Material((0.10, 0.14, 0.18)), Material((0.55, 0.53, 0.48))
     parts = [box(wall, (0.0, s * (ALLEY_M + 0.4), 4.5), (LONG_M, 0.8, 9.0)) for s in (1.0, -1.0)]
-    for k in range(9):
-        x, s = -18.0 + 4.5 * k, 1.0 if k % 2 else -1.0
+    for k in range(6):
+        x, s = -4.0 + 4.5 * k, 1.0 if k % 2 else -1.0
         parts += _door(Material(DARK_WOOD), x, s * ALLEY_M, s)
-        parts += [rod(IRON, (x + 1.6, s * (ALLEY_M - 0.08), 0.0), (x + 1.6, s * (ALLEY_M - 0.08),
-                                                                   8.8), 0.07)]  # fmt: skip
-        for z in (2.9, 5.6):
-            for side in (1.0, -1.0):
-                parts += [
-                    box(frame, (x + 0.7, side * ALLEY_M, z), (1.2, 0.08, 1.5)),
-                    box(glass, (x + 0.7, side * (ALLEY_M - 0.03), z), (1.0, 0.08, 1.3)),
-                ]
+        pipe = s * (ALLEY_M - 0.08)
+        parts.append(rod(IRON, (x + 1.6, pipe, 0.0), (x + 1.6, pipe, 8.8), 0.07))
+        for side in (1.0, -1.0):
+            parts += [
+                box(frame, (x + 0.7, side * ALLEY_M, 2.9), (1.2, 0.08, 1.5)),
+                box(glass, (x + 0.7, side * (ALLEY_M - 0.03), 2.9), (1.0, 0.08, 1.3)),
+            ]
     return parts
 
 
@@ -126,8 +128,8 @@ def _balcony_rail(p: Material) -> list[ModelPart]:
     return [
         box(mottled((0.62, 0.60, 0.55), contrast=0.1), (0.0, 0.0, 0.3), (0.12, LONG_M, 0.6)),
         box(p, (0.0, 0.0, 1.05), (0.10, LONG_M, 0.07)),
-        *(rod(p, (0.0, -10.0 + 0.25 * k, 0.6), (0.0, -10.0 + 0.25 * k, 1.05), 0.018)
-          for k in range(81)),
+        *(rod(p, (0.0, -8.4 + 0.3 * k, 0.6), (0.0, -8.4 + 0.3 * k, 1.05), 0.018)
+          for k in range(57)),
     ]  # fmt: skip
 
 
