@@ -133,7 +133,7 @@ def _describe_count(scene_object: SceneObject) -> str:
 
 def describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
     """A motion in words, such as "runs towards the camera"."""
-    if motion.kind in _NAMED or " " in motion.kind:
+    if motion.kind in _NAMED or (" " in motion.kind and motion.kind not in _PHRASES):
         words = [f"{'do' if is_plural else 'does'} '{motion.kind}'"]
     else:
         verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
@@ -149,7 +149,8 @@ def describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
 
 _NAMED = ("push-up", "sit-up", "phone", "fist", "victory", "ok")
 """Activities named by a noun."""
-_PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
+_PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "stand still",
+            "change lane": "change lanes", "flip": "turn over in the air"}  # fmt: skip
 
 
 def _describe_surroundings(surroundings: Surroundings) -> str:

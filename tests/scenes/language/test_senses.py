@@ -11,7 +11,7 @@ from texvent.scenes.language.parser import parse_prompt
     ("prompt", "word"),
     [
         ("A child stacks wooden blocks until the tower falls over.", "tower"),
-        ("A boy builds a tower of cards.", "tower"),
+        ("A boy builds a tower of cups.", "tower"),
         ("Vendors with tomatoes call out to shoppers.", "call"),
         ("People in the lobby shrink to dots.", "dots"),
         ("A man walks, the floors slide downward.", "floors"),

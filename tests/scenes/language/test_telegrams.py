@@ -13,8 +13,19 @@ from texvent.scenes.language.parser import parse_prompt
     [
         ("dog jump", "dog", "jump"),
         ("rocket launch", "rocket", "rise"),
-        ("drone flip", "drone", "spin"),
-        ("coin flip", "coin", "spin"),
+        ("drone flip", "drone", "flip"),
+        ("coin flip", "coin", "flip"),
+        ("drone takeoff", "drone", "rise"),
+        ("lane change", "car", "change lane"),
+        ("a truck lane change", "truck", "change lane"),
+        ("u-turn", "car", "turn"),
+        ("parking", "car", "park"),
+        ("motorcycle wheelie", "motorcycle", "wheelie"),
+        ("guitar playing", "person", "play guitar"),
+        ("carpet cleaning", "person", "clean"),
+        ("hand waving", "hand", "wave"),
+        ("fencing", "person", "fence"),
+        ("archery", "person", "archery"),
         ("apple fall", "apple", "fall"),
         ("dice roll, close up", "dice", "roll"),
         ("head nodding", "person", "nod"),
@@ -30,6 +41,28 @@ def test_who_does_what_in_a_telegram(prompt: str, noun: str, kind: str | None) -
     if kind is not None:
         assert first.motion is not None
         assert first.motion.kind == kind
+
+
+@pytest.mark.parametrize("prompt", ["car crash", "overtaking", "rear-end collision", "tug of war"])
+def test_what_one_alone_cannot_do_is_done_by_two(prompt: str) -> None:
+    description = parse_prompt(prompt)
+    assert sum(one.count for one in description.objects) == 2
+    assert not description.not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kind"),
+    [
+        ("a car makes a quick u-turn", "turn"),
+        ("a car performs a lane change", "change lane"),
+        ("a car parks", "park"),
+        ("a parked car", "stand"),
+    ],
+)
+def test_a_noun_after_does_or_makes_says_what_is_done(prompt: str, kind: str) -> None:
+    motion = parse_prompt(prompt).objects[0].motion
+    assert motion is not None
+    assert motion.kind == kind
 
 
 @pytest.mark.parametrize("prompt", ["javelin throw", "throwing javelin", "throwing a javelin"])

@@ -45,7 +45,16 @@ _STILL = frozenset(
      "victory", "ok", "fist", "sleep", "plank", "handstand"}
 )  # fmt: skip
 """What is shown without a motion."""
-_GOING = PATH_KINDS | {"enter", "leave", "reverse", "zigzag", "orbit", "appear"}
+_GOING = PATH_KINDS | {
+    "enter",
+    "leave",
+    "reverse",
+    "zigzag",
+    "orbit",
+    "appear",
+    "park",
+    "change lane",
+}
 _REACTING = frozenset({"push", "pull", "kick", "hit", "throw", "give"})
 """Relations whose target must move."""
 _SWAYING = frozenset({"sway", "work", "talk", "laugh", "sing", "eat", "chew", "graze", "drink",
@@ -53,7 +62,7 @@ _SWAYING = frozenset({"sway", "work", "talk", "laugh", "sing", "eat", "chew", "g
 _GETTING = re.compile(
     r"(stand|stood|get|got|sit|sat|lie|lying|lay|kneel|knelt|crouch|squat|climb)\w* (up|down)"
 )
-_TAKING_OFF = re.compile(r"(t[ao]k|lift|blast)\w* off|launch\w*")
+_TAKING_OFF = re.compile(r"(t[ao]k|lift|blast)\w* ?off|launch\w*")
 _LANDING = re.compile(r"land(s|ed|ing)?|touch\w* down|settle\w*")
 _ENDS = re.compile(r"onto|into|off|out of")
 _PACE = {word: pace for table in (PACES, PACE_ADJECTIVES) for pace, words in table.items()

@@ -16,11 +16,14 @@ _PIER = "pier"
 """What stands in the water, with what is on it."""
 _AFLOAT_MOTIONS = ("sail", "paddle")
 
+_AT_GROUND = ("stand", "sit", "lie", "rise", "sink")
+"""What flyers do at the ground: they take off from it and land on it."""
 _IN_WATER = ("swim", "surf")
 """What people and animals of the land do in water only."""
 SHORE, BEACH = "lake", "beach"
 """Where what stands on land is beside a lake, or the sea: water with land before it."""
-_PLACE_OF_ACT = {"ski": "snow", "snowboard": "snow", "fish": SHORE}
+_PLACE_OF_ACT = {"ski": "snow", "snowboard": "snow", "fish": SHORE,
+                 "park": "parking lot"}  # fmt: skip
 """What people do in one place only → where."""
 _PLACE_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 """How a camera travels → where it does so."""
@@ -130,8 +133,7 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
     if said.has_snow or of_act:
         return "snow" if said.has_snow else of_act[0]
     rests = all(
-        one.motion is not None and one.motion.kind in ("stand", "sit", "lie")
-        for one in description.objects
+        one.motion is not None and one.motion.kind in _AT_GROUND for one in description.objects
     )
     return _choose_usual(members, rests=rests, is_wet=said.weather in ("rain", "snow"))
 

@@ -170,6 +170,9 @@ _NOUNS: tuple[str, ...] = (
     "terrace table", "drive slab", "garage front",
     "corridor walls", "locker walls", "alley walls", "roof parapet", "roof unit", "balcony rail",
     "ward walls", "stone",
+    "ward walls",
+    "gripper", "domino row", "block tower", "card house", "box stack",
+    "book stack",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

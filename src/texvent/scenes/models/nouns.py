@@ -55,7 +55,7 @@ from texvent.scenes.models.objects.outdoors import (
     wild,
 )
 from texvent.scenes.models.objects.places import enclosures, grounds, halls, rooms
-from texvent.scenes.models.objects.play import music
+from texvent.scenes.models.objects.play import music, toppling
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, equipment, gear
 from texvent.scenes.models.objects.work import (
@@ -63,6 +63,7 @@ from texvent.scenes.models.objects.work import (
     experiments,
     machines,
     rare_vehicles,
+    robots,
     tools,
 )
 from texvent.scenes.models.people import hand, person, wearables
@@ -121,6 +122,8 @@ _MODULES = (
     music,
     tools,
     machines,
+    robots,
+    toppling,
     escalator,
     flowing,
     street_furniture,

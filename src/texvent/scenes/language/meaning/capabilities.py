@@ -15,7 +15,7 @@ from texvent.scenes.models.protocol import Noun
 
 ANYTHING = frozenset(
     {"move", "stand", "fall", "rise", "sink", "spin", "slide", "roll", "bounce", "swing", "sway",
-     "throw", "topple", "orbit", "hover", "enter", "leave", "appear", "jump", "fly", "lie"}
+     "throw", "topple", "orbit", "hover", "enter", "leave", "appear", "jump", "fly", "lie", "flip"}
 )  # fmt: skip
 """What every object can do: a path through the air or over the ground."""
 _TRAVELLER = frozenset({"turn", "reverse", "zigzag"})
@@ -35,7 +35,7 @@ _ANIMAL = frozenset(
         "stand up",
     }
 )
-_VEHICLE = frozenset({"drive", "wheelie"})
+_VEHICLE = frozenset({"drive", "wheelie", "change lane", "park", "drift"})
 _LEANING = frozenset({"bicycle", "motorcycle", "scooter"})
 _VESSEL = frozenset({"sail"})
 

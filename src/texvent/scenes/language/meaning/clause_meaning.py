@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import ObjectMotion, SceneDescription
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
-from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
+from texvent.scenes.language.meaning.acts.activities import find_activity
+from texvent.scenes.language.meaning.acts.devices import take_handled
 from texvent.scenes.language.meaning.acts.doers import add_doings, give_to_owners, mount_riders
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.hand_work import give_bodies
+from texvent.scenes.language.meaning.acts.named_acts import read_named_act
 from texvent.scenes.language.meaning.acts.partners import take_fellows, take_receivers
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
@@ -21,6 +23,7 @@ from texvent.scenes.language.meaning.clause_rewrites import (
     list_brought,
     list_other_phrases,
     take_juggled,
+    take_named_act,
     take_particle,
     take_partners,
     turn_views,
@@ -36,7 +39,7 @@ from texvent.scenes.language.meaning.surroundings_reader import SurroundingsRead
 from texvent.scenes.language.vocabulary.film import TRAVEL_MEANS
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import WEATHER_VERBS
-from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.people.work.verbs import HANDWORK
@@ -113,7 +116,7 @@ class ClauseMeaning:
         if clause.verb is not None and clause.verb.text in WEATHER_VERBS:
             self._read_weather_verb(clause, clause.verb)
             return
-        if (clause.verb is None or not clause.objects) and self._read_named_activity(clause):
+        if not clause.objects and read_named_act(self._draft, self._around, clause):
             return
         self._referents.verb = clause.verb.lemma if clause.verb is not None else ""
         subjects = [self._referents.resolve(group) for group in clause.subjects]
@@ -185,6 +188,8 @@ class ClauseMeaning:
         give_bodies(self._draft, clause, subjects)
         take_juggled(clause)
         take_particle(clause)
+        take_named_act(clause)
+        take_handled(self._draft, clause, things)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         self._referents.doers = things
         take_partners(clause)
@@ -247,35 +252,6 @@ class ClauseMeaning:
         owners = [one.group.owner for one in objects if one.group.owner is not None]
         inner += [self._referents.resolve(owner) for owner in owners]
         return [*objects, *(one for one in inner if one.is_things)]
-
-    def _read_named_activity(self, clause: Clause) -> bool:
-        """As in "jumping jacks", "right arm clockwise", "thumbs up"."""
-        words = [word for group in clause.subjects for word in group.words]
-        if clause.verb is not None:
-            is_plural = any(word.text != word.lemma for word in words)
-            # What seems to be a verb is none if it does not agree: "a tennis serve".
-            if clause.verb.text != clause.verb.lemma or clause.auxiliaries or is_plural:
-                return False
-            words.append(clause.verb)
-        said = [w for w in (*words, *clause.adverbs) if w.pos is not Pos.DETERMINER]
-        found = name_activity(said)
-        if found is None:
-            return False
-        noun, activity, is_near = found
-        mark_used([*words, *clause.adverbs])
-        if is_near:
-            for word in words:
-                if word.pos is not Pos.DETERMINER and word.read_as(Role.COUNT) is None:
-                    word.shown_as = f"one person, {activity}"
-        item = PartialObject(noun, motions=[ObjectMotion(activity)])
-        index = self._draft.add(item)
-        if index is not None:
-            self._draft.link_motion([*words, *clause.adverbs], [index])
-            self._draft.note(f"a {noun} does it ({activity}): no one is named")
-            of_subjects = [phrase for group in clause.subjects for phrase in group.phrases]
-            scope = Scope([index], [index], is_verb_shown=True)
-            self._around.read_phrases([*of_subjects, *clause.phrases], scope)
-        return True
 
     def _read_subject_phrases(
         self, clause: Clause, subjects: Sequence[Referent], things: Sequence[int]

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.named_acts import DONE, NAMED
+from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.models.people.acts.words import AT_HEAD
 from texvent.scenes.models.people.work.verbs import HANDWORK, WITH_PARTICLE
@@ -30,6 +33,22 @@ _DONE_FROM = frozenset(
 _SIDES = frozenset({"from above", "from below", "from behind", "from the side", "from the front",
                     "from the back", "from the rear"})  # fmt: skip
 _FROM = {"from above": "down", "from below": "up"}
+
+
+def take_named_act(clause: Clause) -> None:
+    """As in "does a wheelie", "makes a U-turn": the noun says what is done."""
+    if clause.verb is None or clause.verb.lemma not in DONE or len(clause.objects) != 1:
+        return
+    group = clause.objects[0]
+    verb = group.head.read_as(Role.VERB) if group.head is not None else None
+    if group.head is None or verb is None or group.head.text not in NAMED:
+        return
+    form = clause.verb.meaning.form
+    clause.verb.meaning = Meaning(Role.FUNCTION, Pos.AUXILIARY)
+    group.head.meaning = replace(verb, form=form)
+    clause.verb, clause.objects = group.head, []
+    # As "quick" in "makes a quick U-turn".
+    clause.adverbs.extend(word for word in group.modifiers if word.role is Role.PACE)
 
 
 _DRESSING = ("put on", "putt on")

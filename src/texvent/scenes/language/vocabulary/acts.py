@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.machine_acts import GRASP, PICK
 
 SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "stretch": ("exercise", "warm up", "meditate", "train"),
@@ -17,7 +18,7 @@ SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "kneel": ("pray", "propose"),
     "dance": ("breakdance", "moonwalk", "twerk"),
     "climb": ("clamber", "cling", "scale", "climb up", "shin up"),
-    "jump": ("flip", "vault"),
+    "jump": ("vault",),
 }  # fmt: skip
 """Activity of people → verbs it stands for."""
 
@@ -36,13 +37,25 @@ NAMED_ACTS: dict[str, tuple[str, ...]] = {
     "karate": ("karate", "karate kick", "taekwondo", "taekwondo kick", "martial arts", "kung fu"),
     "ballet": ("ballet", "ballet pirouette", "pirouette"),
     "dance": ("salsa", "salsa dance", "hip hop dance", "street dance", "zumba", "flamenco"),
-    "fence": ("fencing bout", "fencing match", "fencing duel"),
+    "fence": ("fencing bout", "fencing match", "fencing duel", "sabre duel", "kendo",
+              "fencing"),
+    "wrestle": ("wrestling", "wrestling match", "sumo wrestling", "sumo", "judo", "judo throw",
+                "jiu jitsu"),
     "box": ("boxing match", "boxing bout", "kickboxing"),
     "skate": ("figure skating", "ice skating", "speed skating", "roller skating"),
     "jump": ("high jump", "long jump", "triple jump", "vertical jump"),
     "write": ("handwriting",),
+    "archery": ("archery",),
+    "tug of war": ("tug of war",),
+    "arm wrestle": ("arm wrestling",),
+    "play chess": ("chess", "chess game", "chess match"),
+    "juggle": ("juggling",),
+    "skip rope": ("rope skipping", "jump rope", "rope jumping"),
 }  # fmt: skip
-"""Activity of a person → nouns that name one like it; only one person is shown."""
+"""Activity of a person → nouns that name one like it; only those who do it are shown."""
+EXACT_ACTS = frozenset({"archery", "tug of war", "arm wrestling", "fencing", "wrestling",
+                        "juggling", "rope skipping", "jump rope", "rope jumping"})  # fmt: skip
+"""Those of these nouns that name just what is shown."""
 
 SIMILAR_GAITS: dict[str, tuple[str, ...]] = {
     "walk": (
@@ -64,11 +77,10 @@ SIMILAR_MOTIONS: dict[str, tuple[str, ...]] = {
         "wiggle", "quiver", "jiggle", "shudder", "rattle", "bob", "tug", "wriggle", "squirm",
         "billow", "ripple", "twitch",
     ),
-    "spin": ("gyrate", "whirr", "twist", "swirl", "flip"),
+    "spin": ("gyrate", "whirr", "twist", "swirl"),
     "turn": ("bank",),
     "topple": ("capsize",),
     "fly": ("swarm", "buzz", "wheel"),
-    "slide": ("skid",),
     "move": ("slither", "cut", "emerge", "flow", "stream", "navigate", "patrol"),
     "rise": ("lift", "float up", "climb up", "soar up"),
     "fall": ("tumble", "cascade", "plunge"),
@@ -83,8 +95,22 @@ JOBS: dict[str, tuple[frozenset[str], str]] = {
         "stand",
     ),
     "excavator": (frozenset({"dig", "work", "excavate", "scoop"}), "work"),
-}
+    "robot arm": (
+        frozenset(
+            {"pick", "pick up", "place", "put", "put down", "grasp", "grab", "grip", "lift", "sort",
+             "stack", "handle", "pack", "take", "take out", "transfer", "load", "unload",
+             "pick and place"}
+        ),
+        PICK,
+    ),
+    "gripper": (
+        frozenset({"grasp", "grab", "grip", "hold", "pick", "pick up", "lift", "squeeze", "take"}),
+        GRASP,
+    ),
+}  # fmt: skip
 """Machine → verbs of what it is there for, and the motion that shows it."""
+HANDLED: dict[str, str] = {"robot arm": "block", "gripper": "ball"}
+"""Machine → what its model handles, whatever the prompt names."""
 BOARDS = frozenset(
     {"skateboard", "surfboard", "snowboard", "scooter", "skis", "wave", "sled", "carousel horse"}
 )

@@ -88,7 +88,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("traverse", "move", direction="across", relation="on"),
     Verb("accelerate", "move", 0.5, end_pace=1.8),
     Verb("speed up", "move", 0.5, end_pace=1.8),
-    Verb("brake", "move", 1.2, end_pace=0.2),
+    Verb("brake", "move", 1.4, end_pace=0.05),
     Verb("slow down", "move", 1.2, end_pace=0.2),
     Verb("decelerate", "move", 1.2, end_pace=0.2),
     Verb("stop", "stand"),
@@ -103,6 +103,21 @@ VERBS: tuple[Verb, ...] = (
     Verb("make a u turn", "turn", direction="around"),
     *(Verb(base, "zigzag") for base in ("zigzag", "weave", "slalom", "snake")),
     *(Verb(f"{base} a wheelie", "wheelie") for base in ("do", "pop", "pull", "perform")),
+    Verb("wheelie", "wheelie"),
+    Verb("pick and place", "pick and place"),
+    *(
+        Verb(base, "change lane")
+        for base in (
+            "change lane",
+            "change lanes",
+            "switch lane",
+            "switch lanes",
+            "merge",
+            "cut in",
+        )
+    ),
+    Verb("flip", "flip", object_kind="flip"),
+    Verb("skid", "slide"),
     Verb("roll over", "roll over"),
     Verb("taxi", "roll"),
     Verb("drive", "drive", act="ride"),

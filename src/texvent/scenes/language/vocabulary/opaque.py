@@ -88,8 +88,9 @@ _TEXT = """
     top, salt shaker, pepper shaker, saltshaker, cheese grater, bread crumb, sandwich board, cup
     cake liner, pizza oven peel, wine press, printing press, garlic press, letter press, milk
     tooth, milky way, coffee bean, pencil sharpener, pencil skirt, pen drive, pen pal, pig pen,
-    play pen, light pen, globe artichoke, snow globe shaker, domino effect, card trick, house of
-    cards, chess clock, dice game, toy shop window, doll face, paper doll, gate way, gateway,
+    play pen, light pen, globe artichoke, snow globe shaker, domino effect, card trick,
+    chess clock, dice game, toy
+    shop window, doll face, paper doll, gate way, gateway,
     flood gate, gate keeper, water gate, fire gate, golf course, golf bag, football pitch, net
     curtain, bow and arrow game, arrow head, arrowhead, dart frog, poison dart frog, bus bar, toad
     stool, nut shell, nutshell, shell script, bomb shell, shell suit, eggshell paint, bone china,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, auto
 from functools import cached_property
 from typing import Any
@@ -19,6 +19,7 @@ from texvent.scenes.language.vocabulary.acts import (
     SIMILAR_GAITS,
     SIMILAR_MOTIONS,
 )
+from texvent.scenes.language.vocabulary.named_acts import NAMED_BY_NOUN
 from texvent.scenes.language.vocabulary.objects import COMPOUNDS
 from texvent.scenes.language.vocabulary.opaque import OPAQUE_COMPOUNDS
 from texvent.scenes.language.words.english import Pos, VerbForm, list_verb_forms
@@ -117,6 +118,7 @@ class Lexicon:
             *_list_effects(),
             *_list_people_groups(),
             *_list_activity_nouns(),
+            *_list_nouns_of_verbs(),
         ):
             self._add(text, meaning)
         for base, role, value in (*_list_bare_verbs(), *_list_similar_verbs()):
@@ -270,6 +272,20 @@ def _list_activity_nouns() -> Iterator[tuple[str, Meaning]]:
             yield text, Meaning(Role.UNKNOWN, Pos.NOUN, is_plural=number > 0)
 
 
+def _list_nouns_of_verbs() -> Iterator[tuple[str, Meaning]]:
+    """As "lane change": unknown as a thing, and a verb after one."""
+    verbs = {verb.base: verb for verb in vocabulary_motion.VERBS}
+    for act in NAMED_BY_NOUN:
+        verb = replace(verbs[act.verb], direction=act.direction or verbs[act.verb].direction)
+        own = {text for text, _ in list_forms(act.verb)}
+        for singular in act.nouns:
+            if singular in own:
+                continue
+            for number, text in enumerate(_list_forms_of_noun(singular)):
+                yield text, Meaning(Role.UNKNOWN, Pos.NOUN, is_plural=number > 0)
+                yield text, Meaning(Role.VERB, Pos.VERB, verb, VerbForm.BASE)
+
+
 def _list_place_kinds() -> Iterator[tuple[str, Meaning]]:
     for place, texts in vocabulary_scene.PLACE_KINDS.items():
         for singular in texts:
@@ -283,7 +299,7 @@ def _list_table_entries() -> Iterator[tuple[str, Meaning]]:
             for text in texts:
                 yield text, Meaning(role, pos, value)
                 if pos is Pos.NOUN:
-                    for plural in list_plurals(text):
+                    for plural in _list_forms_of_noun(text)[1:]:
                         yield plural, Meaning(role, pos, value, is_plural=True)
     for role, pos, words in _WORDS:
         for text in words:

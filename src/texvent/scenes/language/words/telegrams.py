@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from itertools import pairwise
 
 from texvent.scenes.language.grammar.noun_groups import is_done_to_things
+from texvent.scenes.language.vocabulary.acts import JOBS
 from texvent.scenes.language.vocabulary.motion import Verb
-from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.english import Pos, VerbForm, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.opening_model import OPENS
+from texvent.scenes.models.people.activities import ACTIVITIES
 
 _FINITE = frozenset({Pos.VERB, Pos.AUXILIARY})
 _OF_VERBS = (Role.VERB, Role.ACTIVITY, Role.SIMILAR)
@@ -21,8 +25,12 @@ _OF_PEOPLE = frozenset(
      "hip", "torso", "body"}
 )  # fmt: skip
 """Parts that tell of a person by themselves."""
-_PASSIVE = frozenset({"fall", "roll", "spin", "topple", "bounce", "swing", "slide", "sway", "rise"})
+_PASSIVE = frozenset(
+    {"fall", "roll", "spin", "topple", "bounce", "swing", "slide", "sway", "rise", "flip"}
+)
 """Motions of what does not go by itself."""
+_CUTTING = frozenset({"cut", "knock", "shuffle"})
+"""What only people do to a thing that stands alone before it: "bread cutting"."""
 _VAGUE = frozenset({"exit", "entry", "move", "pass", "release", "start", "test", "show"})
 """Nouns that do not say what the thing before them does: "tunnel exit"."""
 
@@ -34,12 +42,13 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
        flips; "a javelin throw" is someone throwing a javelin.
     2. A part of the body that acts is a person who does: "head nodding".
     3. A material before a verb is the thing: "glass shattering".
+    4. What is done to the thing before it comes before the thing: "page turning".
     """
     found: list[Word] = []
     for part in _cut(words):
         _name_material(part)
         _give_body(part, known)
-        found.extend(_turn_into_verb(part))
+        found.extend(_bring_forward(_turn_into_verb(part)))
     return found
 
 
@@ -61,6 +70,10 @@ def _turn_into_verb(part: list[Word]) -> list[Word]:
     word = part[at]
     verbs = [one for one in word.others if one.role in _OF_VERBS]
     done = next((one for one in verbs if is_done_to_things(word.lemma, one)), None)
+    jobs = JOBS.get(str(part[at - 1].meaning.value), (frozenset(), ""))[0]
+    if done is not None and word.lemma in jobs:
+        word.meaning = replace(done, form=VerbForm.ING)
+        return part
     verb = done or _find_own(verbs, part[at - 1], word)
     if verb is None:
         return part
@@ -73,6 +86,27 @@ def _turn_into_verb(part: list[Word]) -> list[Word]:
     return [*part[:first], word, *part[first:at], *part[at + 1 :]]
 
 
+def _bring_forward(part: list[Word]) -> list[Word]:
+    """As in "onion chopping", "guitar playing": the verb before what it is done to."""
+    words = [word for word in part if word.pos is not Pos.SIGN]
+    if len(words) < 2 or words[-1].meaning.form is not VerbForm.ING:
+        return part
+    *things, verb = words
+    is_bare = all(word.pos in (Pos.NOUN, Pos.ADJECTIVE) for word in things)
+    noun = NOUNS.get(str(things[-1].meaning.value)) if things[-1].role is Role.NOUN else None
+    if not is_bare or verb.pos is not Pos.VERB or (noun is None and len(things) > 1):
+        return part
+    lemma = _verb_lemma(verb)
+    is_named = (lemma, things[-1].lemma.split()[-1]) in _activity_phrases()
+    is_thing = noun is None or noun.habitat == "fixed" or noun.motion == "roll"
+    by_hand = noun is not None and not noun.is_working
+    is_done = is_done_to_things(lemma, verb.meaning) or lemma in _CUTTING
+    by_hand = by_hand and is_done and lemma not in OPENS
+    if not is_thing or not (is_named or by_hand):
+        return part
+    return [verb, *things, *part[len(words) :]]
+
+
 def _find_own(verbs: Sequence[Meaning], thing: Word, word: Word) -> Meaning | None:
     """What a thing does by itself: not what is fixed, unless it falls, rolls and the like."""
     noun = NOUNS.get(str(thing.meaning.value))
@@ -80,6 +114,20 @@ def _find_own(verbs: Sequence[Meaning], thing: Word, word: Word) -> Meaning | No
         return None
     is_fixed = noun.habitat == "fixed"
     return next((one for one in verbs if not is_fixed or _kind(one) in _PASSIVE), None)
+
+
+@lru_cache(maxsize=1)
+def _activity_phrases() -> frozenset[tuple[str, ...]]:
+    """Verb and noun of the activities that need both: "play", "guitar"."""
+    phrases = (text.replace("-", " ").split() for one in ACTIVITIES.values() for text in one.words)
+    return frozenset(
+        (words[0], words[-1]) for words in phrases if len(words) > 1 and words[-1] not in _OF_PEOPLE
+    )
+
+
+def _verb_lemma(verb: Word) -> str:
+    lemmas = [one.lemma for one in list_readings(verb.text) if one.pos is Pos.VERB]
+    return (lemmas or [verb.lemma])[0]
 
 
 def _kind(verb: Meaning) -> str:

@@ -17,8 +17,7 @@ WORK_KINDS: dict[str, str] = {
         crowbar, pry bar, socket wrench, pipe wrench, caliper, calipers, vernier
         caliper, adjustable wrench, lever, crank, torque wrench, car jack""",
     "pliers": """
-        clamp, wire cutter, wire cutters, bolt cutter, forceps, gripper, robot gripper,
-        kitchen tongs, crimping tool""",
+        clamp, wire cutter, wire cutters, bolt cutter, forceps, kitchen tongs, crimping tool""",
     "scissors": """
         shears, pruning shears, hedge shears, garden shears, secateurs, hair scissors,
         tailor scissors, snips""",
@@ -64,7 +63,7 @@ WORK_KINDS: dict[str, str] = {
         airport conveyor, sorting belt, moving walkway, travelator, checkout belt,
         roller conveyor""",
     "robot arm": """
-        robotic gripper, industrial arm, robot manipulator, mechanical claw, robotic
+        industrial arm, robot manipulator, robotic
         hand, robot hand, welding robot, prosthetic arm, pick and place robot, cobot,
         two armed robot, delta robot""",
     "robot": """

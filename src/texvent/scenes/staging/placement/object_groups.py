@@ -12,7 +12,7 @@ from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.trajectories.choose_trajectory import MotionPlan
-from texvent.scenes.staging.trajectories.phases import sample_places
+from texvent.scenes.staging.trajectories.manoeuvres import sample_places
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GAP_M = 0.25

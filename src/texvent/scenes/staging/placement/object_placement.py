@@ -46,7 +46,8 @@ from texvent.scenes.staging.placement.spatial_relations import (
 )
 from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory, plan_motion
-from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M, bend_path
+from texvent.scenes.staging.trajectories.manoeuvres import bend_path
+from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
     Circle,
@@ -262,7 +263,8 @@ class ObjectPlacer:
         """Height of the group's origin, m."""
         kind = group.plan.motion.kind
         rests = kind in _RESTING and group.noun.name not in self._level_m
-        if rests and is_centred(group.noun) and group.noun.habitat == "air":
+        lifts = kind in ("rise", "sink") and self._level_m.get("air", 0.0) > 0.0
+        if (rests or lifts) and is_centred(group.noun) and group.noun.habitat == "air":
             return -lowest_point(group.models[0])
         if group.noun.name in self._level_m:
             return self._level_m[group.noun.name] * group.models[0].height

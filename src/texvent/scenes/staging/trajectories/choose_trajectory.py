@@ -10,6 +10,7 @@ import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
+from texvent.scenes.models.machine_acts import MACHINE_ACTS
 from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.activities import (
@@ -25,7 +26,6 @@ from texvent.scenes.models.shapes import bounds
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
     Bounce,
-    Climb,
     Hop,
     Hover,
     RollOver,
@@ -43,6 +43,7 @@ from texvent.scenes.staging.trajectories.phases import (
     needs_steering,
 )
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
+from texvent.scenes.staging.trajectories.stunts import WINGED, build_drift, build_flip, build_lift
 from texvent.scenes.staging.trajectories.trajectory import (
     Circle,
     Rolling,
@@ -61,7 +62,6 @@ MIN_LENGTHS_PER_S = 0.35
 SMALL_M = 2.5
 RUN_FACTOR = 2.2
 """Running over walking speed."""
-
 FLAT = 0.62
 """Objects whose length is below this share of their width show their front to the camera."""
 _WIDE = 0.7
@@ -94,6 +94,8 @@ class MotionPlan:
     """Whether it lives in the water: it leaps out by a good part of its length."""
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
+    is_winged: bool = False
+    """Whether it takes off and lands along the ground, as an aeroplane does."""
 
     @property
     def is_path(self) -> bool:
@@ -142,6 +144,8 @@ def plan_motion(
     goes = motion.kind in PATH_KINDS or any(m.kind in _GOING for m in motions)
     if motion.kind == "turn":
         yaw = YAWS[default]  # "turns left" is to its own left
+    elif motion.kind == "change lane" and motion.direction not in YAWS:
+        yaw = YAWS["away"]  # so that it goes from side to side in the picture
     elif (motion.direction is None or _is_gesture_seen_from_front(noun, motion)) and not goes:
         yaw = _face_camera(noun, model, motion, toss)
     elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
@@ -157,6 +161,7 @@ def plan_motion(
         return MotionPlan(
             motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing,
             is_wheel=noun.name == "wheel", is_swimmer=noun.habitat == "water",
+            is_winged=noun.name in WINGED,
         )  # fmt: skip
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
     return MotionPlan(motion, path.yaw, speed, duration_s, path)
@@ -265,6 +270,8 @@ def choose_trajectory(
             home, yaw, reach, max(plan.duration_s, 1.0), _activity(kind),
             direction == "up and down",
         )  # fmt: skip
+    if kind == "drift":
+        return build_drift(home, plan.yaw, 1.2 * plan.speed_m_s, plan.duration_s)
     if kind in PATH_KINDS:
         return _follow_path(plan, model, home, phase)
     return _act_in_place(plan, model, home, phase)
@@ -329,10 +336,8 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     if kind in ("bounce", "fall", "throw"):
         return _fly_freely(plan, model, home)
     if kind in ("rise", "sink"):
-        speed = min(max(plan.speed_m_s, 0.3 * span), 1.0 * span)
-        if kind == "rise":
-            return Climb(home, 0.2 * speed, 0.0, 2.0 * 0.8 * speed / plan.duration_s)
-        return Climb(home, -speed, plan.duration_s, lowest_m=home[2])
+        speed = min(max(plan.speed_m_s, 0.3 * span), span)
+        return build_lift(home, plan.yaw, speed, plan.duration_s, plan.is_winged, kind == "rise")
     if kind == "swing":
         length = max(1.6 * model.height, 0.6)
         return Swing(home, length, 0.5, pace)
@@ -351,6 +356,8 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     """What goes neither far nor high."""
     kind, pace = plan.motion.kind, plan.motion.pace
     span = max(model.length, model.width, model.height)
+    if kind == "flip":
+        return build_flip(model, home, plan.yaw, pace)
     if kind in ("hover", "float"):
         return Hover(home, 0.12 * span * pace, plan.yaw, phase)
     if kind == "sway":
@@ -358,11 +365,15 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     if kind == "roll over":
         lying = model.parts(Pose(0.0, 0.0, 0.0, "lie"))
         return RollOver(home, plan.yaw, 0.5 * float(bounds(lying)[1][2]), pace)
-    is_act = kind in _RESTING | OPENS | {"tug of war", "climb"} or kind in ANIMAL_ACTS
+    is_act = kind in _STAYING or kind in ANIMAL_ACTS
     return Stationary(home, plan.yaw, kind if is_act else "move", pace)
 
 
-_RESTING = frozenset({"stand", "sit", "lie", "sit down", "lie down", "stand up"})
+_STAYING = (
+    OPENS
+    | MACHINE_ACTS
+    | frozenset({"stand", "sit", "lie", "sit down", "lie down", "stand up", "tug of war", "climb"})
+)
 
 
 def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:

@@ -3,21 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-
-import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.staging.trajectories.manoeuvres import (
+    LANE_M,
+    QUARTER,
+    ZIGZAG_RAD,
+    arc,
+    change_lane,
+    park,
+    sample_places,
+    zigzag,
+)
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
 PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move",
-                                       "wheelie"})  # fmt: skip
+                                       "wheelie", "drift"})  # fmt: skip
 """Motions from one place to another."""
-_STEERED_KINDS = frozenset({"turn", "reverse", "zigzag", "enter", "leave", "appear"})
-_GOING = _STEERED_KINDS - {"turn", "zigzag"}
+_STEERED_KINDS = frozenset({"turn", "reverse", "zigzag", "enter", "leave", "appear", "change lane",
+                            "park"})  # fmt: skip
+_GOING = _STEERED_KINDS - {"turn", "zigzag", "change lane", "park"}
+
 YAWS = {
     "right": 0.0,
     "left": math.pi,
@@ -30,7 +40,6 @@ YAWS = {
 _STEERED_DIRECTIONS = frozenset({"backward", "around"})
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
-QUARTER = 0.5 * math.pi
 TURN_SHARE = 0.6
 """Share of a turn's phase that it turns, where it is all that happens: it comes and goes on."""
 ROAD_BEND_PER_M = 1.0 / 50.0
@@ -41,10 +50,8 @@ _RAMP_S = 0.3
 _BRAKING_M_S2 = 6.0
 _CLIMB = 0.45
 """Metres up per metre along."""
-_ZIGZAG_RAD = 0.55
 _CLOCKWISE = frozenset({"clockwise", "right"})
 _LEANING = frozenset({"bicycle", "motorcycle"})
-_SAMPLES = 41
 _REACHED = {"sit down": "sit", "lie down": "lie", "stand up": "stand", "kneel down": "kneel",
             "crouch down": "crouch"}  # fmt: skip
 """Getting up and down after something else: the posture that the body goes over to."""
@@ -157,23 +164,6 @@ def build_path(
     return replace(path, start=(-float(middle[0]), -float(middle[1]), floor_m))
 
 
-def bend_path(yaw: float, speed_m_s: float, curvature: float, duration_s: float) -> SteeredPath:
-    """A path along an arc at a steady speed, its box centred over (0, 0); curvature in 1/m."""
-    turn = speed_m_s * curvature
-    yaw -= 0.5 * turn * duration_s
-    piece = Piece(duration_s, speed_m_s, turn, ramp_s=0.0)
-    path = SteeredPath((0.0, 0.0, 0.0), yaw, (piece,), speed_m_s, turn)
-    places = sample_places(path, duration_s)
-    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
-    return replace(path, start=(-float(middle[0]), -float(middle[1]), 0.0))
-
-
-def sample_places(path: SteeredPath, duration_s: float) -> np.ndarray:
-    """[n, 3] places along a path over the clip, m."""
-    times = np.linspace(0.0, duration_s, _SAMPLES)
-    return np.array([path.at(float(time)).position for time in times])
-
-
 def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: float) -> float:
     """A usual speed at which every turn is a quarter circle of a plausible radius."""
     needed = usual_m_s
@@ -181,6 +171,11 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
         motion = phase.motion
         if motion.speed_m_s is not None:
             continue
+        if motion.kind == "change lane":
+            needed = max(needed, 6.0 * LANE_M / phase.duration_s)
+        if motion.kind == "park":
+            turning = QUARTER * max(least_radius(model, noun), 0.3 * model.length)
+            needed = max(needed, turning / (0.45 * phase.duration_s))
         if motion.kind in ("enter", "leave"):
             needed = max(needed, 2.0 * model.length / phase.duration_s)
         if motion.kind == "turn" or motion.direction == "around":
@@ -214,8 +209,8 @@ class _Builder:
             self._circle(motion, span)
         elif is_path or motion.kind in _GOING:
             self._go(motion, span)
-        elif motion.kind == "zigzag":
-            self._zigzag(motion, span)
+        elif motion.kind in ("zigzag", "change lane", "park"):
+            self._manoeuvre(motion, span)
         elif motion.kind in ("rise", "sink"):
             self._climb(motion, span)
         else:
@@ -329,28 +324,28 @@ class _Builder:
 
     def _arc(self, span: float, speed: float, angle: float, activity: str) -> None:
         """Turn by an angle, the rate rising and falling smoothly."""
-        ramp = min(_RAMP_S, 0.3 * span)
-        turn = angle / (span - ramp)
         least = least_radius(self._model, self._noun)
-        if least > 0.0 and speed != 0.0:
-            turn = math.copysign(min(abs(turn), abs(speed) / least), turn)
-        self._append(span - ramp, speed, turn, ramp=ramp, activity=activity)
-        self._append(ramp, speed, 0.0, ramp=ramp, activity=activity)
+        self._extend(arc(span, speed, angle, least, activity))
 
-    def _zigzag(self, motion: ObjectMotion, span: float) -> None:
-        speed = self._speed(motion)
+    def _manoeuvre(self, motion: ObjectMotion, span: float) -> None:
+        """Zigzag, change lanes or park."""
+        speed, activity = self._speed(motion), _activity(motion)
         self._start(speed)
-        count = max(2, round(span / 0.8))
-        part = span / count
-        swings = [(-1.0) ** number for number in range(count)]
-        if not self.pieces:
-            self.initial_yaw = -_ZIGZAG_RAD
-        for number, sign in enumerate(swings):
-            is_first = number == 0 and bool(self.pieces)
-            swing = sign * _ZIGZAG_RAD * (1.0 if is_first else 2.0)
-            half = 0.5 * part
-            self._append(half, speed, swing / half, ramp=half, activity=_activity(motion))
-            self._append(half, speed, 0.0, ramp=half, activity=_activity(motion))
+        if motion.kind == "zigzag":
+            if not self.pieces:
+                self.initial_yaw = -ZIGZAG_RAD
+            self._extend(zigzag(span, speed, activity, is_first=not self.pieces))
+            return
+        sign = -1.0 if motion.direction == "right" else 1.0
+        make = change_lane if motion.kind == "change lane" else park
+        self._extend(make(span, speed, sign, least_radius(self._model, self._noun), activity))
+
+    def _extend(self, pieces: Iterable[Piece]) -> None:
+        for one in pieces:
+            self._append(
+                one.duration_s, one.speed_m_s, one.turn_rad_s, ramp=one.ramp_s,
+                activity=one.activity,
+            )  # fmt: skip
 
     def _climb(self, motion: ObjectMotion, span: float) -> None:
         size = max(self._model.length, self._model.height)

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
-from texvent.scenes.language.vocabulary.acts import NAMED_ACTS
+from texvent.scenes.language.vocabulary.acts import EXACT_ACTS, NAMED_ACTS
 from texvent.scenes.language.vocabulary.function import DETERMINERS
 from texvent.scenes.language.vocabulary.motion import VERBS
-from texvent.scenes.language.words.english import Pos, list_readings, list_verb_forms
+from texvent.scenes.language.words.english import Pos, VerbForm, list_readings, list_verb_forms
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
@@ -76,11 +76,13 @@ def name_activity(words: Sequence[Word]) -> tuple[str, str, bool] | None:
     Returns:
         Noun, activity, and whether it is only like the one that is named; None if they name none.
     """
-    if len(words) == 1 and not _is_act(words[0]):
+    is_exact = len(words) == 1 and words[0].text in EXACT_ACTS
+    if len(words) == 1 and not (is_exact or _is_act(words[0])):
         return None
-    near = _near_acts().get(" ".join(word.text for word in words if word.pos in _NAMING))
+    text = " ".join(word.text for word in words if word.pos in _NAMING)
+    near = _near_acts().get(text)
     if near is not None:
-        return "person", near, True
+        return "person", near, text not in EXACT_ACTS
     key = tuple(
         _normalise(part)
         for word in words
@@ -96,6 +98,12 @@ def name_activity(words: Sequence[Word]) -> tuple[str, str, bool] | None:
     if is_hand_of_person:
         return "hand", found[key[1:]], False
     return ("person", people[key], False) if key in people else None
+
+
+def is_named(words: Sequence[Word]) -> bool:
+    """Whether a gerund, with what stands before it, names an act: "fencing", "sumo wrestling"."""
+    is_gerund = words[-1].meaning.form is VerbForm.ING
+    return is_gerund and " ".join(word.text for word in words) in _near_acts()
 
 
 def _is_act(word: Word) -> bool:

@@ -10,11 +10,12 @@ from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
-from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB, JOBS
+from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB, HANDLED, JOBS
 from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.machine_acts import COLLAPSE
 from texvent.scenes.models.opening_model import OPENING, opens_after
 
 _SWITCHES = ("turn", "change", "switch", "go")
@@ -25,7 +26,8 @@ def give_effect(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     """As in "a balloon bursts", "a chimney smokes"."""
     kind = EFFECT_BY_VERB.get(clause.verb_word.lemma)
     by_people = any(is_person(draft.noun(index)) for index in subjects)
-    if kind is None or not subjects or by_people or clause.objects:
+    is_own = any(COLLAPSE in draft.noun(index).acts for index in subjects)
+    if kind is None or not subjects or by_people or clause.objects or is_own:
         return False
     clause.verb_word.is_used = True
     for index in subjects:
@@ -47,6 +49,8 @@ def do_job(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     """As in "a robot vacuum cleans the floor", "an excavator digs"."""
     lemma = clause.verb_word.lemma
     doers = [i for i in subjects if lemma in JOBS.get(draft.objects[i].noun, ((), ""))[0]]
+    if clause.objects and any(draft.objects[index].noun in HANDLED for index in doers):
+        return False  # "takes a box from a shelf": not the block of its model
     for index in doers:
         item = draft.objects[index]
         if not item.motions:
@@ -55,6 +59,24 @@ def do_job(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     return bool(doers)
 
 
+def take_handled(draft: Draft, clause: Clause, subjects: Sequence[int]) -> None:
+    """As in "a robot arm picks up a cup": its model has a block for it."""
+    doer = next((i for i in subjects if draft.objects[i].noun in HANDLED), None)
+    if doer is None or clause.verb is None or clause.is_passive or clause.phrases:
+        return
+    noun = draft.objects[doer].noun
+    if clause.verb.lemma not in JOBS[noun][0]:
+        return
+    for group in clause.objects:
+        for word in group.words:
+            if word is group.head:
+                word.things = (doer,)
+                word.is_used = word.lemma == HANDLED[noun] or word.lemma in _BLOCKS
+                word.shown_as = None if word.is_used else HANDLED[noun]
+    clause.objects = []
+
+
+_BLOCKS = ("cube", "box")
 _OPENING_VERBS = {"open": "open", "close": "close", "shut": "close"}
 _LEAF_VERBS = frozenset({"swing", "slide", "creak", "fly", "slam", "pop", "flip", "move"})
 
@@ -68,7 +90,11 @@ def open_up(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
             word.is_used = True
     if kind is None or clause.objects:
         return False
-    doers = [index for index in subjects if draft.noun(index).name in OPENING]
+    doers = [
+        index
+        for index in subjects
+        if draft.noun(index).name in OPENING or kind in draft.noun(index).acts
+    ]
     for index in doers:
         before = draft.objects[index].motions
         kind = opens_after(before[-1].kind if before else None, kind)

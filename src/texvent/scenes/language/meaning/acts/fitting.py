@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
+from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
@@ -11,6 +13,7 @@ from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.machine_acts import COLLAPSE
 from texvent.scenes.models.protocol import Noun
 
 _ON_GROUND = ("drive", "walk", "run", "jump")
@@ -34,7 +37,7 @@ def fit_verb(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     drives; a man who rises does not take off, a keeper who dives does not swim, a batter who swings
     at a ball hangs on no rope, and a plane that taxis does not fly.
     """
-    other = _choose_kind(verb, noun, clause)
+    other = _choose_manoeuvre(verb, noun, clause) or _choose_kind(verb, noun, clause)
     if other is not None:
         return other
     prepositions = {phrase.preposition.text for phrase in clause.phrases}
@@ -87,6 +90,53 @@ def _climbs(verb: Verb, noun: Noun, objects: set[str]) -> bool:
         return True
     is_able = is_person(noun) or (is_living(noun) and noun.motion in ("walk", "run"))
     return verb.base == "climb" and is_able and bool(objects & _HELD_ON_TO)
+
+
+def line_up(draft: Draft, verb: Verb, index: int) -> None:
+    """As in "dominoes fall": a row of them, unless the prompt counts them."""
+    item = draft.objects[index]
+    is_row = item.noun == "domino" and item.count > 1 and not item.is_counted
+    if is_row and verb.kind in ("fall", "topple"):
+        item.noun, item.count = "domino row", 1
+
+
+def fall_over(noun: Noun, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
+    """As in "a person falls": over, unless it is said from where."""
+    is_from = any(phrase.preposition.text in _FROM_ABOVE for phrase in clause.phrases)
+    is_from |= any(word.meaning.value == "sky" for word in clause.adverbs)
+    stands = is_living(noun) and noun.habitat == "ground"
+    if motion.kind == "fall" and stands and not is_from:
+        return replace(motion, kind="fall over" if is_person(noun) else "topple")
+    return motion
+
+
+def note_untouched(
+    draft: Draft, clause: Clause, subjects: Sequence[int], targets: Sequence[int]
+) -> None:
+    """As in "a crane lifts a box": the box rises beside the crane."""
+    for index in subjects[:1]:
+        doer, target = draft.noun(index), draft.noun(targets[0])
+        if not is_hand(doer):
+            clause.verb_word.shown_as = f"{target.name} untouched"
+
+
+_FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")
+MANOEUVRES = frozenset({"park", "drift", COLLAPSE})
+"""Motions of vehicles and piles that are what the verb says of them."""
+
+
+def _choose_manoeuvre(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
+    """As in "a car parks", which drives there first, "drifts", "skids"; "a tower falls"."""
+    if COLLAPSE in noun.acts and verb.kind in ("fall", "topple", "roll"):
+        return replace(verb, kind=COLLAPSE, pace=1.0)
+    is_parked = clause.verb is not None and clause.verb.meaning.form is VerbForm.PAST
+    if noun.motion != "drive" or noun.habitat != "ground":
+        return None
+    if verb.base == "park" and not is_parked:
+        return replace(verb, kind="park")
+    if verb.base in ("drift", "skid"):
+        return replace(verb, kind="drift", pace=1.0)
+    return None
 
 
 _OF_TENNIS = frozenset(

@@ -16,7 +16,15 @@ from texvent.scenes.language.meaning.acts.devices import (
     switch,
     switch_lamps,
 )
-from texvent.scenes.language.meaning.acts.fitting import choose_act, fit_verb, is_played
+from texvent.scenes.language.meaning.acts.fitting import (
+    MANOEUVRES,
+    choose_act,
+    fall_over,
+    fit_verb,
+    is_played,
+    line_up,
+    note_untouched,
+)
 from texvent.scenes.language.meaning.acts.hand_work import (
     is_by_hand,
     is_of_own_part,
@@ -24,19 +32,25 @@ from texvent.scenes.language.meaning.acts.hand_work import (
     work_on,
 )
 from texvent.scenes.language.meaning.acts.partners import PAIRED, give_to, join_partners, tug
-from texvent.scenes.language.meaning.acts.sequence import add_motion, is_part_of_doer, name_kind
+from texvent.scenes.language.meaning.acts.sequence import (
+    add_motion,
+    find_mount,
+    is_part_of_doer,
+    name_kind,
+    stand,
+)
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import OF_ONESELF
 from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.named_acts import NAMED
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS, shown_as
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
-STAND = ObjectMotion("stand")
 _OF_PARTS = ("work", "sway", "wave")
 """Motions that an animal shows when it does them with a part of itself."""
 _SINGLE = frozenset({"kick", "hit", "throw", "catch"})
@@ -70,7 +84,7 @@ class ActReader:
         if isinstance(verb, Verb) and verb.act == "collide":
             return self._collide(clause, subjects, targets)
         if clause.negation is not None:
-            return self._stand(clause, subjects)
+            return stand(self._draft, clause, subjects)
         if give_to(self._draft, clause, subjects, objects):
             return subjects
         movers = self._read_activity(clause, subjects, objects)
@@ -151,13 +165,6 @@ class ActReader:
         word.is_used = bool(moved)
         return moved
 
-    def _note_untouched(self, clause: Clause, subjects: list[int], targets: list[int]) -> None:
-        """As in "a crane lifts a box": the box rises beside the crane."""
-        for index in subjects[:1]:
-            doer, target = self._draft.noun(index), self._draft.noun(targets[0])
-            if not is_hand(doer):
-                clause.verb_word.shown_as = f"{target.name} untouched"
-
     def undergo(self, clause: Clause, subjects: list[int], agents: list[int]) -> list[int]:
         """A passive: the subjects undergo the verb."""
         word = clause.verb_word
@@ -172,20 +179,6 @@ class ActReader:
             return self._do_to(clause, verb, agents, subjects)
         kind = verb.object_kind or (verb.kind if not verb.act else "")
         return self._give(clause, replace(verb, kind=kind), subjects) if kind else []
-
-    def _stand(self, clause: Clause, subjects: list[int]) -> list[int]:
-        """As in "does not move": only for verbs of motion."""
-        word, negation = clause.verb_word, clause.negation
-        if (
-            negation is None
-            or not isinstance(word.meaning.value, Verb)
-            or not word.meaning.value.kind
-        ):
-            return []
-        word.is_used = negation.is_used = word.is_absent = True
-        for index in subjects:
-            add_motion(self._draft, index, STAND, clause)
-        return subjects
 
     def _read_activity(
         self, clause: Clause, subjects: list[int], objects: Sequence[Referent]
@@ -244,7 +237,7 @@ class ActReader:
                 self._draft.relate(verb.relation, movers, targets)
             return movers
         if verb.object_kind is not None:
-            self._note_untouched(clause, subjects, targets)
+            note_untouched(self._draft, clause, subjects, targets)
             return self._give(clause, replace(verb, kind=verb.object_kind), targets)
         if verb.kind and verb.kind not in OF_ONESELF - {"jump", "walk", "run"}:
             movers = self._give(clause, verb, subjects)
@@ -291,6 +284,8 @@ class ActReader:
     def _collide(self, clause: Clause, subjects: list[int], targets: list[int]) -> list[int]:
         """As in "a car crashes into a wall", "two balls collide"; one alone meets nothing."""
         others = [index for index in targets if index not in subjects] or subjects[1:]
+        if clause.verb_word.text in NAMED and subjects and not others:
+            self._draft.objects[subjects[0]].count = max(self._draft.objects[subjects[0]].count, 2)
         is_group = len(subjects) == 1 and self._draft.objects[subjects[0]].count > 1
         if clause.negation is not None or not subjects or not (others or is_group):
             return []
@@ -353,7 +348,9 @@ class ActReader:
     def _give(self, clause: Clause, verb: Verb, things: list[int]) -> list[int]:
         """Give a motion to the objects that can do it; the others are left as they are."""
         word = clause.verb_word
-        things = [self._mount(index) for index in things]
+        things = [find_mount(self._draft, index) for index in things]
+        for index in things:
+            line_up(self._draft, verb, index)
         nouns = [self._draft.noun(index) for index in things]
         is_by_itself = verb.kind in ("wave", "fly", "sway", "turn") and verb.base not in _UNSTEADY
         if is_by_itself and any(noun.is_working for noun in nouns):
@@ -371,10 +368,13 @@ class ActReader:
             if fitting is None or not can_do(noun, fitting.kind):
                 continue
             self._set_off(index, verb, clause)
-            motion = ObjectMotion(fitting.kind, verb.direction, verb.pace, end_pace=verb.end_pace)
-            if add_motion(self._draft, index, self._fall_over(index, motion, clause), clause):
+            motion = ObjectMotion(
+                fitting.kind, verb.direction, fitting.pace, end_pace=verb.end_pace
+            )
+            if add_motion(self._draft, index, fall_over(noun, motion, clause), clause):
                 added.append(index)
-                if fitting is not verb and verb.relation != "follow":
+                is_same = verb.relation == "follow" or fitting.kind in MANOEUVRES
+                if fitting is not verb and not is_same:
                     word.shown_as = noun.motion if fitting.kind == "move" else fitting.kind
         word.is_used = word.is_used or bool(added)
         return added
@@ -389,23 +389,6 @@ class ActReader:
             item.motions.append(name_kind(self._draft, index, ObjectMotion("move")))
             clause.order = "after"
 
-    def _fall_over(self, index: int, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
-        """As in "a person falls": over, unless it is said from where."""
-        noun = self._draft.noun(index)
-        is_from = any(phrase.preposition.text in _FROM_ABOVE for phrase in clause.phrases)
-        is_from |= any(word.meaning.value == "sky" for word in clause.adverbs)
-        stands = is_living(noun) and noun.habitat == "ground"
-        if motion.kind == "fall" and stands and not is_from:
-            return replace(motion, kind="fall over" if is_person(noun) else "topple")
-        return motion
-
-    def _mount(self, index: int) -> int:
-        """What the object rides, which moves in its place: "a man on a horse gallops"."""
-        for relation in self._draft.relations:
-            if relation.kind == "ride" and relation.subject == index:
-                return relation.targets[0]
-        return index
-
 
 _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})
 """Prepositions of who goes somewhere with what it carries."""
@@ -415,4 +398,3 @@ _AT_SHOES = "tie shoes"
 _UNSTEADY = ("wobble", "rock", "tilt")
 """How the whole of a thing moves that works in its place: a top, a metronome."""
 _STOPS = ("stop", "halt", "come to a stop", "come to rest")
-_FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")

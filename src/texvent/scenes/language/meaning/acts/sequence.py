@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from texvent.scenes.description import ObjectMotion
+from texvent.scenes.description import STANDING, ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import OWNERS
+from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
 
@@ -73,3 +74,22 @@ def name_kind(draft: Draft, index: int, motion: ObjectMotion) -> ObjectMotion:
         return motion
     usual = draft.noun(index).motion
     return replace(motion, kind=usual if usual != "stand" else "slide")
+
+
+def stand(draft: Draft, clause: Clause, subjects: list[int]) -> list[int]:
+    """As in "does not move": only for verbs of motion."""
+    word, negation = clause.verb_word, clause.negation
+    if negation is None or not isinstance(word.meaning.value, Verb) or not word.meaning.value.kind:
+        return []
+    word.is_used = negation.is_used = word.is_absent = True
+    for index in subjects:
+        add_motion(draft, index, STANDING, clause)
+    return subjects
+
+
+def find_mount(draft: Draft, index: int) -> int:
+    """What the object rides, which moves in its place: "a man on a horse gallops"."""
+    for relation in draft.relations:
+        if relation.kind == "ride" and relation.subject == index:
+            return relation.targets[0]
+    return index

@@ -16,7 +16,6 @@ from texvent.scenes.models.objects.figures import (
     placed,
     ring,
     spinning,
-    swinging,
     thing,
     toned,
 )
@@ -55,37 +54,6 @@ from texvent.scenes.scene import Colour
 
 _BRIGHT: tuple[Colour, ...] = ((0.75, 0.22, 0.01), (0.75, 0.45, 0.02), (0.03, 0.15, 0.50))
 _GLOW = glowing((0.15, 0.70, 0.95), 1.5)
-
-
-def _sway(first: str, reach: float, rate_hz: float, height: float) -> Motion:
-    """Turning about the upright axis and nodding about a joint at the same time."""
-    turn = swinging("z", reach, rate_hz)
-    nod = swinging(first, 0.35, 1.7 * rate_hz, (0.0, 0.0, height))
-    return lambda pose: compose(turn(pose), nod(pose))
-
-
-def _arm(skin: Material) -> list[ModelPart]:
-    """The arm of an industrial robot above its turntable."""
-    return [
-        limb(skin, (0.0, 0.0, 0.45), (-0.15, 0.0, 1.05), 0.11),
-        ball(IRON, (-0.15, 0.0, 1.05), (0.24, 0.28, 0.24)),
-        limb(skin, (-0.15, 0.0, 1.05), (0.55, 0.0, 1.15), 0.085),
-        ball(IRON, (0.60, 0.0, 1.15), (0.16, 0.18, 0.16)),
-        rod(skin, (0.60, 0.0, 1.15), (0.78, 0.0, 0.95), 0.05),
-        *(_finger(0.05 * s) for s in (1.0, -1.0)),
-        rod(GREY_PLASTIC, (-0.10, 0.10, 0.55), (-0.12, 0.12, 1.0), 0.02),
-    ]  # fmt: skip
-
-
-def _finger(y: float) -> ModelPart:
-    """A finger of a gripper."""
-    return plank(
-        IRON,
-        (0.77, y, 0.96),
-        (0.88, 0.8 * y, 0.83),
-        chord=(0.04, 0.0, 0.04),
-        thickness=(0.0, 0.02, 0.0),
-    )
 
 
 def _humanoid(skin: Material) -> list[ModelPart]:
@@ -172,12 +140,6 @@ def _mixing() -> Motion:
 
 
 _INDOOR = placed("indoor", (
-    thing("robot arm", _BRIGHT,
-        lambda p: [box(IRON, (0.0, 0.0, 0.05), (0.60, 0.60, 0.10)),
-            post(p, (0.0, 0.0, 0.20), (0.36, 0.36, 0.20))],
-            ("robotic arm", "manipulator", "industrial robot", "mechanical arm"),
-            moving=(Moving(lambda p: [post(GREY_PLASTIC, (0.0, 0.0, 0.36), (0.32, 0.32, 0.14)),
-                *_arm(p)], _sway("y", 0.7, 0.25, 0.45)),)),
     thing("robot", (CHINA, SILVERY), _humanoid,
         ("humanoid robot", "android", "humanoid"), moving=(_leg(1.0), _leg(-1.0)),
         goes=("ground", "walk", 0.6)),

@@ -1,0 +1,158 @@
+"""What vehicles and small things do beyond going along: a skid round a bend, a flip in the air.
+
+Pure, continuous functions of time; angles in radians, lengths in metres, times in seconds.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from texvent.scenes.models.protocol import Model
+from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Climb
+from texvent.scenes.staging.trajectories.manoeuvres import bend_path
+from texvent.scenes.staging.trajectories.trajectory import (
+    BodyState,
+    Trajectory,
+    Vector,
+    ahead,
+)
+
+SLIP_RAD = 0.62
+"""Angle between where a drifting car points and where it goes."""
+WINGED = frozenset({"airplane", "propeller plane", "biplane", "fighter jet", "glider"})
+"""Aircraft that do not rise straight up."""
+_DRIFT_TURN_RAD = 1.3
+"""Change of heading of a car that drifts, over the clip."""
+_SMALL_M = 0.5
+"""What is smaller turns over twice."""
+_PAUSE_S = 0.35
+"""Rest between two flips."""
+
+
+def _ease(share: float) -> float:
+    """0 to 1, smooth at both ends."""
+    share = min(max(share, 0.0), 1.0)
+    return share * share * (3.0 - 2.0 * share)
+
+
+@dataclass(frozen=True)
+class Slipping:
+    """Goes along a path, turned into the bend from where it goes."""
+
+    path: Trajectory
+    slip_rad: float
+    """Positive = its front to the left."""
+    start_s: float
+    ramp_s: float = 0.5
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        state = self.path.at(time_s)
+        share = _ease((time_s - self.start_s) / self.ramp_s)
+        return replace(state, yaw=state.yaw + self.slip_rad * share)
+
+
+@dataclass(frozen=True)
+class Flip:
+    """Turns over about its own length or width, in free flight or hovering, and again."""
+
+    home: Vector
+    height_m: float
+    """How high it is thrown; 0 = it stays in the air."""
+    pivot_m: float
+    """Height of its middle above its origin."""
+    yaw: float = 0.0
+    turns: int = 1
+    """Turns in one flight."""
+    is_forward: bool = True
+    """About its width, head over heels; else about its length."""
+    tempo: float = 1.0
+    start_s: float = 0.15
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        if self.height_m > 0.0:
+            flight = 2.0 * math.sqrt(2.0 * self.height_m / GRAVITY_M_S2)
+        else:
+            flight = 0.9 / self.tempo
+        clock = (time_s - self.start_s) % (flight + _PAUSE_S)
+        into = min(clock, flight) if time_s >= self.start_s else 0.0
+        share = into / flight
+        lift = 4.0 * self.height_m * share * (1.0 - share)
+        if self.height_m <= 0.0:
+            share, lift = _ease(share), 0.4 * self.pivot_m * math.sin(math.pi * share)
+        angle = 2.0 * math.pi * self.turns * share
+        x, y, z = self.home
+        return BodyState(
+            (x, y, z + lift),
+            self.yaw,
+            pitch=angle if self.is_forward else 0.0,
+            roll=0.0 if self.is_forward else angle,
+            pivot_m=self.pivot_m if self.height_m > 0.0 else 0.0,
+        )
+
+
+@dataclass(frozen=True)
+class Runway:
+    """Along a runway and up from it at an even slope, or down onto it and along."""
+
+    home: Vector
+    """Where its wheels leave the ground, or meet it."""
+    yaw: float
+    speed_m_s: float
+    lift_s: float
+    """When they do."""
+    slope: float = 0.32
+    is_landing: bool = False
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        along = self.speed_m_s * (time_s - self.lift_s)
+        over = -along if self.is_landing else along
+        bend = 0.6 * self.speed_m_s
+        if over <= 0.0:
+            height, slope = 0.0, 0.0
+        elif over < bend:
+            height, slope = 0.5 * self.slope * over**2 / bend, self.slope * over / bend
+        else:
+            height, slope = self.slope * (over - 0.5 * bend), self.slope
+        return BodyState(
+            ahead(self.home, self.yaw, along, self.home[2] + height),
+            self.yaw,
+            # What lands keeps its nose up too.
+            pitch=-math.atan(slope) * (0.3 if self.is_landing else 1.0),
+            distance_m=self.speed_m_s * time_s,
+            speed_m_s=self.speed_m_s,
+        )
+
+
+def build_drift(home: Vector, yaw: float, speed_m_s: float, duration_s: float) -> Trajectory:
+    """Round a bend to its left, its front turned further left than it goes."""
+    path = bend_path(yaw, speed_m_s, _DRIFT_TURN_RAD / (duration_s * speed_m_s), duration_s)
+    x, y, _ = path.start
+    path = replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=home[2])
+    return Slipping(path, SLIP_RAD, 0.1 * duration_s)
+
+
+def build_flip(model: Model, home: Vector, yaw: float, tempo: float) -> Trajectory:
+    """In the air about its length; what lies or stands is tossed up, and turns over."""
+    span = max(model.length, model.width, model.height)
+    if home[2] > 0.5 * model.height:
+        return Flip(home, 0.0, 0.5 * span, yaw, is_forward=False, tempo=tempo)
+    height = min(max(1.6 * span, 0.12), 2.5)
+    is_small = span < _SMALL_M
+    is_forward = is_small or model.length <= model.width
+    return Flip(home, height, 0.5 * model.height, yaw, 2 if is_small else 1, is_forward)
+
+
+def build_lift(
+    home: Vector, yaw: float, speed_m_s: float, duration_s: float, is_winged: bool, is_rising: bool
+) -> Trajectory:
+    """Straight up from its home or down to it; with wings, along the ground first or last."""
+    if is_winged:
+        lift_s = (0.3 if is_rising else 0.65) * duration_s
+        return Runway(home, yaw, speed_m_s, lift_s, is_landing=not is_rising)
+    if is_rising:
+        return Climb(home, 0.2 * speed_m_s, 0.0, 2.0 * 0.8 * speed_m_s / duration_s)
+    return Climb(home, -speed_m_s, 0.85 * duration_s, lowest_m=home[2])
