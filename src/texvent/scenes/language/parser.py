@@ -69,16 +69,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         raise InputError(
             "the prompt is empty; describe a scene, such as 'a red car drives left past two trees'"
         )
-    known = _known_words() if nouns is NOUNS else Lexicon(nouns)
-    words, notes = tag_words(tokenize_prompt(prompt), known)
-    if _is_foreign(words) or is_of_other_grammar(prompt):
-        raise InputError(
-            f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
-            "write it in English, or use a model that takes any text (texvent generators)"
-        )
-    notes += read_film_words(words)
-    words = read_telegrams(words, known)
-    choose_senses(words, known)
+    words, notes = _read_words(prompt, _known_words() if nouns is NOUNS else Lexicon(nouns))
     is_carried = mark_viewpoints(words)
     mark_standpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))
@@ -110,6 +101,20 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         notes=(*notes, *description.notes),
     )
     return complete_description(description, nouns, cues)
+
+
+def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], list[str]]:
+    """Words of a prompt with their senses, and notes on them."""
+    words, notes = tag_words(tokenize_prompt(prompt), known)
+    if _is_foreign(words) or is_of_other_grammar(prompt):
+        raise InputError(
+            f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
+            "write it in English, or use a model that takes any text (texvent generators)"
+        )
+    notes += read_film_words(words)
+    words = read_telegrams(words, known)
+    choose_senses(words, known)
+    return words, notes
 
 
 def _is_foreign(words: Sequence[Word]) -> bool:
