@@ -156,6 +156,7 @@ def _build_tower(
     make: Callable[[Sequence[Material]], list[_Piece]], colours: tuple[Colour, ...], *,
     colour: Colour | None, scale: float, seed: int,
 ) -> ArticulatedModel:  # fmt: skip
+    """Make a pile of pieces that comes down, 0.4 to 2 m; `colour` is that of all its pieces."""
     paints = [Material(colour or one) for one in colours]
     pieces = make(paints)
 
