@@ -36,10 +36,7 @@ NAMED_BY_NOUN: tuple[NamedAct, ...] = (
         "emergency braking", "emergency brake", "emergency stop", "hard braking", "hard brake",
         "sudden braking", "sudden stop", "braking",
     )),
-    NamedAct("park", "car", (
-        "parking", "parallel parking", "reverse parking", "parking maneuver", "parking manoeuvre",
-        "parallel parking maneuver",
-    )),
+    NamedAct("park", "car", ("parking", "parking maneuver", "parking manoeuvre")),
     NamedAct("reverse", "car", ("reversing",)),
     NamedAct("drift", "car", ("drifting",)),
     NamedAct("overtake", "car", (
@@ -55,7 +52,7 @@ NAMED_BY_NOUN: tuple[NamedAct, ...] = (
         "pick place",
     )),
     NamedAct("wheelie", "motorcycle", ("wheelie",)),
-    NamedAct("flip", "", ("barrel roll", "kickflip")),
+    NamedAct("flip", "", ("barrel roll",)),
     NamedAct("fly", "", ("flight", "flyby", "flyover")),
     NamedAct("arrive", "", ("arrival",)),
     NamedAct("depart", "", ("departure",)),

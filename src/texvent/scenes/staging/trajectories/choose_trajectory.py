@@ -10,9 +10,7 @@ import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
-from texvent.scenes.models.machine_acts import MACHINE_ACTS
 from texvent.scenes.models.objects.patterns import FACING
-from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -43,7 +41,13 @@ from texvent.scenes.staging.trajectories.phases import (
     needs_steering,
 )
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
-from texvent.scenes.staging.trajectories.stunts import WINGED, build_drift, build_flip, build_lift
+from texvent.scenes.staging.trajectories.stunts import (
+    STAYING,
+    WINGED,
+    build_drift,
+    build_flip,
+    build_lift,
+)
 from texvent.scenes.staging.trajectories.trajectory import (
     Circle,
     Rolling,
@@ -85,7 +89,6 @@ class MotionPlan:
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
     """What a person or a hand does in its place: a name of `people.activities`."""
-
     headroom_m: float = math.inf
     """How high it may jump, m: a cage has a roof."""
     is_wheel: bool = False
@@ -266,10 +269,8 @@ def choose_trajectory(
         reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
         is_flat = model.length < 0.3 * min(model.width, model.height)
         yaw = -0.5 * math.pi if is_flat and direction == "up and down" else plan.yaw
-        return Shuttle(
-            home, yaw, reach, max(plan.duration_s, 1.0), _activity(kind),
-            direction == "up and down",
-        )  # fmt: skip
+        period_s = max(plan.duration_s, 1.0)
+        return Shuttle(home, yaw, reach, period_s, _activity(kind), direction == "up and down")
     if kind == "drift":
         return build_drift(home, plan.yaw, 1.2 * plan.speed_m_s, plan.duration_s)
     if kind in PATH_KINDS:
@@ -365,15 +366,8 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     if kind == "roll over":
         lying = model.parts(Pose(0.0, 0.0, 0.0, "lie"))
         return RollOver(home, plan.yaw, 0.5 * float(bounds(lying)[1][2]), pace)
-    is_act = kind in _STAYING or kind in ANIMAL_ACTS
+    is_act = kind in STAYING or kind in ANIMAL_ACTS
     return Stationary(home, plan.yaw, kind if is_act else "move", pace)
-
-
-_STAYING = (
-    OPENS
-    | MACHINE_ACTS
-    | frozenset({"stand", "sit", "lie", "sit down", "lie down", "stand up", "tug of war", "climb"})
-)
 
 
 def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:

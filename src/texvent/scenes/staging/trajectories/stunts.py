@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from texvent.scenes.models.machine_acts import MACHINE_ACTS
+from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Climb
 from texvent.scenes.staging.trajectories.manoeuvres import bend_path
@@ -20,6 +22,12 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 SLIP_RAD = 0.62
 """Angle between where a drifting car points and where it goes."""
+STAYING = (
+    OPENS
+    | MACHINE_ACTS
+    | frozenset({"stand", "sit", "lie", "sit down", "lie down", "stand up", "tug of war", "climb"})
+)
+"""What is done in one place, besides the acts of animals."""
 WINGED = frozenset({"airplane", "propeller plane", "biplane", "fighter jet", "glider"})
 """Aircraft that do not rise straight up."""
 _DRIFT_TURN_RAD = 1.3
