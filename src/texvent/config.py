@@ -240,7 +240,7 @@ class InterpolateConfig:
     deflicker: bool = renamed(False, was="flicker_guard")
     """Divide fast changes of the whole image's brightness out of the frames, before they are
     counted and simulated: generated video flickers. Fades stay, a little later."""
-    flicker_hz: float | None = None
+    lamp_hz: float | None = None
     """Frequency of a lamp in the video, Hz: 100 or 120 on mains of 50 or 60 Hz. Its light is taken
     off the frames where they follow it, and put back on intermediate frames: frames alone show a
     slower beat."""
@@ -270,14 +270,14 @@ class InterpolateConfig:
                 "deflicker corrects the frames of a video, and exact frames are rendered; "
                 "leave it out, or choose another interpolate"
             )
-        check_range("flicker_hz", self.flicker_hz, 1e-3, 1e6)
-        if self.flicker_hz is not None and self.interpolate in ("none", "exact"):
+        check_range("lamp_hz", self.lamp_hz, 1e-3, 1e6)
+        if self.lamp_hz is not None and self.interpolate in ("none", "exact"):
             raise ConfigError(
-                f"flicker_hz is for intermediate frames made from others, and interpolate is "
+                f"lamp_hz is for intermediate frames made from others, and interpolate is "
                 f"{self.interpolate}; leave it out, or choose another interpolate"
             )
-        if self.flicker_hz is not None and self.deflicker:
-            raise ConfigError("deflicker removes what flicker_hz puts back; choose one of the two")
+        if self.lamp_hz is not None and self.deflicker:
+            raise ConfigError("deflicker removes what lamp_hz puts back; choose one of the two")
         check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)
         check_range("fixed_count", self.fixed_count, 0, 10_000)
         check_range("max_intermediate", self.max_intermediate, 0, 10_000)

@@ -132,7 +132,7 @@ def test_wrong_times_are_refused(t_us, message):
 
 
 def test_frames_without_times_are_refused():
-    with pytest.raises(InputError, match="give fps=, or t_us="):
+    with pytest.raises(InputError, match=r"give fps= \(--fps\), or t_us="):
         open_frames(ramp(np.uint8), CaptureConfig())
 
 

@@ -78,8 +78,8 @@ def test_shadows_can_be_turned_off() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"fps": Fraction(0)}, r"fps is 0; it must be 1e-09..1e\+06"),
-        ({"duration": 0.0}, "duration is 0; it must be"),
+        ({"fps": Fraction(0)}, r"fps is 0 frames per second; it must be 1e-09..1e\+06"),
+        ({"duration": 0.0}, "duration is 0 s; it must be"),
         ({"duration": float("nan")}, "duration is nan"),
         ({"duration": 0.01}, "shorter than one frame interval at 24 fps; it must be at least"),
         ({"samples": 0}, "samples is 0; it must be 1..8"),

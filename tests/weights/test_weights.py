@@ -216,7 +216,7 @@ def test_the_command_explains_itself(capsys):
     [
         (["weights", "fetch"], "unknown action 'weights fetch'"),
         (["weights", "list", "x"], "takes no arguments"),
-        (["weights", "pull"], "Missing"),
+        (["weights", "pull"], "needs NAME"),
     ],
 )
 def test_wrong_words_fail_in_one_line(arguments, complaint, capsys):

@@ -57,9 +57,9 @@ def plan_pairs(
     if config.interpolate == "motion" and isinstance(video, MovingStream):
         # Every instant of such a stream is known: nothing can be cut, and nothing flickers unseen.
         video = video.with_motion()
-        config = replace(config, detect_cuts=False, deflicker=False, flicker_hz=None)
-    if config.flicker_hz is not None and not can_be_seen(config.flicker_hz, video.fps):
-        config = replace(config, flicker_hz=None)
+        config = replace(config, detect_cuts=False, deflicker=False, lamp_hz=None)
+    if config.lamp_hz is not None and not can_be_seen(config.lamp_hz, video.fps):
+        config = replace(config, lamp_hz=None)
     interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
     policy = CountPolicy(
         config, video, interpolator, balance=balance, contrast_threshold=contrast_threshold
@@ -135,8 +135,8 @@ def _with_light(
 ) -> Iterator[tuple[Frame, KnownLight | None]]:
     """The frames, checked, with the light of the lamp that is known."""
     checked = map(StreamChecker().check, frames)
-    if config.flicker_hz is not None:
-        yield from with_light(checked, config.flicker_hz, looks_ahead=looks_ahead)
+    if config.lamp_hz is not None:
+        yield from with_light(checked, config.lamp_hz, looks_ahead=looks_ahead)
         return
     for frame in steady_frames(checked) if config.deflicker else checked:
         yield frame, None

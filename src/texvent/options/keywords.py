@@ -51,7 +51,7 @@ class InterpolateOptions(TypedDict, total=False):
     motion_floor: bool | None
     max_frames_per_second: float | None
     deflicker: bool | None
-    flicker_hz: float | None
+    lamp_hz: float | None
     detect_cuts: bool | None
     interpolator_weights: str | Path | None
     interpolator_device: Literal["auto", "cpu", "cuda"] | None

@@ -24,7 +24,7 @@ def estimate_bytes(settings: Settings, size: SensorSize) -> int:
         INTERPOLATORS.load(settings.interpolate.interpolate),
     )
     per_pixel = sum(getattr(part, "bytes_per_pixel", UNMEASURED) for part in parts)
-    if settings.interpolate.flicker_hz is not None:
+    if settings.interpolate.lamp_hz is not None:
         per_pixel += WINDOW_BYTES
     return size.width * size.height * per_pixel
 

@@ -128,7 +128,7 @@ def test_an_entry_may_be_told_of_a_lamp():
     told, blind = choose_entries("esim", "flow:37.5,flow")
     assert (told.name, told.track) == ("esim, flow 37.5 Hz", "frames, lamp known")
     assert Entry.parse(told.name) == told != blind
-    assert told.settings(0).interpolate.flicker_hz == 37.5
+    assert told.settings(0).interpolate.lamp_hz == 37.5
     with pytest.raises(ConfigError, match="'mains' after 'flow' is no frequency; write flow:37"):
         choose_entries("esim", "flow:mains")
 

@@ -163,7 +163,7 @@ POSES = "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n"
         ({"camera": "pan", "fit": "stretch"}, ConfigError, "fit is for videos"),
         ({"camera": "pan", "motion": "flow"}, ConfigError, "motion is for videos"),
         ({"camera": "pan", "camera_fov": 60.0}, ConfigError, "camera_fov is for poses"),
-        ({"camera": "pan", "duration": 0.0}, ConfigError, "duration is 0; it must be"),
+        ({"camera": "pan", "duration": 0.0}, ConfigError, "duration is 0 s; it must be"),
         ({"camera": "pan", "camera_amplitude": -1.0}, ConfigError, "camera_amplitude is -1"),
         ({"camera": "pan", "fps": 1e6, "duration": 1e4}, ConfigError, "10,000,000,000 frames"),
         ({"camera": "POSES"}, InputError, "give --camera-fov"),

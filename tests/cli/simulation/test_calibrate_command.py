@@ -110,7 +110,7 @@ def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, c
     [
         ((), "a moving scene needs --frames"),
         (("--scene", "flicker"), "needs --flicker-hz"),
-        (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker_ratio"),
+        (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker-ratio"),
         (("--scene", "still"), "--scene"),
     ],
 )

@@ -34,12 +34,10 @@ def report_of(prompt: str) -> PromptReport:
 @pytest.mark.parametrize(
     ("prompt", "word", "reason"),
     [
-        ("a man stands up", "stands up", "man does so all the time"),
-        ("a dog lies down", "lies down", "dog does so all the time"),
-        ("hands typing on a keyboard", "typing", "person hardly moves"),
+        ("a frog stands up", "stands up", "frog does so all the time"),
+        ("a penguin sits down", "sits down", "penguin does so all the time"),
         ("a cat jumps onto a table", "onto", "cat is there from the start"),
         ("pigeons taking off from a square", "taking off", "pigeon is in the air from the start"),
-        ("a helicopter takes off", "takes off", "no ground in view"),
         ("a man twirls her", "twirls", "it is not done to her"),
         ("a shepherd drives his sheep along the lane", "drives", "rides the sheep"),
     ],
@@ -62,7 +60,10 @@ def test_a_verb_that_is_not_seen_is_named(prompt: str, word: str, reason: str) -
         ("a man walks, stops and waves", {"walks", "stops", "waves"}),
         ("a man kicks a ball", {"kicks", "ball"}),
         ("people crossing the street", {"crossing", "street"}),
-        ("a woman spins a wheel", {"spins", "wheel"}),
+        ("a man stands up", {"man", "stands up"}),
+        ("a dog lies down", {"dog", "lies down"}),
+        ("hands typing on a keyboard", {"typing", "keyboard"}),
+        ("a helicopter takes off", {"helicopter", "takes off"}),
     ],
 )
 def test_a_verb_that_is_seen_stays(prompt: str, words: set[str]) -> None:

@@ -35,7 +35,7 @@ def report_of(prompt: str) -> PromptReport:
         ("snowy mountains behind a road", "snowy"),
         ("curls of wood fall on a table", "wood"),
         ("a boat sails and a man stands at the bow", "bow"),
-        ("a pile of boxes in a room", "a pile of"),
+        ("a pile of chairs in a room", "a pile of"),
         ("a dog runs over a field, overhead", "overhead"),
         ("a motorboat with white sails on the sea", "sails"),
     ],

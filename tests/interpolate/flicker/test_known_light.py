@@ -60,21 +60,19 @@ def error_of(frames, *scene, region=np.s_[:, :], **options):
 def test_a_lamp_beats_between_the_frames(moving_texture):
     video, lamp = filmed(37.0, moving_texture), np.s_[5:9, 5:9]
     assert error_of(dense(video), 37.0, moving_texture, region=lamp) > 20
-    assert error_of(dense(video, flicker_hz=37.0), 37.0, moving_texture, region=lamp) < 2
+    assert error_of(dense(video, lamp_hz=37.0), 37.0, moving_texture, region=lamp) < 2
 
 
 def test_a_lamp_lights_all_that_moves(moving_texture):
     video = filmed(100.0, moving_texture, is_whole=True)
     blind = error_of(dense(video), 100.0, moving_texture, is_whole=True)
-    assert (
-        error_of(dense(video, flicker_hz=100.0), 100.0, moving_texture, is_whole=True) < 0.4 * blind
-    )
+    assert error_of(dense(video, lamp_hz=100.0), 100.0, moving_texture, is_whole=True) < 0.4 * blind
 
 
 def test_a_lamp_that_is_not_there_changes_nothing(moving_texture):
     video = filmed(37.0, moving_texture)
     with pytest.warns(texvent.TexventWarning, match="no part of the video follows a lamp of 90 Hz"):
-        wrong = dense(video, flicker_hz=90.0)
+        wrong = dense(video, lamp_hz=90.0)
     for one, other in zip(wrong, dense(video), strict=True):
         assert np.array_equal(one.luma, other.luma)
 
@@ -129,7 +127,7 @@ def test_a_lamp_that_frames_cannot_show_is_told_once():
 
 def test_a_lamp_makes_events(moving_texture):
     video = filmed(37.0, moving_texture)
-    blind, known = (texvent.simulate(video, simulator="esim", flicker_hz=hz) for hz in (None, 37.0))
+    blind, known = (texvent.simulate(video, simulator="esim", lamp_hz=hz) for hz in (None, 37.0))
 
     def lamp(events):
         return int(((events.x >= 5) & (events.x < 9) & (events.y >= 5) & (events.y < 9)).sum())
@@ -142,15 +140,15 @@ def test_a_lamp_makes_events(moving_texture):
     [
         ({"interpolate": "exact"}, "interpolate is exact"),
         ({"deflicker": True}, "deflicker removes"),
-        ({"interpolate": "blend", "flicker_hz": -1.0}, "flicker_hz"),
+        ({"interpolate": "blend", "lamp_hz": -1.0}, "lamp_hz"),
     ],
 )
 def test_options_that_contradict_are_refused(options, message):
     with pytest.raises(ConfigError, match=message):
-        InterpolateConfig(**{"flicker_hz": 100.0, **options})
+        InterpolateConfig(**{"lamp_hz": 100.0, **options})
 
 
 def test_two_runs_are_the_same(moving_texture):
     video = filmed(37.0, moving_texture)
-    first, second = (texvent.simulate(video, flicker_hz=37.0, seed=1) for _ in range(2))
+    first, second = (texvent.simulate(video, lamp_hz=37.0, seed=1) for _ in range(2))
     assert all(np.array_equal(getattr(first, one), getattr(second, one)) for one in "xytp")

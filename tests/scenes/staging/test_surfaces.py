@@ -52,7 +52,7 @@ def test_all_scenery_has_a_model() -> None:
 @pytest.mark.parametrize(
     ("prompt", "mark"),
     [
-        ("a man walks down a hallway", "corridor door"),
+        ("a man walks down a hallway", "corridor walls"),
         ("children run through a funfair", "ferris wheel"),
         ("a waiter walks through an outdoor cafe", "terrace table"),
         ("a woman walks through the departure hall", "check-in desk"),
@@ -70,7 +70,9 @@ def test_a_place_holds_what_it_is_known_by(prompt: str, mark: str) -> None:
 def test_furniture_stands_in_the_room(place: str) -> None:
     scene = scene_at(place)
     room = scene.environment(0.0).room_half_size
-    reach = np.abs(scene.still.to_world[:, :2, 3])
+    # The walls of a corridor meet the wall of the room at its end.
+    is_furniture = np.array([not noun.endswith(" walls") for noun in scene.still_nouns])
+    reach = np.abs(scene.still.to_world[is_furniture, :2, 3])
     assert (reach <= room + 0.1).all()
 
 

@@ -35,20 +35,20 @@ class Entry:
     """Name of the options; default: the simulator's first preset."""
     is_rate_matched: bool = True
     """Whether the contrast threshold is fitted to the number of true events, or kept."""
-    flicker_hz: float | None = None
+    lamp_hz: float | None = None
     """Frequency of the lamp that the interpolator is told, Hz."""
 
     @property
     def name(self) -> str:
         """How tables call it."""
         preset = f" {self.preset}" if self.preset else ""
-        lamp = "" if self.flicker_hz is None else f" {self.flicker_hz:g} Hz"
+        lamp = "" if self.lamp_hz is None else f" {self.lamp_hz:g} Hz"
         return f"{self.simulator}{preset}, {self.interpolate}{lamp}"
 
     @property
     def track(self) -> Track:
         """Whether it is given the true intermediate frames, or a lamp."""
-        if self.flicker_hz is not None:
+        if self.lamp_hz is not None:
             return "frames, lamp known"
         return "true frames" if self.interpolate == "exact" else "frames"
 
@@ -62,7 +62,7 @@ class Entry:
             simulator=simulator,
             preset=preset or None,
             interpolate=interpolate,
-            flicker_hz=float(lamp) if lamp else None,
+            lamp_hz=float(lamp) if lamp else None,
         )
 
     def settings(self, seed: int) -> Settings:
@@ -75,7 +75,7 @@ class Entry:
             "simulator": self.simulator,
             "preset": self.preset,
             "interpolate": self.interpolate,
-            "flicker_hz": self.flicker_hz,
+            "lamp_hz": self.lamp_hz,
             "seed": seed,
         }
         return resolve("simulate", options)
@@ -148,7 +148,7 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
         chosen = [(simulator, preset or None) for simulator, _, preset in words]
     names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
     return [
-        Entry(simulator=simulator, preset=preset, interpolate=interpolate, flicker_hz=hz)
+        Entry(simulator=simulator, preset=preset, interpolate=interpolate, lamp_hz=hz)
         for simulator, preset in chosen
         for interpolate, hz in map(_name_and_hz, names)
     ]

@@ -55,7 +55,7 @@ def with_light(
         yield window.frames[-left], light
         left -= 1
     if not was_found:
-        warn(f"flicker_hz: no part of the video follows a lamp of {hz:g} Hz; nothing was changed")
+        warn(f"lamp_hz: no part of the video follows a lamp of {hz:g} Hz; nothing was changed")
 
 
 class _Window:
@@ -122,7 +122,7 @@ def can_be_seen(hz: float, fps: Fraction | None) -> bool:
     is_seen = design_fit(times_us, 0, hz).is_enough
     if not is_seen:
         warn(
-            f"flicker_hz: frames at {float(fps):g} per second show light of {hz:g} Hz as "
+            f"lamp_hz: frames at {float(fps):g} per second show light of {hz:g} Hz as "
             f"{alias_hz(hz, fps):.3g} Hz, which {WINDOW_FRAMES} frames cannot tell; it is left "
             "as it is"
         )
