@@ -21,7 +21,7 @@ def for_every(rows: Iterable[Row]) -> Callable[[Callable[[Row], None]], Callable
                     check(row)
                 except AssertionError as error:
                     failures[getattr(row, "name", row)] = str(error)
-            assert not failures
+            assert not failures, failures
 
         del test.__wrapped__  # pytest would look for fixtures called as the arguments of `check`
         return test

@@ -393,6 +393,11 @@ def test_any_text_is_read_and_every_word_is_understood_or_reported(text: str) ->
         assert scene_object.motion is not None
 
 
+def test_a_phrase_of_the_camera_before_a_noun_is_read_to_its_end() -> None:
+    description = parse_prompt("a tree between in camera zoom dark / roof rack")
+    assert "tree" in description.shown
+
+
 def test_a_very_long_prompt_is_read_quickly() -> None:
     description = parse_prompt("a red car drives left past a tree and " * 500 + "stops")
     assert len(description.objects) == MAX_OBJECTS

@@ -217,7 +217,7 @@ def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         noun = nouns[objects[target].noun]
         usual = "roll" if "ball" in noun.name.split() else noun.motion
         is_passed = relation.kind == "overtake" and noun.motion == "drive"
-        if is_passed and objects[target].motion in (None, STANDING):
+        if is_passed and objects[target].motion is None:
             objects[target] = replace(objects[target], motion=ObjectMotion("drive", pace=0.5))
         if relation.kind == "follow" and objects[target].motion is None and usual != "stand":
             objects[target] = replace(objects[target], motion=ObjectMotion(usual))

@@ -78,13 +78,23 @@ class _ClauseReader(GroupAttachment):
         elif word.pos is Pos.DETERMINER and self._is_before_adjunct():
             self._skip(word)
         elif self._starts_group():
-            group, self._at = read_group(self._words, self._at)
-            self._add_group(group)
+            self._read_group(word)
         elif word.pos is Pos.VERB:
             self._read_verb(word)
         else:
-            self._clause.adverbs.append(word)
-            self._at += 1
+            self._read_adverb(word)
+
+    def _read_group(self, word: Word) -> None:
+        group, end = read_group(self._words, self._at)
+        if end == self._at:
+            self._read_adverb(word)  # as in "between in camera zoom dark"
+            return
+        self._at = end
+        self._add_group(group)
+
+    def _read_adverb(self, word: Word) -> None:
+        self._clause.adverbs.append(word)
+        self._at += 1
 
     def _read_conjunction(self, word: Word) -> None:
         self._is_joined = "and"

@@ -46,7 +46,7 @@ BUILT_PLACES: dict[str, tuple[str, ...]] = {
     "rooftop": ("rooftop", "roof top", "flat roof", "roof terrace", "rooftop terrace",
                 "roof deck", "roof garden"),
     "balcony": ("balcony",),
-    "square": ("town square", "city square", "plaza", "piazza", "market square",
+    "square": ("square", "town square", "city square", "plaza", "piazza", "market square",
                "village square", "public square"),
     "beach": ("beach", "shore", "coast", "seashore", "sea shore", "seaside", "shoreline",
               "coastline", "sandy beach", "sandy shore", "water edge"),

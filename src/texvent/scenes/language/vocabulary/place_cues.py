@@ -64,6 +64,7 @@ INDOOR_CUES: dict[str, frozenset[str]] = {
     "bathroom": _words("bath bathtub shower toilet washbasin"),
     "laboratory": _words("microscope scientist chemist"),
     "workshop": _words("anvil lathe blacksmith workbench potter loom welder forge"),
+    "ice rink": frozenset({"figure skater", "ice skater", "hockey player", "ice hockey player"}),
     "gym": _words("treadmill barbell dumbbell gymnast"),
     "classroom": _words("blackboard chalkboard pupil"),
     "indoor": _words(

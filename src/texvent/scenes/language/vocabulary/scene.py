@@ -51,7 +51,7 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
         "boulevard", "promenade", "high street", "main street",
         "bus station", "railroad crossing", "railway crossing",
     ),
-    "square": ("square", "courtyard", "cloister"),
+    "square": ("courtyard", "cloister"),
     "church hall": ("church",),
     "grass": (
         "orchard", "zoo", "golf course", "riverbank", "campsite", "campground", "picnic area",

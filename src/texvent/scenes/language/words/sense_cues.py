@@ -27,6 +27,8 @@ _LIGHTS = frozenset({"spark", "sparks", "light", "glow", "flame", "fire"})
 """What is orange in colour, where "orange" might be read as the fruit."""
 _OF_SHOTS = frozenset({Role.FRAMING, Role.VIEW, Role.CAMERA, Role.CAMERA_MOVE})
 """Roles of what "overhead" is a view of: "overhead close-up"."""
+_OUTLINES = frozenset({"flat", "square"})
+"""Nouns that before another one say how it looks: "square black markers"."""
 _BECOMING = frozenset({"shrink", "dwindle", "reduce", "fade", "melt", "blur"})
 """Verbs of what comes to look like something that is not there: "shrink to dots"."""
 _OWNERS = ("his", "her", "their", "its", "my", "your", "our")
@@ -119,9 +121,11 @@ def _choose_noun(
     is_of = follower is not None and follower.text == "of"
     needed = ONLY_WITH.get(word.lemma)
     is_owned = before is not None and (before.text in _OWNERS or before.is_possessive)
+    is_before_noun = follower is not None and follower.pos in (Pos.NOUN, Pos.ADJECTIVE)
+    if word.lemma in _OUTLINES and is_before_noun:
+        _forget(word, Pos.ADJECTIVE)
+        return
     if word.lemma == "flat":
-        if follower is not None and follower.pos is Pos.NOUN:
-            _forget(word, Pos.ADJECTIVE)
         return
     if (
         (word.lemma in _SHAPES and is_of)

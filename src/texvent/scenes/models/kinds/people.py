@@ -4,7 +4,7 @@ from __future__ import annotations
 
 PEOPLE_KINDS: dict[str, str] = {
     "person": """
-        drummer, judge, wrestler, barista, hunter, driver, officer, guard, patient,
+        drummer, judge, wrestler, fighter, barista, hunter, driver, officer, guard, patient,
         engineer, electrician, sculptor, musician, pianist, dancer, actor, juggler,
         acrobat, gymnast, athlete, player, teacher, professor, customer, seller, vendor,
         shopkeeper, cashier, traveller, traveler, passenger, commuter, visitor, guest,

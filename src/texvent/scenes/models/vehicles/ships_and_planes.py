@@ -147,7 +147,7 @@ _AIR = placed("sky", (
                 2.2), chord=(1.4, 0.0, 0.0), thickness=(
                 0.0, 0.12, 0.0)) for s in (1, -1)), *(rod(glowing((1.0, 0.5, 0.1), 2.0), (-5.3,
                     s * 0.4, 0.0), (-4.9, s * 0.4, 0.0), 0.32) for s in (1, -1))],
-        ("fighter plane", "military jet", "warplane", "jet fighter", "fighter"), goes=("air",
+        ("fighter plane", "military jet", "warplane", "jet fighter"), goes=("air",
             "fly", 60.0)),
     thing("glider", (PALE.colour,), lambda p: [
         limb(p, (-3.6, 0.0, 0.1), (1.6, 0.0, 0.0), 0.34), ball(_PANE, (0.9, 0.0, 0.22), (1.4,

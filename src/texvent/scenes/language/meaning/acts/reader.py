@@ -124,7 +124,10 @@ class ActReader:
         is_own = verb.kind in _TAKES_ANY_OBJECT or verb.base in _STOPS
         if not verb.kind or (acts_on_unshown and not is_own):
             return []
-        return self._give(clause, verb, subjects)
+        moved = self._give(clause, verb, subjects)
+        if moved and verb.relation == "overtake":
+            word.shown_as = "drive fast past nothing"
+        return moved
 
     def _do_alike(
         self,
