@@ -105,7 +105,7 @@ def _look_out(words: Sequence[Word], index: int) -> None:
 
 
 def _looks(before: Sequence[Word]) -> bool:
-    """As in "looking out of the window of a train", where nobody is said who looks."""
+    """As in "looking out of the window of a train", where it is not said who looks."""
     is_alone = not any(one.pos is Pos.NOUN for one in before)
     return bool(before) and is_alone and before[-1].lemma in _LOOKING
 

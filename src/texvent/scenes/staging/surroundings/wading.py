@@ -43,7 +43,7 @@ class Wading:
 
 
 def goes_over_shore(description: SceneDescription) -> bool:
-    """Whether somebody goes into the water of the place or comes out of it."""
+    """Whether anyone goes into the water of the place or comes out of it."""
     return any(
         motion is not None and motion.shore in _OVER_SHORE
         for one in description.objects

@@ -34,7 +34,7 @@ def water_line(
         actors: the objects of the prompt.
         path: the camera's.
         half_width: of the river, m.
-        goes_over_shore: whether somebody goes into the water or comes out of it.
+        goes_over_shore: whether anyone goes into the water or comes out of it.
     """
     forward = path.at(0.0).rotation[2, :2]
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi

@@ -1,15 +1,16 @@
-"""Who does something together with the subject: "hugs a girl", "argues with his boss"."""
+"""What two do together: "hugs a girl", "argues with his boss", "two balls collide"."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.description import ObjectMotion
+from texvent.scenes.description import ObjectMotion, Relation
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.vocabulary.named_acts import NAMED
 from texvent.scenes.language.words.word import mark_used
 from texvent.scenes.models.people.acts.words import PAIRED as _PAIRED
 
@@ -88,3 +89,22 @@ def join_partners(
         for index in one.things if one.is_things else ():
             if index not in doers and is_person(draft.noun(index)):
                 draft.objects[index].motions = [ObjectMotion(name)]
+
+
+def collide(draft: Draft, clause: Clause, subjects: list[int], targets: list[int]) -> list[int]:
+    """As in "a car crashes into a wall", "two balls collide"; one alone meets nothing."""
+    others = [index for index in targets if index not in subjects] or subjects[1:]
+    if clause.verb_word.text in NAMED and subjects and not others:
+        draft.objects[subjects[0]].count = max(draft.objects[subjects[0]].count, 2)
+    is_group = len(subjects) == 1 and draft.objects[subjects[0]].count > 1
+    if clause.negation is not None or not subjects or not (others or is_group):
+        return []
+    target = others[0] if others else subjects[0]
+    draft.relations.append(Relation("collide", subjects[0], (target,)))
+    for index in subjects:
+        item = draft.objects[index]
+        ways = [one.direction for one in item.motions if one.direction is not None]
+        if ways:
+            draft.note(f"the {item.noun} may go another way than {ways[-1]}: to the hit")
+    clause.verb_word.is_used = True
+    return []

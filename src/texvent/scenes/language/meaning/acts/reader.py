@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import ObjectMotion, Relation
+from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.devices import (
@@ -31,7 +31,13 @@ from texvent.scenes.language.meaning.acts.hand_work import (
     lacks_thing,
     work_on,
 )
-from texvent.scenes.language.meaning.acts.partners import PAIRED, give_to, join_partners, tug
+from texvent.scenes.language.meaning.acts.partners import (
+    PAIRED,
+    collide,
+    give_to,
+    join_partners,
+    tug,
+)
 from texvent.scenes.language.meaning.acts.sequence import (
     add_motion,
     find_mount,
@@ -44,7 +50,6 @@ from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import OF_ONESELF
 from texvent.scenes.language.vocabulary.motion import Verb
-from texvent.scenes.language.vocabulary.named_acts import NAMED
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
@@ -82,7 +87,7 @@ class ActReader:
         targets = [index for one in objects if one.is_things for index in one.things]
         verb = clause.verb_word.meaning.value
         if isinstance(verb, Verb) and verb.act == "collide":
-            return self._collide(clause, subjects, targets)
+            return collide(self._draft, clause, subjects, targets)
         if clause.negation is not None:
             return stand(self._draft, clause, subjects)
         if give_to(self._draft, clause, subjects, objects):
@@ -229,7 +234,7 @@ class ActReader:
         doer, target = self._draft.noun(subjects[0]), self._draft.noun(targets[0])
         act = choose_act(verb, doer, target)
         if act == "collide":
-            return self._collide(clause, subjects, targets)
+            return collide(self._draft, clause, subjects, targets)
         if act is not None:
             return self._act(clause, verb, act, subjects, targets)
         if verb.relation is not None and verb.kind:
@@ -283,24 +288,6 @@ class ActReader:
                 motions[-1] = replace(motions[-1], direction=way)
         self._draft.relate(str(verb.relation), pair[1:], pair[:1])
         return movers
-
-    def _collide(self, clause: Clause, subjects: list[int], targets: list[int]) -> list[int]:
-        """As in "a car crashes into a wall", "two balls collide"; one alone meets nothing."""
-        others = [index for index in targets if index not in subjects] or subjects[1:]
-        if clause.verb_word.text in NAMED and subjects and not others:
-            self._draft.objects[subjects[0]].count = max(self._draft.objects[subjects[0]].count, 2)
-        is_group = len(subjects) == 1 and self._draft.objects[subjects[0]].count > 1
-        if clause.negation is not None or not subjects or not (others or is_group):
-            return []
-        target = others[0] if others else subjects[0]
-        self._draft.relations.append(Relation("collide", subjects[0], (target,)))
-        for index in subjects:
-            item = self._draft.objects[index]
-            ways = [one.direction for one in item.motions if one.direction is not None]
-            if ways:
-                self._draft.note(f"the {item.noun} may go another way than {ways[-1]}: to the hit")
-        clause.verb_word.is_used = True
-        return []
 
     def _act(
         self, clause: Clause, verb: Verb, act: str, subjects: list[int], targets: list[int]
