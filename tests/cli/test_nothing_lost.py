@@ -155,8 +155,7 @@ def wait_for_parts(folder: Path, kilobytes: int = 200) -> None:
     pytest.fail("the run wrote no events")
 
 
-# Which signal ends a run and what it leaves do not depend on each other: one is kept for below.
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_leaves_nothing(folder, number):
     long_frames(folder / "long.npy")
     process = start("simulate", "long.npy", "--fps", "500", "-o", "out.h5", *SMALL)
@@ -172,8 +171,8 @@ def test_a_signal_leaves_nothing(folder, number):
     assert [path.name for path in folder.iterdir()] == ["long.npy"]
 
 
-def test_a_signal_keeps_what_is_done_if_that_was_asked_for(folder):
-    number = signal.SIGTERM
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_keeps_what_is_done_if_that_was_asked_for(folder, number):
     long_frames(folder / "long.npy")
     words = ("simulate", "long.npy", "--fps", "500", "-o", "out.h5", "--keep-partial", *SMALL)
     process = start(*words)

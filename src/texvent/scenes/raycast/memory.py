@@ -1,7 +1,7 @@
 """Numbers at an address, for kernels.
 
 Large tables that never change are read at their address, which stands in the instant's record;
-whoever makes such a table keeps it for as long as the process runs.
+what makes such a table keeps it for as long as the process runs.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ PRONOUNS = (
     "somebody", "everyone", "nothing", "something", "everything",
 )  # fmt: skip
 VIEWERS = ("i", "we", "us", "me", "you")
-"""Pronouns of whoever looks: the camera."""
+"""Pronouns of the one who looks: the camera."""
 SOMEONE = ("someone", "somebody", "everyone")
 """Pronouns of a person who is not named."""
 UNNAMED = ("nothing", "something", "everything")
