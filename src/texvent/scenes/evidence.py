@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -17,6 +18,8 @@ STILL = "no motion to be seen"
 _AT_REST = frozenset({"stand", "sit", "lie"})
 MOST_REASONS = 2
 """Lost words that are named for a word in doubt."""
+_OF_NOUN = frozenset({"quality", "bright", "colour"})
+"""Aspects of adjectives that say something of the noun after them."""
 _NAMELESS = frozenset({"relation", "motion"})
 _AMID = frozenset({"surround", "among"})
 """Relations that hold whether or not all of the targets are in view."""
@@ -74,6 +77,11 @@ def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport
                 claim.aspect == "name" and any(_is_unseen(one, evidence) for one in claim.things)
             )
             lost[claim.word] = None if is_named else reason or lost.get(claim.word)
+    gone = named | set(lost)
+    replaced = {one.said for one in description.substituted}
+    for word, noun in _find_idle_adjectives(description, gone | replaced).items():
+        if word not in gone:
+            lost[word] = f"of the {noun}"
     missing |= {f"{word} ({reason})": None for word, reason in lost.items() if reason}
     gone = named | set(lost)
     doubts = _find_doubts(description, gone)
@@ -90,6 +98,20 @@ def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport
         not_shown=tuple(missing),
         notes=(*plain.notes, *evidence.notes),
     )
+
+
+def _find_idle_adjectives(description: SceneDescription, gone: set[str]) -> dict[str, str]:
+    """Adjectives of the scene right before a noun that is not shown, and that noun."""
+    prompt = description.prompt.casefold()
+    found = {}
+    for claim in description.claims:
+        if claim.things or claim.move is not None or claim.aspect not in _OF_NOUN:
+            continue
+        for after in re.split(rf"\b{re.escape(claim.word)}\b", prompt)[1:]:
+            noun = next((one for one in gone if re.match(rf"[ -]{re.escape(one)}\b", after)), None)
+            if noun is not None:
+                found[claim.word] = noun
+    return found
 
 
 def _find_doubts(description: SceneDescription, gone: set[str]) -> dict[str, tuple[str, ...]]:

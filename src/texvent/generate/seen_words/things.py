@@ -26,6 +26,8 @@ LEAST_OUTLINE = 0.07
 """Difference from its surroundings, and within it, that a thing is told by, as a share of white."""
 PATTERN_SIZE = 0.2
 """Share of the picture's width or height below which no stripes are told."""
+TALLER = 1.12
+"""Height of who is tall, in heights of another."""
 _PATTERNED = frozenset({"zebra", "tiger", "leopard"})
 _ONE_SIDED = frozenset(
     {"headlight", "headlights", "tail light", "tail lights", "windscreen", "windshield", "face",
@@ -38,8 +40,6 @@ MOST_BENT = 0.12
 """Spread of a row across it, as a share of that along it."""
 _GARMENTS = frozenset({"coat", "jacket"})
 _OPAQUE = frozenset({"glass", "crystal", "ice"})
-_UNRELATED = frozenset({"toy", "baby", "young", "miniature", "short"})
-"""Words of size that mean more than the size."""
 
 
 def judge_thing(
@@ -133,16 +133,13 @@ def _judge_size(
     picture: Picture, description: SceneDescription, word: str, index: int
 ) -> str | None:
     """A size is told beside another thing, which must be as much larger or smaller."""
-    if set(word.split()) & _UNRELATED:
-        return "not to be told from its usual kind"
     own = next((one for one in picture.scene.actors if one.object_index == index), None)
     if own is None:
         return "nothing to tell its size by"
-    length, width, height = own.model.length, own.model.width, own.model.height
-    if word in ("tall", "high"):
-        return None if height >= 1.6 * max(length, width) and height >= 1.8 else "not tall"
     if word == "long":
-        return None if max(length, width) >= 3.0 * min(length, width, height) else "not long"
+        return None  # `degrees` measures it
+    if word in ("tall", "high", "short"):
+        return _judge_tall(picture, word, index)
     is_large = description.objects[index].scale > 1.0
     fault = "nothing to tell its size by"
     for other in picture.scene.actors:
@@ -151,11 +148,25 @@ def _judge_size(
         ratio = own.size_m / max(other.size_m, 1e-9)
         if (ratio > 1.0) != is_large or max(ratio, 1.0 / ratio) <= 1.3:
             continue
-        seen = _extent(picture, index) / max(_extent(picture, other.object_index), 1e-9)
+        seen = extent_of(picture, index) / max(extent_of(picture, other.object_index), 1e-9)
         if (seen > 1.0) == is_large:
             return None
         fault = "looks larger than it is" if seen > 1.0 else "looks smaller than it is"
     return fault
+
+
+def _judge_tall(picture: Picture, word: str, index: int) -> str | None:
+    """Things are tall by their shape, people and animals beside a lower one of their kind."""
+    own = next(one for one in picture.scene.actors if one.object_index == index)
+    height, across = own.model.height, max(own.model.length, own.model.width)
+    if own.noun.motion not in ("walk", "run"):
+        is_tall = height >= 1.6 * across and height >= 1.8
+        return None if is_tall and word != "short" else f"not {word}"
+    ratios = [height / one.model.height for one in picture.scene.actors
+              if one.noun.motion == own.noun.motion]  # fmt: skip
+    if word == "short":
+        ratios = [1.0 / one for one in ratios]
+    return None if max(ratios) >= TALLER else "nothing to tell its size by"
 
 
 def _is_seen(picture: Picture, instance: int) -> bool:
@@ -165,7 +176,7 @@ def _is_seen(picture: Picture, instance: int) -> bool:
 def _judge_material(picture: Picture, word: str, index: int) -> str | None:
     if word in _OPAQUE:
         return "not clear to look through"
-    return None if _extent(picture, index) >= LEAST_DETAIL else "too small to tell"
+    return None if extent_of(picture, index) >= LEAST_DETAIL else "too small to tell"
 
 
 def _judge_part(
@@ -176,7 +187,7 @@ def _judge_part(
     is_lit = "light" in claim.word and description.light.kind in ("night", "moonlight", "dusk")
     if claim.word in _ONE_SIDED and not is_lit:
         return "not told apart"
-    return None if _extent(picture, index) >= LEAST_DETAIL else "too small to tell"
+    return None if extent_of(picture, index) >= LEAST_DETAIL else "too small to tell"
 
 
 def judge_outline(picture: Picture, instance: int) -> str | None:
@@ -205,7 +216,7 @@ def judge_outline(picture: Picture, instance: int) -> str | None:
     return "too small" if noun in _PATTERNED and 0.0 < size < PATTERN_SIZE else None
 
 
-def _extent(picture: Picture, index: int) -> float:
+def extent_of(picture: Picture, index: int) -> float:
     """Greatest extent of an object's copies, as a share of the picture's width or height."""
     copies = copies_of(picture, index)
     edge = np.array([picture.size.width, picture.size.height])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from texvent.generate.seen_words.camera_moves import judge_move
 from texvent.generate.seen_words.colours import share_like
+from texvent.generate.seen_words.degrees import judge_degree
 from texvent.generate.seen_words.effects import judge_effects
 from texvent.generate.seen_words.light import HARD, judge_light, judge_snow, judge_weather
 from texvent.generate.seen_words.picture import USUAL, Picture
@@ -39,13 +40,11 @@ def judge_words(
     for claim in description.claims:
         if claim.word in _WAVES and claim.aspect == "name" and claim.motion is not None:
             words.setdefault(claim.word, "the sea is calm")
-        if claim.things and claim.aspect in _OF_THINGS:
-            for index in claim.things:
-                fault = judge_thing(picture, description, claim, index)
-                if fault is not None:
-                    qualities.setdefault((claim.aspect, index), fault)
+        fault = judge_degree(picture, description, claim)
+        if fault is None and claim.things and claim.aspect in _OF_THINGS:
+            qualities = {**_judge_qualities(picture, description, claim), **qualities}
             continue
-        fault = _judge_scene_word(picture, description, claim, effects)
+        fault = fault or _judge_scene_word(picture, description, claim, effects)
         if fault is not None:
             words.setdefault(claim.word, fault)
     for claim in description.claims:
@@ -55,6 +54,14 @@ def judge_words(
         if fault is not None:
             words.setdefault(claim.word, fault)
     return words, qualities
+
+
+def _judge_qualities(
+    picture: Picture, description: SceneDescription, claim: Claim
+) -> dict[tuple[str, int], str]:
+    """Aspect of a claim and object of which it is not seen → why."""
+    faults = {one: judge_thing(picture, description, claim, one) for one in claim.things}
+    return {(claim.aspect, one): fault for one, fault in faults.items() if fault is not None}
 
 
 def _said_of(claim: Claim, description: SceneDescription) -> list[str]:
