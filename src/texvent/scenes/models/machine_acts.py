@@ -11,5 +11,9 @@ GRASP = "grasp"
 """A gripper closes on a ball and lifts it."""
 COLLAPSE = "collapse"
 """A row or a tower comes down."""
-MACHINE_ACTS = frozenset({PICK, GRASP, COLLAPSE})
+STRUCK = "struck"
+"""What hangs swings away from the blow and back."""
+STRUCK_SWING_S = 0.9
+"""How long it is away from its place after a blow, s."""
+MACHINE_ACTS = frozenset({PICK, GRASP, COLLAPSE, STRUCK})
 """All of these: names of `Noun.acts` and kinds of `ObjectMotion`."""

@@ -14,6 +14,7 @@ from functools import partial
 import numpy as np
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.machine_acts import STRUCK, STRUCK_SWING_S
 from texvent.scenes.models.materials import Material, shade
 from texvent.scenes.models.protocol import Habitat, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
@@ -51,6 +52,8 @@ class Moving:
 
     draw: Draw
     motion: Motion
+    hangs: bool = False
+    """Whether they hang at rest, and swing when they are struck."""
 
 
 @dataclass(frozen=True)
@@ -116,8 +119,10 @@ def thing(
     is_centred = habitat == "air" or (habitat == "water" and motion == "swim")
     figure = Figure(draw, colours, moving, wheels, is_centred=is_centred)
     build = partial(build_figure, figure)
-    is_working = bool(moving) and habitat == "fixed"
-    return Noun(name, build, habitat, speed_m_s, motion, same, plurals, is_working=is_working)
+    hangs = any(each.hangs for each in moving)
+    is_working = bool(moving) and habitat == "fixed" and not hangs
+    acts = frozenset({STRUCK}) if hangs else frozenset()
+    return Noun(name, build, habitat, speed_m_s, motion, same, plurals, acts=acts, is_working=is_working)
 
 
 def placed(place: str, nouns: Iterable[Noun]) -> tuple[Noun, ...]:
@@ -142,6 +147,16 @@ def swinging(axis: str, reach_rad: float, rate_hz: float, pivot: Point = _ORIGIN
     return lambda pose: turn(
         reach_rad * math.sin(2.0 * math.pi * rate_hz * pose.time_s + 0.5), pivot
     )
+
+
+def struck(reach_rad: float, pivot: Point) -> Motion:
+    """Hanging at rest, and after a blow swinging away from it, towards +x, and back."""
+
+    def motion(pose: Pose) -> Affine:
+        share = 0.0 if pose.act_s is None else max(pose.act_s, 0.0) / STRUCK_SWING_S
+        return turn_y(-reach_rad * math.sin(math.pi * share) * math.exp(-0.3 * share), pivot)
+
+    return motion
 
 
 def rolling(radius: float) -> Motion:

@@ -136,6 +136,10 @@ def build_candle(*, colour: Colour | None, scale: float, seed: int) -> Articulat
     return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
+_FAN_HZ = 3.37
+"""Turns per second: no multiple of a quarter turn in common steps of stills, .2 and .4 s."""
+
+
 def build_fan(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a table fan, 0.6 m, its blades turning on +x; `colour` is its blades."""
     hue = colour if colour is not None else (0.05, 0.25, 0.45)
@@ -148,7 +152,7 @@ def build_fan(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedM
     start = fraction(seed, "turn")
 
     def articulate(pose: Pose) -> list[ModelPart]:
-        turn = 2.0 * math.pi * (2.5 * pose.time_s + start)
+        turn = 2.0 * math.pi * (_FAN_HZ * pose.time_s + start)
         parts = [rod(CHROME, (0.02, 0.0, 0.40), (0.08, 0.0, 0.40), 0.03)]
         for index in range(4):
             wing = blade(

@@ -174,7 +174,7 @@ NOUNS = placed("road", (
             goes=("ground", "drive", 2.0),
         moving=(Moving(lambda p: [box(YELLOW_PAINT, (4.0 + 0.5 * math.cos(a), 0.0,
             0.85 + 0.5 * math.sin(a)), (
-            0.08, 4.8, 0.08)) for a in (0.0, 1.26, 2.51, 3.77, 5.03)], spinning("y", 0.5, (4.0,
+            0.08, 4.8, 0.08)) for a in (0.0, 1.26, 2.51, 3.77, 5.03)], spinning("y", 0.4, (4.0,
                 0.0, 0.85))),)),
     thing("carriage", ((0.10, 0.02, 0.02), (0.02, 0.03, 0.10)), lambda p: [
         box(p, (-0.2, 0.0, 1.5), (1.7, 1.3, 1.2)), box(toned(p, 1.5), (-0.2, 0.0, 2.15), (1.9,

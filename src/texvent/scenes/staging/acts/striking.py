@@ -30,6 +30,7 @@ from texvent.scenes.staging.acts.attached import (
     middle_of,
     with_middle,
 )
+from texvent.scenes.staging.acts.hand_work.hanging import hangs, swing_by_kick
 from texvent.scenes.staging.acts.holding import along_tool, is_person, size_of
 from texvent.scenes.staging.trajectories.action_trajectories import Hop
 from texvent.scenes.staging.trajectories.trajectory import (
@@ -66,6 +67,8 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
         path = Stationary(home.position, yaw, "stand")
     subject = replace(subject, trajectory=path, lead_m=0.0, is_mover=True, props=())
     tip = subject.anchor("right foot", contact_s)[:, 3]
+    if hangs(thing):
+        return subject, swing_by_kick(thing, tip, heading, contact_s)
     radius, rest = 0.5 * thing.model.length, _pivot(thing)
     inset = 0.0
     if abs(thing.model.length - thing.model.height) < 0.1 * radius:

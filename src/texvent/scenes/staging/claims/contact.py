@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from texvent.scenes.models.machine_acts import STRUCK
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
@@ -129,7 +130,8 @@ def strikes(
         places = np.array([target.middle(float(t)) for t in times])
         way = float(np.linalg.norm(np.ptp(places, axis=0)))
         step = float(np.max(np.linalg.norm(np.diff(places, axis=0), axis=1)))
-        if moves and way < target.size_m:
+        swings = STRUCK in target.noun.acts and moves_parts(target, times)
+        if moves and way < target.size_m and not swings:
             continue
         for subject in subjects:
             apart = [

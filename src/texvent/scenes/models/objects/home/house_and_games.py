@@ -5,7 +5,16 @@ from __future__ import annotations
 import math
 
 from texvent.scenes.models.materials import CHROME, Material, foliage, glowing
-from texvent.scenes.models.objects.figures import lathe, placed, ring, thing, toned
+from texvent.scenes.models.objects.figures import (
+    Moving,
+    lathe,
+    nothing,
+    placed,
+    ring,
+    struck,
+    thing,
+    toned,
+)
 from texvent.scenes.models.objects.palette import (
     BLUE_PAINT,
     BREAD,
@@ -71,14 +80,16 @@ _HOME = (
             0.9), (RED_PAINT, -0.35, 0.4, 0.5), (BLUE_PAINT, 0.3, 0.4, 0.7), (YELLOW_PAINT, 1.0,
                 0.6, 0.6)))],
         ("washing line", "laundry line", "laundry", "clothes line")),
-    thing("pinata", ((0.75, 0.10, 0.40),), lambda p: [rod(IRON, (0.0, 0.0, 0.9), (0.0, 0.0, 1.9),
+    thing("pinata", ((0.75, 0.10, 0.40),), nothing, ("piñata",),
+        moving=(Moving(lambda p: [rod(IRON, (0.0, 0.0, 0.9), (0.0, 0.0, 1.9),
         0.008), *(rod((p, YELLOW_PAINT, BLUE_PAINT, p, YELLOW_PAINT)[k], (-0.3 + 0.12 * k, 0.0,
             0.8), (-0.18 + 0.12 * k, 0.0, 0.8), 0.16)
         for k in range(5)), *(rod((BLUE_PAINT, p)[s], (-0.2 + 0.42 * s, y, 0.35),
             (-0.2 + 0.42 * s, y, 0.75), 0.05) for s in (0, 1) for y in (0.09, -0.09)),
                 limb(YELLOW_PAINT, (0.28, 0.0, 0.85), (0.42, 0.0, 1.15), 0.09),
         ball(p, (0.48, 0.0, 1.18), (0.26, 0.16, 0.18)), *(spike(BLUE_PAINT, (0.42, y, 1.22),
-            (0.40, 1.3 * y, 1.42), 0.035) for y in (0.06, -0.06))], ("piñata",)),
+            (0.40, 1.3 * y, 1.42), 0.035) for y in (0.06, -0.06))],
+        struck(0.35, (0.0, 0.0, 1.9)), hangs=True),)),
     thing("bird feeder", (WOOD_BROWN,), lambda p: [rod(p, (0.0, 0.0, 0.0), (0.0, 0.0, 1.4),
         0.03), box(p, (0.0, 0.0, 1.42), (0.4, 0.4, 0.04)), *(rod(p, (x, y, 1.42), (x, y, 1.68),
             0.015) for x in (0.16, -0.16) for y in (.16, -.16)),

@@ -173,7 +173,7 @@ NOUNS = placed("indoor", (
         box(YELLOW_PAINT, (-0.05, 0.0, 0.0), (0.02, 0.05, 0.05))], _tilted(2.0)),),
         goes=("air", "fly", 4.0)),
     thing("spinning top", _BRIGHT, nothing, ("whipping top",),
-        moving=(Moving(_top_parts, spinning("z", 3.0)),)),
+        moving=(Moving(_top_parts, spinning("z", 3.57)),)),
     thing("gyroscope", (BRASS.colour,),
         lambda p: [post(INK, (0.0, 0.0, 0.01), (0.07, 0.07, 0.02)),
             post(INK, (0.0, 0.0, 0.03), (0.012, 0.012, 0.03)),
@@ -196,6 +196,6 @@ NOUNS = placed("indoor", (
         ("yoyo",), moving=(Moving(lambda p: [
         *(disc(p, (0.0, 0.03), 0.028, 0.013, x) for x in (0.009, -0.009)),
         *(disc(PALE, (0.010, 0.038), 0.007, 0.002, x) for x in (0.016, -0.016))],
-        spinning("x", 2.5, (0.0, 0.0, 0.03))),)),
+        spinning("x", 1.9, (0.0, 0.0, 0.03))),)),
 ))  # fmt: skip
 """Nouns of balls and toys that spin."""

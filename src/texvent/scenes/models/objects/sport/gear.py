@@ -6,6 +6,7 @@ import math
 
 from texvent.scenes.models.materials import Material, mottled, striped
 from texvent.scenes.models.objects.figures import (
+    Moving,
     bar,
     chain,
     disc,
@@ -14,6 +15,7 @@ from texvent.scenes.models.objects.figures import (
     placed,
     rectangle,
     ring,
+    struck,
     thing,
     toned,
 )
@@ -232,9 +234,11 @@ _SPORT = placed("grass", (
     thing("punching bag", ((0.50, 0.04, 0.03),),
         lambda p: [*(rod(IRON, (0.0, 0.8 * s, 0.0), (0.0, 0.5 * s, 2.4), 0.03)
             for s in (1.0, -1.0)), rod(IRON, (0.0, -0.52, 2.4), (0.0, 0.52, 2.4), 0.03),
+            ], ("punch bag",), moving=(Moving(lambda p: [
             rod(SILVER, (0.0, 0.0, 1.85), (0.0, 0.0, 2.4), 0.012),
-            rod(p, (0.0, 0.0, 0.75), (0.0, 0.0, 1.85), 0.18),
-            post(INK, (0.0, 0.0, 1.3), (0.37, 0.37, 0.06))], ("punch bag",)),
+            rod(p, (0.0, 0.0, 0.65), (0.0, 0.0, 1.85), 0.18),
+            post(INK, (0.0, 0.0, 1.3), (0.37, 0.37, 0.06))],
+            struck(0.30, (0.0, 0.0, 2.4)), hangs=True),)),
     thing("hula hoop", ((0.75, 0.10, 0.35), (0.05, 0.35, 0.50)),
         lambda p: ring(p, (0.0, 0.0, 0.015), (0.45, 0.45), 0.015, axis="z", pieces=20)),
     thing("whistle", (SILVERY, (0.50, 0.04, 0.03)),

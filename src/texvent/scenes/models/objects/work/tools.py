@@ -229,7 +229,7 @@ NOUNS = placed("indoor", (
             for a in (0.0, 2.094, 4.189)),
             spike(RED_PAINT, (-0.02, 0.0, 0.72), (0.14, 0.0, 0.72), 0.06),
         *(disc(YELLOW_PAINT, (0.57 * math.sin(a), 0.72 + 0.57 * math.cos(a)), 0.03, 0.02, 0.02)
-            for a in (0.0, 2.094, 4.189))], spinning("x", 2.5, (0.0, 0.0, 0.72))),)),
+            for a in (0.0, 2.094, 4.189))], spinning("x", 2.24, (0.0, 0.0, 0.72))),)),
     thing("pinwheel", (_GRIPS[0],),
         lambda p: [rod(PALE, (0.0, 0.0, 0.0), (0.0, 0.0, 0.42), 0.006)],
         ("toy windmill", "paper windmill"), moving=(Moving(lambda p: [
@@ -240,7 +240,7 @@ NOUNS = placed("indoor", (
                 thickness=(0.004, 0.0, 0.0)) for a,
                 hue in zip((0.0, 1.571, 3.142, 4.712), (p.colour, *_GRIPS[1:], (0.05, 0.35, 0.08)),
                     strict=True)), disc(PALE, (0.0, 0.42), 0.018, 0.05, 0.015)],
-                    spinning("x", 1.2, (0.0, 0.0, 0.42))),)),
+                    spinning("x", 0.9, (0.0, 0.0, 0.42))),)),
     thing("spring", (SILVERY,),
         lambda p: chain(p, [(0.05 * math.cos(0.785 * i), 0.05 * math.sin(0.785 * i),
             0.01 + 0.0048 * i) for i in range(41)], 0.006), ("coil spring",)),

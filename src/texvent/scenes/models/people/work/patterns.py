@@ -256,6 +256,12 @@ def _punch(t: float, half: float) -> Stroke:
     return Stroke((0.0, -0.07, fist(0.0)), (0.0, 0.07, fist(0.5)), bow=0.06)
 
 
+def _jab(t: float, half: float) -> Stroke:
+    """The right fist again and again, the left one on guard."""
+    out = pulse(t, 1.2) ** 2
+    return Stroke((0.0, -0.05, 0.36 * (1.0 - out) - 0.04), (0.02, 0.12, 0.36), bow=0.04 + 0.06 * out)
+
+
 def _tug(t: float, half: float) -> Stroke:
     back = pulse(t, RATE_HZ)
     return Stroke(
@@ -323,6 +329,7 @@ PATTERNS: Mapping[str, Pattern] = MappingProxyType(
         "take": _take,
         "drop": _drop,
         "punch": _punch,
+        "jab": _jab,
         "tug": _tug,
         "rock": _rock,
         "offer": _offer,
@@ -332,3 +339,8 @@ PATTERNS: Mapping[str, Pattern] = MappingProxyType(
     }
 )
 """Name → how hands move."""
+
+BLOWS: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {"strike": (0.8 / 1.1, 1.0 / 1.1), "jab": (0.5 / 1.2, 1.0 / 1.2)}
+)
+"""Pattern → when its first blow lands, and how long it is from blow to blow, s."""

@@ -24,6 +24,12 @@ from texvent.scenes.models.people.work.verbs import HANDWORK, HandWork
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged
+from texvent.scenes.staging.acts.hand_work.hanging import (
+    choose_blow,
+    hangs,
+    stand_before,
+    swing_by_work,
+)
 from texvent.scenes.staging.acts.hand_work.surface_points import sample_surface
 from texvent.scenes.staging.acts.holding import is_person, size_of
 from texvent.scenes.staging.trajectories.trajectory import (
@@ -60,6 +66,8 @@ _TOOL_M = 0.9
 """Longest thing that is worked with, m."""
 _LONG = 1.25
 """What is that much longer than wide turns its front to who works on it."""
+_BLOWS = frozenset({"strike", "punch"})
+"""Patterns of blows."""
 _EDGE_M = 0.26
 """From the near edge of a table to the middle of what is worked on."""
 
@@ -125,8 +133,10 @@ def work_at(
     path = subject.trajectory
     tempo = path.tempo if isinstance(path, Stationary) else 1.0
     subject = replace(subject, props=_choose_props(work, tool), lead_m=0.0, is_mover=True)
-    reach = _reach_of(work, tool)
     size = size_of(subject.model)
+    if hangs(target) and work.pattern in _BLOWS:
+        return _strike_hanging(subject, target, (work, tool, tempo))
+    reach = _reach_of(work, tool)
     living = target.noun.motion in ("walk", "run", "jump", "swim", "paddle", "fly")
     lies_free = support is None and target.trajectory.home[2] < 0.4
     is_low = target.model.height < _LOW_M * size and target.size_m < 2.0 * SMALL_M * size
@@ -140,6 +150,20 @@ def work_at(
         target = _face_worker(target, is_living=living, is_front=work.side == "front")
     stand = _stand_at(subject, target, support, (work, reach, tempo), (place, crew))
     return stand
+
+
+def _strike_hanging(
+    subject: Actor, target: Actor, how: tuple[HandWork, Actor | None, float]
+) -> tuple[Actor, Actor]:
+    """Blow after blow at what hangs, which swings."""
+    work, tool, tempo = how
+    if tool is None:
+        work = choose_blow(target, work, size_of(subject.model))
+    subject = replace(subject, props=_choose_props(work, tool))
+    bench, stand, rest = stand_before(subject, target, work, _reach_of(work, tool))
+    worker = WorkingAt(stand.position, stand.yaw, work, bench, tempo)
+    target = replace(target, trajectory=swing_by_work(rest, work, tempo), is_mover=True)
+    return replace(subject, trajectory=worker), target
 
 
 def _choose_props(work: HandWork, tool: Actor | None) -> tuple[Prop, ...]:
