@@ -30,6 +30,7 @@ from texvent.scenes.language.word_claims import (
 from texvent.scenes.language.words.english import is_of_other_grammar, list_readings
 from texvent.scenes.language.words.film import read_film_words
 from texvent.scenes.language.words.lexicon import Lexicon, Role
+from texvent.scenes.language.words.neighbours import read_neighbours
 from texvent.scenes.language.words.sense_cues import choose_senses
 from texvent.scenes.language.words.standpoint import mark_standpoints
 from texvent.scenes.language.words.tagging import tag_words
@@ -114,6 +115,7 @@ def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], list[str]]:
     notes += read_film_words(words)
     words = read_telegrams(words, known)
     choose_senses(words, known)
+    read_neighbours(words)
     return words, notes
 
 

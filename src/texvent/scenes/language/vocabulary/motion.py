@@ -88,9 +88,20 @@ VERBS: tuple[Verb, ...] = (
     Verb("traverse", "move", direction="across", relation="on"),
     Verb("accelerate", "move", 0.5, end_pace=1.8),
     Verb("speed up", "move", 0.5, end_pace=1.8),
-    Verb("brake", "move", 1.4, end_pace=0.05),
-    Verb("slow down", "move", 1.2, end_pace=0.2),
-    Verb("decelerate", "move", 1.2, end_pace=0.2),
+    *(
+        Verb(base, "move", 1.8, end_pace=0.0)
+        for base in (
+            "brake",
+            "slow to a stop",
+            "slow to a halt",
+            "screech to a halt",
+            "screech to a stop",
+            "grind to a halt",
+            "roll to a stop",
+            "brake to a stop",
+        )
+    ),
+    *(Verb(base, "move", 1.6, end_pace=0.2) for base in ("slow down", "slow", "decelerate")),
     Verb("stop", "stand"),
     Verb("halt", "stand"),
     Verb("come to a stop", "stand"),

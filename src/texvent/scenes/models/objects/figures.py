@@ -122,7 +122,9 @@ def thing(
     hangs = any(each.hangs for each in moving)
     is_working = bool(moving) and habitat == "fixed" and not hangs
     acts = frozenset({STRUCK}) if hangs else frozenset()
-    return Noun(name, build, habitat, speed_m_s, motion, same, plurals, acts=acts, is_working=is_working)
+    return Noun(
+        name, build, habitat, speed_m_s, motion, same, plurals, acts=acts, is_working=is_working
+    )
 
 
 def placed(place: str, nouns: Iterable[Noun]) -> tuple[Noun, ...]:

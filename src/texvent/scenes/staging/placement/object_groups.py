@@ -70,7 +70,8 @@ def place_copies(
         return [(0.0, 0.0, 0.0)]
     tall = max(model.height for model in models)
     along, across = _spacing(models, plan, noun)
-    is_driven, is_deep = noun.motion == "drive", is_centred(noun)
+    is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
+    is_driven, is_deep = noun.motion == "drive", is_centred(noun) and not is_lifting
     columns = _count_columns(count, is_driven)
     in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
     offsets: list[Vector] = []

@@ -46,6 +46,7 @@ from texvent.scenes.staging.trajectories.stunts import (
     WINGED,
     build_drift,
     build_flip,
+    build_leap,
     build_lift,
 )
 from texvent.scenes.staging.trajectories.trajectory import (
@@ -149,6 +150,8 @@ def plan_motion(
         yaw = YAWS[default]  # "turns left" is to its own left
     elif motion.kind == "change lane" and motion.direction not in YAWS:
         yaw = YAWS["away"]  # so that it goes from side to side in the picture
+    elif noun.habitat == "fixed" and any(one.kind == "fall" for one in motions[1:]):
+        yaw = YAWS[default]  # what falls over does so to a side of the picture
     elif (motion.direction is None or _is_gesture_seen_from_front(noun, motion)) and not goes:
         yaw = _face_camera(noun, model, motion, toss)
     elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
@@ -257,7 +260,7 @@ def choose_trajectory(
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
     if clear_m > 0.0:
-        return _jump_over(plan, model, home, clear_m)
+        return build_leap(model, home, plan.yaw, plan.duration_s, clear_m)
     kind, direction = plan.motion.kind, plan.motion.direction
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
     if kind in PATH_KINDS and direction == "circle":
@@ -283,16 +286,6 @@ def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:
     x, y, _ = path.start
     floor = home[2] if path.floor_m > NO_FLOOR_M else min(0.5 * model.height, home[2])
     return replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=floor)
-
-
-def _jump_over(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> Trajectory:
-    """Hops along its heading so that the highest point is over its home at mid clip."""
-    height = max(0.35 * model.height, 1.25 * clear_m + 0.1)
-    flight = 2.0 * math.sqrt(2.0 * height / GRAVITY_M_S2)
-    period = flight + 0.15
-    middle = 0.5 * plan.duration_s
-    phase = (0.5 * flight - middle) % period
-    return Hop(home, height, 0.15, 2.2 * model.length, plan.yaw, middle, phase_s=phase)
 
 
 def _activity(kind: str) -> str:

@@ -48,6 +48,8 @@ MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
 _RAMP_S = 0.3
 _BRAKING_M_S2 = 6.0
+_LONG = 0.8
+"""Share of its height from which the length of what falls lays it onto its side."""
 _CLIMB = 0.45
 """Metres up per metre along."""
 _CLOCKWISE = frozenset({"clockwise", "right"})
@@ -158,6 +160,7 @@ def build_path(
         lean=1.0 if noun.habitat == "air" or noun.name in _LEANING else 0.0,
         usual_speed_m_s=usual_m_s,
         floor_m=floor_m if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
+        side_m=0.5 * model.width if model.length > _LONG * model.height else 0.0,
     )
     places = sample_places(path, duration_s)
     middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
@@ -279,9 +282,11 @@ class _Builder:
         if end is None:
             self._append(span, speed, climb=climb, activity=activity)
             return
-        lead = 0.12 * span
+        # What brakes is seen going, and at rest or slow for a while.
+        lead = (0.3 if abs(end) < abs(speed) else 0.12) * span
+        rest = 0.3 * span if abs(end) < abs(speed) else 0.0
         self._append(lead, speed, climb=climb, activity=activity)
-        self._append(span - lead, end, climb=climb, ramp=span - lead, activity=activity)
+        self._append(span - lead, end, climb=climb, ramp=span - lead - rest, activity=activity)
 
     def _head_for(self, motion: ObjectMotion, speed: float, span: float) -> float:
         """Turn to the direction in the picture that a later motion has; s that it takes."""

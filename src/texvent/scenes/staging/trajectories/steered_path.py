@@ -78,6 +78,8 @@ class SteeredPath:
     floor_m: float = 0.0
     """Height of its origin when it rests on the ground, m."""
     restitution: float = 0.3
+    side_m: float = 0.0
+    """Half the width of what falls onto its side; 0 = it falls forwards."""
 
     @property
     def duration_s(self) -> float:
@@ -104,6 +106,9 @@ class SteeredPath:
             height += _hop_height(piece, elapsed)
             share = elapsed / piece.duration_s
             roll += piece.sway_rad * math.sin(math.pi * share) ** 2 * math.sin(9.0 * elapsed)
+        if self.side_m > 0.0:
+            pitch, roll = 0.0, roll + now.pitch
+            height += self.side_m * math.sin(now.pitch)
         slow = 0.3 * max(self.usual_speed_m_s, 0.1)
         pitch -= math.atan(now.climb * abs(now.speed) / (now.speed**2 + slow**2))
         roll -= math.atan(self.lean * now.speed * now.turn / GRAVITY_M_S2)

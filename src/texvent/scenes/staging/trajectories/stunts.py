@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from texvent.scenes.models.machine_acts import MACHINE_ACTS
 from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.protocol import Model
-from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Climb
+from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Climb, Hop
 from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
@@ -152,6 +152,17 @@ def build_flip(model: Model, home: Vector, yaw: float, tempo: float) -> Trajecto
     is_small = span < _SMALL_M
     is_forward = is_small or model.length <= model.width
     return Flip(home, height, 0.5 * model.height, yaw, 2 if is_small else 1, is_forward)
+
+
+def build_leap(
+    model: Model, home: Vector, yaw: float, duration_s: float, clear_m: float
+) -> Trajectory:
+    """Hops along its heading so that the highest point is over its home at mid clip."""
+    height = max(0.35 * model.height, 1.25 * clear_m + 0.1)
+    flight = 2.0 * math.sqrt(2.0 * height / GRAVITY_M_S2)
+    middle = 0.5 * duration_s
+    phase = (0.5 * flight - middle) % (flight + 0.15)
+    return Hop(home, height, 0.15, 2.2 * model.length, yaw, middle, phase_s=phase)
 
 
 def build_lift(

@@ -104,7 +104,7 @@ def fall_over(noun: Noun, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
     """As in "a person falls": over, unless it is said from where."""
     is_from = any(phrase.preposition.text in _FROM_ABOVE for phrase in clause.phrases)
     is_from |= any(word.meaning.value == "sky" for word in clause.adverbs)
-    stands = is_living(noun) and noun.habitat == "ground"
+    stands = (is_living(noun) and noun.habitat == "ground") or noun.name in _STANDING
     if motion.kind == "fall" and stands and not is_from:
         return replace(motion, kind="fall over" if is_person(noun) else "topple")
     return motion
@@ -120,6 +120,14 @@ def note_untouched(
             clause.verb_word.shown_as = f"{target.name} untouched"
 
 
+_STANDING = frozenset(
+    {"bicycle", "motorcycle", "scooter", "tree", "pine", "palm", "bare tree", "autumn tree",
+     "cherry tree", "christmas tree", "ladder", "chair", "stool", "bookshelf", "wardrobe",
+     "street lamp", "park lamp", "traffic light", "sign", "stop sign", "fence", "statue",
+     "scarecrow", "easel", "tripod", "column", "broom", "refrigerator", "robot", "snowman",
+     "cactus", "coat rack", "traffic cone", "shopping cart", "sunflower"}
+)  # fmt: skip
+"""What falls over where it stands, besides people and animals."""
 _FROM_ABOVE = ("from", "off", "out of", "into", "through", "down")
 MANOEUVRES = frozenset({"park", "drift", COLLAPSE})
 """Motions of vehicles and piles that are what the verb says of them."""

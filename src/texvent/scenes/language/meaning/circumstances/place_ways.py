@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.language.meaning.draft import Draft
@@ -13,6 +14,12 @@ from texvent.scenes.language.words.word import Word
 _OPEN = frozenset({"sky", "space", "underwater"})
 """Places into which one rises or dives."""
 _ON_LAND = frozenset({"walk", "run", "move", "jump", "crawl", "roll", "slide", "drive"})
+
+
+def _rise(draft: Draft, movers: Sequence[int]) -> bool:
+    """As in "takes off from the beach": they begin on the ground, which is there."""
+    motions = [draft.objects[index].motions for index in movers]
+    return bool(motions) and all(one and one[-1].kind == "rise" for one in motions)
 
 
 def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
@@ -31,6 +38,8 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     if word.text in ("up", "down"):
         return place not in SLOPES or not scope.movers
     if word.text not in NO_WAYS or place in _OPEN or not (scope.movers or scope.subjects):
+        return True
+    if word.text in ("from", "off") and _rise(draft, scope.movers):
         return True
     way = SHORE_WAYS.get(word.text)
     if way is None or place not in SHORES:

@@ -284,6 +284,8 @@ class RelationReader:
         motions = [self._draft.objects[i].motions[-1:] for i in scope.movers]
         works = any(one[0].kind in HANDWORK for one in motions if one)
         is_held |= works and item.motion == "stand" and item.habitat == "fixed"
+        goes = any(one[0].kind in ("walk", "run") for one in motions if one)
+        is_held |= goes and item.motion == "roll" and self._is_small(things[0])
         if is_person(doer) and is_held:
             return self._draft.relate("hold", scope.subjects, things)
         if item.name in _CARRIES and doer.name not in _CARRIES:

@@ -259,7 +259,9 @@ def _punch(t: float, half: float) -> Stroke:
 def _jab(t: float, half: float) -> Stroke:
     """The right fist again and again, the left one on guard."""
     out = pulse(t, 1.2) ** 2
-    return Stroke((0.0, -0.05, 0.36 * (1.0 - out) - 0.04), (0.02, 0.12, 0.36), bow=0.04 + 0.06 * out)
+    return Stroke(
+        (0.0, -0.05, 0.36 * (1.0 - out) - 0.04), (0.02, 0.12, 0.36), bow=0.04 + 0.06 * out
+    )
 
 
 def _tug(t: float, half: float) -> Stroke:

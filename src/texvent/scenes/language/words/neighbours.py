@@ -1,0 +1,63 @@
+"""Words that mean something else beside others: "walks off", "about to fall", "to the next"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.lexicon import Meaning, Role
+from texvent.scenes.language.words.word import Word
+
+_LEAVING = frozenset(
+    {"move", "walk", "run", "drive", "fly", "sail", "swim", "paddle", "crawl", "skate", "ski",
+     "slide"}
+)  # fmt: skip
+"""Motions of which "off" says that they lead away."""
+_OF_NOUNS = frozenset({Pos.DETERMINER, Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER, Pos.PRONOUN})
+"""Parts of speech that open a noun group: "falls off a table"."""
+_BEFOREHAND = frozenset({"about", "ready", "waiting", "wait", "waits", "prepares", "preparing",
+                         "hesitates", "hesitating", "poised", "unable"})  # fmt: skip
+"""Words before "to" after which something is not done yet."""
+_ANOTHER = frozenset({"another", "next", "other", "the other", "second", "the second"})
+
+
+def read_neighbours(words: Sequence[Word]) -> None:
+    """Change the readings of words that their neighbours decide."""
+    for number, word in enumerate(words):
+        before = words[number - 1] if number else None
+        after = words[number + 1] if number + 1 < len(words) else None
+        if word.text == "off" and before is not None and _leads_away(before, after):
+            word.meaning = Meaning(Role.DIRECTION, Pos.ADVERB, "away")
+        if word.pos is Pos.TO and before is not None and before.text in _BEFOREHAND:
+            _put_off(words[number + 1 :])
+        if word.text in _ANOTHER and before is not None and _is_goal_alone(words, number):
+            word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
+
+
+def _leads_away(verb: Word, after: Word | None) -> bool:
+    """As in "a dog runs off"; not "runs off the road"."""
+    value = verb.meaning.value
+    is_way = isinstance(value, Verb) and value.kind in _LEAVING and value.direction is None
+    return is_way and verb.pos is Pos.VERB and (after is None or after.pos not in _OF_NOUNS)
+
+
+def _put_off(after: Sequence[Word]) -> None:
+    """As in "is about to jump": nothing jumps yet."""
+    for word in after:
+        if word.pos is Pos.VERB:
+            word.meaning = Meaning(Role.UNKNOWN, Pos.VERB, form=word.meaning.form)
+            word.others, word.is_lost = (), True
+            return
+        if word.pos is not Pos.ADVERB:
+            return
+
+
+def _is_goal_alone(words: Sequence[Word], number: int) -> bool:
+    """As in "from one table to another", "to the next": which one is not said by a noun."""
+    first = number - 1
+    if words[first].pos is Pos.DETERMINER:
+        first -= 1
+    after = words[number + 1] if number + 1 < len(words) else None
+    is_last = after is None or after.pos not in (Pos.NOUN, Pos.ADJECTIVE)
+    return first >= 0 and words[first].text in ("to", "towards", "toward", "onto") and is_last
