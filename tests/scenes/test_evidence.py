@@ -62,6 +62,14 @@ def test_of_many_more_than_half_must_be_seen() -> None:
     assert most.is_faithful
 
 
+def test_a_plural_of_which_one_is_seen_and_adjectives_of_a_lost_noun_are_not_shown() -> None:
+    one = report_on(parse_prompt(PROMPT), Evidence(faults={0: SEEN, 1: [None, "hidden", "hidden"]}))
+    assert "seagulls (only one in view)" in one.not_shown
+    sun = parse_prompt("strong sun over a lake")
+    assert "strong" in report_on(sun, Evidence()).shown
+    assert "strong" not in report_on(sun, Evidence(places={"sun": "out of view"})).shown
+
+
 def test_a_word_leaves_the_shown_ones_with_its_motion_relation_or_move() -> None:
     seen = {0: SEEN, 1: SEEN}
     turns = parse_prompt("a car turns left, then a dog runs")

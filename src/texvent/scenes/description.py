@@ -232,7 +232,8 @@ class Claim:
     aspect: str
     """"name" (of objects), "count", "motion", "relation", "colour", "size", "material", "part",
     "side"; "light", "bright", "weather", "clouds", "snow", "sky", "steep", "dust", "flicker",
-    "shadow", "effect", "place", "road", "view", "framing"; or "quality" (whatever else it says)."""
+    "shadow", "effect", "place", "road", "view", "framing", "viewpoint" (what the camera is in
+    or on); or "quality" (whatever else it says)."""
     things: tuple[int, ...]
     """Indices of the objects that show it."""
     relations: tuple[Relation, ...] = ()

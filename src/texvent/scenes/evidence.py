@@ -14,6 +14,8 @@ from texvent.scenes.report import PromptReport
 
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
+PLURAL = 3
+"""Copies of what a plural names, of which more than one must be seen."""
 STILL = "no motion to be seen"
 _AT_REST = frozenset({"stand", "sit", "lie"})
 MOST_REASONS = 2
@@ -151,6 +153,12 @@ def _is_unseen(index: int, evidence: Evidence) -> bool:
     )
 
 
+def _is_alone(index: int, evidence: Evidence) -> bool:
+    """Whether of three or more only one is seen, so that a plural is not."""
+    faults = evidence.faults.get(index, ())
+    return len(faults) >= PLURAL and sum(fault is None for fault in faults) == 1
+
+
 def _fails(claim: Claim, description: SceneDescription, evidence: Evidence) -> bool:
     """Whether a word does not hold in the scene."""
     unmet = {one.relation for one in evidence.unmet}
@@ -175,6 +183,8 @@ def _find_reason(claim: Claim, description: SceneDescription, evidence: Evidence
     unseen = [index for index in claim.things if _is_unseen(index, evidence)]
     if unseen and len(unseen) == len(claim.things):
         return _reason(unseen[0], description, evidence)
+    if claim.aspect == "name" and any(_is_alone(one, evidence) for one in claim.things):
+        return "only one in view"
     poor = _find_poor_quality(claim, description, evidence)
     if poor is not None:
         return poor

@@ -82,8 +82,8 @@ class Picture:
             self._colours[number] = self._render(self.scene, number)
         return self._colours[number]
 
-    def seen_nouns(self) -> set[str]:
-        """Nouns of all things and scenery of which several image points show something."""
+    def seen_nouns(self, least: float = LEAST_TOLD) -> set[str]:
+        """Nouns of all things and scenery of which that share of the image points shows them."""
         scenery = self.scene.list_scenery()
         most: Counter[str] = Counter()
         for view in self.views:
@@ -93,7 +93,7 @@ class Picture:
                 noun = self.scene.class_names.get(int(view.owner[one]), "")
                 counts[noun or (scenery[one] if one < len(scenery) else "")] += int(count)
             most |= counts
-        return {noun for noun, count in most.items() if count >= LEAST_TOLD * len(self.points)}
+        return {noun for noun, count in most.items() if count >= least * len(self.points)}
 
     def strip(self, number: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """[k] whether image points show water or road of the ground, and the ground beside it."""

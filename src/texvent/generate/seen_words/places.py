@@ -18,6 +18,8 @@ LEAST_FLYER = 0.05
 """Extent of what is in the sky, as a share of the picture's width or height."""
 LEAST_GROUND = 0.05
 """Share of the picture that a ground such as grass covers."""
+LEAST_TELLING = 0.012
+"""Share of the picture that a thing covers by which a place is told."""
 _GROUNDS = ("grass", "savanna", "gravel", "soil", "sand", "snow", "construction site")
 _ROADS = ("road", "dirt road", "city")
 _FLAT = "the ground is flat"
@@ -35,6 +37,18 @@ _LACKS: dict[str, tuple[str, ...]] = {
     "a plain road": ("avenue",),
     "a wood of firs and broadleaf trees": ("jungle", "rainforest"),
     "no furrows": ("ploughed field", "plowed field"),
+    "as a plain room": ("hall", "halls"),
+    "a road of two lanes": ("motorway", "highway", "freeway", "expressway", "interstate"),
+    "no stalks": (
+        "wheat field",
+        "cornfield of wheat",
+        "field of wheat",
+        "grain field",
+        "barley field",
+        "field of barley",
+        "rye field",
+    ),
+    "no mud": ("mud",),
     "as wide as a lake": ("pond",),
     "as wide as a river": ("brook", "creek", "canal", "ditch"),
 }
@@ -42,6 +56,10 @@ _LACKS: dict[str, tuple[str, ...]] = {
 _NEEDS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("backyard", "yard"), ("house", "fence", "wooden house", "garden fence")),
     "garden": ("flower", "fence", "garden fence"),
+    **dict.fromkeys(("garage", "auto repair shop", "car workshop"), ("car lift",)),
+    **dict.fromkeys(("gym", "gymnasium", "sports hall"), ("treadmill", "basketball hoop")),
+    **dict.fromkeys(("street", "city street", "sidewalk", "pavement"),
+                    ("building", "house", "skyscraper", "shop", "street lamp", "wooden house")),
 }  # fmt: skip
 """Word → things one of which makes a lawn such a place."""
 _WATERS = ("river", "lake", "sea", "beach")
@@ -53,13 +71,9 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         return _FLAT
     if claim.aspect != "place":
         return None
-    for reason, words in _LACKS.items():
-        if _is_one_of(claim.word, words):
-            return reason
-    names = picture.seen_nouns()
-    needed = _NEEDS.get(claim.word)
-    if needed is not None and not names & set(needed):
-        return f"no {' or '.join(needed)}"
+    fault = _find_lack(picture, claim)
+    if fault is not None:
+        return fault
     place = description.surroundings.place
     if claim.value == "sky" and place != "sky":
         return None if _is_anything_aloft(picture) else "nothing is seen there"
@@ -68,9 +82,24 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     if claim.value in _WATERS and place in _WATERS:
         return _judge_water(picture)
     if claim.value in _ROADS and place in _ROADS:
-        return _judge_road(picture)
+        return _judge_road(picture, is_trodden=place == "dirt road")
     is_ground = claim.value == place and place in _GROUNDS
     return "out of view" if is_ground and picture.ground_share() < LEAST_GROUND else None
+
+
+def _find_lack(picture: Picture, claim: Claim) -> str | None:
+    """What the place that a word names never has here, or not in this picture; None: nothing."""
+    for reason, words in _LACKS.items():
+        if _is_one_of(claim.word, words):
+            return reason
+    needed = _NEEDS.get(claim.word)
+    names = picture.seen_nouns(LEAST_TELLING) if needed or claim.value == "hills" else set()
+    if needed is not None and not names & set(needed):
+        return f"no {' or '.join(needed)}"
+    sky = max(float(view.is_sky.mean()) for view in picture.views)
+    if claim.value == "hills" and ("green hill" not in names or sky < LEAST_GROUND):
+        return "not told as hills"
+    return None
 
 
 def _is_one_of(word: str, words: tuple[str, ...]) -> bool:
@@ -90,14 +119,15 @@ def _judge_water(picture: Picture) -> str | None:
     return "not to be told from the ground"
 
 
-def _judge_road(picture: Picture) -> str | None:
-    """A road differs from the ground beside it."""
+def _judge_road(picture: Picture, *, is_trodden: bool) -> str | None:
+    """A road differs from the ground beside it, which must be in view where the road is earth."""
     for number in USUAL:
         road, beside = picture.strip(number)
         if road.mean() < LEAST_STRIP:
             continue
         colours = picture.colours(number)
-        if _differ(colours[road], colours[beside]):
+        is_told = not is_trodden or beside.mean() >= LEAST_EDGE
+        if is_told and _differ(colours[road], colours[beside]):
             return None
     return "not to be told from the ground"
 

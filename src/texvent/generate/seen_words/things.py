@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from texvent.generate.seen_words.colours import share_like
+from texvent.generate.seen_words.materials import judge_material
 from texvent.generate.seen_words.picture import USUAL, Picture, View
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
 from texvent.scenes.evidence import MOST_COUNTED
@@ -19,7 +20,9 @@ in it."""
 LEAST_WORN = 0.08
 """The same for what another wears or holds, whose pixels are counted with the wearer's."""
 LEAST_DETAIL = 0.14
-"""Share of the picture's width or height below which a thing's material and parts are not told."""
+"""Share of the picture's width or height below which a thing's parts are not told."""
+LEAST_TEXTURED = 0.18
+"""The same for its material."""
 MOST_SHARED = 0.25
 """Share of a copy's box in the picture that another may cover while they are told apart."""
 LEAST_OUTLINE = 0.07
@@ -55,7 +58,7 @@ def judge_thing(
     if claim.aspect == "size":
         return _judge_size(picture, description, claim.word, index)
     if claim.aspect == "material":
-        return _judge_material(picture, claim.word, index)
+        return _judge_material(picture, description, claim.word, index)
     if claim.aspect == "part":
         return _judge_part(picture, description, claim, index)
     if claim.aspect == "side":
@@ -173,10 +176,15 @@ def _is_seen(picture: Picture, instance: int) -> bool:
     return any((picture.views[number].instance == instance).any() for number in USUAL)
 
 
-def _judge_material(picture: Picture, word: str, index: int) -> str | None:
+def _judge_material(
+    picture: Picture, description: SceneDescription, word: str, index: int
+) -> str | None:
     if word in _OPAQUE:
         return "not clear to look through"
-    return None if extent_of(picture, index) >= LEAST_DETAIL else "too small to tell"
+    if extent_of(picture, index) < LEAST_TEXTURED:
+        return "too small to tell"
+    has_colour = description.objects[index].colour is not None
+    return judge_material(picture, word, copies_of(picture, index), has_colour=has_colour)
 
 
 def _judge_part(

@@ -87,7 +87,7 @@ def _judge_scene_word(
         return judge_weather(picture, claim) if is_said else None
     if claim.aspect == "snow":
         return _judge_snow(picture, description, claim)
-    if claim.aspect == "style":
+    if claim.aspect in ("style", "viewpoint"):
         return claim.value
     if claim.move is not None:
         return judge_move(picture, description, claim)
@@ -121,6 +121,8 @@ def _judge_snow(picture: Picture, description: SceneDescription, claim: Claim) -
     is_of_mountains = claim.word.startswith("snow") and claim.word != "snow"
     if is_of_mountains and "mountain" in description.surroundings.backdrops:
         return "the mountains are bare"
+    if description.surroundings.place == "hills":
+        return "the hills are green"
     return judge_snow(picture) if description.surroundings.has_snow else None
 
 

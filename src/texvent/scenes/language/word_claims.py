@@ -85,7 +85,7 @@ def _claim(word: Word, lost: tuple[str, ...], *, is_crowded: bool) -> Claim:
         word.relations,
         word.motion,
         _move_of(word),
-        str(word.meaning.value) if word.role in _OF_SCENE else "",
+        _value_of(word, aspect),
         tuple(dict.fromkeys((*own, *lost))) if is_of_sentence else own,
     )
 
@@ -118,6 +118,8 @@ def is_unread(word: Word) -> bool:
 
 
 def _aspect_of(word: Word) -> str:
+    if word.is_viewpoint and not word.things:
+        return "viewpoint"
     if word.role in _OF_MOTION:
         return "motion"
     if word.things and word.role in _OF_OBJECTS:
@@ -128,7 +130,19 @@ def _aspect_of(word: Word) -> str:
         return "relation"
     if word.pos is Pos.NOUN and word.things:
         return "name"
+    if word.pos is Pos.NOUN and word.role is Role.NOUN and word.read_as(Role.PLACE):
+        return "place"
     return _OF_SCENE.get(word.role, "quality")
+
+
+def _value_of(word: Word, aspect: str) -> str:
+    """What it means, where it is a word of the scene; or why it is not shown."""
+    if aspect == "viewpoint":
+        return "the camera is there, nothing of it is in view"
+    place = word.read_as(Role.PLACE) if aspect == "place" else None
+    if place is not None:
+        return str(place.value)
+    return str(word.meaning.value) if word.role in _OF_SCENE else ""
 
 
 def _move_of(word: Word) -> str | None:

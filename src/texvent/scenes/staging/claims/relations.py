@@ -115,7 +115,16 @@ def _is_in_front(subject: Body, targets: list[Body]) -> bool:
     if looks and not subject.copies[0].noun.is_working:
         goals = list(target.copies)
         return is_near(subject, targets) and faces(subject.copies, goals, subject.duration_s)
-    return bool(np.mean(subject.places[:, 1] < target.places[:, 1]) > _MOST)
+    return _is_behind(target, [subject])
+
+
+def _is_behind(subject: Body, targets: list[Body]) -> bool:
+    """Farther from the viewer, and in line with the target at some instant."""
+    target = targets[0]
+    aside = np.maximum(subject.low - target.high, target.low - subject.high)[:, 0]
+    reach = _ASIDE * max(size_of(subject), size_of(target))
+    is_farther = np.mean(subject.places[:, 1] > target.places[:, 1]) > _MOST
+    return bool(is_farther and np.any(aside <= reach))
 
 
 def _is_amid(subject: Body, targets: list[Body]) -> bool:
@@ -259,6 +268,8 @@ def _is_striking(subject: Body, targets: list[Body], *, moves: bool) -> bool:
     return strikes(subject.copies, targets[0].copies, subject.duration_s, moves=moves)
 
 
+_ASIDE = 0.1
+"""Gap to the side, as a share of the larger one, up to which one thing is behind another."""
 _MOST = 0.5
 """Share of the clip for which it must be there."""
 _HAND_SAMPLES = 13
@@ -271,7 +282,7 @@ _BY_CONTACT = frozenset({"on", "in", "with", *ACTS})
 CHECKS: Mapping[str, Callable[[Body, list[Body]], bool]] = {
     "left of": lambda s, t: bool(middle_of(s)[0] < middle_of(t[0])[0]),
     "right of": lambda s, t: bool(middle_of(s)[0] > middle_of(t[0])[0]),
-    "behind": lambda s, t: bool(np.mean(s.places[:, 1] > t[0].places[:, 1]) > _MOST),
+    "behind": _is_behind,
     "front": _is_in_front,
     "beside": is_near,
     "at": _is_at,
