@@ -19,7 +19,7 @@ from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
 
-START = PhysicalConfig(gamma=1.0)
+START = PhysicalConfig(gamma=1.0, noise_scale=1.0)
 SEEDS = (1, 2, 3)
 REST_SIZE, REST_S, WARM_UP_S = SensorSize(128, 96), 10.0, 4.0
 FLICKER_SIZE, FLICKER_HZ, CYCLES = SensorSize(40, 30), 5.0, 20

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from texvent.bench.oracle.pixel import NOISY, PixelArray
 from texvent.calibrate.events_only.flicker import NAMES, measure_flicker
 from texvent.calibrate.events_only.flicker_cycles import find_bursts, find_cycles
 from texvent.calibrate.events_only.pixel_trains import PixelTrains
@@ -46,6 +47,27 @@ def test_every_constant_of_the_circuit_is_found_within_a_tenth(flicker):
         assert getattr(flicker.config, name) == pytest.approx(found[name], abs=0.5)
     assert flicker.cycles.hz == pytest.approx(5.0, rel=1e-4)
     assert all(one.low <= one.value <= one.high for one in flicker.found)
+
+
+@pytest.mark.parametrize("bright", [0.9, 2.5])
+def test_a_sensor_of_other_making_is_found_within_a_tenth(bright):
+    """The benchmark's sensor shares no code with ours: its bandwidth falls with the light below a
+    radiance of 0.5 and is constant above, it has four times the noise, and the recording begins and
+    ends within a burst."""
+    model = dataclasses.replace(NOISY, shot_hz=4.0)
+    sensor = PixelArray(model, SensorSize(20, 16), seed=3)
+    for step in range(4801):
+        is_bright = step * 5 % 4800 < 2400
+        radiance = np.full((16, 20), bright if is_bright else bright / 6)
+        sensor.expose(radiance, round(step * 1e6 / 4800))
+    flicker = measure_flicker(
+        sensor.events(), dataclasses.replace(START, balance=1.0), hz=5.0, ratio=6.0
+    )
+    found = {one.name: one.value for one in flicker.found}
+    expected = 0.2, 1.0, 0.03, 250.0, 300.0
+    for name, value in zip(NAMES, expected, strict=True):
+        assert found[name] == pytest.approx(value, rel=0.1), name
+    assert "of the bandwidth of the bright one" in flicker.remarks[-1]
 
 
 def test_pixels_with_high_thresholds_are_bright_in_the_map(flicker):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal, TypeAlias
 
 from texvent._registry import SIMULATORS
@@ -19,10 +20,15 @@ from texvent.video import FrameStream
 
 Track: TypeAlias = Literal["frames", "frames, lamp known", "true frames", "recorded"]
 """What a simulator gets: frames as a camera records them, those and the frequency of a lamp, or the
-scene at any instant. "recorded" marks events of a real sensor."""
+scene at any instant. "recorded" marks events of a sensor, which no simulator made."""
 
 INTERPOLATIONS = ("none", "blend", "flow", "exact")
 """Interpolators that are compared; "exact" gets the true frames, all others the camera's frames."""
+
+CALIBRATED = ("physical", "calibrated")
+"""Simulator and preset that know the oracle's kind of sensor."""
+SENSOR_FILE = Path(__file__).parents[1] / "oracle" / "sensor.toml"
+"""Their options, which `python -m benchmarks.oracle_sensor` finds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,14 +77,15 @@ class Entry:
         Raises:
             ConfigError: the simulator, its preset or the interpolator does not exist.
         """
+        is_calibrated = (self.simulator, self.preset) == CALIBRATED
         options = {
             "simulator": self.simulator,
-            "preset": self.preset,
+            "preset": None if is_calibrated else self.preset,
             "interpolate": self.interpolate,
             "lamp_hz": self.lamp_hz,
             "seed": seed,
         }
-        return resolve("simulate", options)
+        return resolve("simulate", options, config=SENSOR_FILE if is_calibrated else None)
 
     @property
     def default_threshold(self) -> float | None:
@@ -135,14 +142,15 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
     """Entries from the words of a command line.
 
     Args:
-        simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare.
+        simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare,
+            and `CALIBRATED`.
         interpolations: `NAME` or `NAME:HZ` of a lamp that it is told, separated by commas; None
             means `INTERPOLATIONS`.
 
     Raises:
         ConfigError: a frequency is no number.
     """
-    chosen = simulators_to_compare()
+    chosen = [*simulators_to_compare(), CALIBRATED]
     if simulators is not None:
         words = (word.partition(":") for word in simulators.split(","))
         chosen = [(simulator, preset or None) for simulator, _, preset in words]

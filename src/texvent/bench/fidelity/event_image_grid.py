@@ -39,6 +39,8 @@ def event_image_grid(report: FidelityReport, scene: str) -> bytes:
         shown, {"truth": (model, REFERENCE_SEED), "second recording": (model, FLOOR_SEED)}
     )
     for score in report.ranked(scene, target):
+        if score.track == "recorded":
+            continue
         title = f"{score.entry}  {score.summary('stpp').mean:.2f}"
         streams[title] = Entry.parse(score.entry).simulate(shown, seed, score.threshold)
     level = camera_level(shown(START_US / MICROSECONDS))

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from texvent.bench.fidelity.details import describe
 from texvent.bench.fidelity.entries import Entry, choose_entries
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.jobs import run_jobs
 from texvent.bench.machine import describe_environment
-from texvent.bench.oracle.pixel import FLOOR_SEED, REFERENCE_SEED, TARGETS
+from texvent.bench.oracle.pixel import (
+    FLOOR_SEED,
+    OTHER_SEED,
+    OTHER_SENSOR_SEED,
+    REFERENCE_SEED,
+    SENSOR_SEED,
+    TARGETS,
+)
 from texvent.bench.oracle.recording import oracle_scene, record
 from texvent.bench.oracle.scenes import check_scene, known_flow, scene_names
 from texvent.bench.progress import Progress, no_progress
@@ -26,6 +35,9 @@ from texvent.metrics.compare import compare, load_metric
 from texvent.metrics.protocol import Metric
 
 NULL = "shuffle all times"
+OTHER_SENSOR = "another sensor of the kind"
+"""Row of a recording by a sensor with the same constants and other pixels: a simulator that knows
+the kind of the sensor, but not each pixel, gets no closer."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,11 +121,13 @@ def run_fidelity(
     environment = describe_environment()
     truths: list[TrueRecordings] = []
     references: list[Reference] = []
+    others: list[Score] = []
     for found in run_jobs(record_truths, [(plan, scene) for scene in plan.scenes], jobs):
-        for truth, reference in found:
+        for truth, reference, other in found:
             progress(f"recorded {truth.scene}, {truth.target} pixels")
             truths.append(truth)
             references.append(reference)
+            others.append(other)
     scores: list[Score] = []
     skipped: dict[str, str] = {}
     work = [(plan, truth, entry) for truth, entry in itertools.product(truths, entries)]
@@ -128,24 +142,31 @@ def run_fidelity(
         fit_seeds=plan.fit_seeds,
         score_seeds=plan.score_seeds,
         references=references,
-        scores=scores,
+        scores=[*scores, *others],
         skipped=skipped,
         seconds=time.perf_counter() - start,
     )
 
 
-def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[TrueRecordings, Reference]]:
-    """The true recordings of one scene by each kind of pixels, with floor and null.
+def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[TrueRecordings, Reference, Score]]:
+    """The true recordings of one scene by each kind of pixels.
 
     Args:
         plan: which pixels, seeds and metrics.
         scene: name of the scene.
+
+    Returns:
+        With floor and null, and what another sensor of the kind scores.
     """
     # All at once, since drawing a scene 4,800 times a second takes longer than its pixels do.
     sensors = {
-        (target, seed): (TARGETS[target], seed)
+        (target, noise): (dataclasses.replace(TARGETS[target], sensor_seed=sensor), noise)
         for target in plan.targets
-        for seed in (REFERENCE_SEED, FLOOR_SEED)
+        for noise, sensor in (
+            (REFERENCE_SEED, SENSOR_SEED),
+            (FLOOR_SEED, SENSOR_SEED),
+            (OTHER_SEED, OTHER_SENSOR_SEED),
+        )
     }
     recordings = {
         seed: record(oracle_scene(scene, seed), sensors)
@@ -153,13 +174,43 @@ def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[TrueRecordings, 
     }
     found = []
     for target in plan.targets:
-        references, seconds = (
+        references, seconds, others = (
             {texture: all_of[target, noise] for texture, all_of in recordings.items()}
-            for noise in (REFERENCE_SEED, FLOOR_SEED)
+            for noise in (REFERENCE_SEED, FLOOR_SEED, OTHER_SEED)
         )
         truth = TrueRecordings(scene=scene, target=target, references=references)
-        found.append((truth, _measure_bounds(plan, truth, seconds)))
+        bounds = _measure_bounds(plan, truth, seconds)
+        found.append((truth, bounds, _score_other_sensor(plan, truth, others)))
     return found
+
+
+def _score_other_sensor(
+    plan: FidelityPlan, truth: TrueRecordings, others: Mapping[int, EventStream]
+) -> Score:
+    """What the recordings of another sensor score against the truth."""
+    simulated = [others[seed] for seed in plan.score_seeds]
+    return Score(
+        scene=truth.scene,
+        target=truth.target,
+        entry=OTHER_SENSOR,
+        track="recorded",
+        threshold=None,
+        is_matched=True,
+        default_ratio=math.nan,
+        seconds=0.0,
+        **_judge(plan, truth, simulated),
+    )
+
+
+def _judge(
+    plan: FidelityPlan, truth: TrueRecordings, simulated: Sequence[EventStream]
+) -> dict[str, Any]:
+    """`values` and `details` of a score."""
+    references = [truth.references[seed] for seed in plan.score_seeds]
+    return {
+        "values": compare_all(simulated, references, plan.metrics),
+        "details": describe(simulated, references, known_flow(truth.scene)),
+    }
 
 
 def _measure_bounds(
@@ -190,7 +241,6 @@ def score_entry(plan: FidelityPlan, truth: TrueRecordings, entry: Entry) -> Scor
     def count_events(threshold: float | None) -> int:
         return sum(len(entry.simulate(scenes[seed], seed, threshold)) for seed in plan.fit_seeds)
 
-    references = [truth.references[seed] for seed in plan.score_seeds]
     target = sum(len(truth.references[seed]) for seed in plan.fit_seeds)
     try:
         match, default_ratio = fit_threshold(count_events, target, entry.default_threshold)
@@ -211,8 +261,7 @@ def score_entry(plan: FidelityPlan, truth: TrueRecordings, entry: Entry) -> Scor
         is_matched=bool(match and match.is_matched),
         default_ratio=default_ratio,
         seconds=seconds,
-        values=compare_all(simulated, references, plan.metrics),
-        details=describe(simulated, references, known_flow(truth.scene)),
+        **_judge(plan, truth, simulated),
     )
 
 

@@ -20,8 +20,9 @@ from texvent.video import MICROSECONDS
 
 Float64Array = NDArray[np.float64]
 
-SENSOR_SEED = 1000
-"""Seed of what is fixed to a pixel: every recording is made with the same sensor."""
+SENSOR_SEED, OTHER_SENSOR_SEED = 1000, 1001
+"""Seeds of what is fixed to a pixel: that of the sensor of every recording but one, and that of
+another sensor of the same kind."""
 THRESHOLD_ON_DRAW, THRESHOLD_OFF_DRAW, LEAK_DRAW, PHASE_DRAW = 0, 2, 4, 6
 SHOT_DRAW, POLARITY_DRAW = 0, 1
 LEAST_THRESHOLD = 0.06
@@ -46,6 +47,8 @@ class PixelModel:
     shot_on_share: float = 0.42
     has_random_phase: bool = False
     """Start anywhere between the two thresholds, not just reset."""
+    sensor_seed: int = SENSOR_SEED
+    """Which sensor of the kind it is."""
 
 
 IDEAL = PixelModel()
@@ -59,8 +62,8 @@ NOISY = PixelModel(
 )
 TARGETS: Mapping[str, PixelModel] = {"noisy": NOISY, "ideal": IDEAL}
 """Kinds of pixels whose events count as true."""
-REFERENCE_SEED, FLOOR_SEED = 1, 2
-"""Noise seeds of the reference and of the second recording."""
+REFERENCE_SEED, FLOOR_SEED, OTHER_SEED = 1, 2, 3
+"""Noise seeds of the reference, of the second recording and of that of another sensor."""
 PATTERN_DECADES = 0.25
 """Fixed pattern of leak and shot rates: sd of their log10 between pixels."""
 
@@ -78,7 +81,7 @@ class PixelArray:
         """
         self._model, self._size, self._seed = model, size, seed
         self._y, self._x = (one.ravel() for one in np.indices(size.shape))
-        sensor = frame_key(SENSOR_SEED, 0)
+        sensor = frame_key(model.sensor_seed, 0)
         self._on, self._off = (
             np.maximum(
                 model.threshold

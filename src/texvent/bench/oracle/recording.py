@@ -27,9 +27,9 @@ Name = TypeVar("Name")
 """What tells one recording from another."""
 
 
-def render_video(scene: Scene) -> Video:
+def render_video(scene: Scene, *, frames: int = FRAMES) -> Video:
     """The scene at 24 frames per second in 8 bits, as any camera would give it."""
-    times = [frame_time_us(index, FPS) for index in range(FRAMES)]
+    times = [frame_time_us(index, FPS) for index in range(frames)]
     levels = [camera_level(scene(t / MICROSECONDS)) for t in times]
     return Video(np.rint(np.stack(levels)).astype(np.uint8), times, FPS)
 
@@ -66,20 +66,25 @@ class TrueFrames:
 
 
 def record(
-    scene: Scene, recordings: Mapping[Name, tuple[PixelModel, int]], size: SensorSize = SIZE
+    scene: Scene,
+    recordings: Mapping[Name, tuple[PixelModel, int]],
+    size: SensorSize = SIZE,
+    *,
+    frames: int = FRAMES,
 ) -> dict[Name, EventStream]:
-    """Events of half a second of a scene, as several sensors see it at once.
+    """Events of a scene, as several sensors see it at once.
 
     Args:
         scene: what they see.
         recordings: name → (pixel model, seed of its noise).
         size: width and height of the scene, px.
+        frames: of the video of that length; by default that of half a second.
 
     Returns:
-        Name → events, times from 0 to 0.5 s.
+        Name → events, times from 0 to that of the last frame.
     """
     arrays = {name: PixelArray(model, size, seed) for name, (model, seed) in recordings.items()}
-    last_us = frame_time_us(FRAMES - 1, FPS)
+    last_us = frame_time_us(frames - 1, FPS)
     step = 0
     while (t_us := frame_time_us(step, STEP_RATE)) <= last_us:
         radiance = scene(t_us / MICROSECONDS)

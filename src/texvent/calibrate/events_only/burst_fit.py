@@ -94,6 +94,12 @@ class BurstFit(NamedTuple):
     pairs: tuple[Pairs, ...]
     """All pairs without noise in them."""
 
+    @property
+    def disagreement(self) -> float:
+        """Mean squared deviation of pairs from the mean of their pixel, of both polarities."""
+        each = (disagreements(one, self.omega, self.dead_s) for one in self.pairs)
+        return sum(float((one**2).mean()) for one in each)
+
 
 def find_pairs(bursts: Bursts) -> Pairs:
     """Neighbouring events of bursts of one polarity, of pixels that have two pairs or more."""
@@ -149,7 +155,7 @@ def fit_bursts(pairs: Sequence[Pairs]) -> BurstFit:
 
 
 def find_slowness(dark: Pairs, bright: Pairs) -> float:
-    """Bandwidth in the dark half over that in the bright one, where their brightness is unknown.
+    """Bandwidth in the dark half over that in the bright one.
 
     Args:
         dark: pairs of OFF events.

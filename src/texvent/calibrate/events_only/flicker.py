@@ -46,6 +46,9 @@ SETTLED = 3.0
 """Time constants that half a cycle must have."""
 WIDEST = 3.0
 """Upper over lower end of an interval from which on the old value stays."""
+MUCH_BETTER = 0.5
+"""Squared disagreement over that with the model's bandwidth in the dark half, below which the one
+that the bursts tell is taken."""
 NAMES = (
     "contrast_threshold",
     "on_off_ratio",
@@ -101,10 +104,8 @@ def measure_flicker(
     bursts = tuple(find_bursts(trains, cycles, p) for p in (0, 1))
     off, on = (find_pairs(one) for one in bursts)
     _check(off, on)
-    dark = (
-        (WHITE / ratio + DARK_OFFSET) / (WHITE + DARK_OFFSET) if ratio else find_slowness(off, on)
-    )
-    fit = fit_bursts([off._replace(slowness=dark), on])
+    fit = _fit(off, on, ratio)
+    dark = fit.pairs[0].slowness
     weighed = tuple(one.thinned(WEIGHED_PAIRS) for one in fit.pairs)
     sides = tuple(_polarity(one, bursts[p], cycles.number) for p, one in enumerate(weighed))
     fitted = fit._replace(pairs=tuple(one.thinned(FITTED_PAIRS) for one in fit.pairs))
@@ -129,7 +130,7 @@ def measure_flicker(
         with_estimates(start, found),
         tuple(found),
         tuple(kept),
-        tuple(_settling(fit, cycles, dark)),
+        (*_settling(fit, cycles, dark), *_remark(dark, ratio)),
         cycles,
         _threshold_map(fit, events.size),
     )
@@ -143,6 +144,24 @@ def _check(off: Pairs, on: Pairs) -> None:
             f"{LEAST_PAIRS} of each polarity. Make the bright half brighter against the dark one, "
             "record longer, or use less light if pixels are still in reset when the burst ends"
         )
+
+
+def _fit(off: Pairs, on: Pairs, ratio: float | None) -> BurstFit:
+    """The fit with the bandwidth of the dark half that the model has for that ratio.
+
+    Where the one that bursts tell fits much better, that is taken.
+    """
+    free = fit_bursts([off._replace(slowness=find_slowness(off, on)), on])
+    if ratio is None:
+        return free
+    modelled = fit_bursts([off._replace(slowness=_modelled_slowness(ratio)), on])
+    is_better = free.disagreement < MUCH_BETTER * modelled.disagreement
+    return free if is_better else modelled
+
+
+def _modelled_slowness(ratio: float) -> float:
+    """Bandwidth of the dark half over that of the bright one in the model."""
+    return (WHITE / ratio + DARK_OFFSET) / (WHITE + DARK_OFFSET)
 
 
 def _contrast(ratio: float, balance: float) -> float:
@@ -232,6 +251,16 @@ def _settling(fit: BurstFit, cycles: Cycles, slowness: float) -> list[str]:
     return [
         f"half a cycle lasts {constants:.1f} time constants of the dark half; pixels do not settle "
         f"in less than {SETTLED:g}, so thresholds come out too large: flicker slower"
+    ]
+
+
+def _remark(slowness: float, ratio: float | None) -> list[str]:
+    """Says so where the bandwidth falls with the light otherwise than the model's does."""
+    if ratio is None or slowness == (modelled := _modelled_slowness(ratio)):
+        return []
+    return [
+        f"the dark half has {slowness:.2f} of the bandwidth of the bright one, in the model "
+        f"{modelled:.2f}: cutoff_hz holds for bright pixels"
     ]
 
 

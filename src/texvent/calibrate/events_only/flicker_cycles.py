@@ -24,6 +24,11 @@ LEAD = 0.01
 """Part of a cycle by which a half begins before its first events."""
 RISE = 0.05
 """Part of the busiest bin that an onset reaches."""
+END_BINS, END_RANGE = 100, 1000.0
+"""Bins of times since the switch, each a few per cent longer than the one before, and the length of
+a half over the time at which they begin."""
+MOST_NOISE = 4.0
+"""Rate over that of noise below which a burst has ended."""
 LEAST_CYCLES = 3
 """Whole cycles that a recording needs."""
 
@@ -109,7 +114,8 @@ def _straighten(hz: float, t: Float64Array) -> float:
     """The frequency at which bursts of one polarity come at the same phase in every cycle.
 
     The phase of a cycle is the median of its events near the busiest one; the slope over cycles is
-    the median of those between cycles half of the recording apart, so noise moves neither.
+    the median of those between cycles half of the recording apart, so noise moves neither. Cycles
+    that the recording cuts, with less than half of the usual events, are left out.
 
     Args:
         hz: the frequency, Hz, wrong by less than `NEAR_BURST` cycles over the recording.
@@ -120,8 +126,10 @@ def _straighten(hz: float, t: Float64Array) -> float:
     cycle = np.rint(place).astype(np.int64)
     late = place - cycle
     near = np.abs(late) < NEAR_BURST
-    numbers, first = np.unique(cycle[near], return_index=True)
-    phase = np.array([np.median(part) for part in np.split(late[near], first[1:])])
+    numbers, first, count = np.unique(cycle[near], return_index=True, return_counts=True)
+    whole = count > np.median(count) / 2
+    phase = np.array([np.median(part) for part in np.split(late[near], first[1:])])[whole]
+    numbers = numbers[whole]
     half = len(numbers) // 2
     slopes = (phase[-half:] - phase[:half]) / (numbers[-half:] - numbers[:half])
     return hz / (1 + float(np.median(slopes)))
@@ -155,7 +163,17 @@ def find_bursts(trains: PixelTrains, cycles: Cycles, p: int) -> Bursts:
     since_us = (place - cycle) * period_us
     belongs = (trains.is_on == bool(p)) & (since_us < period_us / 2)
     belongs &= (cycle >= 0) & (cycle < cycles.number)
+    belongs &= since_us < _burst_end_us(since_us[belongs], period_us / 2)
     follows = np.zeros(len(cycle), np.bool_)
     follows[1:] = belongs[1:] & belongs[:-1] & (np.diff(trains.pixel) == 0)
     follows[1:] &= np.diff(cycle) == 0
     return Bursts(trains.pixel[belongs], cycle[belongs], since_us[belongs], follows[belongs])
+
+
+def _burst_end_us(since_us: Float64Array, half_us: float) -> float:
+    """From when on most events of a half are noise, whose rate is that of its second half, µs."""
+    noise_per_us = np.count_nonzero(since_us >= half_us / 2) / (half_us / 2)
+    edges = np.geomspace(half_us / END_RANGE, half_us, END_BINS)
+    per_us = np.histogram(since_us, edges)[0] / np.diff(edges)
+    busy = np.flatnonzero(per_us > MOST_NOISE * noise_per_us)
+    return float(edges[busy[-1] + 1]) if busy.size else half_us

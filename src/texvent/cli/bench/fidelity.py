@@ -24,7 +24,8 @@ class FidelityOptions:
     prompt-car, prompt-dog, prompt-bird; default: mixed,translate,fast,slow."""
     simulators: str | None = None
     """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
-    default: all that are registered, and texvent:accurate."""
+    default: all that are registered, texvent:accurate, and physical:calibrated, which knows the
+    sensor that makes the true events."""
     interpolations: str | None = None
     """Names of interpolators, separated by commas; default: none,blend,flow,exact (the true
     frames). flow:37 is told of a lamp of 37 Hz. Others, such as rife, need their weights."""

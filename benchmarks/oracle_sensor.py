@@ -1,0 +1,76 @@
+"""Calibrate `physical` to the sensor that makes the benchmark's true events.
+
+    python -m benchmarks.oracle_sensor src/texvent/bench/oracle/sensor.toml
+
+It does what docs/calibration.md tells the owner of a sensor to do, with recordings that the
+benchmark does not score: first a field that flickers, without frames, then a camera at rest before
+a texture of which one half moves, with the frames of an ordinary camera.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from texvent.bench.oracle.pixel import NOISY, REFERENCE_SEED
+from texvent.bench.oracle.recording import FPS, SIZE, record, render_video
+from texvent.bench.oracle.scenes import Float64Array, Scene, panning_texture
+from texvent.bench.oracle.smooth_texture import ValueNoise
+from texvent.calibrate.events_only.flicker import measure_flicker
+from texvent.calibrate.fit import fit_sensor
+from texvent.calibrate.preset import describe_fit, write_preset
+from texvent.calibrate.recording import Recording
+from texvent.config import InterpolateConfig
+from texvent.events import EventStream
+from texvent.simulate.physical.config import PhysicalConfig
+
+FLICKER_HZ, RATIO, BRIGHT = 4.0, 5.0, 0.9
+FRAMES = 2 * int(FPS) + 1
+TEXTURE = 7
+"""The texture on which the benchmark fits thresholds; others are scored."""
+VELOCITY = (150.0, 35.0)
+"""Of the half that moves, px/s."""
+
+
+def flickering_field(seconds: float) -> Float64Array:
+    """Radiance of a flat field, bright for the first half of each cycle."""
+    is_bright = seconds * FLICKER_HZ % 1.0 < 0.5
+    return np.full(SIZE.shape, BRIGHT if is_bright else BRIGHT / RATIO)
+
+
+def half_moving(seconds: float) -> Float64Array:
+    """A texture from dark to over-range light, its lower half in motion."""
+    noise = ValueNoise(TEXTURE)
+    image = panning_texture(noise, SIZE, 0.0, (0.0, 0.0))
+    moving = panning_texture(noise, SIZE, seconds, VELOCITY)
+    half = SIZE.height // 2
+    image[half:] = moving[half:]
+    return image * np.linspace(0.05, 1.8, SIZE.width)
+
+
+def recorded(scene: Scene) -> EventStream:
+    """What the benchmark's sensor records of a scene."""
+    return record(scene, {"events": (NOISY, REFERENCE_SEED)}, frames=FRAMES)["events"]
+
+
+def main() -> None:
+    """Write the sensor file."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("out", type=Path)
+    path = parser.parse_args().out
+    flicker = measure_flicker(
+        recorded(flickering_field), PhysicalConfig(), hz=FLICKER_HZ, ratio=RATIO
+    )
+    video = render_video(half_moving, frames=FRAMES)
+    recording = Recording(video, recorded(half_moving), InterpolateConfig(motion_floor=True))
+    fit = fit_sensor(recording, start=flicker.config, report=print)
+    lines = describe_fit(
+        fit, "two recordings of the benchmark's sensor, as benchmarks/oracle_sensor.py makes them"
+    )
+    write_preset(fit.config, lines, path, size=SIZE, overwrite=True)
+
+
+if __name__ == "__main__":
+    main()
