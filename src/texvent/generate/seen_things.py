@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
+from texvent.generate.seen_words.faces import judge_face
 from texvent.generate.seen_words.people import is_portrait, judge_head
 from texvent.generate.seen_words.picture import Picture, View
 from texvent.generate.seen_words.things import judge_outline
@@ -101,7 +102,9 @@ def find_evidence(
     for one, fault in found.faults.items():
         is_told = fault == "cut off" and is_portrait(picture, bodies.get(one))
         seen = None if is_told else fault
-        faults[one] = seen or judge_outline(picture, one) or judge_head(picture, bodies.get(one))
+        body = bodies.get(one)
+        seen = seen or judge_outline(picture, one) or judge_head(picture, body)
+        faults[one] = seen or judge_face(picture, body)
     return Evidence(
         scene.unmet,
         {index: [faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},

@@ -37,7 +37,6 @@ def report_of(prompt: str) -> PromptReport:
         ("a frog stands up", "stands up", "frog does so all the time"),
         ("a penguin sits down", "sits down", "penguin does so all the time"),
         ("a cat jumps onto a table", "onto", "cat is there from the start"),
-        ("pigeons taking off from a square", "taking off", "pigeon is in the air from the start"),
         ("a man twirls her", "twirls", "it is not done to her"),
         ("a shepherd drives his sheep along the lane", "drives", "rides the sheep"),
     ],

@@ -22,6 +22,7 @@ MOST_DRIFT = 0.35
 _OF_PLACE = frozenset({"travel", "dolly", "truck", "pedestal", "crane", "orbit", "dolly zoom"})
 _WITH_STATIC = frozenset({"static", "dutch", "travel", "handheld", "follow", "pan", "tilt", "zoom"})
 """Moves beside which a camera may be said to be fixed: to what goes, or where it only turns."""
+_DIRECTIONS = frozenset({"left", "right", "up", "down", "in", "out"})
 _TURNS = frozenset({"pan", "tilt", "zoom", "roll"})
 
 
@@ -33,6 +34,9 @@ def judge_move(picture: Picture, description: SceneDescription, claim: Claim) ->
         description: what it was staged from.
         claim: of a word that asks for a move.
     """
+    said = {move.direction for move in description.shot.moves if move.kind == claim.move}
+    if claim.word in _DIRECTIONS and claim.word not in said:
+        return "the camera does not go that way"
     first, last = picture.views[0], picture.views[-1]
     if claim.move == "static":
         shot = description.shot.moves

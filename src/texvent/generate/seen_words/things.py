@@ -13,6 +13,7 @@ from texvent.scenes.description import Claim, NamedColour, SceneDescription
 from texvent.scenes.evidence import MOST_COUNTED
 from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import Actor
 
 LEAST_COLOURED, LEAST_DRESSED = 0.25, 0.12
 """Share of a thing's pixels that have the colour that is said of it; of a person's, who is dressed
@@ -41,7 +42,11 @@ _SIDES = {"left": (0.0, 0.48), "right": (0.52, 1.0), "centre": (0.3, 0.7)}
 """Side → least and greatest place of its middle, in picture widths."""
 MOST_BENT = 0.12
 """Spread of a row across it, as a share of that along it."""
-_GARMENTS = frozenset({"coat", "jacket"})
+_GARMENTS = frozenset({"coat", "jacket", "sweater"})
+_AT_FRONT = frozenset({"apron", "tie", "bow tie", "bib", "necklace", "medal"})
+"""What is worn before the chest."""
+FRONT_COSINE, LEAST_FRONT_VIEWS = 0.5, 3
+"""Cosine between a heading and the way to the camera of who is seen from the front; views."""
 _OPAQUE = frozenset({"glass", "crystal", "ice"})
 
 
@@ -75,11 +80,24 @@ def _is_substituted(description: SceneDescription, index: int) -> bool:
 
 
 def _judge_garment(picture: Picture, description: SceneDescription, index: int) -> str | None:
-    """A coat that is worn colours the upper body, as a shirt does."""
-    is_long = description.objects[index].noun in _GARMENTS
-    if is_long and not copies_of(picture, index) and _bearers(picture, description, index):
+    """A coat that is worn colours the upper body, as a shirt does; an apron is seen from before."""
+    noun = description.objects[index].noun
+    bearers = () if copies_of(picture, index) else _bearers(picture, description, index)
+    if noun in _GARMENTS and bearers:
         return "is shown as a shirt"
-    return None
+    if noun == "hoodie" and bearers:
+        return "without a hood"
+    if noun not in _AT_FRONT:
+        return None
+    wearers = [one for one in picture.scene.actors if one.instance in bearers]
+    seen = [sum(_is_from_front(one, view) for view in picture.views) for one in wearers]
+    return "seen from the side" if seen and max(seen) < LEAST_FRONT_VIEWS else None
+
+
+def _is_from_front(actor: Actor, view: View) -> bool:
+    yaw = actor.trajectory.at(view.time_s).yaw
+    x, y = (np.asarray(view.camera.position) - actor.middle(view.time_s))[:2]
+    return bool(x * np.cos(yaw) + y * np.sin(yaw) >= FRONT_COSINE * np.hypot(x, y))
 
 
 def _judge_order(picture: Picture, word: str, index: int) -> str | None:

@@ -14,7 +14,7 @@ from texvent.scenes.projection import project
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_placement import choose_main
 
-STEEP_DOWN, SLANT_DOWN = 0.85, 0.2
+STEEP_DOWN, SLANT_DOWN = 0.85, 0.3
 """Sine of the angle at which the camera looks down in a top view, and at least from the air."""
 LOW_M = 0.7
 """Height at which a camera is low in any case, m."""
@@ -29,6 +29,10 @@ LEAST_UP = 0.15
 _BELOW = ("below", "underneath", "worm eye", "worm eye view", "worm eye shot")
 EYES_M, MOST_SLANT = (0.15, 2.4), 0.3
 """Heights of a camera at the level of eyes, m; and sine of the angle at which it looks at most."""
+HEIGHTS_M = {"waist": (0.7, 1.25), "chest": (0.9, 1.6), "shoulder": (1.0, 1.7)}
+"""Part of a person → heights of a camera at its level, m."""
+MOST_DOWN = 0.3
+"""Sine of the angle at which a low camera looks down at most."""
 MOST_OF_CLIP = 0.6
 _BEARINGS = {"side": (-0.6, 0.6), "front": (0.6, 1.0), "back": (-1.0, -0.6),
              "shoulder": (-1.0, -0.5)}  # fmt: skip
@@ -42,12 +46,14 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
     down = [-float(view.camera.rotation[2, 2]) for view in picture.views]
     if claim.value == "top" and max(down) < STEEP_DOWN:
         return "the camera does not look straight down"
-    if claim.value == "aerial" and max(down) < SLANT_DOWN:
+    if claim.value == "aerial" and float(np.median(down)) < SLANT_DOWN:
         return "the camera does not look down"
+    if claim.word == "up" and -min(down) < LOOKING_UP:
+        return "the camera does not look up"
     if claim.value == "low":
         return _judge_low(picture) or _judge_below(picture, description, claim)
     if claim.value == "level":
-        return _judge_level(picture)
+        return _judge_level(picture, claim.word)
     if claim.value == "wide" and _greatest_extent(picture) > MOST_WIDE:
         return "things fill the picture"
     if claim.value == "first person":
@@ -62,9 +68,11 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
 
 
 def _judge_low(picture: Picture) -> str | None:
+    """Whether the camera is low, and does not look down on the ground."""
     for view in picture.views:
         height, up = float(view.camera.position[2]), float(view.camera.rotation[2, 2])
-        if height <= LOW_M or (height <= KNEE_M and up >= LOOKING_UP):
+        is_flat = height <= LOW_M and up >= -MOST_DOWN
+        if is_flat or (height <= KNEE_M and up >= LOOKING_UP):
             return None
     return "the camera is not low"
 
@@ -82,11 +90,12 @@ def _judge_below(picture: Picture, description: SceneDescription, claim: Claim) 
     return f"the {main.noun.name} is not seen from below"
 
 
-def _judge_level(picture: Picture) -> str | None:
-    """Whether the camera is as high as the eyes of a person, and looks about level."""
+def _judge_level(picture: Picture, word: str) -> str | None:
+    """Whether the camera is as high as that part of a person, and looks about level."""
+    least, most = next((own for part, own in HEIGHTS_M.items() if part in word.split()), EYES_M)
     for view in picture.views:
         height, up = float(view.camera.position[2]), float(view.camera.rotation[2, 2])
-        if EYES_M[0] <= height <= EYES_M[1] and abs(up) <= MOST_SLANT:
+        if least <= height <= most and abs(up) <= MOST_SLANT:
             return None
     return "the camera is not at that height"
 

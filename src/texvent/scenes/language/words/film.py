@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from texvent.scenes.language.vocabulary.film import FRAMING_ADJECTIVES
 from texvent.scenes.language.words.english import Pos, VerbForm
@@ -50,6 +51,8 @@ _LOOKING = frozenset({"look", "point", "film", "capture", "reveal", "track", "sh
 _LOOK = frozenset({"look", "point", "face", "aim", "angle", "peer", "gaze"})
 _STRAIGHT = frozenset({"straight", "directly", "vertically"})
 _HEIGHTS = frozenset({"down", "up", "high", "low"})
+_LIT = frozenset({"lit", "lamp", "lamps", "spotlight", "spotlights", "beam", "beams", "backlit",
+                  "lighted", "illuminated", "shining", "shines", "sun"})  # fmt: skip
 _OF_SCENE_TOO = frozenset(
     {"from a height", "from high up", "low to the ground",
      "close to the ground", "near the ground", "from underneath", "from below", "head on",
@@ -228,8 +231,12 @@ def _read_gear(words: Sequence[Word]) -> None:
 
 
 def _read_views(words: Sequence[Word], begin: int, end: int) -> None:
-    """As in "fruit falls from the sky": no view of the camera."""
+    """As in "fruit falls from the sky", "strong light from above": no view of the camera."""
     own = words[begin:end]
+    for before, word in pairwise(own):
+        is_light = before.role in (Role.LIGHT, Role.GLOW) or before.text in _LIT
+        if is_light and word.role is Role.VIEW and word.text.startswith("from "):
+            word.meaning, word.is_lost = Meaning(Role.UNKNOWN, Pos.ADVERB), True
     has_verb = any(one.pos is Pos.VERB and one.text not in _FILMED for one in own)
     for word in own:
         if word.role is not Role.VIEW or word.text not in _OF_SCENE_TOO or not has_verb:

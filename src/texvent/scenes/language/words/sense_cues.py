@@ -121,7 +121,9 @@ def _choose_noun(
     is_of = follower is not None and follower.text == "of"
     needed = ONLY_WITH.get(word.lemma)
     is_owned = before is not None and (before.text in _OWNERS or before.is_possessive)
-    is_before_noun = follower is not None and follower.pos in (Pos.NOUN, Pos.ADJECTIVE)
+    is_before_noun = follower is not None and (
+        follower.pos in (Pos.NOUN, Pos.ADJECTIVE) or follower.read_as(Role.PART) is not None
+    )
     if word.lemma in _OUTLINES and is_before_noun:
         _forget(word, Pos.ADJECTIVE)
         return

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from texvent.scenes.description import Picture
 from texvent.scenes.language.words.literals import find_literals
 
-_TOKEN = re.compile(r"\d{1,3}(?:,\d{3})+|\d+(?:[.,]\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
+_TOKEN = re.compile(r"3[dD]\b|\d{1,3}(?:,\d{3})+|\d+(?:[.,]\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
 
 _BULLET = re.compile(r"^[ \t]*(?:[-*+•]|#+|\d{1,2}[.)])[ \t]+", re.MULTILINE)
 """What opens a heading or an item of a list."""
@@ -33,8 +33,8 @@ class Token:
 
     @property
     def is_number(self) -> bool:
-        """Whether it is written in digits."""
-        return self.text[0].isdigit() and self.picture is None
+        """Whether it is written in digits; "3D" is none."""
+        return self.text[0].isdigit() and self.text != "3d" and self.picture is None
 
     @property
     def value(self) -> float:

@@ -152,7 +152,7 @@ def plan_motion(
         yaw = YAWS["away"]  # so that it goes from side to side in the picture
     elif noun.habitat == "fixed" and any(one.kind == "fall" for one in motions[1:]):
         yaw = YAWS[default]  # what falls over does so to a side of the picture
-    elif (motion.direction is None or _is_gesture_seen_from_front(noun, motion)) and not goes:
+    elif not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
         yaw = _face_camera(noun, model, motion, toss)
     elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
         yaw = YAWS[default]
@@ -187,8 +187,10 @@ def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
     return motion.kind if motion.kind in known else None
 
 
-def _is_gesture_seen_from_front(noun: Noun, motion: ObjectMotion) -> bool:
-    """Whether its direction says which hand, not which way the body faces."""
+def _is_seen_from_front(noun: Noun, motion: ObjectMotion) -> bool:
+    """Whether its direction says which hand, or where it leans, not which way the body faces."""
+    if motion.kind == "sway":
+        return True
     gesture = choose_gesture(noun, motion)
     return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)
 
@@ -219,6 +221,8 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
+    if motion.kind == "sway" and noun.habitat != "fixed" and noun.name not in PERSON_NOUNS:
+        return -0.5 * math.pi + math.copysign(0.6, tilt)
     if (
         noun.name in PERSON_NOUNS
         and motion.kind in ACTIVITIES
@@ -268,7 +272,7 @@ def choose_trajectory(
         lean = 0.35 if kind == "fly" else 0.0
         rate = plan.speed_m_s / radius
         return Circle(home, radius, rate, phase, _activity(kind), lean)
-    if direction in ("to and fro", "up and down"):
+    if direction in ("to and fro", "up and down") and kind != "sway":
         reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
         is_flat = model.length < 0.3 * min(model.width, model.height)
         yaw = -0.5 * math.pi if is_flat and direction == "up and down" else plan.yaw
@@ -355,7 +359,8 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     if kind in ("hover", "float"):
         return Hover(home, 0.12 * span * pace, plan.yaw, phase)
     if kind == "sway":
-        return Sway(home, 0.14, 0.5 * pace, plan.yaw)
+        is_flat = model.length < FLAT * model.width or model.height < FLAT * model.length
+        return Sway(home, 0.22 if is_flat else 0.14, 0.5 * pace, plan.yaw)
     if kind == "roll over":
         lying = model.parts(Pose(0.0, 0.0, 0.0, "lie"))
         return RollOver(home, plan.yaw, 0.5 * float(bounds(lying)[1][2]), pace)
