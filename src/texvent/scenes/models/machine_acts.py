@@ -15,5 +15,7 @@ STRUCK = "struck"
 """What hangs swings away from the blow and back."""
 STRUCK_SWING_S = 0.9
 """How long it is away from its place after a blow, s."""
-MACHINE_ACTS = frozenset({PICK, GRASP, COLLAPSE, STRUCK})
+LIFT = "lift load"
+"""The forks of a forklift go up."""
+MACHINE_ACTS = frozenset({LIFT, PICK, GRASP, COLLAPSE, STRUCK})
 """All of these: names of `Noun.acts` and kinds of `ObjectMotion`."""

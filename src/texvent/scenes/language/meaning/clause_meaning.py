@@ -26,6 +26,8 @@ from texvent.scenes.language.meaning.clause_rewrites import (
     take_named_act,
     take_particle,
     take_partners,
+    take_vessel,
+    turn_active,
     turn_views,
 )
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
@@ -110,6 +112,7 @@ class ClauseMeaning:
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
         turn_views(clause)
+        turn_active(clause)
         self._camera.read_phrases(clause.adverbs)
         if clause.opener is not None:
             clause.opener.is_used = True
@@ -192,6 +195,7 @@ class ClauseMeaning:
         take_handled(self._draft, clause, things)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         self._referents.doers = things
+        take_vessel(clause)
         take_partners(clause)
         take_fellows(clause)
         take_receivers(clause)

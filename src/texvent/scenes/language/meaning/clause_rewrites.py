@@ -10,10 +10,10 @@ from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.named_acts import DONE, NAMED
-from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.models.people.acts.words import AT_HEAD
-from texvent.scenes.models.people.work.verbs import HANDWORK, WITH_PARTICLE
+from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO, WITH_PARTICLE
 
 _JUGGLE = "juggle"
 _BALLS_JUGGLED = 3
@@ -51,6 +51,43 @@ def take_named_act(clause: Clause) -> None:
     clause.adverbs.extend(word for word in group.modifiers if word.role is Role.PACE)
 
 
+def turn_active(clause: Clause) -> None:
+    """As in "wine poured by a waiter", "a shirt being ironed": hand work that someone does.
+
+    Without "by" or "being", only what is poured or sprinkled is an act: a plate that is put on a
+    table lies there.
+    """
+    verb = clause.verb
+    work = HANDWORK.get(verb.lemma) if verb is not None and clause.is_passive else None
+    if verb is None or work is None or clause.objects or not clause.subjects:
+        return
+    agents = [one for one in clause.phrases if one.preposition.text == "by"]
+    is_going_on = any(word.text == "being" for word in clause.auxiliaries)
+    if not (agents or is_going_on or work.pattern in ONTO):
+        return
+    verb.meaning = replace(verb.meaning, form=VerbForm.THIRD)
+    clause.objects, clause.subjects = clause.subjects, []
+    for phrase in agents[:1]:
+        phrase.preposition.is_used = True
+        clause.phrases.remove(phrase)
+        clause.subjects = phrase.groups
+    clause.auxiliaries, clause.is_participle = [], False
+
+
+def take_vessel(clause: Clause) -> None:
+    """As in "pours tea from a teapot into a cup": the teapot is what the hand holds."""
+    if clause.verb is None or clause.verb.lemma not in _POURING or clause.is_passive:
+        return
+    for phrase in list(clause.phrases):
+        heads = [group.head for group in phrase.groups if group.head is not None]
+        is_thing = all(head.read_as(Role.NOUN) is not None for head in heads)
+        if phrase.preposition.text in ("from", "out of") and heads and is_thing:
+            phrase.preposition.is_used = True
+            clause.objects[:0] = phrase.groups
+            clause.phrases.remove(phrase)
+
+
+_POURING = frozenset({"pour", "decant", "refill", "spill"})
 _DRESSING = ("put on", "putt on")
 
 

@@ -298,7 +298,7 @@ NO_OBJECT: dict[str, frozenset[str]] = {
     "drop": _words("jaw hint gaze"),
     "roll": _words("eye dough sleeve die dice"),
     "cast": _words("shadow light spell vote glow"),
-    "blow": _words("kiss nose horn whistle"),
+    "blow": _words("kiss nose horn"),
     "pull": _words("trigger face"),
     "push": _words("button"),
     "lift": _words("spirit"),

@@ -100,7 +100,8 @@ _DAILY: dict[str, Activity] = {
                                   "play the keyboard"),
     "play violin": at_head("play violin", "play the violin", "fiddle"),
     "play flute": at_head("play flute", "play the flute", "play piccolo"),
-    "play trumpet": at_head(*done_to("play", "trumpet|saxophone|clarinet|trombone|oboe|horn")),
+    "play trumpet": at_head(*done_to("play|blow|blow into", "trumpet|saxophone|clarinet|trombone"
+                                     "|oboe|horn")),
     "type": seen_from_side("type", "use a laptop", "use a computer", "work on a laptop",
                             "work on a computer", "work at a computer"),
     "write": at_head("write",),

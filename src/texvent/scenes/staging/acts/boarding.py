@@ -10,12 +10,14 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import Relation
+from texvent.scenes.models.machine_acts import LIFT
+from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.attached import HeldAt
+from texvent.scenes.staging.acts.attached import HeldAt, OnPart
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.holding import GARMENTS, HOLDS, is_person, size_of
 from texvent.scenes.staging.acts.riding import LOADS, MOUNTS, mount
-from texvent.scenes.staging.trajectories.trajectory import Vector, rotation
+from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector, rotation
 
 RIDES = ("ride", "ride along")
 """Relation of who steers, and of a passenger."""
@@ -68,11 +70,21 @@ def stow(cast: Cast, relation: Relation, at: int) -> None:
         lift = 0.5 * thing.model.height if thing.is_centred else 0.0
         turn = rotation(place.yaw, place.pitch, 0.0)
         offset = np.column_stack([turn, np.array([x, y, z + lift])])
-        path = HeldAt(vehicle, "ground", offset)
+        path: Trajectory = HeldAt(vehicle, "ground", offset)
+        if vehicle.trajectory.at(0.0).activity == LIFT:
+            forks = _find_raised(vehicle.model)
+            path = OnPart(vehicle.trajectory, vehicle.model, forks, (x, y, z + lift), "stand")
         cast.put(
             number,
             replace(thing, trajectory=path, is_mover=vehicle.is_mover, lead_m=0.0, extras=()),
         )
+
+
+def _find_raised(model: Model) -> int:
+    """The first part that goes up where a load is lifted."""
+    low, high = (model.parts(Pose(time_s, 0.0, 0.0, LIFT)) for time_s in (0.0, 2.0))
+    rises = (b.to_body[2, 3] > a.to_body[2, 3] for a, b in zip(low, high, strict=True))
+    return next((number for number, one in enumerate(rises) if one), 0)
 
 
 def load(cast: Cast, relations: Sequence[Relation]) -> None:
@@ -83,12 +95,14 @@ def load(cast: Cast, relations: Sequence[Relation]) -> None:
         if relation.kind != "with" or not vehicles or not things:
             continue
         name, thing = cast.get(vehicles[0]).noun.name, cast.get(things[0])
-        is_load = thing.noun.motion == "stand" and thing.size_m < _LOAD_M
+        most = _LOAD_ON_FORKS_M if name == "forklift" else _LOAD_M
+        is_load = thing.noun.motion == "stand" and thing.size_m < most
         if is_load and (name in LOADS or name in _ON_RACK):
             stow(cast, relation, vehicles[0])
 
 
 _LOAD_M = 1.0
+_LOAD_ON_FORKS_M = 1.8
 
 
 class _Stowage(NamedTuple):

@@ -8,8 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import Effect, SceneDescription
+from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.framing import Framing
@@ -22,9 +24,10 @@ from texvent.scenes.staging.particles.bursts import Fireball, Fireworks, Pieces,
 from texvent.scenes.staging.particles.clouds import PLUMES, Plume, make_bank
 from texvent.scenes.staging.particles.falling_water import FallingWater
 from texvent.scenes.staging.particles.flakes import FLAKES, Falling
-from texvent.scenes.staging.particles.jets import JETS, WATER, Dripping, Jet
+from texvent.scenes.staging.particles.jets import BLOWN, BREATHED, JETS, WATER, Dripping, Jet
 from texvent.scenes.staging.particles.light_shows import Lasers, Lightning, StageLights
 from texvent.scenes.staging.particles.motion import Source
+from texvent.scenes.staging.particles.pouring import make_streams
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.particles.window_drops import WindowDrops
 from texvent.scenes.staging.surroundings.weather import WEATHERS
@@ -32,6 +35,8 @@ from texvent.scenes.staging.surroundings.weather import WEATHERS
 OF_NOUNS = {"campfire": "fire", "fireplace": "fire", "torch": "fire", "volcano": "smoke",
             "sprinkler": "spray", "waterfall": "falling water"}  # fmt: skip
 """Noun → effect that it always has, unless it is said not to be lit."""
+OF_ACTS = {"blow bubbles": "bubbles"}
+"""Activity → effect that comes with it."""
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
@@ -134,6 +139,9 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         kind = OF_NOUNS.get(one.noun)
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
+        motions = (one.motion, *one.then)
+        acts = {OF_ACTS[it.kind] for it in motions if it is not None and it.kind in OF_ACTS}
+        said += [Effect(kind, index) for kind in acts if (kind, index) not in named]
     effects = _weather(description, setting)
     fallen = description.surroundings.weather in WEATHERS
     kinds: list[tuple[str, int | None]] = [
@@ -152,6 +160,10 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
             kinds += [(effect.kind, effect.source)] * len(made)
             if actor is not None and EFFECTS[effect.kind].ends_source:
                 ends[actor.instance] = _start(effect, actor, setting)
+    rng = seeded(setting.seed, "poured")
+    streams = make_streams(setting.actors, description.prompt, rng)
+    effects.extend(streams)
+    kinds += [("pour", None)] * len(streams)
     return Staged(tuple(effects), ends, tuple(kinds))
 
 
@@ -240,6 +252,9 @@ def _make_stream(
         made.append(plume.unlit() if has_lamp else plume)
     if kind in JETS:
         jet = Jet.of(kind, source, rng, colour=colour, start_s=effect.start_s)
+        is_blown = actor is not None and kind in BREATHED and actor.noun.name in PERSON_NOUNS
+        if is_blown and setting.place != "underwater":
+            jet = replace(jet, style=replace(jet.style, **BLOWN))
         if aim is not None and kind in ("pour", "spray"):
             jet = replace(jet, style=replace(jet.style, aim=aim))
         made.append(jet.until_ground() if kind == "pour" else jet)
@@ -335,6 +350,9 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     model = actor.model
     x, y, z = _ANCHORS.get((kind, actor.noun.name), _USUAL_ANCHOR.get(kind, (0.0, 0.0, 1.0)))
     low = -0.5 * model.height if actor.is_centred else 0.0
+    if kind in BREATHED and actor.noun.name in PERSON_NOUNS:
+        mouth = locate(model, "mouth", actor.pose(0.0))
+        return Source(size, np.asarray(mouth @ [0.12 * _bulk(actor), 0.0, 0.0, 1.0]), actor)
     place = np.array([0.5 * x * model.length, 0.5 * y * model.width, low + z * model.height])
     return Source(size, place, actor)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -75,6 +76,15 @@ JETS: dict[str, JetStyle] = {
 }  # fmt: skip
 
 
+BREATHED = frozenset({"bubbles", "smoke", "steam"})
+"""Effects that come from the mouth of a person."""
+BLOWN: dict[str, Any] = {
+    "aim": (1.0, 0.0, 0.2), "speed": 1.0, "drag": 6.0, "spread_rad": 0.3, "area": 0.02,
+    "radius": 0.12, "count": 24,
+}  # fmt: skip
+"""`JetStyle` of bubbles that a person blows, where it differs."""
+
+
 @dataclass(frozen=True)
 class Jet(SolidEffect):
     """Bodies that leave a source one after the other and fly until they are gone."""
@@ -83,6 +93,7 @@ class Jet(SolidEffect):
     style: JetStyle
     lives: Lives
     start_s: float = -math.inf
+    end_s: float = math.inf
 
     @classmethod
     def of(
@@ -127,7 +138,12 @@ class Jet(SolidEffect):
         share = np.minimum(1.0, 12.0 * age)
         share = share * (0.4 + 0.6 * age) if style.grows else share
         share = share * np.clip(6.0 * (1.0 - age), 0.0, 1.0)
-        share *= (time_s - age_s >= self.start_s) & (places[:, 2] > -style.radius * size)
+        born_s = time_s - age_s
+        share *= (
+            (born_s >= self.start_s)
+            & (born_s <= self.end_s)
+            & (places[:, 2] > -style.radius * size)
+        )
         radius = np.maximum(style.radius * size * (0.7 + 0.6 * draws[:, 5]) * share, TINY_M)
         half = radius[:, None] * [1.0, 1.0, style.stretch]
         heading = flight_velocity(age_s, velocity, drag_s, pull)

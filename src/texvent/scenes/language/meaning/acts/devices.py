@@ -15,7 +15,7 @@ from texvent.scenes.language.vocabulary.motion import WORK_RATES_HZ
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.lamps import LAMPS
-from texvent.scenes.models.machine_acts import COLLAPSE
+from texvent.scenes.models.machine_acts import COLLAPSE, LIFT
 from texvent.scenes.models.opening_model import OPENING, opens_after
 
 _SWITCHES = ("turn", "change", "switch", "go")
@@ -57,6 +57,21 @@ def do_job(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
             item.motions.append(ObjectMotion(JOBS[item.noun][1]))
     clause.verb_word.is_used = clause.verb_word.is_used or bool(doers)
     return bool(doers)
+
+
+_LIFTED_BY = frozenset({"forklift"})
+_LIFTING = frozenset({"lift", "raise", "hoist", "pick", "pick up", "lift up", "elevate"})
+
+
+def lift_load(draft: Draft, clause: Clause, subjects: list[int], targets: list[int]) -> bool:
+    """As in "a forklift lifts a pallet": it goes up on the forks."""
+    doers = [index for index in subjects if draft.objects[index].noun in _LIFTED_BY]
+    if not doers or not targets or clause.verb_word.lemma not in _LIFTING:
+        return False
+    for index in doers:
+        draft.objects[index].motions.append(ObjectMotion(LIFT))
+    clause.verb_word.is_used = draft.relate("with", doers, targets[:1])
+    return True
 
 
 def take_handled(draft: Draft, clause: Clause, subjects: Sequence[int]) -> None:

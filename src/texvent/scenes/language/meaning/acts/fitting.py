@@ -170,9 +170,31 @@ _FLOWN = frozenset({"airplane", "helicopter"})
 _RIDEABLE = frozenset({"drive", "sail"})
 
 
-def choose_act(verb: Verb, doer: Noun, target: Noun) -> str | None:
+CARRIERS = frozenset(
+    {"forklift", "pickup", "golf cart", "stroller", "shopping cart", "wheelbarrow"}
+)
+"""What moves a load by taking it along."""
+_CARRIED_M = 0.6
+"""Longest thing that a person who moves it carries; what is longer is pushed."""
+
+
+def fit_moving(verb: Verb, doer: Noun) -> Verb | None:
+    """The verb, where it moves or carries a thing, as this one does it; None if it cannot.
+
+    A forklift takes it along; a crane or a robot arm that moves something is not shown.
+    """
+    if verb.base == "move" and not is_person(doer) and doer.name not in CARRIERS:
+        return None
+    if verb.act == "carry" and doer.name in CARRIERS:
+        return replace(verb, act=None, kind="move")
+    return verb
+
+
+def choose_act(verb: Verb, doer: Noun, target: Noun, target_m: float = 0.0) -> str | None:
     """What the verb means if this thing does it to that one; None if it cannot."""
     act = verb.act
+    if verb.base == "move" and is_person(doer) and not is_living(target):
+        return "carry" if target_m <= _CARRIED_M else "push"
     if act is None:
         return None
     if verb.base == "fly" and target.name in _FLOWN:

@@ -12,6 +12,7 @@ from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.devices import (
     blink,
     give_effect,
+    lift_load,
     open_up,
     switch,
     switch_lamps,
@@ -20,6 +21,7 @@ from texvent.scenes.language.meaning.acts.fitting import (
     MANOEUVRES,
     choose_act,
     fall_over,
+    fit_moving,
     fit_verb,
     is_played,
     line_up,
@@ -99,6 +101,8 @@ class ActReader:
             return subjects
         if clause.verb_word.role is Role.FLICKER:
             return blink(self._draft, clause.verb_word, subjects)
+        if lift_load(self._draft, clause, subjects, targets):
+            return subjects
         if switch(self._draft, clause, subjects):
             return subjects
         return self._read_verb(clause, subjects, objects, targets)
@@ -121,7 +125,8 @@ class ActReader:
         if targets and is_by_hand(self._draft, verb, subjects, targets):
             return self._work_by_hand(clause, verb, subjects, targets)
         if targets:
-            return self._do_to(clause, verb, subjects, targets)
+            moving = fit_moving(verb, self._draft.noun(subjects[0]))
+            return self._do_to(clause, moving, subjects, targets) if moving else []
         acts_on_unshown = any(
             one.kind in ("unknown", "part") and one.group.text.split()[-1:] != ["times"]
             for one in (outer if verb.kind in _OF_PARTS else objects)
@@ -232,7 +237,7 @@ class ActReader:
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
     ) -> list[int]:
         doer, target = self._draft.noun(subjects[0]), self._draft.noun(targets[0])
-        act = choose_act(verb, doer, target)
+        act = choose_act(verb, doer, target, self._draft.length_m(targets[0]))
         if act == "collide":
             return collide(self._draft, clause, subjects, targets)
         if act is not None:
@@ -303,7 +308,7 @@ class ActReader:
         if act == "ride":
             return self._ride(clause, verb, subjects, targets)
         goes = {phrase.preposition.text for phrase in clause.phrases} & _GOING
-        if act in ("push", "pull") or (act == "carry" and goes):
+        if act in ("push", "pull") or (act == "carry" and (goes or verb.base == "move")):
             for index in subjects:
                 add_motion(self._draft, index, ObjectMotion("move", pace=verb.pace), clause)
         return subjects

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from texvent.scenes.models.machine_acts import LIFT
 from texvent.scenes.models.materials import HEADLIGHT, Material, glowing, mottled
 from texvent.scenes.models.objects.figures import (
     Draw,
@@ -35,6 +36,7 @@ from texvent.scenes.models.objects.palette import (
     WOOD_BROWN,
     YELLOW_PAINT,
 )
+from texvent.scenes.models.people.timing import ease
 from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.models.shapes import (
     Affine,
@@ -272,6 +274,13 @@ _INDOOR = placed("indoor", (
         moving=tuple(Moving(_hung(0.052 * s), _half_swing(0.052 * s)) for s in (1.0, -1.0))),
 ))  # fmt: skip
 
+
+def _raised(pose: Pose) -> Affine:
+    """Where the forks are: up in 1.6 s where a load is lifted."""
+    share = ease(pose.time_s, 0.2, 1.8) if pose.activity == LIFT else 0.0
+    return shift(z=1.05 * share)
+
+
 _SITE = placed("construction site", (
     thing("forklift", (YELLOW_PAINT.colour, _BRIGHT[0]),
         lambda p: [box(p, (-0.35, 0.0, 0.62), (1.50, 1.05, 0.62)),
@@ -281,12 +290,13 @@ _SITE = placed("construction site", (
                 box(INK, (-0.35, 0.0, 1.05), (0.45, 0.5, 0.14)),
                 box(INK, (-0.62, 0.0, 1.30), (0.10, 0.5, 0.5)),
                 *(box(IRON, (0.52, 0.32 * s, 1.15), (0.12, 0.10, 2.25)) for s in (1.0, -1.0)),
-        box(IRON, (0.60, 0.0, 0.40), (0.05, 0.85, 0.40)),
-        *(box(IRON, (1.10, 0.26 * s, 0.24), (1.0, 0.12, 0.05)) for s in (1.0, -1.0)),
         *(ball(HEADLIGHT, (0.42, 0.40 * s, 0.80), (0.06, 0.16, 0.16)) for s in (1.0, -1.0)),
         rod(INK, (0.16, 0.0, 1.0), (0.02, 0.0, 1.25), 0.02),
         *ring(INK, (0.0, 0.0, 1.27), (0.16, 0.16), 0.015, axis="z", pieces=8)],
-        ("fork lift", "forklift truck"),
+        ("fork lift", "forklift truck"), moving=(Moving(lambda p: [
+            box(IRON, (0.60, 0.0, 0.40), (0.05, 0.85, 0.40)),
+            *(box(IRON, (1.10, 0.26 * s, 0.24), (1.0, 0.12, 0.05)) for s in (1.0, -1.0))],
+            _raised),),
         wheels=(*(Wheel((0.25, 0.44 * s, 0.30), 0.30, 0.22) for s in (1.0, -1.0)),
             *(Wheel((-0.85, 0.42 * s, 0.24), 0.24, 0.18) for s in (1.0, -1.0))),
             goes=("ground", "drive", 2.0)),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
 from texvent.scenes.models.materials import BLUE, DARK, RED, STEEL, WHITE, Material, glowing
@@ -114,6 +116,13 @@ def _smoke(t: float) -> Posture:
     return Posture(right=Arm(hand, _OUT), tool=(0.75, 0.25, 0.15), nod=-0.15 * share)
 
 
+def _blow(t: float) -> Posture:
+    """A hand before the mouth; the head comes forward with each breath."""
+    out = pulse(t, 0.6)
+    return Posture(right=Arm((0.24 + 0.03 * out, -0.12, 0.14), _OUT), tool=(0.05, 0.25, 1.0),
+                   lean=0.12 * out, nod=-0.10 + 0.16 * out)  # fmt: skip
+
+
 def _turn_head(t: float) -> Posture:
     """Slowly to its left and right; the shoulders go along a little."""
     side = swing(t, 0.45)
@@ -160,6 +169,8 @@ AT_HEAD_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         "laugh": _laugh,
         "shout": _shout,
         "smoke": _smoke,
+        "blow bubbles": _blow,
+        "blow whistle": lambda t: replace(_blow(t), right=Arm((0.24, 0.02, 0.08), _OUT)),
         "turn head": _turn_head,
         "nod": lambda t: Posture(nod=0.22 + 0.62 * swing(t, 0.7), lean=0.06 + 0.08 * swing(t, 0.7)),
         "shake head": lambda t: Posture(look=0.70 * swing(t, 0.9)),
@@ -191,6 +202,15 @@ _CIGARETTE = still(
     stick(Material(WHITE), -0.02, 0.13, 0.011), stick(glowing((1.0, 0.35, 0.08), 1.5), 0.13, 0.15,
                                                       0.013),
 )  # fmt: skip
+_WAND = still(
+    stick(Material(RED), -0.08, 0.05, 0.009),
+    *(ball(Material(RED), (0.0, 0.045 * math.sin(a), 0.095 + 0.045 * math.cos(a)), (0.024,) * 3)
+      for a in (0.524 * k for k in range(12))),
+)  # fmt: skip
+_WHISTLE = still(
+    rod(Material(RED), (0.08, -0.018, -0.01), (0.08, 0.018, -0.01), 0.030),
+    box(Material(RED), (0.045, 0.0, 0.010), (0.08, 0.034, 0.022)),
+)
 _LATHER = still(
     *(ball(Material(WHITE), place, (0.10, 0.10, 0.08))
       for place in ((0.0, 0.05, 0.08), (0.02, -0.05, 0.08), (-0.05, 0.0, 0.09), (0.05, 0.0, 0.07)))
@@ -206,6 +226,8 @@ AT_HEAD_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "put on makeup": (Prop("right hand", _BRUSH),),
         "put on lipstick": (Prop("right hand", _LIPSTICK, ("lipstick",)),),
         "wash hair": (Prop("crown", _LATHER),),
+        "blow bubbles": (Prop("right hand", _WAND),),
+        "blow whistle": (Prop("mouth", _WHISTLE, ("whistle",), is_own=True),),
         "smoke": (Prop("right hand", _CIGARETTE, ("cigarette",)),),
     }
 )

@@ -37,6 +37,9 @@ AT_HEAD: dict[str, Activity] = {
     "laugh": at_head("laugh", "giggle", "chuckle", "burst out laughing"),
     "shout": at_head("shout", "yell", "scream", "call out"),
     "smoke": at_head("smoke", *done_to("smoke", "cigarette|cigar|pipe"), "vape"),
+    "blow bubbles": seen_from_side(*done_to("blow|make", "bubble|bubbles|soap bubble"
+                                            "|soap bubbles")),
+    "blow whistle": at_head(*done_to("blow|blow into|whistle with", "whistle")),
     "turn head": at_head(*done_to("turn|move|rotate", "head"), "look around", "look left and right",
                          "look from side to side", "look to the left and to the right",
                          "look over shoulder"),

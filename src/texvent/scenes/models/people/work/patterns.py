@@ -342,6 +342,9 @@ PATTERNS: Mapping[str, Pattern] = MappingProxyType(
 )
 """Name → how hands move."""
 
+POURED_S = (0.65, 2.0)
+"""From when to when a vessel is tipped so far that something flows, s."""
+
 BLOWS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {"strike": (0.8 / 1.1, 1.0 / 1.1), "jab": (0.5 / 1.2, 1.0 / 1.2)}
 )
