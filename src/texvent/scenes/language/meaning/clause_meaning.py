@@ -17,7 +17,7 @@ from texvent.scenes.language.meaning.acts.partners import take_fellows, take_rec
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
-from texvent.scenes.language.meaning.capabilities import is_living
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.clause_rewrites import (
     list_brought,
@@ -255,7 +255,12 @@ class ClauseMeaning:
         ]
         owners = [one.group.owner for one in objects if one.group.owner is not None]
         inner += [self._referents.resolve(owner) for owner in owners]
-        return [*objects, *(one for one in inner if one.is_things)]
+        # The hair of a person is at no place where hands work.
+        wholes = [one for one in inner if one.is_things and not self._is_of_person(one)]
+        return [*objects, *wholes]
+
+    def _is_of_person(self, one: Referent) -> bool:
+        return any(is_person(self._draft.noun(index)) for index in one.things)
 
     def _read_subject_phrases(
         self, clause: Clause, subjects: Sequence[Referent], things: Sequence[int]

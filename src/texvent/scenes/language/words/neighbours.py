@@ -24,6 +24,7 @@ _ANOTHER = frozenset({"another", "next", "other", "the other", "second", "the se
 
 def read_neighbours(words: Sequence[Word]) -> None:
     """Change the readings of words that their neighbours decide."""
+    _forget_game(words)
     for number, word in enumerate(words):
         before = words[number - 1] if number else None
         after = words[number + 1] if number + 1 < len(words) else None
@@ -33,6 +34,22 @@ def read_neighbours(words: Sequence[Word]) -> None:
             _put_off(words[number + 1 :])
         if word.text in _ANOTHER and before is not None and _is_goal_alone(words, number):
             word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
+
+
+def _forget_game(words: Sequence[Word]) -> None:
+    """As in "friends play rock paper scissors": no rock is there; only a hand shows the game."""
+    for number in range(len(words) - 2):
+        game = words[number : number + 3]
+        near = (*words[:number], *words[number + 3 : number + 5])
+        by_hand = any(word.text.rstrip("s") in _OF_HANDS for word in near)
+        if [word.text for word in game] in _GAMES and not by_hand:
+            for word in game:
+                word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
+
+
+_OF_HANDS = ("hand", "fist", "gesture")
+_GAMES = (["rock", "paper", "scissors"], ["rock", "scissors", "paper"],
+          ["scissors", "paper", "rock"])  # fmt: skip
 
 
 def _leads_away(verb: Word, after: Word | None) -> bool:

@@ -35,8 +35,6 @@ from texvent.scenes.staging.surroundings.weather import WEATHERS
 OF_NOUNS = {"campfire": "fire", "fireplace": "fire", "torch": "fire", "volcano": "smoke",
             "sprinkler": "spray", "waterfall": "falling water"}  # fmt: skip
 """Noun → effect that it always has, unless it is said not to be lit."""
-OF_ACTS = {"blow bubbles": "bubbles"}
-"""Activity → effect that comes with it."""
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
@@ -139,9 +137,6 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         kind = OF_NOUNS.get(one.noun)
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
-        motions = (one.motion, *one.then)
-        acts = {OF_ACTS[it.kind] for it in motions if it is not None and it.kind in OF_ACTS}
-        said += [Effect(kind, index) for kind in acts if (kind, index) not in named]
     effects = _weather(description, setting)
     fallen = description.surroundings.weather in WEATHERS
     kinds: list[tuple[str, int | None]] = [

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import ObjectMotion
+from texvent.scenes.description import Effect, ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.devices import (
@@ -214,6 +214,8 @@ class ActReader:
         self.is_activity = is_exact
         mark_used(words)
         self._draft.link_motion(words, hands or people)
+        if name == _BLOWING:
+            self._draft.effects += [Effect("bubbles", index) for index in people]
         if name == _AT_SHOES:
             shoes = [index for one in objects if one.is_things for index in one.things]
             self._draft.relate("wear", people, shoes[:1])
@@ -389,7 +391,7 @@ _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "pa
 """Prepositions of who goes somewhere with what it carries."""
 _LINES = frozenset({"rope", "chain", "hose"})
 """What is pulled at, not along."""
-_AT_SHOES = "tie shoes"
+_AT_SHOES, _BLOWING = "tie shoes", "blow bubbles"
 _UNSTEADY = ("wobble", "rock", "tilt")
 """How the whole of a thing moves that works in its place: a top, a metronome."""
 _STOPS = ("stop", "halt", "come to a stop", "come to rest")
