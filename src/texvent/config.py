@@ -231,9 +231,11 @@ class InterpolateConfig:
     """Contrast threshold in Eq. 4; without it, the simulator's own."""
     count_balance: float | None = None
     """Balance α in Eq. 4; without it, the simulator's own."""
-    motion_floor: bool = False
+    motion_floor: bool | None = None
     """Put at least as many intermediate frames into a pair as its fastest part moves in pixels
-    (DIS optical flow), so that thin and faint things do not jump over pixels."""
+    (DIS optical flow), so that thin and faint things do not jump over pixels. Where neither is
+    said, models whose pixels may fire several times per frame get so many too, up to twice Eq. 4's
+    count; with no-motion-floor all get Eq. 4's."""
     max_frames_per_second: float | None = None
     """Upper limit of frames per second after interpolation: a budget, whatever else asks for
     more. Source frames always stay."""

@@ -26,7 +26,7 @@ from texvent.run.light import suit_light
 from texvent.run.provenance import describe_run
 from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
-from texvent.simulate.build import build_simulator
+from texvent.simulate.build import build_simulator, gains_from_frames
 from texvent.simulate.randomized_options import draw_training_config
 from texvent.video import Frame, FrameStream
 
@@ -111,6 +111,7 @@ class Simulation:
                 threads,
                 balance=simulator.balance,
                 contrast_threshold=simulator.contrast_threshold,
+                counts_motion=gains_from_frames(simulator),
             )
             for pair in pairs:
                 notify_scene_change(pair, on_scene_change)

@@ -110,6 +110,14 @@ def test_printed_options_read_back_give_the_same_options(folder, capsys):
     assert tomllib.loads(capsys.readouterr().out)["simulate"]["balance"] == 20.0
 
 
+@pytest.mark.parametrize(
+    ("words", "expected"), [([], None), (["--motion-floor"], True), (["--no-motion-floor"], False)]
+)
+def test_a_switch_that_may_be_left_open_is_on_off_or_not_said(folder, capsys, words, expected):
+    assert run("simulate", *words, CLIP, "--print-config") == 0
+    assert tomllib.loads(capsys.readouterr().out)["interpolate"].get("motion_floor") is expected
+
+
 def test_a_yaml_config_sets_options_too(folder, capsys):
     Path("run.yaml").write_text("seed: 9\nsimulate:\n  noise: none\n", encoding="utf-8")
     assert run("simulate", CLIP, "--config", "run.yaml", "--print-config") == 0

@@ -5,22 +5,31 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from texvent._registry import INTERPOLATORS
+from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
 from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import densify
 from texvent.interpolate.dis_flow.pair_flow import PairFlow
+from texvent.simulate.build import gains_from_frames
+from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.video import Frame, Motion, Video
 
 
 @pytest.fixture
 def policy(stream):
-    def build(interpolator=None, **options):
+    def build(interpolator=None, counts_motion=False, **options):
         config = InterpolateConfig(**{"interpolate": "blend", **options})
         interpolator = interpolator or INTERPOLATORS.load(config.interpolate)(config, stream)
-        return CountPolicy(config, stream, interpolator, balance=30.0, contrast_threshold=0.2)
+        return CountPolicy(
+            config,
+            stream,
+            interpolator,
+            balance=30.0,
+            contrast_threshold=0.2,
+            counts_motion=counts_motion,
+        )
 
     return build
 
@@ -44,6 +53,33 @@ def test_motion_raises_the_count_of_a_faint_pair(policy, faint_pair):
     # The fastest thousandth are a few vectors gone astray in a corner.
     assert policy(motion_floor=True).count(*faint_pair) in (7, 8, 9)
     assert policy(motion_floor=True, max_intermediate=5).count(*faint_pair) == 5
+
+
+@pytest.mark.parametrize(("motion_px", "expected"), [(5, 11), (15, 15), (40, 22)])
+def test_where_nothing_is_said_motion_counts_up_to_twice_eq4(
+    policy, contrast_pair, monkeypatch, motion_px, expected
+):
+    monkeypatch.setattr(PairFlow, "motion_px", lambda *_: motion_px)
+    gaining = {"interpolate": "flow", "counts_motion": True}
+    assert policy(**gaining).count(*contrast_pair) == expected
+    assert policy(**gaining, max_intermediate=12).count(*contrast_pair) == min(expected, 12)
+    assert policy(**gaining, motion_floor=False).count(*contrast_pair) == 11
+    assert policy(**gaining, motion_floor=True).count(*contrast_pair) == max(motion_px, 11)
+    assert policy(interpolate="flow").count(*contrast_pair) == 11
+    assert policy(interpolate="blend", counts_motion=True).count(*contrast_pair) == 11
+
+
+def test_where_nothing_can_fire_motion_is_not_even_estimated(policy, faint_pair, monkeypatch):
+    monkeypatch.setattr(PairFlow, "motion_px", None)
+    assert policy(interpolate="flow", counts_motion=True).count(*faint_pair) == 0
+
+
+def test_models_whose_pixels_fire_once_per_frame_get_eq4_alone():
+    models = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
+    made = {name: kind() for name, kind in models.items() if name != "v2ce"}  # needs weights
+    made["accurate"] = TexventSimulator(TexventSimulator.presets["accurate"])
+    gaining = {name for name, simulator in made.items() if gains_from_frames(simulator)}
+    assert gaining == {"physical", "esim", "v2e", "voltmeter", "accurate"}
 
 
 def test_motion_lowers_nothing(policy, contrast_pair):

@@ -94,6 +94,7 @@ class Recording:
             self.interpolate,
             balance=model.balance,
             contrast_threshold=model.contrast_threshold,
+            counts_motion=model.gains_from_frames,
         )
         return list(dense)
 

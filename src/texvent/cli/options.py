@@ -17,7 +17,7 @@ import tyro
 
 from texvent.cli.help import ALL, asked_help, render_help
 from texvent.cli.notices import write_out
-from texvent.cli.option_types import REQUIRED, SCALARS, without_none
+from texvent.cli.option_types import REQUIRED, SCALARS, spell_switches, without_none
 from texvent.errors import ConfigError, shown
 from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import (
@@ -65,7 +65,8 @@ def parse_options(
     form = dataclasses.make_dataclass(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
     )
-    words = _current_flags(arguments, list(map(type, groups.values())))
+    types = list(map(type, groups.values()))
+    words = spell_switches(_current_flags(arguments, types), types)
     lists = set(_list_flags(groups.values()))
     _refuse_second_lists(words, lists)
     helps = {name: text for one in groups.values() for name, text in option_help(type(one)).items()}

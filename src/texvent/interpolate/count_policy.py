@@ -15,6 +15,13 @@ if TYPE_CHECKING:
     from texvent.interpolate.dis_flow.pair_flow import PairFlow
 
 
+MOTION_LIMIT = 2
+"""Where the user says nothing, motion raises Eq. 4's count to at most this multiple of it, so that
+no clip takes more than twice as long."""
+NEEDS_NO_FLOW = frozenset({"none", "blend", "motion"})
+"""Interpolators whose frames show no motion, or motion that is known."""
+
+
 class CountPolicy:
     """Eq. 4 or a fixed count, raised by motion and by flickering light, lowered by a budget.
 
@@ -29,6 +36,7 @@ class CountPolicy:
         *,
         balance: float,
         contrast_threshold: float,
+        counts_motion: bool = False,
     ) -> None:
         """A policy for one stream.
 
@@ -38,13 +46,20 @@ class CountPolicy:
             interpolator: its optical flow is used, where it has one, for the motion floor.
             balance: the simulator's α.
             contrast_threshold: the simulator's δ.
+            counts_motion: whether motion counts, up to `MOTION_LIMIT`, where the options do not
+                say it.
         """
         self._config = config
         self._balance = balance if config.count_balance is None else config.count_balance
         self._threshold = (
             contrast_threshold if config.count_threshold is None else config.count_threshold
         )
-        counts_motion = config.motion_floor and config.count == "brightness"
+        self._is_limited = config.motion_floor is None
+        if self._is_limited:
+            counts_motion = counts_motion and config.interpolate not in NEEDS_NO_FLOW
+        else:
+            counts_motion = bool(config.motion_floor)
+        counts_motion = counts_motion and config.count == "brightness"
         self._pair_flow = _pair_flow(interpolator) if counts_motion else None
         self._flicker_hz = _flicker_hz(stream, config)
 
@@ -76,6 +91,7 @@ class CountPolicy:
             percentile=config.count_percentile,
             cap=cap,
         )
+        limit = min(cap, MOTION_LIMIT * count) if self._is_limited else cap
         flicker_hz = self._flicker_hz if flicker_hz is None else flicker_hz
         count = max(count, count_for_flicker(first.t_us, second.t_us, flicker_hz, cap=cap))
         if count == cap:
@@ -83,8 +99,8 @@ class CountPolicy:
         if config.interpolate in ("motion", "exact"):
             # What these frames show is exact, so what they skip is all that is lost.
             count = max(count, count_for_vectors(first.motion, second.motion))
-        if self._pair_flow is not None:
-            count = max(count, self._pair_flow.motion_px(first, second))
+        if self._pair_flow is not None and count < limit:
+            count = max(count, min(self._pair_flow.motion_px(first, second), limit))
         return min(count, cap)
 
     def _budget(self, first: Frame, second: Frame) -> int:

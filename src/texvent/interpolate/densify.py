@@ -19,6 +19,7 @@ def densify(
     *,
     balance: float,
     contrast_threshold: float,
+    counts_motion: bool = False,
     on_scene_change: OnSceneChange | None = None,
 ) -> Iterator[Frame]:
     """The frames of `stream` with intermediate frames between them.
@@ -32,6 +33,8 @@ def densify(
         config: how many there are, and whether cuts and flicker are looked for.
         balance: the simulator's α, for Eq. 4 unless `config.count_balance` is set.
         contrast_threshold: the simulator's δ, for Eq. 4 unless `config.count_threshold` is set.
+        counts_motion: whether the simulator gains from more frames where things move fast; then
+            motion counts unless `config.motion_floor` is set.
         on_scene_change: called at every cut and flash, before the frames that show it.
 
     Yields:
@@ -54,6 +57,7 @@ def densify(
         interpolator,
         balance=balance,
         contrast_threshold=contrast_threshold,
+        counts_motion=counts_motion,
     )
     for pair in pair_frames(stream, interpolator, config, policy):
         notify_scene_change(pair, on_scene_change)

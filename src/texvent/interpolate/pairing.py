@@ -36,6 +36,7 @@ def plan_pairs(
     *,
     balance: float,
     contrast_threshold: float,
+    counts_motion: bool = False,
 ) -> Iterator[FramePair]:
     """The pairs of a video, prepared in threads that run ahead of the caller.
 
@@ -49,6 +50,8 @@ def plan_pairs(
         threads: ends the threads when it is closed.
         balance: the simulator's α, for Eq. 4 unless `config.count_balance` is set.
         contrast_threshold: the simulator's δ, for Eq. 4 unless `config.count_threshold` is set.
+        counts_motion: whether the simulator gains from more frames where things move fast; then
+            motion counts unless `config.motion_floor` is set.
 
     Raises:
         ConfigError: there is no such interpolator.
@@ -62,7 +65,12 @@ def plan_pairs(
         config = replace(config, lamp_hz=None)
     interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
     policy = CountPolicy(
-        config, video, interpolator, balance=balance, contrast_threshold=contrast_threshold
+        config,
+        video,
+        interpolator,
+        balance=balance,
+        contrast_threshold=contrast_threshold,
+        counts_motion=counts_motion,
     )
     if video.is_live:
         pairs = pair_frames(video, interpolator, config, policy, looks_ahead=False)

@@ -11,6 +11,11 @@ from texvent.simulate.protocol import Simulator
 from texvent.simulate.stepping import with_advance
 
 
+def gains_from_frames(simulator: Simulator) -> bool:
+    """Whether a simulator says that more frames than Eq. 4's make its events better."""
+    return bool(getattr(simulator, "gains_from_frames", False))
+
+
 def build_simulator(run: RunConfig, config: Any) -> Simulator:
     """The simulator of a run, before its first frame.
 

@@ -23,7 +23,8 @@ class Simulator(Protocol):
     events. It may declare `bytes_per_pixel`: memory that its pixels, its packets and the frames
     that wait for it take, measured on moving texture; `run.memory` adds it up. It may declare
     `takes_linear` as True: then frames of linear light reach it as they are, and are gamma-coded
-    before otherwise.
+    before otherwise. It may declare `gains_from_frames` as True: then a pair in which
+    things move fast gets more frames than Eq. 4 asks for (`interpolate.count_policy`).
     """
 
     config_type: ClassVar[type]

@@ -65,6 +65,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     config_type: ClassVar[type] = EsimConfig
     takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 90
+    gains_from_frames: ClassVar[bool] = True
     presets: ClassVar[Mapping[str, EsimConfig]] = {
         "default": EsimConfig(),
         "peer-common": EsimConfig(),

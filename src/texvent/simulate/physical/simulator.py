@@ -78,6 +78,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
     config_type: ClassVar[type] = PhysicalConfig
     takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 190
+    gains_from_frames: ClassVar[bool] = True
     presets: ClassVar[Mapping[str, PhysicalConfig]] = PRESETS
     known_constants: ClassVar[Mapping[str, tuple[str, ...]]] = {
         name: tuple(one.option for one in camera.constants) for name, camera in CAMERAS.items()

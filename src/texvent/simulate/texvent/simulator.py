@@ -90,6 +90,11 @@ class TexventSimulator(SteppingSimulator):
         """α, on the 0..255 scale."""
         return self.config.balance
 
+    @property
+    def gains_from_frames(self) -> bool:
+        """Whether a pixel may fire several times per frame; else more frames are more events."""
+        return self.config.multi_event
+
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""
         self._checker = StreamChecker()

@@ -62,6 +62,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
     config_type: ClassVar[type] = V2eConfig
     takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 190
+    gains_from_frames: ClassVar[bool] = True
     presets: ClassVar[Mapping[str, V2eConfig]] = PRESETS
 
     @property

@@ -46,6 +46,7 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
     config_type: ClassVar[type] = VoltmeterConfig
     takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 60
+    gains_from_frames: ClassVar[bool] = True
     presets: ClassVar[Mapping[str, VoltmeterConfig]] = PRESETS
 
     @property
