@@ -4,7 +4,7 @@
     python -m benchmarks.fused --clip a.mp4  # a clip
 
 Times are processor time of the process, ms per pair, the least of five runs, in turn; flow (both
-directions) and count are what both need. The events are the same.
+directions) and count (Eq. 4 alone) are what both need. The events are the same.
 """
 
 from __future__ import annotations

@@ -130,7 +130,7 @@ def variants(film: Path) -> dict[str, dict[str, Any]]:
     return {
         "none": {"interpolate": "none"},
         "blend": {"interpolate": "blend"},
-        "flow": {"interpolate": "flow"},
+        "flow": {"interpolate": "flow", "motion_floor": False},
         "flow, motion floor": {"interpolate": "flow", "motion_floor": True},
         "motion": {"motion": passes},
         "motion, backward only": {"flow_back": backward, "depth": depth},

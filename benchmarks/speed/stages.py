@@ -23,7 +23,7 @@ from texvent.pipeline import video_to_events
 from texvent.run.settings import Settings, resolve
 from texvent.runtime.background_jit import wait_until_idle
 from texvent.runtime.background_writer import BackgroundWriter
-from texvent.simulate.build import build_simulator
+from texvent.simulate.build import build_simulator, gains_from_frames
 from texvent.video import Frame, FrameStream
 
 STAGES = ("decode", "luma", "count", "flow", "warp", "simulate", "write")
@@ -166,6 +166,7 @@ def _run_alone(
         inner,
         balance=simulator.balance,
         contrast_threshold=simulator.contrast_threshold,
+        counts_motion=gains_from_frames(simulator),
     )
     frames = _with_luma(clock.each("decode", video), clock)
     interpolator = _TimedInterpolator(inner, clock)

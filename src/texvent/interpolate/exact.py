@@ -18,7 +18,8 @@ class ExactInterpolator:
         ConfigError: the stream cannot render an instant; only generated scenes can.
     """
 
-    bytes_per_pixel: ClassVar[int] = 30
+    bytes_per_pixel: ClassVar[int] = 130
+    """Most of it the flow that tells how many frames fast motion needs (`CountPolicy`)."""
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config  # an argument of every interpolator; not used here

@@ -34,8 +34,8 @@ class GpuPairs:
             simulator: a `texvent.simulate.gpu.GpuSimulator` that has seen none either.
             interpolator: makes the images between two source frames: has `between_tensors`, as
                 `rife.RifeInterpolator` has.
-            count: intermediate frames per pair; None: as many as Eq. 4 asks for, for which the
-                host waits for the device once more.
+            count: intermediate frames per pair; None: as many as Eq. 4 alone asks for, for which
+                the host waits for the device once more.
             max_intermediate: upper limit of Eq. 4's count.
 
         Raises:
