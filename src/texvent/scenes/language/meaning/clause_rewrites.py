@@ -142,9 +142,13 @@ def take_partners(clause: Clause) -> None:
         prepositions = list_goals(clause)
     elif clause.verb is not None and clause.verb.lemma in DRINKS and not clause.objects:
         prepositions = ("from", "out of")
+    elif clause.verb is not None and clause.verb.lemma == "climb" and not clause.objects:
+        prepositions = ("over",)
     for phrase in list(clause.phrases):
         if phrase.preposition.text in prepositions:
-            phrase.preposition.is_used = True
+            # Who climbs over a wall is seen to climb it.
+            is_whole = phrase.preposition.text != "over" or clause.verb_word.lemma != "climb"
+            phrase.preposition.is_used, phrase.preposition.is_lost = is_whole, not is_whole
             clause.objects.extend(phrase.groups)
             clause.phrases.remove(phrase)
 

@@ -68,7 +68,16 @@ class PartialObject:
 def _topple(motions: list[ObjectMotion]) -> list[ObjectMotion]:
     """What stands and then falls, falls over; what only falls comes down from above."""
     found = [replace(one, kind="fall") if one.kind == "topple" else one for one in motions]
+    found = [_lift(one) for one in found]
     return [STANDING, *found] if motions and motions[0].kind == "topple" else found
+
+
+def _lift(motion: ObjectMotion) -> ObjectMotion:
+    """As in "an elevator goes up": what has no way of its own to go rises or sinks."""
+    kind = {"up": "rise", "down": "sink"}.get(motion.direction or "")
+    if motion.kind != "slide" or kind is None:
+        return motion
+    return replace(motion, kind=kind, direction=None)
 
 
 class Draft:

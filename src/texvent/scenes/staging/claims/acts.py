@@ -121,6 +121,8 @@ def _is_shown(stage: Stage, actor: Actor, phase: Phase, *, is_carried: bool) -> 
         late = places[2 * _SAMPLES // 3 :]
         is_still = float(np.linalg.norm(np.ptp(late, axis=0))) < _REST_SHARE * actor.size_m
         return is_carried or is_still
+    if motion.kind == "climb":
+        return _is_at_something(stage, actor, float(times[_SAMPLES // 2]))
     length_s = phase.end_s - phase.start_s
     if length_s < _TELLING_S and motion.kind in ("turn", "jump", "bounce", "rise", "fall", "sink"):
         return True
@@ -248,6 +250,11 @@ def _has_support(stage: Stage, actor: Actor) -> bool:
     is_on_water = stage.place in _ON_WATER and actor.noun.habitat == "ground"
     if not (is_up or is_on_water):
         return True
-    touch = 0.05 * actor.size_m
+    return _is_at_something(stage, actor, time_s)
+
+
+def _is_at_something(stage: Stage, actor: Actor, time_s: float) -> bool:
+    """Whether it touches another body."""
+    own, touch = part_boxes(actor, time_s), 0.05 * actor.size_m
     others = (other for other in stage.actors if other is not actor)
     return any(gap(own, part_boxes(other, time_s)) < touch for other in others)

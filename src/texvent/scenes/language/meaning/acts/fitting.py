@@ -101,9 +101,11 @@ def line_up(draft: Draft, verb: Verb, index: int) -> None:
 
 
 def fall_over(noun: Noun, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
-    """As in "a person falls": over, unless it is said from where."""
+    """As in "a person falls": over, unless it is said from where; who bounces jumps."""
     is_from = any(phrase.preposition.text in _FROM_ABOVE for phrase in clause.phrases)
     is_from |= any(word.meaning.value == "sky" for word in clause.adverbs)
+    if motion.kind == "bounce" and is_living(noun) and noun.habitat == "ground":
+        return replace(motion, kind="jump")
     stands = (is_living(noun) and noun.habitat == "ground") or noun.name in _STANDING
     if motion.kind == "fall" and stands and not is_from:
         return replace(motion, kind="fall over" if is_person(noun) else "topple")
@@ -178,11 +180,22 @@ _CARRIED_M = 0.6
 """Longest thing that a person who moves it carries; what is longer is pushed."""
 
 
-def fit_moving(verb: Verb, doer: Noun) -> Verb | None:
-    """The verb, where it moves or carries a thing, as this one does it; None if it cannot.
+_THROUGH = {"enter": ("towards", "go to it"), "exit": ("from", "go away from it"),
+            "leave": ("from", "go away from it")}  # fmt: skip
+"""Verb → relation to what is entered or left, and what is seen of it."""
+_ENTERED_M = 1.5
+"""Least length of what one may enter or leave."""
 
-    A forklift takes it along; a crane or a robot arm that moves something is not shown.
+
+def fit_moving(verb: Verb, doer: Noun, target_m: float, word: Word) -> Verb | None:
+    """The verb, where it moves a thing or leads into or out of it; None if this one cannot.
+
+    A forklift takes it along; a crane or a robot arm that moves something is not shown. Who enters
+    a house goes to it.
     """
+    if verb.base in _THROUGH and target_m > _ENTERED_M:
+        relation, word.shown_as = _THROUGH[verb.base]
+        return replace(verb, kind="move", relation=relation)
     if verb.base == "move" and not is_person(doer) and doer.name not in CARRIERS:
         return None
     if verb.act == "carry" and doer.name in CARRIERS:

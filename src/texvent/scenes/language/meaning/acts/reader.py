@@ -125,7 +125,8 @@ class ActReader:
         if targets and is_by_hand(self._draft, verb, subjects, targets):
             return self._work_by_hand(clause, verb, subjects, targets)
         if targets:
-            moving = fit_moving(verb, self._draft.noun(subjects[0]))
+            long = self._draft.length_m(targets[0])
+            moving = fit_moving(verb, self._draft.noun(subjects[0]), long, word)
             return self._do_to(clause, moving, subjects, targets) if moving else []
         acts_on_unshown = any(
             one.kind in ("unknown", "part") and one.group.text.split()[-1:] != ["times"]

@@ -13,6 +13,8 @@ from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
 
+_HASTE = 1.5
+"""Pace above which who walks runs: "races", "rushes"."""
 _SEATED = ("type", "play piano", "play drums", "row")
 """Activities with a seat of their own."""
 
@@ -73,6 +75,8 @@ def name_kind(draft: Draft, index: int, motion: ObjectMotion) -> ObjectMotion:
     if motion.kind != "move":
         return motion
     usual = draft.noun(index).motion
+    if usual == "walk" and motion.pace > _HASTE:
+        return replace(motion, kind="run", pace=motion.pace / _HASTE)
     return replace(motion, kind=usual if usual != "stand" else "slide")
 
 
