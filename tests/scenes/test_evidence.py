@@ -70,6 +70,11 @@ def test_a_plural_of_which_one_is_seen_and_adjectives_of_a_lost_noun_are_not_sho
     assert "strong" not in report_on(sun, Evidence(places={"sun": "out of view"})).shown
 
 
+def test_what_is_said_of_a_noun_in_doubt_is_in_doubt() -> None:
+    report = report_on(parse_prompt("a red stage lamp behind a drummer"), Evidence())
+    assert {one.partition(" (")[0] for one in report.in_doubt} == {"lamp", "red", "behind"}
+
+
 def test_a_word_leaves_the_shown_ones_with_its_motion_relation_or_move() -> None:
     seen = {0: SEEN, 1: SEEN}
     turns = parse_prompt("a car turns left, then a dog runs")

@@ -22,6 +22,8 @@ MOST_REASONS = 2
 """Lost words that are named for a word in doubt."""
 _OF_NOUN = frozenset({"quality", "bright", "colour"})
 """Aspects of adjectives that say something of the noun after them."""
+_OF_THINGS = frozenset({"colour", "size", "material", "count", "side", "part", "relation"})
+"""Aspects of words that are as much in doubt as the nouns that they go with."""
 _NAMELESS = frozenset({"relation", "motion"})
 _AMID = frozenset({"surround", "among"})
 """Relations that hold whether or not all of the targets are in view."""
@@ -122,6 +124,16 @@ def _find_doubts(description: SceneDescription, gone: set[str]) -> dict[str, tup
     for claim in description.claims:
         if claim.lost and claim.word not in gone:
             doubts[claim.word] = (*doubts.get(claim.word, ()), *claim.lost)
+    names = [one for one in description.claims if one.aspect == "name"]
+    for claim in description.claims:
+        if claim.aspect not in _OF_THINGS or claim.word in gone | set(doubts):
+            continue
+        ends = {end for one in claim.relations for end in (one.subject, *one.targets)}
+        of = [one for one in names if (ends or set(claim.things)) & set(one.things)]
+        is_unsure = any if ends else all
+        if of and is_unsure(one.word in doubts for one in of):
+            unsure = next(one.word for one in of if one.word in doubts)
+            doubts[claim.word] = doubts[unsure]
     return {word: tuple(dict.fromkeys(lost)) for word, lost in doubts.items()}
 
 

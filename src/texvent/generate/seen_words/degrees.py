@@ -10,6 +10,7 @@ from texvent.generate.seen_words.light import HARD, without
 from texvent.generate.seen_words.picture import USUAL, VISIBLE, Picture
 from texvent.generate.seen_words.things import copies_of, extent_of
 from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.projection import project
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.surroundings.road import RoadLine
@@ -81,6 +82,9 @@ def _judge_rain(picture: Picture, description: SceneDescription, claim: Claim) -
 
 def _judge_flicker(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """The light, or the lamp that is named, is brighter and darker from still to still."""
+    lamps = {description.objects[index].noun for index in claim.things}
+    if lamps and not lamps & set(LAMPS):
+        return None  # an eye that blinks
     levels: list[float] = []
     for number in _ALL_VIEWS:
         colours = picture.colours(number)
@@ -134,6 +138,15 @@ def _greatest_sag(spots: Float64Array) -> float:
     return float(np.abs(away[:, 0] * chord[1] - away[:, 1] * chord[0]).max()) / length
 
 
+def _judge_wind(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """Wind is seen by what it moves."""
+    is_blown = any(
+        one.noun in _BLOWN or (one.motion is not None and one.motion.kind in _SWAYING)
+        for one in description.objects
+    )
+    return None if is_blown or picture.scene.particles.kinds else "nothing is blown"
+
+
 def _judge_empty(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """Only a place is said to be empty as a whole: a glass or a chair may not be."""
     return None if description.surroundings.is_empty else "not to be told"
@@ -145,6 +158,9 @@ def _judge_sky(picture: Picture, description: SceneDescription, claim: Claim) ->
     return None if share >= 0.03 else "no sky in view"
 
 
+_BLOWN = frozenset({"flag", "kite", "windmill", "wind turbine", "pinwheel", "weather vane", "leaf",
+                    "banner", "sail", "sailboat", "curtain", "windsock"})  # fmt: skip
+_SWAYING = ("sway", "wave", "drift", "flutter")
 _OTHER_SENSES = frozenset({"framing", "view", "name", "place", "colour"})
 """Aspects in which these words say something else: "a long shot", "pale blue"."""
 MEASURED_HERE: Mapping[Judge, tuple[str, ...]] = {
@@ -155,6 +171,7 @@ MEASURED_HERE: Mapping[Judge, tuple[str, ...]] = {
     _judge_glow: ("glowing", "lit", "burning", "shining"),
     _judge_bend: ("curved", "curvy", "bending", "straight"),
     _judge_empty: ("empty",),
+    _judge_wind: ("wind", "winds", "breeze", "gust", "gusts"),
     _judge_sky: ("overcast sky", "under an overcast sky", "cloudy", "cloudy sky", "clear sky",
                  "clear skies", "cloudless", "partly cloudy"),
 }  # fmt: skip

@@ -17,7 +17,7 @@ LEAST_TEXTURE = 0.04
 """Standard deviation of a thing's luma, as a share of white, that a texture or a gloss has."""
 GREY = 0.15
 """Difference of the highest and lowest of R, G, B that grey may have."""
-METAL = (0.12, 0.72)
+METAL = (0.12, 0.57)
 """Mean luma of grey metal: what is lighter looks like china, what is darker like plastic."""
 DARK_LUMA, PALE_LUMA = 0.4, 0.6
 _LUMA = np.array([0.299, 0.587, 0.114])

@@ -76,7 +76,8 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         return fault
     place = description.surroundings.place
     if claim.value == "sky" and place != "sky":
-        return None if _is_anything_aloft(picture) else "nothing is seen there"
+        is_seen = _is_anything_aloft(picture, must_fly=claim.word == "overhead")
+        return None if is_seen else "nothing is seen there"
     if claim.word in _WATER_WORDS and place not in (*_WATERS, "underwater"):
         return None if place in ("sky", "space", None) else "no water in view"
     if claim.value in _WATERS and place in _WATERS:
@@ -139,12 +140,12 @@ def _differ(strip: Float64Array, beside: Float64Array) -> bool:
     return bool(np.abs(strip.mean(axis=0) - beside.mean(axis=0)).max() >= LEAST_EDGE)
 
 
-def _is_anything_aloft(picture: Picture) -> bool:
+def _is_anything_aloft(picture: Picture, *, must_fly: bool) -> bool:
     """Whether something in view, no speck, is above the ground and above all that stands there."""
     actors = picture.scene.actors
     for view in picture.views:
         tops = [float(one.corners(view.time_s)[:, 2].max()) for one in actors if not _flies(one)]
-        for actor in actors:
+        for actor in (one for one in actors if _flies(one) or not must_fly):
             height = actor.trajectory.at(view.time_s).position[2]
             is_high = height > max(actor.model.height, 0.3) and (
                 not _flies(actor) or height >= max(tops, default=0.0)
