@@ -53,6 +53,10 @@ _TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truc
           "across": ("truck", "right")}  # fmt: skip
 
 
+_BY_HAND = frozenset({"slip", "slide", "run", "walk", "drive", "fly", "hurry", "rush", "drift"})
+"""Verbs of motion that are done to their object, if they have one."""
+
+
 class CameraReader:
     """Collects camera moves, view and framing."""
 
@@ -188,7 +192,10 @@ class CameraReader:
             self._claimed = word
             word.is_used = True
         elif word.role is Role.VERB and isinstance(word.meaning.value, Verb):
-            self._read_motion(word, word.meaning.value, phrases)
+            # No camera slips a bottle into a jacket.
+            is_done_to = bool(clause.objects) and word.lemma in _BY_HAND
+            if not is_done_to:
+                self._read_motion(word, word.meaning.value, phrases)
 
     def _goes_through(self, phrases: Sequence[tuple[PrepPhrase, Referent]]) -> bool:
         return any(

@@ -41,6 +41,8 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
         return True
     if word.text in ("from", "off") and _rise(draft, scope.movers):
         return True
+    if scope.acted_on:
+        return False  # "pulls a fish out of the water": not who pulls comes out
     way = SHORE_WAYS.get(word.text)
     if way is None or place not in SHORES:
         return False
