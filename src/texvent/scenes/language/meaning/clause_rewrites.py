@@ -78,6 +78,10 @@ def take_vessel(clause: Clause) -> None:
     """As in "pours tea from a teapot into a cup": the teapot is what the hand holds."""
     if clause.verb is None or clause.verb.lemma not in _POURING or clause.is_passive:
         return
+    for group in list(clause.objects):
+        if group.head is not None and group.text == "water" and clause.phrases:
+            group.head.is_used = True  # the stream
+            clause.objects.remove(group)
     for phrase in list(clause.phrases):
         heads = [group.head for group in phrase.groups if group.head is not None]
         is_thing = all(head.read_as(Role.NOUN) is not None for head in heads)

@@ -16,8 +16,8 @@ from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.particles.jets import WATER, Jet, JetStyle
 from texvent.scenes.staging.particles.motion import GRAVITY, Lives, Source
 
-_HEIGHT_M = 0.22
-"""From the vessel's lip to what is poured into, for an adult."""
+_HEIGHTS_M = {"pour": 0.22, "water": 0.40}
+"""Pattern of hand work → from the vessel's lip to what is poured into, for an adult."""
 _SIZE_M = 0.2
 _COLOURS: dict[str, Colour] = {
     "milk": (0.9, 0.88, 0.82), "cream": (0.9, 0.86, 0.75), "coffee": (0.14, 0.06, 0.03),
@@ -43,12 +43,12 @@ def make_streams(actors: Sequence[Actor], prompt: str, rng: np.random.Generator)
     made = []
     for actor in actors:
         path = actor.trajectory
-        if not isinstance(path, WorkingAt) or path.work.pattern != "pour":
+        if not isinstance(path, WorkingAt) or path.work.pattern not in _HEIGHTS_M:
             continue
-        size = path.bench.size
-        lift = in_body(path.bench, (0.0, 0.0, _HEIGHT_M))
+        size, height_m = path.bench.size, _HEIGHTS_M[path.work.pattern]
+        lift = in_body(path.bench, (0.0, 0.0, height_m))
         lip = np.add(path.bench.spot, lift)
-        life_s = math.sqrt(2.0 * _HEIGHT_M * size / GRAVITY)
+        life_s = math.sqrt(2.0 * height_m * size / GRAVITY)
         style = replace(_STREAM, colours=(colour,))
         start_s, end_s = (time_s / path.tempo for time_s in POURED_S)
         lives = Lives.of(style.count, life_s, rng)

@@ -197,6 +197,12 @@ def _pour(t: float, half: float) -> Stroke:
     )
 
 
+def _water(t: float, half: float) -> Stroke:
+    """With one hand and from higher than `_pour`: plants are lower than a table."""
+    tip = ease(t, 0.2, 0.9) - ease(t, 1.7, 2.4)
+    return Stroke((0.0, 0.0, 0.42), None, (1.0, 0.1, 0.35 - 0.95 * tip))
+
+
 def _lift(t: float, half: float) -> Stroke:
     up = 0.55 * (ease(t % 2.4, 0.15, 1.1) - ease(t % 2.4, 1.5, 2.35))
     side = min(half, 0.36) + 0.02
@@ -326,6 +332,7 @@ PATTERNS: Mapping[str, Pattern] = MappingProxyType(
         "stir": _stir,
         "sprinkle": _sprinkle,
         "pour": _pour,
+        "water": _water,
         "lift": _lift,
         "put": _put,
         "take": _take,

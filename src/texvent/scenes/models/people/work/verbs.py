@@ -74,7 +74,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("stir", "spoon", shown_as="stir"), "fry boil roast grill bake simmer saute sear"),
     (HandWork("sprinkle", "shaker"), "sprinkle garnish dredge"),
     (HandWork("pour", "jug"), "pour refill spill decant"),
-    (HandWork("pour", "can", "there"), "water"),
+    (HandWork("water", "can", "there"), "water"),
     # Moving the thing itself.
     (HandWork("lift", "", "there"), "lift heave"),
     (HandWork("put", "", "there"), "put place put_down set_down lay_down"),
@@ -105,5 +105,5 @@ MOVED = frozenset({"put", "take", "drop"})
 ONTO = frozenset({"pour", "sprinkle", "dab", "offer"})
 """Patterns of what is done with one thing to another: the last one named is worked on."""
 
-HOVERING = frozenset({"pour", "sprinkle", "spray", "hold", "pluck", "knit"})
+HOVERING = frozenset({"pour", "water", "sprinkle", "spray", "hold", "pluck", "knit"})
 """Patterns in which the tool stays above the thing, or goes out of it and comes back."""
