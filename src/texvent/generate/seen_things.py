@@ -49,6 +49,10 @@ _EXTRAS = {"conveyor belt": "parcels ride on the conveyor belt"}
 """Noun → what its model shows besides."""
 
 
+_OF_WALLS = ("door", "window")
+"""Nouns of what belongs into a wall and stands alone."""
+
+
 class Findings(NamedTuple):
     """What was found of a scene's things and places."""
 
@@ -125,6 +129,12 @@ def _list_extras(
     laden = {description.objects[i].noun for one in description.relations if one.kind == "on"
              for i in one.targets}  # fmt: skip
     found = [note for noun, note in _EXTRAS.items() if noun in said - laden]
+    bound = {one.subject for one in description.relations if one.kind in ("on", "in", "with")}
+    found += [
+        f"the {one.noun} stands free, in no wall"
+        for index, one in enumerate(description.objects)
+        if one.noun in _OF_WALLS and index not in bound
+    ]
     for actor in scene.actors:
         if actor.noun.name in LAMPS and faults.get(actor.instance) is not None:
             found.append(f"light of the {actor.noun.name} may be seen where it is not")

@@ -22,7 +22,7 @@ MOST_REASONS = 2
 """Lost words that are named for a word in doubt."""
 _OF_NOUN = frozenset({"quality", "bright", "colour"})
 """Aspects of adjectives that say something of the noun after them."""
-_OF_THINGS = frozenset({"colour", "size", "material", "count", "side", "part", "relation"})
+_OF_THINGS = frozenset({"size", "material", "relation"})
 """Aspects of words that are as much in doubt as the nouns that they go with."""
 _NAMELESS = frozenset({"relation", "motion"})
 _AMID = frozenset({"surround", "among"})

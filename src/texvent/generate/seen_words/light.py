@@ -18,6 +18,8 @@ BRIGHT = 0.42
 """Mean luma of the picture from which it is bright."""
 SUNNY, CLEAR_SKY = 0.32, 0.08
 """The same of sunshine where so much of the picture is sky."""
+MOST_LIT = 0.36
+"""Mean luma of the picture up to which it is night where no sky is seen."""
 LEAST_SHADOW, DEEP = 0.02, 0.12
 """Share of the picture that shadows darken visibly; by how much, where a word names them."""
 LOW_SUN = 0.45
@@ -58,8 +60,9 @@ def _judge_kind(picture: Picture, description: SceneDescription, claim: Claim) -
         return "not to be told indoors" if is_room(place) else "not to be told here"
     if _SUN_WORDS & set(claim.word.split()) and not _is_sun_seen(picture):
         return "out of view"
-    if kind in ("night", "moonlight") and not picture.is_dark():
-        return "the picture is bright"
+    if kind in ("night", "moonlight"):
+        is_lit = picture.brightness() > MOST_LIT and _sky_share(picture) < CLEAR_SKY
+        return "the picture is bright" if is_lit or not picture.is_dark() else None
     if kind == "sunny":
         return _judge_sunshine(picture)
     if kind in ("dawn", "dusk") and _sky_share(picture) < LEAST_SKY:

@@ -58,6 +58,7 @@ LOOKS: Mapping[str, Look] = {
 """Material → whether pixels [k, 3], sRGB-coded 0..1, have its look; others are never told."""
 _COLOURED = {"cardboard": _is_coloured(COLOURS["brown"], COLOURS["tan"])}
 """Words with a look of their own."""
+_SMOOTH = frozenset({"ceramic", "plastic", "paper", "rubber"})
 _OWN_LOOK = frozenset({"wood", "stone", "concrete", "metal", "marble", "brick"})
 """Materials that are told by their texture where a colour is said too."""
 
@@ -82,7 +83,7 @@ def judge_material(
         if not own.any():
             continue
         pixels = picture.colours(number)[own]
-        is_rough = float(np.std(pixels @ _LUMA)) >= LEAST_TEXTURE
+        is_rough = kind in _SMOOTH or float(np.std(pixels @ _LUMA)) >= LEAST_TEXTURE
         if is_rough and (has_colour or look(pixels)):
             return None
     return f"does not look like {word}"

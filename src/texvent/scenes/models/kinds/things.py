@@ -179,7 +179,7 @@ THING_KINDS: dict[str, str] = {
     "mountain": "summit, alp, peak, hilltop",
     "cloud": "storm cloud, cumulus, rain cloud",
     "leaf": "autumn leaf, maple leaf, foliage leaf",
-    "log": "lumber, firewood",
+    "log": "lumber, firewood, tree trunk",
     "seashell": "scallop, cockle, conch, clam, scallop shell",
     "meteor": "meteorite, comet, fireball",
     "apple": "fruit",

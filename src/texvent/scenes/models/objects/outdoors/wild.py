@@ -177,7 +177,7 @@ _GARDEN = placed("grass", (
             *(rod(Material((0.45, 0.30, 0.15)), (0.0, 0.8 * s, 0.20), (0.0, 0.803 * s, 0.20),
                 0.18) for s in (1.0, -1.0)),
                 rod(mottled(p.colour), (0.0, 0.2, 0.30), (0.05, 0.35, 0.52), 0.05)],
-                ("tree trunk", "wood log", "fallen tree")),
+                ("wood log", "fallen tree")),
     thing("stump", (BARK.colour,),
         lambda p: [*lathe(mottled(p.colour, contrast=0.5, scale=6.0),
             [(0.0, 0.36), (0.12, 0.28), (0.42, 0.26)], 5),
