@@ -78,6 +78,9 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     if claim.value == "sky" and place != "sky":
         is_seen = _is_anything_aloft(picture, must_fly=claim.word == "overhead")
         return None if is_seen else "nothing is seen there"
+    is_poured = ("pour", None) in picture.scene.particles.kinds
+    if claim.word == "water" and is_poured:
+        return None
     if claim.word in _WATER_WORDS and place not in (*_WATERS, "underwater"):
         return None if place in ("sky", "space", None) else "no water in view"
     if claim.value in _WATERS and place in _WATERS:
