@@ -127,6 +127,7 @@ def test_entries_are_chosen_by_name_and_preset():
 def test_the_calibrated_entry_knows_the_kind_of_sensor():
     (entry,) = choose_entries("physical:calibrated", "exact")
     assert Entry.parse(entry.name) == entry
+    assert entry.track == "true frames, sensor known"
     found = entry.settings(0).simulate
     # Half of the radiance is level 115, where the true bandwidth is 250 Hz.
     assert found.cutoff_hz * (115 + 20) / 275 == pytest.approx(250, rel=0.2)
@@ -192,7 +193,12 @@ def test_default_entries_are_every_simulator_by_every_interpolation():
     entries = choose_entries()
     assert len(entries) == (len(SIMULATORS.names()) + 2) * len(INTERPOLATIONS)
     assert "texvent accurate, flow" in {entry.name for entry in entries}
-    assert {entry.track for entry in entries} == {"frames", "true frames"}
+    assert {entry.track for entry in entries} == {
+        "frames",
+        "true frames",
+        "frames, sensor known",
+        "true frames, sensor known",
+    }
 
 
 def test_the_full_plan_covers_ten_scenes_two_kinds_of_pixels_and_eight_seeds():

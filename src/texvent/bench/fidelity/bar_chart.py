@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from html import escape
 
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
@@ -12,6 +11,8 @@ from texvent.metrics.summary import summarise
 
 LABEL_PX, BAR_PX, ROW_PX, HEAD_PX, GAP_PX = 175, 250, 16, 34, 24
 """Widths of the labels and of an STPP of 1; heights of a row and of a panel's head."""
+LETTER_PX = 5.5
+"""Mean width of a letter."""
 PANELS_PER_ROW = 2
 
 
@@ -74,12 +75,14 @@ def _bar(score: Score, top: float) -> str:
 
 
 def _legend(tracks: set[str], y: float) -> str:
-    shown = [(name, colour) for name, colour in COLOURS.items() if name in tracks]
-    parts: Sequence[str] = [
-        f"<rect x='{LABEL_PX + number * 130}' y='{y - 9}' width='10' height='10' fill='{colour}'/>"
-        f"<text x='{LABEL_PX + number * 130 + 15}' y='{y}'>{name}</text>"
-        for number, (name, colour) in enumerate(shown)
-    ]
+    parts, x = [], float(LABEL_PX)
+    for name, colour in COLOURS.items():
+        if name in tracks:
+            parts.append(
+                f"<rect x='{x:g}' y='{y - 9}' width='10' height='10' fill='{colour}'/>"
+                f"<text x='{x + 15:g}' y='{y}'>{name}</text>"
+            )
+            x += 30 + LETTER_PX * len(name)
     return "".join(parts)
 
 

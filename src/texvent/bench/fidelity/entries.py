@@ -18,9 +18,18 @@ from texvent.run.settings import Settings, resolve
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
 
-Track: TypeAlias = Literal["frames", "frames, lamp known", "true frames", "recorded"]
+Track: TypeAlias = Literal[
+    "frames",
+    "frames, lamp known",
+    "true frames",
+    "frames, sensor known",
+    "frames, sensor and lamp known",
+    "true frames, sensor known",
+    "recorded",
+]
 """What a simulator gets: frames as a camera records them, those and the frequency of a lamp, or the
-scene at any instant. "recorded" marks events of a sensor, which no simulator made."""
+scene at any instant; and whether it knows the kind of sensor. "recorded" marks events of a sensor,
+which no simulator made."""
 
 INTERPOLATIONS = ("none", "blend", "flow", "exact")
 """Interpolators that are compared; "exact" gets the true frames, all others the camera's frames."""
@@ -53,10 +62,16 @@ class Entry:
 
     @property
     def track(self) -> Track:
-        """Whether it is given the true intermediate frames, or a lamp."""
+        """Whether it is given the true intermediate frames, or a lamp, or the kind of sensor."""
+        if self.interpolate == "exact":
+            return "true frames, sensor known" if self._is_calibrated else "true frames"
         if self.lamp_hz is not None:
-            return "frames, lamp known"
-        return "true frames" if self.interpolate == "exact" else "frames"
+            return "frames, sensor and lamp known" if self._is_calibrated else "frames, lamp known"
+        return "frames, sensor known" if self._is_calibrated else "frames"
+
+    @property
+    def _is_calibrated(self) -> bool:
+        return (self.simulator, self.preset) == CALIBRATED
 
     @classmethod
     def parse(cls, name: str) -> Entry:
@@ -77,15 +92,14 @@ class Entry:
         Raises:
             ConfigError: the simulator, its preset or the interpolator does not exist.
         """
-        is_calibrated = (self.simulator, self.preset) == CALIBRATED
         options = {
             "simulator": self.simulator,
-            "preset": None if is_calibrated else self.preset,
+            "preset": None if self._is_calibrated else self.preset,
             "interpolate": self.interpolate,
             "lamp_hz": self.lamp_hz,
             "seed": seed,
         }
-        return resolve("simulate", options, config=SENSOR_FILE if is_calibrated else None)
+        return resolve("simulate", options, config=SENSOR_FILE if self._is_calibrated else None)
 
     @property
     def default_threshold(self) -> float | None:
@@ -112,7 +126,7 @@ class Entry:
             TexventError: the simulator cannot run as it is, such as without its weights.
         """
         video: FrameStream = (
-            TrueFrames(scene) if self.track == "true frames" else render_video(scene)
+            TrueFrames(scene) if self.interpolate == "exact" else render_video(scene)
         )
         return simulate_video(video, self.settings(seed), threshold)
 

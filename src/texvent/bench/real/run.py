@@ -103,7 +103,7 @@ def run_real(
     entries = list(plan.entries) or real_entries()
     for entry in entries:
         entry.settings(SEED)
-        if entry.track == "true frames":
+        if entry.interpolate == "exact":
             raise ConfigError(f"{entry.name} needs the true frames, which no recording has")
     scores: list[Score] = []
     skipped: dict[str, str] = {}
