@@ -9,9 +9,9 @@ from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.svg import COLOURS, placed, svg_document
 from texvent.metrics.summary import summarise
 
-LABEL_PX, BAR_PX, ROW_PX, HEAD_PX, GAP_PX = 175, 250, 16, 34, 24
+LABEL_PX, BAR_PX, ROW_PX, HEAD_PX, GAP_PX = 200, 250, 16, 34, 24
 """Widths of the labels and of an STPP of 1; heights of a row and of a panel's head."""
-LETTER_PX = 5.5
+LETTER_PX = 6.2
 """Mean width of a letter."""
 PANELS_PER_ROW = 2
 
@@ -75,7 +75,7 @@ def _bar(score: Score, top: float) -> str:
 
 
 def _legend(tracks: set[str], y: float) -> str:
-    parts, x = [], float(LABEL_PX)
+    parts, x = [], 10.0
     for name, colour in COLOURS.items():
         if name in tracks:
             parts.append(
