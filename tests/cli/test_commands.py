@@ -226,6 +226,7 @@ def test_a_removed_flag_is_refused_by_name(folder, capsys):
 
 def test_a_prompt_without_quotes_is_told_to_take_them(folder, capsys):
     assert "put all of it in quotes" in fails(capsys, "generate", "a", "ball")
+    assert 'an empty text (""); leave it out' in fails(capsys, "bench", "page", "x.json", "")
     assert "did you mean --help" not in fails(capsys, "generate", "a ball", "--nosuch", "1")
 
 

@@ -357,6 +357,8 @@ def _first_message(complaint: str) -> str:
     message = filled[0] if filled else "the options cannot be understood"
     if "nrecog" not in message:
         return message
+    if message.endswith(":"):
+        return f'{message} an empty text (""); leave it out'
     if not re.search(r": -", message):
         return f"{message}; if they belong to a text or a name, put all of it in quotes"
     close = re.search(r"--[\w-]+", filled[1]) if len(filled) > 1 else None
