@@ -61,7 +61,7 @@ def _judge_kind(picture: Picture, description: SceneDescription, claim: Claim) -
     if _SUN_WORDS & set(claim.word.split()) and not _is_sun_seen(picture):
         return "out of view"
     if kind in ("night", "moonlight"):
-        is_lit = picture.brightness() > MOST_LIT and _sky_share(picture) < CLEAR_SKY
+        is_lit = picture.brightness() > MOST_LIT and _sky_share(picture) < LEAST_SKY
         return "the picture is bright" if is_lit or not picture.is_dark() else None
     if kind == "sunny":
         return _judge_sunshine(picture)

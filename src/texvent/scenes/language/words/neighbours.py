@@ -38,12 +38,13 @@ def read_neighbours(words: Sequence[Word]) -> None:
 
 def _forget_game(words: Sequence[Word]) -> None:
     """As in "friends play rock paper scissors": no rock is there; only a hand shows the game."""
+    texts = [word.text for word in words]
     for number in range(len(words) - 2):
-        game = words[number : number + 3]
-        near = (*words[:number], *words[number + 3 : number + 5])
-        by_hand = any(word.text.rstrip("s") in _OF_HANDS for word in near)
-        if [word.text for word in game] in _GAMES and not by_hand:
-            for word in game:
+        if texts[number : number + 3] not in _GAMES:
+            continue
+        near = (*texts[:number], *texts[number + 3 : number + 5])
+        if not any(text.rstrip("s") in _OF_HANDS for text in near):
+            for word in words[number : number + 3]:
                 word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
 
 

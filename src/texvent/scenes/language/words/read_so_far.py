@@ -21,6 +21,8 @@ class ReadSoFar:
         self._candidates = candidates
         self._texts = texts
         self._chosen: list[Meaning] = []
+        self._sentence_start = 0
+        """Number of the first word of the sentence."""
         self._has_verb = False
         """Whether the clause has a finite verb."""
         self._is_plural: bool | None = False
@@ -32,10 +34,9 @@ class ReadSoFar:
         self._has_subject = False
 
     def _note(self, meaning: Meaning) -> None:
-        if (meaning.pos is Pos.SIGN and meaning.value in ".;!?:") or meaning.pos in (
-            Pos.SUBORDINATOR,
-            Pos.RELATIVE,
-        ):
+        if ends_sentence := meaning.pos is Pos.SIGN and meaning.value in ".;!?:":
+            self._sentence_start = len(self._chosen) + 1
+        if ends_sentence or meaning.pos in (Pos.SUBORDINATOR, Pos.RELATIVE):
             self._has_verb = False
         elif meaning.pos is Pos.AUXILIARY or (
             meaning.pos is Pos.VERB and meaning.form is not VerbForm.ING
@@ -89,19 +90,14 @@ class ReadSoFar:
 
     def _sentence_so_far(self) -> list[Meaning]:
         """What was chosen of the sentence before this word; commas do not end it."""
-        begin = len(self._chosen)
-        while begin > 0 and not self._ends_sentence(self._chosen[begin - 1]):
-            begin -= 1
-        return self._chosen[begin:]
-
-    @staticmethod
-    def _ends_sentence(meaning: Meaning) -> bool:
-        return meaning.pos is Pos.SIGN and meaning.value in ".;!?:"
+        return self._chosen[self._sentence_start :]
 
     def _is_fronted(self) -> bool:
         """Whether the clause is a phrase so far: "At a skate park a man ..." has no subject yet."""
-        own = [one.pos for one in self._sentence_so_far()]
-        return bool(own) and own[0] is Pos.PREPOSITION and own.count(Pos.DETERMINER) < 2
+        own = self._sentence_so_far()
+        if not own or own[0].pos is not Pos.PREPOSITION:
+            return False
+        return sum(one.pos is Pos.DETERMINER for one in own) < 2
 
     def _finite_follows(self, index: int) -> bool:
         """Whether the next word can be a verb in the third person."""
