@@ -169,3 +169,31 @@ def test_a_pronoun_of_a_person_never_means_a_thing(prompt: str, lost: str) -> No
 def test_a_pronoun_means_who_it_can(prompt: str, kind: str) -> None:
     (one,) = parse_prompt(prompt).objects
     assert kind in [motion.kind for motion in one.then]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("a girl plays piano, her fingers flying over the keys", ["girl", "piano"]),
+        ("A man sits. The left hand holds a cup.", ["man", "cup"]),
+        ("a volleyball team celebrates", ["person"]),
+        ("a girl plays the violin while her sister listens", ["girl", "violin", "girl"]),
+        ("a bicycle stands upside down with a spinning wheel", ["parked bicycle"]),
+        ("a laser dot moves across a wall", ["wall"]),
+    ],
+)
+def test_no_parts_or_senses_stand_as_things(prompt: str, nouns: list[str]) -> None:
+    assert [one.noun for one in parse_prompt(prompt).objects] == nouns
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("a man fills a bottle with water", "indoor"),
+        ("a bottle is turned until the water runs out", "indoor"),
+        ("a duck swims on the water", "sea"),
+        ("a kayak in white water", "river"),
+    ],
+)
+def test_water_in_a_vessel_is_no_sea(prompt: str, place: str) -> None:
+    assert parse_prompt(prompt).surroundings.place == place

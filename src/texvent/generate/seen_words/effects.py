@@ -12,6 +12,12 @@ LEAST_EFFECT = 0.004
 """Share of the picture that an effect changes visibly."""
 LEAST_BESIDE = 0.2
 """Share of it that lies at the thing that it comes from."""
+FILLED = 0.4
+"""Share of the picture from which on smoke or steam fills it."""
+FILLING = frozenset({"smoke", "steam", "mist", "dust", "fog"})
+"""Effects that are said to fill a room, or the frame."""
+FLAMES = frozenset({("smoke", "rocket")})
+"""Effect and its thing, of which only the flame before it is told."""
 FLOWING = frozenset({"drip", "pour", "spray", "splash", "sparks"})
 """Effects that come from something."""
 
@@ -34,6 +40,8 @@ def judge_effects(picture: Picture, description: SceneDescription) -> dict[str, 
 def _judge(
     picture: Picture, description: SceneDescription, kind: str, source: int | None
 ) -> str | None:
+    if source is not None and (kind, description.objects[source].noun) in FLAMES:
+        return "no more than a flame"
     seen = changed_points(picture, kind, source)
     if max(float(np.mean(where)) for where in seen.values()) < LEAST_EFFECT:
         return "hardly to be seen"
@@ -43,6 +51,14 @@ def _judge(
     if not any(_is_beside(picture, number, where, owners) for number, where in seen.items()):
         return f"not at the {description.objects[source].noun}"
     return None
+
+
+def judge_filling(picture: Picture, kind: str) -> str | None:
+    """Why smoke or steam does not fill the picture, or None."""
+    sources = {one for name, one in picture.scene.particles.kinds if name == kind}
+    shares = [np.mean(where) for one in sources
+              for where in changed_points(picture, kind, one).values()]  # fmt: skip
+    return None if max(shares, default=0.0) >= FILLED else "fills little of the picture"
 
 
 def _is_beside(picture: Picture, number: int, where: np.ndarray, owners: list[int]) -> bool:

@@ -16,6 +16,8 @@ _AFTER_OBJECT = re.compile(
 _TURNING = re.compile(r"(twirl|spin|turn|rotat|whirl|swing|roll|flip)\w*")
 _HERDING = re.compile(r"(driv|drove|herd|lead|led|walk|push|pull)\w*")
 
+_MOUTH = re.compile(r"(laugh|giggl|chuckl|smil|grin)\w*")
+
 
 def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
     """Why the act shown for a verb is not what the verb says, or None.
@@ -30,6 +32,10 @@ def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
         mount = description.objects[ridden[0].targets[0]].noun
         if mount in NOUNS and NOUNS[mount].motion in ("walk", "run"):
             return f"rides the {mount}"
+    if _MOUTH.fullmatch(claim.word):
+        return "faces do not move"
+    if claim.word.startswith("wobbl") and _is_going(claim, description):
+        return "stays upright"
     for rest in _rests(claim.word, description.prompt.casefold()):
         first, _, after = rest.partition(" ")
         word = first.strip(".,;!?")
@@ -44,6 +50,12 @@ def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
 def _is_alive(claim: Claim, description: SceneDescription) -> bool:
     nouns = [description.objects[index].noun for index in claim.things]
     return any(noun in NOUNS and NOUNS[noun].motion in ("walk", "run") for noun in nouns)
+
+
+def _is_going(claim: Claim, description: SceneDescription) -> bool:
+    """Whether it is a person, an animal or a vehicle, which moves as smoothly as ever."""
+    nouns = [NOUNS[description.objects[index].noun] for index in claim.things]
+    return any(noun.motion in ("walk", "run", "drive") for noun in nouns)
 
 
 def _kind(description: SceneDescription, index: int, number: int | None) -> str:

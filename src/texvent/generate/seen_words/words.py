@@ -5,7 +5,7 @@ from __future__ import annotations
 from texvent.generate.seen_words.camera_moves import judge_move
 from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.degrees import judge_degree
-from texvent.generate.seen_words.effects import judge_effects
+from texvent.generate.seen_words.effects import FILLING, judge_effects, judge_filling
 from texvent.generate.seen_words.light import HARD, judge_light, judge_snow, judge_weather
 from texvent.generate.seen_words.picture import USUAL, Picture
 from texvent.generate.seen_words.places import judge_place
@@ -114,6 +114,8 @@ def _judge_effect(
         return "nothing raises it"
     if claim.aspect == "dust" and is_room(description.surroundings.place or "grass"):
         return "only at the feet of who moves"
+    if f"{claim.word} fill" in description.prompt.casefold() and kind in FILLING:
+        return effects.get(kind) or judge_filling(picture, kind)
     return effects.get(kind)
 
 

@@ -136,8 +136,27 @@ def take_particle(clause: Clause) -> None:
             return
 
 
+def _take_board(clause: Clause) -> None:
+    """As in "writes a word on a whiteboard": at its face, not on a page."""
+    for phrase in list(clause.phrases):
+        heads = {group.head.lemma for group in phrase.groups if group.head is not None}
+        if phrase.preposition.text in ("on", "onto", "across") and heads & _WRITTEN_ON:
+            phrase.preposition.is_used, clause.verb_word.lemma = True, "chalk"
+            clause.verb_word.has_other_sense = True
+            clause.objects = phrase.groups
+            clause.phrases.remove(phrase)
+            return
+
+
+_WRITING = frozenset({"write", "draw", "sketch", "scribble", "doodle", "scrawl"})
+_WRITTEN_ON = frozenset({"whiteboard", "blackboard", "chalkboard", "white board", "black board",
+                         "board", "wall"})  # fmt: skip
+
+
 def take_partners(clause: Clause) -> None:
     """As in "crashes into a wall", "collide with each other": what they meet is the object."""
+    if clause.verb is not None and clause.verb.lemma in _WRITING and not clause.is_passive:
+        _take_board(clause)
     verb = clause.verb.meaning.value if clause.verb is not None else None
     prepositions: tuple[str, ...] = ()
     if isinstance(verb, Verb) and verb.act == "collide":

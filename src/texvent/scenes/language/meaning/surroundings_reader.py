@@ -73,6 +73,8 @@ class SurroundingsReader:
         self.read_adjectives(one.attributes, one.kind)
         if one.kind == "sky":
             is_used = self._read_sky(one.attributes)
+        elif one.kind == "place" and head.is_content:
+            is_used, head.is_lost = False, not head.is_used
         elif one.kind == "place":
             is_used = self._read_place_referent(one)
         elif one.kind == "glow":

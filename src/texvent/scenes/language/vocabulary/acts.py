@@ -7,14 +7,15 @@ from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.machine_acts import GRASP, PICK
 
 SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
-    "stretch": ("exercise", "warm up", "meditate", "train"),
+    "stretch": ("exercise", "warm up", "meditate", "train", "do tai chi",
+                "practice tai chi", "practise tai chi", "perform tai chi"),
     "swing racket": ("rally", "volley", "smash"),
     "throw": ("lasso", "fling", "sling", "pitch", "cast"),
     "crouch": ("duck", "hide", "stoop"),
     "punch": ("jab", "hook"),
     "point": ("signal", "direct", "conduct", "indicate"),
     "eat": ("bite", "chew", "taste", "lick", "swallow", "nibble"),
-    "talk": ("whisper", "recite", "interview", "present"),
+    "talk": ("whisper", "recite", "interview", "present", "explain"),
     "kneel": ("pray", "propose"),
     "dance": ("breakdance", "moonwalk", "twerk"),
     "climb": ("clamber", "cling", "scale", "climb up", "shin up"),

@@ -78,7 +78,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("back up", "reverse"),
     Verb("reverse", "reverse"),
     Verb("enter", "enter"),
-    Verb("arrive", "enter"),
+    Verb("arrive", "enter", end_pace=0.0),
     Verb("appear from behind", "appear", relation="behind"),
     Verb("pass", "move", relation="past"),
     Verb("pass by", "move", relation="past"),

@@ -63,7 +63,7 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
     "mountain": ("cliff", "ridge", "summit", "peak"),
     "sea": ("bay", "lagoon", "fjord"),
     "lake": ("water hole", "waterhole", "swamp", "marsh"),
-    "river": ("rapids", "ditch"),
+    "river": ("rapids", "ditch", "white water", "whitewater", "white water rapids"),
     "forest": ("park trail", "bamboo grove", "swamp forest"),
     "indoor": (
         "studio", "lobby", "palace", "court", "circus", "club", "courtroom", "dungeon",

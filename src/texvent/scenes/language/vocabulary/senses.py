@@ -164,6 +164,11 @@ SENSES: dict[str, tuple[Sense, ...]] = {
         _sense("potter pottery clay", "potter wheel"),
         _sense("ship captain helm", "steering wheel"),
     ),
+    "spinning wheel": (
+        _sense("potter pottery clay vase pot bowl", "potter wheel"),
+        _sense("bicycle bike cyclist car tyre tire hamster roulette casino cart scooter mechanic"
+               " wagon toy fortune skateboard unicycle"),
+    ),
     "piste": (_sense("fencer fencing sabre foil epee duel"),),
     "rotor": (_sense("centrifuge brake engine motor turbine"),),
     "bubble": (_sense("gum chewing glass molten blowpipe boil champagne soda beer speech aquarium"
@@ -307,6 +312,16 @@ NO_OBJECT: dict[str, frozenset[str]] = {
     "drive": _words("nail ball screw stake"),
 }  # fmt: skip
 """Verb → objects with which it is none of what it shows alone: "throws a jab"."""
+IN_VESSELS = _words("""bottle cup glass mug jug pitcher kettle tap faucet sink hose bucket bowl pot
+    pan vase jar basin bathtub tub teapot drink sip gulp pour fill refill boil kitchen tumbler
+    thermos flask straw aquarium tank balloon towel shower sponge wash rinse splash splatter face
+    plant flower can spray mop cloth barista cook runner athlete desk table carafe beaker tube""")
+"""Words beside which "water" is in something, or on someone."""
+OPEN_WATER = _words("""sea ocean lake river stream pond beach shore coast harbour harbor pier dock
+    boat ship sailboat yacht kayak canoe raft ferry swim swimmer surf surfer dive diver dolphin
+    whale duck swan goose fish shark seal wave canal bay island waterfall paddle row sail pool
+    bridge lighthouse waterfowl heron pelican otter beaver crocodile hippo jet skim wade""")
+"""Words beside which it is a place all the same."""
 DEVICES = _words("lamp light tv television radio computer faucet tap stove oven fan engine machine"
                  " switch torch flashlight heater music lantern laptop console")  # fmt: skip
 """What is turned on and off, and does not turn."""

@@ -7,8 +7,10 @@ from dataclasses import replace
 
 from texvent.scenes.language.vocabulary.senses import (
     DEVICES,
+    IN_VESSELS,
     NO_OBJECT,
     ONLY_WITH,
+    OPEN_WATER,
     OWNED,
     PARTICLES,
     SENSES,
@@ -45,7 +47,6 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
     is_told = sum(word.pos in (Pos.NOUN, Pos.VERB) for word in words) > 1
     said = {word.lemma for word in words} | {part for word in words for part in word.text.split()}
     for index, word in enumerate(words):
-        before = words[index - 1] if index else None
         follower = words[index + 1] if index + 1 < len(words) else None
         others = said - {word.lemma, word.text} if is_told else set()
         if word.pos is Pos.VERB:
@@ -53,7 +54,8 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
         if word.lemma in _BECOMING and follower is not None and follower.text in ("to", "into"):
             _forget_result(words[index + 2 :])
         if word.pos is Pos.NOUN:
-            _choose_noun(word, before, follower, others, known)
+            owner = _find_determiner(words[:index])
+            _choose_noun(word, owner, follower, others, known)
         if word.text == "overhead" and follower is not None and follower.role in _OF_SHOTS:
             word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, "top"), ()
         if word.text == "orange" and follower is not None and follower.lemma in _LIGHTS:
@@ -64,6 +66,8 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
                 ),
                 (),
             )
+        if word.text == "water":
+            word.is_content = bool(IN_VESSELS & others) and not OPEN_WATER & others
         if word.text == "lamp lights":
             _forget(word, Pos.NOUN)
         if word.text == "spray" and follower is not None and follower.lemma == "paint":
@@ -92,6 +96,11 @@ def _choose_verb(word: Word, after: Sequence[Word], others: set[str], known: Lex
     sense = _find_sense(VERB_SENSES.get(word.lemma, ()), others)
     if sense is not None:
         _give(word, sense, known, Pos.VERB)
+
+
+def _find_determiner(before: Sequence[Word]) -> Word | None:
+    """The word before a noun and its adjectives: "his" of "his empty palm"."""
+    return next((word for word in reversed(before) if word.pos is not Pos.ADJECTIVE), None)
 
 
 def _is_switching(word: Word, after: Sequence[Word]) -> bool:

@@ -38,6 +38,8 @@ class Word:
     """Which motion of its first object it is about, from 0."""
     is_viewpoint: bool = False
     """Whether it carries the camera, and so is not in the picture."""
+    is_content: bool = False
+    """Whether it is in a vessel, or drunk, and so no place: "a bottle of water"."""
     companions: tuple[Word, ...] = ()
     """Words that it goes with: where one of them is lost, it may mean something else."""
 

@@ -126,6 +126,7 @@ TRAFFIC_WORDS: dict[str, tuple[str, ...]] = {
 PEOPLE_GROUPS: dict[str, int] = {
     "couple": 2, "pair": 2, "family": 4, "crowd": 8, "team": 5, "audience": 8, "band": 4,
     "group of people": 5, "ground crew": 3, "orchestra": 8, "choir": 6, "class": 6,
-    "elderly couple": 2, "old couple": 2,
+    "crew": 4, "film crew": 4, "squad": 5, "troupe": 5, "ensemble": 5, "quartet": 4, "duo": 2,
+    "chorus": 6, "elderly couple": 2, "old couple": 2,
 }  # fmt: skip
 """Word for a group of people → how many are shown."""

@@ -163,7 +163,8 @@ WORK_KINDS: dict[str, str] = {
     "whiteboard": "flipchart, drawing board, projector board",
     "tripod": "camera stand, camera tripod, telescope tripod, theodolite, surveying instrument",
     "projector": """
-        movie projector, slide projector, film reel projector, cinema projector,
+        film projector, old film projector, movie projector, slide projector,
+        film reel projector, cinema projector,
         overhead projector""",
     "photo camera": """
         cameras, disposable camera, mirrorless camera, camera on a strap, action camera,

@@ -40,7 +40,7 @@ _GESTURES: dict[str, Activity] = {
     "raise arms": Activity(("raise the arms", "raise arms", "raise both arms", "cheer",
                             "celebrate", "lift the arms")),
     "stretch": Activity(("stretch",)),
-    "talk": Activity(("talk", "speak", "chat", "explain", "gesticulate", "discuss")),
+    "talk": Activity(("talk", "speak", "chat", "gesticulate", "discuss")),
     "right arm clockwise": Activity(("right arm clockwise", "rotate the right arm clockwise",
                                      "right hand clockwise")),
     "right arm counter-clockwise": Activity(

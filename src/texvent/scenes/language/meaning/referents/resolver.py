@@ -12,12 +12,15 @@ from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.referents.crowds import add_traffic, find_drifting
 from texvent.scenes.language.meaning.referents.parts_shown import (
     BODY_PARTS,
+    is_own_hand,
     list_parts_shown,
+    list_people,
     shows_part,
 )
 from texvent.scenes.language.meaning.referents.pronouns import OF_ONE_PERSON, Antecedents
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.senses import (
+    RELATIVES,
     choose_pattern,
     choose_sense,
     is_figurative,
@@ -42,6 +45,7 @@ from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.kinds.looks import LOOKS
 from texvent.scenes.models.kinds.people import TRAFFIC
+from texvent.scenes.models.people.work.verbs import HANDWORK
 
 PERSON = "person"
 OUR = ("our", "my")
@@ -75,6 +79,7 @@ class Referents(Antecedents):
         super().__init__(draft)
         self._known: dict[int, Referent] = {}
         self._wholes: Sequence[int] = ()
+        self._relatives: dict[str, int] = {}
         self.verb = ""
         """Verb of the clause whose subjects are being read."""
         self.has_body = False
@@ -185,6 +190,8 @@ class Referents(Antecedents):
             return Role.PLACE if is_around or preposition in _LOCATIVE else Role.NOUN
         if is_thing and self.has_body and head.lemma in BODY_PARTS:
             return Role.PART
+        if is_own_hand(self._draft, head.read_as(Role.NOUN)):
+            return Role.PART
         if is_thing and head.read_as(Role.PART) is not None:
             is_owned = (
                 group.owner is not None
@@ -199,6 +206,8 @@ class Referents(Antecedents):
     def _find_bodies(self, group: NounGroup) -> list[int]:
         """As in "a surgeon's hands": the surgeon, not hands without a body."""
         meaning = group.head_word.read_as(Role.NOUN)
+        if is_own_hand(self._draft, meaning) and self.verb in HANDWORK:
+            return list_people(self._draft)[-1:]
         owners = [one for phrase in group.phrases if phrase.preposition.text == "of"
                   for one in phrase.groups]  # fmt: skip
         owned_by = group.owner or (owners[0] if owners else None)
@@ -278,6 +287,7 @@ class Referents(Antecedents):
             return Referent("unknown", group, attributes=attributes)
         self._draft.objects[index].said = said or self._draft.objects[index].said
         self._named.append(index)
+        self._relatives[head.lemma] = index
         if group.determiner is not None and group.determiner.text in OWNERS:
             self._draft.objects[index].owner = group.determiner.text
         head.is_used = True
@@ -317,6 +327,8 @@ class Referents(Antecedents):
         determiner = group.determiner
         if determiner is None or determiner.text not in DEFINITE or attributes.is_new:
             return None
+        if determiner.text in OWNERS and group.head_word.lemma in RELATIVES:
+            return self._relatives.get(group.head_word.lemma)
         index = self._draft.find(noun, is_plural, said)
         return self._find_kind(noun, is_plural) if index is None and said is None else index
 

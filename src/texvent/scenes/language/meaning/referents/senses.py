@@ -37,7 +37,8 @@ _PARTS_OF = {
 }  # fmt: skip
 """Shape → things of which it is really made."""
 _PARTS = frozenset({"trunk", "bow", "boot", "hood", "crown", "bark", "palm", "nail", "horn", "cap",
-                    "head", "hand", "spring", "key", "drum", "crane", "mouse", "bat"})  # fmt: skip
+                    "head", "hand", "spring", "key", "drum", "crane", "mouse", "bat",
+                    "frame", "body", "shell", "skeleton"})  # fmt: skip
 """What is a part of the thing that "of" names, and no thing by itself."""
 
 _LIKE_PARTS = _words("face head back foot arm hand mouth leg eye neck nose tongue finger")
@@ -45,6 +46,12 @@ _LIKE_PARTS = _words("face head back foot arm hand mouth leg eye neck nose tongu
 
 _KIN = frozenset({"mother", "father", "parent", "brother", "sister", "friend"})
 """Whom an animal has too: "its mother" is no woman."""
+RELATIVES = _KIN | _words(
+    """mom mum dad son daughter wife husband grandmother grandfather grandma grandpa aunt uncle
+    cousin twin partner opponent oponent teammate rival colleague classmate neighbour neighbor boss
+    assistant coach student pupil child kid baby girlfriend boyfriend bride groom buddy"""
+)
+"""Whom one has: "her sister" is not the girl that was named."""
 
 
 def is_figurative(group: NounGroup, preposition: str | None) -> bool:
@@ -286,8 +293,9 @@ def read_herd(group: NounGroup, draft: Draft) -> int | None:
     member = inner.read_as(Role.NOUN) if inner is not None else None
     if inner is None or member is None or head.lemma not in _HERDS:
         return None
-    if draft.nouns[str(member.value)].motion == "stand":
-        return None
+    noun = draft.nouns[str(member.value)]
+    if not is_living(noun) and noun.motion not in _VEHICLE_MOTIONS:
+        return None  # a volleyball team is people
     count = _HERDS[head.lemma]
     for phrase in list(group.phrases):
         content = phrase.groups[0]

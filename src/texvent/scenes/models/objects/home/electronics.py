@@ -166,7 +166,7 @@ NOUNS = placed("indoor", (
             *(bar(INK, (-0.12 + 0.03 * i, 0.05), (-0.12 + 0.03 * i, 0.10), 0.008, 0.006, 0.13)
                 for i in range(4)), box(GREY_PLASTIC, (0.0, -0.06, 0.128), (0.06, 0.05, 0.006)),
                 *(post(INK, (x, y, 0.008), (0.03, 0.03, 0.016)) for x in (0.09, -0.09)
-                    for y in (0.12, -0.12))], ("video projector", "beamer", "film projector")),
+                    for y in (0.12, -0.12))], ("video projector", "beamer")),
     thing("router", (BLACKISH, CHINA),
         lambda p: [box(p, (0.0, 0.0, 0.02), (0.14, 0.22, 0.03)),
             *(rod(p, (-0.06, y, 0.02), (-0.07, 1.2 * y, 0.18), 0.006) for y in (0.09, 0.0, -0.09)),

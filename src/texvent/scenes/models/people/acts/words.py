@@ -67,7 +67,7 @@ EXERCISES: dict[str, Activity] = {
     "run in place": seen_from_side("run in place", "jog in place", "run on the spot",
                                    "jog on the spot", "do high knees"),
     "deadlift": seen_from_side("deadlift", *done_to("do|perform", "deadlift|deadlifts")),
-    "yoga": Activity((*done_to("do|practice|practise|perform", "yoga|tai chi|tree pose"),)),
+    "yoga": Activity((*done_to("do|practice|practise|perform", "yoga|tree pose"),)),
     "ballet": Activity((*done_to("do|dance|practice|practise|perform", "ballet"), "pirouette",
                         "do a pirouette", "do pirouettes")),
     "karate": seen_from_side(*done_to("do|practice|practise|perform", "karate|taekwondo"

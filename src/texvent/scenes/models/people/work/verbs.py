@@ -51,6 +51,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("rub", "trowel"), "plaster spread smear frost"),
     # Small movements at a spot.
     (HandWork("scribble", "pen"), "sign draw sketch trace engrave label doodle"),
+    (HandWork("scribble", "pen", "there", "front"), "chalk"),
     (HandWork("pluck", "needle", "hands"), "sew stitch embroider mend darn suture"),
     (HandWork("knit", "needles", "hands"), "knit crochet"),
     (HandWork("tie"), "tie untie knot lace unlace braid plait wrap unwrap bandage fasten buckle "
