@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
+from texvent.generate.seen_words.courses import list_walkers_in_air
 from texvent.generate.seen_words.faces import judge_face
 from texvent.generate.seen_words.people import is_portrait, judge_head
 from texvent.generate.seen_words.picture import Picture, View
@@ -116,7 +117,15 @@ def find_evidence(
         {**judge_verbs(picture, description), **words, **found.places},
         qualities,
         found.scenery,
-        tuple(dict.fromkeys([*scene.notes, *_list_extras(scene, description, faults)])),
+        tuple(
+            dict.fromkeys(
+                [
+                    *scene.notes,
+                    *_list_extras(scene, description, faults),
+                    *list_walkers_in_air(picture),
+                ]
+            )
+        ),
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,10 +21,16 @@ MOST_STILL = 0.004
 """Greatest way in the picture of a camera that stands, a share of its width."""
 MOST_DRIFT = 0.35
 """How far what a camera follows may go in the picture, a share of its width."""
+MOST_GROWTH = 1.6
+"""How much farther off what is followed from behind may be at one instant than at another."""
 _OF_PLACE = frozenset({"travel", "dolly", "truck", "pedestal", "crane", "orbit", "dolly zoom"})
 _WITH_STATIC = frozenset({"static", "dutch", "travel", "handheld", "follow", "pan", "tilt", "zoom"})
 """Moves beside which a camera may be said to be fixed: to what goes, or where it only turns."""
 _DIRECTIONS = frozenset({"left", "right", "up", "down", "in", "out"})
+_FALLING_BACK = re.compile(r"\b(fall|drop)(s|ing)? (behind|back)\b")
+_MOUNTED = frozenset({"mounted", "attached", "strapped", "fixed", "fastened"})
+_VEHICLES = ("drive", "cycle", "sail", "fly")
+_STANDS_ON = re.compile(r"\b(tripod|wall|ceiling|pole|post|stand|ground|mast|lamp post)\b")
 _TURNS = frozenset({"pan", "tilt", "zoom", "roll"})
 
 
@@ -37,6 +45,11 @@ def judge_move(picture: Picture, description: SceneDescription, claim: Claim) ->
     said = {move.direction for move in description.shot.moves if move.kind == claim.move}
     if claim.word in _DIRECTIONS and claim.word not in said:
         return "the camera does not go that way"
+    prompt = description.prompt.casefold()
+    if _FALLING_BACK.search(prompt) and claim.word.startswith(("fall", "drop")):
+        return "the camera does not stay behind"
+    if claim.word in _MOUNTED and not _is_mounted(description, prompt):
+        return "what it is mounted on is not to be told"
     first, last = picture.views[0], picture.views[-1]
     if claim.move == "static":
         shot = description.shot.moves
@@ -52,6 +65,12 @@ def judge_move(picture: Picture, description: SceneDescription, claim: Claim) ->
     if claim.move == "follow":
         return _judge_follow(picture, description, share)
     return None
+
+
+def _is_mounted(description: SceneDescription, prompt: str) -> bool:
+    """Whether it stands on what stays, or goes as the vehicle does that it is on."""
+    goes = any(one.kind == "travel" and one.means in _VEHICLES for one in description.shot.moves)
+    return goes or _STANDS_ON.search(prompt) is not None
 
 
 def _shifts(picture: Picture, first: View, last: View) -> Float64Array:
@@ -92,5 +111,8 @@ def _judge_follow(picture: Picture, description: SceneDescription, share: float)
     places = np.array(
         [project(view.camera, picture.size, main.middle(view.time_s)) for view in picture.views]
     )
+    is_behind = any(one.direction == "behind" for one in description.shot.moves)
+    if is_behind and places[:, 2].max() > MOST_GROWTH * max(places[:, 2].min(), 1e-9):
+        return "it does not stay as far behind"
     drift = float(np.ptp(places[:, :2], axis=0).max()) / picture.size.width
     return "what it follows does not stay in the picture" if drift > MOST_DRIFT else None

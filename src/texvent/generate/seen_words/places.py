@@ -55,6 +55,12 @@ _LACKS: dict[str, tuple[str, ...]] = {
 """What a place is shown as, or lacks → its words."""
 _NEEDS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("backyard", "yard"), ("house", "fence", "wooden house", "garden fence")),
+    **dict.fromkeys(("bedroom", "hotel room", "dormitory"), ("bed", "double bed")),
+    "hospital room": ("bed", "hospital bed"),
+    **dict.fromkeys(("station", "train station", "railway station", "subway station",
+                     "metro station", "underground station"), ("railway track", "rail track")),
+    "classroom": ("school desk",),
+    "stage": ("stage curtain", "spotlight"),
     "garden": ("flower", "fence", "garden fence"),
     **dict.fromkeys(("garage", "auto repair shop", "car workshop"), ("car lift",)),
     **dict.fromkeys(("gym", "gymnasium", "sports hall"), ("treadmill", "basketball hoop")),

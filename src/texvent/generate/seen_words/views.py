@@ -34,6 +34,11 @@ HEIGHTS_M = {"waist": (0.7, 1.25), "chest": (0.9, 1.6), "shoulder": (1.0, 1.7)}
 MOST_DOWN = 0.3
 """Sine of the angle at which a low camera looks down at most."""
 MOST_OF_CLIP = 0.6
+LEAST_SHOULDER, LEAST_ASIDE, LEAST_BEYOND = 0.9, 0.12, 0.02
+"""Of a view over a shoulder: height of who is looked past, in pictures; how far that one is from
+the middle, in widths of the picture; share of the picture that things beyond cover."""
+LEAST_EXTREME, MOST_SKY = 0.5, 0.02
+"""Shares of the picture that a thing in extreme close-up and the sky cover, at least and most."""
 _BEARINGS = {"side": (-0.6, 0.6), "front": (0.6, 1.0), "back": (-1.0, -0.6),
              "shoulder": (-1.0, -0.5)}  # fmt: skip
 """View → least and most cosine of the angle between its heading and the way to the camera."""
@@ -64,7 +69,8 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
     main = choose_main(description, actors)
     if claim.value in _BEARINGS:
         return _judge_bearing(picture, main, claim.value)
-    return _judge_size(picture, main, claim.value) if claim.value in _SIZES else None
+    framing = "extreme" if claim.word.startswith("extreme close") else claim.value
+    return _judge_size(picture, main, framing) if claim.value in _SIZES else None
 
 
 def _judge_low(picture: Picture) -> str | None:
@@ -108,6 +114,8 @@ def _judge_own_eyes(description: SceneDescription) -> str | None:
 
 def _judge_bearing(picture: Picture, main: Actor, view_from: str) -> str | None:
     """From the side, front or back: the angle between what it looks at and the camera."""
+    if view_from == "shoulder" and not _looks_past(picture, main):
+        return "nothing is seen beyond a shoulder"
     if not (main.noun.speed_m_s > 0.0 and main.noun.habitat != "fixed"):
         return None  # a vase has no front
     least, most = _BEARINGS[view_from]
@@ -121,8 +129,30 @@ def _judge_bearing(picture: Picture, main: Actor, view_from: str) -> str | None:
     return None if is_seen else f"the {main.noun.name} is seen from another side"
 
 
+def _looks_past(picture: Picture, main: Actor) -> bool:
+    """Whether who is looked past is large and at the picture's edge, with something beyond."""
+    view = picture.views[len(picture.views) // 2]
+    own = view.instance == main.instance
+    if not own.any() or _height_in_picture(picture, main, view) < LEAST_SHOULDER:
+        return False
+    aside = abs(float(picture.points[own, 0].mean()) / picture.size.width - 0.5)
+    beyond = (view.instance > 0) & ~own
+    return aside >= LEAST_ASIDE and float(beyond.mean()) >= LEAST_BEYOND
+
+
+def _fills(picture: Picture, main: Actor) -> bool:
+    """Whether what it looks at covers most of the picture, and no horizon is in view."""
+    same = [one.instance for one in picture.scene.actors if one.object_index == main.object_index]
+    shares = [float(np.isin(view.instance, same).mean()) for view in picture.views]
+    sky = min(float(view.is_sky.mean()) for view in picture.views)
+    has_horizon = sky >= MOST_SKY and picture.ground_share() >= MOST_SKY
+    return max(shares) >= LEAST_EXTREME and not has_horizon
+
+
 def _judge_size(picture: Picture, main: Actor, framing: str) -> str | None:
     """How large what it looks at is in the picture."""
+    if framing == "extreme":
+        return None if _fills(picture, main) else "it does not fill the picture"
     if main.noun.name in PERSON_NOUNS:
         heights = [_height_in_picture(picture, main, view) for view in picture.views]
         tallest = float(np.median(heights))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from texvent.generate.seen_words.camera_moves import judge_move
 from texvent.generate.seen_words.colours import share_like
+from texvent.generate.seen_words.courses import judge_courses
 from texvent.generate.seen_words.degrees import judge_degree
 from texvent.generate.seen_words.effects import FILLING, judge_effects, judge_filling
 from texvent.generate.seen_words.light import HARD, judge_light, judge_snow, judge_weather
@@ -35,7 +36,7 @@ def judge_words(
         Words of the scene → why; aspect and object → why.
     """
     effects = judge_effects(picture, description) if picture.scene.particles.kinds else {}
-    words: dict[str, str] = {}
+    words = judge_courses(picture, description)
     qualities: dict[tuple[str, int], str] = {}
     for claim in description.claims:
         if claim.word in _WAVES and claim.aspect == "name" and claim.motion is not None:

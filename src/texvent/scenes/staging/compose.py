@@ -42,6 +42,7 @@ from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
 from texvent.scenes.staging.placement.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
+from texvent.scenes.staging.surroundings.crosswalks import lay_crosswalks
 from texvent.scenes.staging.surroundings.environment import (
     PLACES,
     AnimatedEnvironment,
@@ -247,7 +248,11 @@ def _set_camera(
 
     def stand(placed: list[Actor]) -> list[Actor]:
         placed = with_headroom(description, placed)
-        return queue_in_lanes(placed, 0.5 * PLACES[place].road_half_width) if has_lanes else placed
+        half = PLACES[place].road_half_width
+        if not has_lanes:
+            return placed
+        queued = queue_in_lanes(placed, 0.5 * half)
+        return lay_crosswalks(description, queued, half, duration_s)
 
     actors = stand(placer.place_all())
     path = place_camera(

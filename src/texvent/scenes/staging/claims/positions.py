@@ -139,12 +139,11 @@ def _along(subject: Body, target: Body) -> Float64Array:
 
 
 def passes(subject: Body, targets: list[Body]) -> bool:
-    """It goes by; what stays in its place is near."""
+    """It goes by: before the target's middle, then after it; what stays in its place is near."""
     if not (_moves(subject) or _moves(targets[0])):
         return is_near(subject, targets)
     ahead = _along(subject, targets[0])
-    beside = 0.5 * (size_of(subject) + size_of(targets[0]))
-    return bool(ahead.min() < beside and ahead.max() > -beside)
+    return bool(ahead.min() < 0.0 < ahead.max())
 
 
 def overtakes(subject: Body, targets: list[Body]) -> bool:

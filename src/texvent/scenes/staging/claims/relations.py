@@ -17,7 +17,7 @@ from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.acts.climbing import ClimbingAt, OnStairs
 from texvent.scenes.staging.acts.hand_work.surface_points import sample_surface
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt, tool_tip
-from texvent.scenes.staging.acts.holding import WORN
+from texvent.scenes.staging.acts.holding import GARMENTS, WORN
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.claims.contact import (
     collide,
@@ -111,11 +111,22 @@ def _name(description: SceneDescription, index: int) -> str:
 def _is_in_front(subject: Body, targets: list[Body]) -> bool:
     """Nearer to the viewer; before a mirror or a screen, near it and turned to it."""
     target = targets[0]
+    if subject.copies[0].noun.name == "crosswalk" and target.copies[0].noun.motion == "drive":
+        return _points_ahead(target, subject)
     looks = target.copies[0].noun.name in LOOKED_AT and subject.copies[0].noun.habitat == "ground"
     if looks and not subject.copies[0].noun.is_working:
         goals = list(target.copies)
         return is_near(subject, targets) and faces(subject.copies, goals, subject.duration_s)
     return _is_behind(target, [subject])
+
+
+def _points_ahead(vehicle: Body, stripes: Body) -> bool:
+    """Whether stripes on the road lie before a vehicle in the end."""
+    time_s = vehicle.duration_s
+    one = vehicle.copies[0]
+    way = (stripes.copies[0].middle(time_s) - one.middle(time_s))[:2]
+    front = one.trajectory.at(time_s).to_world()[:2, 0]
+    return float(way @ front) > 0.5 * one.model.length
 
 
 def _is_behind(subject: Body, targets: list[Body]) -> bool:
@@ -161,6 +172,9 @@ def _by_copies(holds: _Course) -> Callable[[Body, list[Body]], bool]:
 def _is_on(subject: Body, targets: list[Body]) -> bool:
     """On it; where the target's parts move and it stays in its place, it is carried along."""
     target = targets[0]
+    is_cloth = target.copies[0].noun.name in {*WORN, *GARMENTS}
+    if is_cloth and subject.copies[0].noun.name in PERSON_NOUNS:
+        return False  # nobody means to stand on a scarf
     if hangs(subject.copies[0].noun, target.copies[0].noun):
         return holds_for_all(hangs_on, subject.copies, target.copies, subject.duration_s)
     if not holds_for_all(is_on, subject.copies, target.copies, subject.duration_s):

@@ -54,7 +54,9 @@ def _straight_road(
     actors: Sequence[Actor], usual_y: float, lane_m: float, *, has_pavement: bool
 ) -> RoadLine:
     grounded = [actor for actor in actors if actor.noun.habitat == "ground"]
-    movers = [actor for actor in grounded if actor.is_mover]
+    # Ducks cross a road too.
+    movers = [one for one in actors if one.is_mover and (one in grounded or one.goes_across)]
+    movers = [one for one in movers if one.noun.habitat != "air"]
     drivers = [actor for actor in movers if actor.noun.motion == "drive"]
     lanes = find_lanes(actors)
     if all(lanes) and sum(map(len, lanes)) >= FEWEST:
@@ -63,7 +65,10 @@ def _straight_road(
     if drivers:
         return _road_of(drivers, lane_m)
     if movers and movers[0].goes_across:
-        x, y, _ = movers[0].middle(0.5 * _USUAL_S)
+        crossing = [one for one in movers if one.goes_across]
+        # Of ducks in a row the middle one is on the road at mid clip.
+        middle = crossing[0 if movers[0] in grounded else len(crossing) // 2]
+        x, y, _ = middle.middle(0.5 * _USUAL_S)
         return RoadLine(movers[0].trajectory.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
     if movers:
         return _road_of(movers, lane_m, has_pavement=has_pavement)

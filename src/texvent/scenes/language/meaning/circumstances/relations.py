@@ -73,7 +73,8 @@ class RelationReader:
         elif word.text in ("up", "down"):
             is_used = self._go_on_stairs(word, things, scope)
         elif self._is_walked(word, things, scope):
-            is_used = self._relate("on", scope.movers or scope.subjects, things, _WALKED[word.text])
+            goers = self._find_slid(word, things, scope) or scope.movers or scope.subjects
+            is_used = self._relate("on", goers, things, _WALKED[word.text])
         elif kind is not None:
             is_used = self._read_kind(kind, word, things, scope)
         word.is_used, word.is_lost = is_used, not is_used
@@ -217,8 +218,31 @@ class RelationReader:
             for index in subjects
         )
 
+    def _find_slid(self, word: Word, things: Sequence[int], scope: Scope) -> list[int]:
+        """As in "pushes a cup across the table", "a ball rolls over the desk": what goes on it."""
+        names = {self._draft.noun(index).name for index in things}
+        if word.text not in ("across", "over") or not names <= _TABLES:
+            return []
+        doers = list(scope.movers or scope.subjects)
+        pushed = [
+            target
+            for relation in self._draft.relations
+            if relation.kind in ("push", "pull") and relation.subject in doers
+            for target in relation.targets
+        ]
+        goes = [
+            index
+            for index in doers
+            if self._draft.noun(index).habitat != "air"
+            and not is_living(self._draft.noun(index))
+            and any(one.kind not in _OFF_GROUND for one in self._draft.objects[index].motions)
+        ]
+        return pushed or (goes if len(goes) == len(doers) else [])
+
     def _is_walked(self, word: Word, things: Sequence[int], scope: Scope) -> bool:
         """As in "runs along a pier", "drives over a bridge": on it, unless it flies or floats."""
+        if self._find_slid(word, things, scope):
+            return True
         names = {self._draft.noun(index).name for index in things}
         if word.text not in _WALKED or not names <= _DECKS:
             return False

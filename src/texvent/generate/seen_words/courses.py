@@ -1,0 +1,227 @@
+"""Whether what crosses, passes, follows or stays above something is seen to do so."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from texvent.generate.landmarks import ROAD, is_marked
+from texvent.generate.seen_words.picture import Picture, View
+from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.scene import Environment, Float64Array
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.claims.bodies import part_boxes
+from texvent.scenes.staging.surroundings.road import RoadLine
+
+LEAST_ACROSS = 0.7
+"""Sine of the angle between a road and the way of who crosses it, at least."""
+LEAST_LINED = 3
+"""Things that make a row along a road."""
+LEAST_IN_LINE = 0.7
+"""Share of the things of one side that stand in line."""
+ROW_M = 1.5
+"""How far the things of a row stand out of its line at most, m."""
+STANDS_M = (3.0, 8.0)
+"""Least height of a camera in the stands, and least distance of what it sees, m."""
+ALOFT_M = 0.3
+"""Height above what carries it from which on a foot is in the air, m."""
+_ROADS = r"(road|street|highway|lane|avenue|motorway|crosswalk|crossing|intersection|junction)s?"
+_CROSSING = re.compile(rf"\b(cross(es|ed|ing)?|across)\b( \w+){{0,3}}? {_ROADS}\b")
+_GOES_OVER = re.compile(r"cross(es|ed|ing)?|across|walk\w*")
+_OVER_TOWN = re.compile(
+    r"\b(over|above)( the| a)?( \w+)?"
+    r" (city|town|village|skyline|rooftops?|roofs|skyscrapers|downtown|harbou?r)\b"
+)
+_IN_CLOUDS = re.compile(r"\b(inside|within|behind|in)( the| a| \w+){0,3}? (storm ?)?clouds?\b")
+_FOLLOWED = re.compile(r"\bfollowed (closely )?by\b")
+_FROM_STANDS = re.compile(r"\bfrom the (stands|bleachers|grandstand|tribune|balcony)\b")
+_LINED = re.compile(r"\blined (with|by)\b")
+
+
+def judge_courses(picture: Picture, description: SceneDescription) -> dict[str, str]:
+    """Phrases of ways and places that the picture does not show, and why.
+
+    Args:
+        picture: of the staged scene.
+        description: what it was staged from.
+    """
+    prompt = " ".join(description.prompt.casefold().replace("-", " ").split())
+    found: dict[str, str] = {}
+    for claim in description.claims:
+        goes = claim.things and _GOES_OVER.fullmatch(claim.word) and _CROSSING.search(prompt)
+        if goes and not _goes_over_road(picture, claim):
+            found.setdefault(claim.word, "it does not go across the road")
+        is_stripes = any(description.objects[one].noun == "crosswalk" for one in claim.things)
+        if claim.aspect == "name" and is_stripes and not _lies_on_roads(picture, claim):
+            found.setdefault(claim.word, "it does not lie across the road")
+    if _OVER_TOWN.search(prompt) and not _is_over_roofs(picture):
+        found[_phrase(_OVER_TOWN, prompt)] = "not above the roofs"
+    clouds = _phrase(_IN_CLOUDS, prompt)
+    if clouds and not _relates(description, "cloud"):
+        found[clouds] = "nothing is seen in the clouds"
+    if (
+        _FOLLOWED.search(prompt)
+        and not any(one.kind == "follow" for one in description.relations)
+        and _names_follower(description, prompt)
+    ):
+        found["followed by"] = "it is not seen to follow"
+    stands = _FROM_STANDS.search(prompt)
+    if stands is not None and not _is_seen_from_stands(picture):
+        found[stands.group(1)] = "the camera is not up there"
+    if _LINED.search(prompt) and not _stands_in_rows(picture, description):
+        found[_phrase(_LINED, prompt)] = "they stand in no row"
+    return found
+
+
+def _is_seen_from_stands(picture: Picture) -> bool:
+    """Whether the camera is up above the ground, and far from all that is looked at."""
+    view = picture.views[0]
+    place = view.camera.position
+    ways = [one.middle(view.time_s) - place for one in picture.scene.actors]
+    nearest = min((float(np.linalg.norm(way)) for way in ways), default=STANDS_M[1])
+    return bool(place[2] >= STANDS_M[0] and nearest >= STANDS_M[1])
+
+
+def _lies_on_roads(picture: Picture, claim: Claim) -> bool:
+    """Whether the stripes of each crosswalk lie on a road."""
+    actors = [one for one in picture.scene.actors if one.object_index in claim.things]
+    return all(_lies_on_road(picture, one) for one in actors)
+
+
+def list_walkers_in_air(picture: Picture) -> list[str]:
+    """People who walk or stand with nothing below their feet, as sentences."""
+    found = []
+    for actor in picture.scene.actors:
+        is_walker = actor.noun.name in PERSON_NOUNS and actor.noun.habitat == "ground"
+        if is_walker and actor.tether is None and _is_in_air(picture, actor):
+            found.append(f"the {actor.noun.name} is in the air")
+    return list(dict.fromkeys(found))
+
+
+def _phrase(pattern: re.Pattern[str], prompt: str) -> str:
+    match = pattern.search(prompt)
+    return match.group(0) if match else ""
+
+
+def _relates(description: SceneDescription, noun: str) -> bool:
+    """Whether a relation has things of that noun for its target."""
+    return any(
+        description.objects[index].noun == noun
+        for relation in description.relations
+        for index in relation.targets
+    )
+
+
+def _names_follower(description: SceneDescription, prompt: str) -> bool:
+    """Whether a thing of the prompt is named after "followed by"."""
+    after = " ".join(_FOLLOWED.split(prompt)[-1].split()[:5])
+    names = [one.word for one in description.claims if one.aspect == "name" and one.things]
+    return any(re.search(rf"\b{re.escape(name)}\b", after) for name in names)
+
+
+def _road_line(environment: Environment) -> RoadLine:
+    offset = (float(environment.road_offset[0]), float(environment.road_offset[1]))
+    return RoadLine(environment.road_angle, offset, environment.road_curvature)
+
+
+def _has_road(environment: Environment) -> bool:
+    return is_marked(environment, np.zeros((1, 2)))[0] == ROAD
+
+
+def _goes_over_road(picture: Picture, claim: Claim) -> bool:
+    """Who crosses a road is on it at mid clip, and goes at a large angle to its line."""
+    first, last = picture.views[0].time_s, picture.views[-1].time_s
+    environment = picture.scene.environment(first)
+    if not _has_road(environment):
+        return True
+    line = _road_line(environment)
+    actors = [one for one in picture.scene.actors if one.object_index in claim.things]
+    crossing = 0
+    for actor in actors:
+        begin, end = actor.middle(first)[:2], actor.middle(last)[:2]
+        sides = line.across(begin), line.across(end)
+        way = float(np.linalg.norm(end - begin))
+        steep = abs(sides[1] - sides[0]) >= LEAST_ACROSS * way
+        is_there = abs(line.across(actor.middle(0.5 * (first + last))[:2]))
+        crossing += bool(steep and way > 0.0 and is_there < environment.road_half_width)
+    return 2 * crossing >= len(actors)
+
+
+def _lies_on_road(picture: Picture, actor: Actor) -> bool:
+    """Whether its stripes lie side by side across the road."""
+    environment = picture.scene.environment(0.0)
+    if not _has_road(environment):
+        return False
+    line = _road_line(environment)
+    state = actor.trajectory.at(0.0)
+    place = np.array(state.position[:2])
+    turned = abs(np.sin(state.yaw - environment.road_angle))
+    return bool(abs(line.across(place)) < 0.5 * environment.road_half_width and turned > 0.9)
+
+
+def _is_over_roofs(picture: Picture) -> bool:
+    """Whether something in the air, or the camera, is above all that stands in view."""
+    still = picture.scene.still.to_world
+    if not len(still):
+        return True
+    tops = still[:, 2, 3] + np.linalg.norm(still[:, 2, :3], axis=1)
+    seen = np.unique(np.concatenate([view.number for view in picture.views]))
+    first = len(picture.scene.list_scenery()) - len(still)
+    number = seen[(seen >= first) & (seen < first + len(still))] - first
+    roof = float(tops[number].max(initial=0.0)) if len(number) else 0.0
+    half = picture.views[len(picture.views) // 2]
+    if half.camera.position[2] > roof:
+        return True
+    return any(
+        float(part_boxes(one, half.time_s).hull[0][2]) > roof
+        for one in picture.scene.actors
+        if one.noun.habitat == "air"
+    )
+
+
+def _stands_in_rows(picture: Picture, description: SceneDescription) -> bool:
+    """Whether what lines a road stands in a line beside it, in view."""
+    indices = {
+        target for one in description.relations if one.kind == "surround" for target in one.targets
+    }
+    environment = picture.scene.environment(0.0)
+    if not indices or not _has_road(environment):
+        return False
+    view = picture.views[len(picture.views) // 2]
+    shown = set(np.unique(view.instance).tolist())
+    own = [one for one, index in picture.scene.object_of.items() if index in indices]
+    line = _road_line(environment)
+    sides = np.array([line.across(_spot(view, one)) for one in own
+                      if one in shown])  # fmt: skip
+    for row in (sides[sides > 0.0], sides[sides < 0.0]):
+        in_line = np.abs(row - np.median(row)) < ROW_M if len(row) else row
+        if len(row) >= LEAST_LINED and float(np.mean(in_line)) >= LEAST_IN_LINE:
+            return True
+    return False
+
+
+def _spot(view: View, instance: int) -> Float64Array:
+    return np.asarray(view.shapes.to_world[view.owner == instance, :2, 3].mean(axis=0))
+
+
+def _is_in_air(picture: Picture, actor: Actor) -> bool:
+    """Whether at some instant there is nothing right below it, and it neither jumps nor falls."""
+    others = [one for one in picture.scene.actors if one is not actor]
+    lows = []
+    for view in picture.views:
+        low, high = part_boxes(actor, view.time_s).hull
+        if actor.trajectory.at(view.time_s).activity not in ("move", "walk", "stand", "run"):
+            continue
+        lows.append(float(low[2]))
+        carried = any(_carries(one, low, high, view.time_s) for one in others)
+        if low[2] > ALOFT_M and not carried:
+            return float(np.ptp(lows)) < ALOFT_M
+    return False
+
+
+def _carries(other: Actor, low: Float64Array, high: Float64Array, time_s: float) -> bool:
+    base, top = part_boxes(other, time_s).hull
+    return bool(np.all(base[:2] <= high[:2]) and np.all(top[:2] >= low[:2])
+                and top[2] > low[2] - ALOFT_M)  # fmt: skip
