@@ -25,6 +25,8 @@ ROW_M = 1.5
 """How far the things of a row stand out of its line at most, m."""
 STANDS_M = (3.0, 8.0)
 """Least height of a camera in the stands, and least distance of what it sees, m."""
+TRAVEL_M = 1.0
+"""Way of a camera from which on it travels, m."""
 ALOFT_M = 0.3
 """Height above what carries it from which on a foot is in the air, m."""
 _ROADS = r"(road|street|highway|lane|avenue|motorway|crosswalk|crossing|intersection|junction)s?"
@@ -162,23 +164,26 @@ def _lies_on_road(picture: Picture, actor: Actor) -> bool:
 
 
 def _is_over_roofs(picture: Picture) -> bool:
-    """Whether something in the air, or the camera, is above all that stands in view."""
+    """Whether something in the air, or the camera, is above all that stands in view.
+
+    A camera that flies over a city goes between its towers.
+    """
     still = picture.scene.still.to_world
     if not len(still):
         return True
     tops = still[:, 2, 3] + np.linalg.norm(still[:, 2, :3], axis=1)
     seen = np.unique(np.concatenate([view.number for view in picture.views]))
-    first = len(picture.scene.list_scenery()) - len(still)
-    number = seen[(seen >= first) & (seen < first + len(still))] - first
+    before = len(picture.scene.list_scenery()) - len(still)
+    number = seen[(seen >= before) & (seen < before + len(still))] - before
     roof = float(tops[number].max(initial=0.0)) if len(number) else 0.0
     half = picture.views[len(picture.views) // 2]
     if half.camera.position[2] > roof:
         return True
-    return any(
-        float(part_boxes(one, half.time_s).hull[0][2]) > roof
-        for one in picture.scene.actors
-        if one.noun.habitat == "air"
-    )
+    flying = [one for one in picture.scene.actors if one.noun.habitat == "air"]
+    first, last = picture.views[0].camera.position, picture.views[-1].camera.position
+    if not flying and float(np.linalg.norm(last - first)) > TRAVEL_M:
+        return True
+    return any(float(part_boxes(one, half.time_s).hull[0][2]) > roof for one in flying)
 
 
 def _stands_in_rows(picture: Picture, description: SceneDescription) -> bool:

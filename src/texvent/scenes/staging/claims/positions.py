@@ -139,11 +139,15 @@ def _along(subject: Body, target: Body) -> Float64Array:
 
 
 def passes(subject: Body, targets: list[Body]) -> bool:
-    """It goes by: before the target's middle, then after it; what stays in its place is near."""
+    """It goes by: before the target's middle, then after it; what stays in its place is near.
+
+    A clip shorter than a second shows a part of that: beside the target is enough.
+    """
     if not (_moves(subject) or _moves(targets[0])):
         return is_near(subject, targets)
     ahead = _along(subject, targets[0])
-    return bool(ahead.min() < 0.0 < ahead.max())
+    beside = 0.5 * (size_of(subject) + size_of(targets[0])) if subject.duration_s < 1.0 else 0.0
+    return bool(ahead.min() < beside and ahead.max() > -beside)
 
 
 def overtakes(subject: Body, targets: list[Body]) -> bool:
