@@ -76,7 +76,7 @@ def test_what_is_plainly_seen_is_shown(prompt: str, words: set[str]) -> None:
     assert words <= set(" ".join(report_of(prompt).shown).split())
 
 
-def test_of_things_that_nobody_holds_the_owner_is_not_shown() -> None:
+def test_of_things_that_are_not_held_the_owner_is_not_shown() -> None:
     assert "her" in report_of("a woman walks past her bicycle").not_understood
     assert "her" not in report_of("a woman rides her bicycle").not_understood
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import cProfile
+import pstats
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -398,9 +401,18 @@ def test_a_phrase_of_the_camera_before_a_noun_is_read_to_its_end() -> None:
     assert "tree" in description.shown
 
 
-def test_a_very_long_prompt_is_read_quickly() -> None:
+def test_a_very_long_prompt_is_read() -> None:
     description = parse_prompt("a red car drives left past a tree and " * 2000 + "stops")
     assert len(description.objects) == MAX_OBJECTS
+
+
+def test_a_prompt_of_twice_the_length_takes_about_twice_the_work() -> None:
+    calls = []
+    for number in (1, 150, 300):  # the first one fills the caches
+        profile = cProfile.Profile()
+        profile.runcall(parse_prompt, "a red car drives left past a tree and " * number + "stops")
+        calls.append(pstats.Stats(profile).total_calls)
+    assert calls[2] < 2.5 * calls[1]
 
 
 def test_no_word_of_the_lexicon_is_lost() -> None:

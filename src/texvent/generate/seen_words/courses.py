@@ -1,4 +1,7 @@
-"""Whether what crosses, passes, follows or stays above something is seen to do so."""
+"""Whether what crosses, passes, follows or stays above something is seen to do so.
+
+The phrases are sought in the text of the prompt: the reader makes no claims of them.
+"""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from texvent.generate.seen_words.light import HARD, without
+from texvent.generate.seen_words.light import HARD, LEAST_SKY, sky_share, without
 from texvent.generate.seen_words.picture import USUAL, VISIBLE, Picture
 from texvent.generate.seen_words.things import copies_of, extent_of
 from texvent.scenes.description import Claim, SceneDescription
@@ -154,8 +154,7 @@ def _judge_empty(picture: Picture, description: SceneDescription, claim: Claim) 
 
 def _judge_sky(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """What is said of the sky needs a sky."""
-    share = max(float(np.mean(picture.views[number].is_sky)) for number in USUAL)
-    return None if share >= 0.03 else "no sky in view"
+    return None if sky_share(picture) >= LEAST_SKY else "no sky in view"
 
 
 _BLOWN = frozenset({"flag", "kite", "windmill", "wind turbine", "pinwheel", "weather vane", "leaf",

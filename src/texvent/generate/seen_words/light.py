@@ -61,11 +61,11 @@ def _judge_kind(picture: Picture, description: SceneDescription, claim: Claim) -
     if _SUN_WORDS & set(claim.word.split()) and not _is_sun_seen(picture):
         return "out of view"
     if kind in ("night", "moonlight"):
-        is_lit = picture.brightness() > MOST_LIT and _sky_share(picture) < LEAST_SKY
+        is_lit = picture.brightness() > MOST_LIT and sky_share(picture) < LEAST_SKY
         return "the picture is bright" if is_lit or not picture.is_dark() else None
     if kind == "sunny":
         return _judge_sunshine(picture)
-    if kind in ("dawn", "dusk") and _sky_share(picture) < LEAST_SKY:
+    if kind in ("dawn", "dusk") and sky_share(picture) < LEAST_SKY:
         return "no sky in view"
     if "sunlight" in claim.word and picture.brightness() < BRIGHT:
         return "the picture is dull"
@@ -75,7 +75,7 @@ def _judge_kind(picture: Picture, description: SceneDescription, claim: Claim) -
 
 
 def _judge_sunshine(picture: Picture) -> str | None:
-    least = SUNNY if _sky_share(picture) >= CLEAR_SKY else BRIGHT
+    least = SUNNY if sky_share(picture) >= CLEAR_SKY else BRIGHT
     if picture.brightness() < least:
         return "the picture is dull"
     return _judge_shadows(picture, "")
@@ -126,7 +126,8 @@ def _is_sun_seen(picture: Picture) -> bool:
     return False
 
 
-def _sky_share(picture: Picture) -> float:
+def sky_share(picture: Picture) -> float:
+    """Share of the picture that is sky, at the instant that shows most of it."""
     return max(float(np.mean(picture.views[number].is_sky)) for number in USUAL)
 
 

@@ -174,7 +174,7 @@ def _is_on(subject: Body, targets: list[Body]) -> bool:
     target = targets[0]
     is_cloth = target.copies[0].noun.name in {*WORN, *GARMENTS}
     if is_cloth and subject.copies[0].noun.name in PERSON_NOUNS:
-        return False  # nobody means to stand on a scarf
+        return False  # "works on a scarf" does not mean to stand on it
     if hangs(subject.copies[0].noun, target.copies[0].noun):
         return holds_for_all(hangs_on, subject.copies, target.copies, subject.duration_s)
     if not holds_for_all(is_on, subject.copies, target.copies, subject.duration_s):
