@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.generate.seen_words.picture import Picture, View
 from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.language.vocabulary.motion import PACE_ADJECTIVES, PACES
 from texvent.scenes.projection import project, ray_directions
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.camera.camera_placement import choose_main
@@ -23,6 +26,13 @@ MOST_DRIFT = 0.35
 """How far what a camera follows may go in the picture, a share of its width."""
 MOST_GROWTH = 1.6
 """How much farther off what is followed from behind may be at one instant than at another."""
+LEAST_FAST = 0.2
+"""Way of most of the picture in a second from which on a camera is fast, over its width."""
+_FAST_WORDS = frozenset(
+    word for table in (PACES, PACE_ADJECTIVES) for pace, words in table.items() if pace > 1.0
+    for word in words
+)  # fmt: skip
+_STOPPING = re.compile(r"(stop|pause|halt|wait|rest)\w*")
 _OF_PLACE = frozenset({"travel", "dolly", "truck", "pedestal", "crane", "orbit", "dolly zoom"})
 _WITH_STATIC = frozenset({"static", "dutch", "travel", "handheld", "follow", "pan", "tilt", "zoom"})
 """Moves beside which a camera may be said to be fixed: to what goes, or where it only turns."""
@@ -30,7 +40,10 @@ _DIRECTIONS = frozenset({"left", "right", "up", "down", "in", "out"})
 _FALLING_BACK = re.compile(r"\b(fall|drop)(s|ing)? (behind|back)\b")
 _MOUNTED = frozenset({"mounted", "attached", "strapped", "fixed", "fastened"})
 _VEHICLES = ("drive", "cycle", "sail", "fly")
-_STANDS_ON = re.compile(r"\b(tripod|wall|ceiling|pole|post|stand|ground|mast|lamp post)\b")
+_STANDS_ON = re.compile(
+    r"\b(mounted|attached|strapped|fixed|fastened)( \w+)?( on| to| from)?( \w+){0,2}"
+    r" (tripod|wall|ceiling|pole|post|stand|ground|mast|lamp post)\b"
+)
 _TURNS = frozenset({"pan", "tilt", "zoom", "roll"})
 
 
@@ -50,7 +63,11 @@ def judge_move(picture: Picture, description: SceneDescription, claim: Claim) ->
         return "the camera does not stay behind"
     if claim.word in _MOUNTED and not _is_mounted(description, prompt):
         return "what it is mounted on is not to be told"
+    if claim.word in _FAST_WORDS and not _is_fast(picture):
+        return "the camera is not fast"
     first, last = picture.views[0], picture.views[-1]
+    if claim.move == "static" and _STOPPING.fullmatch(claim.word) and not _stops(picture):
+        return "the camera does not stop"
     if claim.move == "static":
         shot = description.shot.moves
         still = {move.phase for move in shot if move.kind == "static"}
@@ -71,6 +88,26 @@ def _is_mounted(description: SceneDescription, prompt: str) -> bool:
     """Whether it stands on what stays, or goes as the vehicle does that it is on."""
     goes = any(one.kind == "travel" and one.means in _VEHICLES for one in description.shot.moves)
     return goes or _STANDS_ON.search(prompt) is not None
+
+
+def _is_fast(picture: Picture) -> bool:
+    """Whether between some two views most of the picture goes far for the time."""
+    return any(
+        float(np.median(shifts)) >= LEAST_FAST * (after.time_s - before.time_s)
+        for before, after, shifts in _steps(picture)
+        if len(shifts)
+    )
+
+
+def _stops(picture: Picture) -> bool:
+    """Whether between some two views nothing of what stands goes."""
+    return any(np.max(shifts, initial=0.0) <= MOST_STILL for _, _, shifts in _steps(picture))
+
+
+def _steps(picture: Picture) -> Iterator[tuple[View, View, Float64Array]]:
+    """Views that follow each other, and the ways between them."""
+    for before, after in pairwise(picture.views):
+        yield before, after, _shifts(picture, before, after)
 
 
 def _shifts(picture: Picture, first: View, last: View) -> Float64Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -94,6 +94,12 @@ class Picture:
                 counts[noun or (scenery[one] if one < len(scenery) else "")] += int(count)
             most |= counts
         return {noun for noun, count in most.items() if count >= least * len(self.points)}
+
+    def scenery_share(self, nouns: Container[str]) -> float:
+        """Share of the picture that scenery of those nouns covers, at most."""
+        scenery = self.scene.list_scenery()
+        wanted = [number for number, noun in enumerate(scenery) if noun in nouns]
+        return max(float(np.isin(view.number, wanted).mean()) for view in self.views)
 
     def strip(self, number: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """[k] whether image points show water or road of the ground, and the ground beside it."""

@@ -49,6 +49,16 @@ _LACKS: dict[str, tuple[str, ...]] = {
         "rye field",
     ),
     "no mud": ("mud",),
+    "no aisle between shelves": (
+        "aisle",
+        "warehouse aisle",
+        "supermarket aisle",
+        "store aisle",
+        "shop aisle",
+        "grocery aisle",
+        "library aisle",
+    ),
+    "seen from one": ("balconies", "rooftops", "terraces"),
     "as wide as a lake": ("pond",),
     "as wide as a river": ("brook", "creek", "canal", "ditch"),
 }
@@ -69,6 +79,14 @@ _NEEDS: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Word → things one of which makes a lawn such a place."""
 _WATERS = ("river", "lake", "sea", "beach")
+_TOWNS = ("city", "town", "downtown", "cityscape", "skyline", "city skyline")
+_TOWN_HOUSES = frozenset({"building", "house", "skyscraper", "wooden house"})
+LEAST_TOWN = 0.03
+"""Share of the picture that houses of the scenery cover by which a town is told."""
+_SHORES = ("beach", "shore", "coast", "seaside", "seashore", "shoreline", "coastline", "lakeside",
+           "riverbank", "river bank")  # fmt: skip
+LEAST_LAND = 0.03
+"""Share of the picture that is land beside the water, where a shore is."""
 
 
 def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
@@ -82,7 +100,9 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         return fault
     place = description.surroundings.place
     if claim.value == "sky" and place != "sky":
-        is_seen = _is_anything_aloft(picture, must_fly=claim.word == "overhead")
+        is_overhead = claim.word == "overhead"
+        said = _find_said_of(description, claim.word) if is_overhead else None
+        is_seen = _is_anything_aloft(picture, must_fly=is_overhead, said=said)
         return None if is_seen else "nothing is seen there"
     is_poured = ("pour", None) in picture.scene.particles.kinds
     if claim.word == "water" and is_poured:
@@ -90,7 +110,8 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     if claim.word in _WATER_WORDS and place not in (*_WATERS, "underwater"):
         return None if place in ("sky", "space", None) else "no water in view"
     if claim.value in _WATERS and place in _WATERS:
-        return _judge_water(picture)
+        is_ashore = _is_one_of(claim.word, _SHORES) or claim.word.startswith("beach")
+        return _judge_water(picture) or (_judge_land(picture) if is_ashore else None)
     if claim.value in _ROADS and place in _ROADS:
         return _judge_road(picture, is_trodden=place == "dirt road")
     is_ground = claim.value == place and place in _GROUNDS
@@ -102,6 +123,8 @@ def _find_lack(picture: Picture, claim: Claim) -> str | None:
     for reason, words in _LACKS.items():
         if _is_one_of(claim.word, words):
             return reason
+    if claim.word in _TOWNS and not picture.scenery_share(_TOWN_HOUSES) >= LEAST_TOWN:
+        return "hardly a house in view"
     needed = _NEEDS.get(claim.word)
     names = picture.seen_nouns(LEAST_TELLING) if needed or claim.value == "hills" else set()
     if needed is not None and not names & set(needed):
@@ -129,6 +152,12 @@ def _judge_water(picture: Picture) -> str | None:
     return "not to be told from the ground"
 
 
+def _judge_land(picture: Picture) -> str | None:
+    """A shore has land beside the water."""
+    shares = [float(picture.strip(number)[1].mean()) for number in USUAL]
+    return None if max(shares) >= LEAST_LAND else "no land in view"
+
+
 def _judge_road(picture: Picture, *, is_trodden: bool) -> str | None:
     """A road differs from the ground beside it, which must be in view where the road is earth."""
     for number in USUAL:
@@ -149,12 +178,26 @@ def _differ(strip: Float64Array, beside: Float64Array) -> bool:
     return bool(np.abs(strip.mean(axis=0) - beside.mean(axis=0)).max() >= LEAST_EDGE)
 
 
-def _is_anything_aloft(picture: Picture, *, must_fly: bool) -> bool:
-    """Whether something in view, no speck, is above the ground and above all that stands there."""
+def _find_said_of(description: SceneDescription, word: str) -> tuple[int, ...] | None:
+    """Objects whose name stands right before a word, as in "clouds overhead"; None: nothing."""
+    prompt = description.prompt.casefold()
+    named = [one for one in description.claims if one.aspect == "name"]
+    return next((one.things for one in named if f"{one.word} {word}" in prompt), None)
+
+
+def _is_anything_aloft(
+    picture: Picture, *, must_fly: bool, said: tuple[int, ...] | None = None
+) -> bool:
+    """Whether something in view, no speck, is above the ground and above all that stands there.
+
+    Where the prompt says of which objects it is `said`, one of these.
+    """
     actors = picture.scene.actors
     for view in picture.views:
         tops = [float(one.corners(view.time_s)[:, 2].max()) for one in actors if not _flies(one)]
         for actor in (one for one in actors if _flies(one) or not must_fly):
+            if said is not None and actor.object_index not in said:
+                continue
             height = actor.trajectory.at(view.time_s).position[2]
             is_high = height > max(actor.model.height, 0.3) and (
                 not _flies(actor) or height >= max(tops, default=0.0)

@@ -16,6 +16,8 @@ _AFTER_OBJECT = re.compile(
 _TURNING = re.compile(r"(twirl|spin|turn|rotat|whirl|swing|roll|flip)\w*")
 _HERDING = re.compile(r"(driv|drove|herd|lead|led|walk|push|pull)\w*")
 
+_HANGING = re.compile(r"(hang|hung)\w*")
+_FALLING = re.compile(r"(fall|fell)\w*")
 _MOUTH = re.compile(r"(laugh|giggl|chuckl|smil|grin)\w*")
 
 
@@ -27,16 +29,11 @@ def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
         description: the prompt as it was understood.
     """
     kinds = {_kind(description, index, claim.motion) for index in claim.things}
-    ridden = [one for one in claim.relations if one.kind == "ride"]
-    if ridden and _HERDING.fullmatch(claim.word):
-        mount = description.objects[ridden[0].targets[0]].noun
-        if mount in NOUNS and NOUNS[mount].motion in ("walk", "run"):
-            return f"rides the {mount}"
-    if _MOUTH.fullmatch(claim.word):
-        return "faces do not move"
-    if claim.word.startswith("wobbl") and _is_going(claim, description):
-        return "stays upright"
-    for rest in _rests(claim.word, description.prompt.casefold()):
+    rests = _rests(claim.word, description.prompt.casefold())
+    plain = _judge_word(claim, description, kinds, rests)
+    if plain is not None:
+        return plain
+    for rest in rests:
         first, _, after = rest.partition(" ")
         word = first.strip(".,;!?")
         is_turning = not claim.relations and _TURNING.fullmatch(claim.word) is not None
@@ -47,9 +44,35 @@ def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
     return None
 
 
+def _nouns(claim: Claim, description: SceneDescription) -> list[str]:
+    return [description.objects[index].noun for index in claim.things]
+
+
 def _is_alive(claim: Claim, description: SceneDescription) -> bool:
-    nouns = [description.objects[index].noun for index in claim.things]
+    nouns = _nouns(claim, description)
     return any(noun in NOUNS and NOUNS[noun].motion in ("walk", "run") for noun in nouns)
+
+
+def _judge_word(
+    claim: Claim, description: SceneDescription, kinds: set[str], rests: list[str]
+) -> str | None:
+    """What the word itself says that bodies here never do."""
+    word, nouns = claim.word, _nouns(claim, description)
+    ridden = [one for one in claim.relations if one.kind == "ride"]
+    if ridden and _HERDING.fullmatch(word):
+        mount = description.objects[ridden[0].targets[0]].noun
+        if mount in NOUNS and NOUNS[mount].motion in ("walk", "run"):
+            return f"rides the {mount}"
+    is_alive = _is_alive(claim, description)
+    is_off = any(rest.startswith("off") for rest in rests)
+    faults = {
+        "faces do not move": _MOUTH.fullmatch(word),
+        "stays upright": word.startswith("wobbl") and _is_going(claim, description),
+        "the box bursts": word.startswith("pop") and "popcorn" in nouns,
+        "stands": _HANGING.fullmatch(word) and "stand" in kinds and is_alive,
+        "falls where it is": is_off and _FALLING.fullmatch(word) and "fall over" in kinds,
+    }
+    return next((reason for reason, holds in faults.items() if holds), None)
 
 
 def _is_going(claim: Claim, description: SceneDescription) -> bool:

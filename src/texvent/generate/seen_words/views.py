@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from texvent.generate.seen_words.picture import Picture, View
+from texvent.generate.sights import LEAST_SIZE
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.projection import project
@@ -67,10 +68,29 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
     if not actors:
         return "nothing is there to look at" if claim.value in (*_BEARINGS, *_SIZES) else None
     main = choose_main(description, actors)
+    if claim.value not in (*_BEARINGS, *_SIZES):
+        return None
+    return _judge_looked_at(picture, main) or _judge_main(picture, main, claim)
+
+
+def _judge_main(picture: Picture, main: Actor, claim: Claim) -> str | None:
+    """From where it looks at its main thing, or how large that is."""
     if claim.value in _BEARINGS:
-        return _judge_bearing(picture, main, claim.value)
-    framing = "extreme" if claim.word.startswith("extreme close") else claim.value
-    return _judge_size(picture, main, framing) if claim.value in _SIZES else None
+        return _judge_bearing(picture, main, str(claim.value))
+    framing = "extreme" if claim.word.startswith("extreme close") else str(claim.value)
+    return _judge_size(picture, main, framing)
+
+
+def _judge_looked_at(picture: Picture, main: Actor) -> str | None:
+    """What the camera is about must be in view for most of the clip, and no speck."""
+    same = [one.instance for one in picture.scene.actors if one.object_index == main.object_index]
+    edge = np.array([picture.size.width, picture.size.height])
+    told = 0
+    for view in picture.views:
+        at = picture.points[np.isin(view.instance, same)]
+        told += len(at) > 0 and float((np.ptp(at, axis=0) / edge).max()) >= LEAST_SIZE
+    is_told = told >= MOST_OF_CLIP * len(picture.views)
+    return None if is_told else f"no {main.noun.name} to be told most of the time"
 
 
 def _judge_low(picture: Picture) -> str | None:

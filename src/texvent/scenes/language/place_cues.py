@@ -9,6 +9,7 @@ from texvent.scenes.language.vocabulary.place_cues import (
     APPROACHES,
     BUILDINGS,
     ENCLOSED,
+    FARM_CUES,
     INDOOR_CUES,
     OUTDOOR_CUES,
     OUTSIDE,
@@ -100,7 +101,7 @@ def find_cues(words: Sequence[Word], *, is_outside: bool) -> PlaceCues:
         said, is_fair = said - OUTDOOR_CUES["grass"], False
     outdoor = _find(said, OUTDOOR_CUES)
     if outdoor in (None, "grass") and is_outside:
-        outdoor = "city"
+        outdoor = "farmyard" if said & FARM_CUES else "city"
     return PlaceCues(outdoor or ("grass" if is_fair else None), _find(said, INDOOR_CUES))
 
 

@@ -32,6 +32,8 @@ _AWAITS_NOUN = frozenset(
     {None, Pos.SIGN, Pos.PREPOSITION, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.VERB}
 )
 """Parts of speech after which a participle may open a noun group."""
+_VIEWS = frozenset({"view", "shot", "perspective", "footage"})
+"""Words after which "from behind" says where the camera is: "a view from behind the rider"."""
 _JOINING_SIGNS = frozenset(",()[]")
 _FIRST = ("when", "after", "once", "whenever")
 """Subordinators whose clause, at the start of a sentence, comes before the main clause."""
@@ -69,7 +71,9 @@ class _ClauseReader(GroupAttachment):
         word = self._words[self._at]
         read = self._readers.get(word.pos)
         coming = self._words[self._at + 1 : self._at + 2]
-        if word.text == "from behind" and coming and coming[0].pos is Pos.DETERMINER:
+        is_view = self._at > 0 and self._words[self._at - 1].text in _VIEWS
+        is_before_noun = bool(coming) and coming[0].pos is Pos.DETERMINER
+        if word.text == "from behind" and is_before_noun and not is_view:
             # As in "watches from behind a fence": no view of the camera.
             word.meaning = Meaning(Role.RELATION, Pos.PREPOSITION, "behind")
             self._read_preposition(word)

@@ -217,6 +217,9 @@ class CameraReader:
             self._add(CameraMove("follow"))
             self._claim(word)
             return
+        is_over = any(phrase.preposition.text in ("over", "above") for phrase, _ in phrases)
+        if word.lemma == "glide" and not is_over:
+            means = "walk"
         if means == "fly" and self._view is None:
             self._view = "aerial"
         self._add(CameraMove("travel", "forward", means=means))

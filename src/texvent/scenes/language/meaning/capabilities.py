@@ -18,6 +18,13 @@ ANYTHING = frozenset(
      "throw", "topple", "orbit", "hover", "enter", "leave", "appear", "jump", "fly", "lie", "flip"}
 )  # fmt: skip
 """What every object can do: a path through the air or over the ground."""
+_ROOTED = frozenset(
+    {"volcano", "mountain", "house", "wooden house", "building", "skyscraper", "church", "tower",
+     "castle", "bridge", "lighthouse", "barn", "wall", "fountain", "factory", "temple", "hill",
+     "cliff", "windmill", "wind turbine", "power pylon", "water tower", "control tower"}
+)  # fmt: skip
+"""What stays where it is, and is thrown, rolled and tilted by nothing."""
+_OF_LOOSE_THINGS = frozenset({"throw", "roll", "bounce", "flip", "hover", "jump", "swing"})
 _TRAVELLER = frozenset({"turn", "reverse", "zigzag"})
 _ANIMAL = frozenset(
     {
@@ -71,6 +78,8 @@ def can_do(noun: Noun, kind: str) -> bool:
         noun: the object.
         kind: an `ObjectMotion.kind`.
     """
+    if noun.name in _ROOTED and kind in _OF_LOOSE_THINGS:
+        return False
     if (
         kind in noun.acts
         or kind in ANYTHING

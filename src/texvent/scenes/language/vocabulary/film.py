@@ -107,7 +107,7 @@ CAMERA_ADJECTIVES: dict[tuple[str, str | None], tuple[str, ...]] = {
 TRAVEL_MEANS: dict[str, str] = {
     "drive": "drive", "ride": "drive", "cycle": "cycle", "walk": "walk", "hike": "walk",
     "stroll": "walk", "run": "run", "jog": "run", "fly": "fly", "glide": "fly", "soar": "fly",
-    "sail": "sail", "swim": "swim", "dive": "swim", "speed": "drive", "cruise": "drive",
+    "sail": "sail", "swim": "swim", "dive": "fly", "speed": "drive", "cruise": "drive",
     "bike": "cycle", "ski": "run",
 }  # fmt: skip
 """Verb → how a camera travels that does it."""

@@ -58,6 +58,8 @@ OUTDOOR_CUES: dict[str, frozenset[str]] = {
     ),
 }
 """Outdoor place → nouns that are found there or in places like it, the most telling first."""
+FARM_CUES = _words("barn stable farm farmer farmhouse hay cow sheep goat hen tractor")
+"""Nouns beside buildings that stand on a farm, in no city."""
 INDOOR_CUES: dict[str, frozenset[str]] = {
     "kitchen": _words("sink stove oven refrigerator fridge dishwasher microwave cooker kettle"
                       " countertop saucepan chef"),

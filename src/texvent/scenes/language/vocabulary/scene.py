@@ -244,6 +244,8 @@ PARTS_SHOWN: dict[str, tuple[str, ...]] = {
     "drive": ("tire", "tires", "tyre", "tyres", "wheel", "wheels", "window", "windows", "roof",
               "windscreen", "windshield", "headlight", "headlights", "tail light", "tail lights"),
     "suv": ("roof rack", "rack"),
+    **dict.fromkeys(("mobile robot", "trolley", "shopping cart", "wheelchair", "stroller",
+                     "skateboard", "luggage cart"), ("wheel", "wheels")),
     "walk": ("leg", "legs", "head", "tail", "ear", "ears", "foot", "feet", "paw", "paws", "body"),
     "swim": ("tail", "fin", "fins"),
     "fly": ("wing", "wings", "tail", "rotor", "rotors", "propeller", "propellers"),

@@ -69,8 +69,9 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     ),
     "stage": (_sense("rocket booster race launch"),),
     "bar": (
-        _sense("iron metal steel gold blacksmith anvil gymnast chocolate candy barbell weight soap"
-               " pull-up forge glowing uneven parallel"),
+        _sense("iron metal steel gold blacksmith anvil gymnast gymnastics chocolate candy barbell"
+               " weight soap pull-up pull pullup chin chin-up hang swing park playground forge"
+               " glowing uneven parallel high horizontal"),
     ),
     "bank": (_sense("money robber teller customer cash vault"),),
     "flat": (_sense("flat"),),

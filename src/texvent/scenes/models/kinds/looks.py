@@ -23,6 +23,7 @@ LOOKS: Mapping[str, str] = MappingProxyType(
         "lion cub": "tan young animal",
         "operating lamp": "bent lamp post",
         "overalls": "blue bag with straps",
+        "popcorn": "box of popcorn",
         "potter": "person in work clothes",
         "shepherd": "person in a long robe",
         "ski lift": "red seats on a line",

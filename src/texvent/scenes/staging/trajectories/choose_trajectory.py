@@ -98,8 +98,9 @@ class MotionPlan:
     """Whether it lives in the water: it leaps out by a good part of its length."""
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
+    is_vehicle: bool = False  # rolls on wheels, not over and over
     is_winged: bool = False
-    """Whether it takes off and lands along the ground, as an aeroplane does."""
+    """Whether it takes off and lands along the ground."""
 
     @property
     def is_path(self) -> bool:
@@ -167,7 +168,7 @@ def plan_motion(
         return MotionPlan(
             motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing,
             is_wheel=noun.name == "wheel", is_swimmer=noun.habitat == "water",
-            is_winged=noun.name in WINGED,
+            is_vehicle=noun.motion == "drive", is_winged=noun.name in WINGED,
         )  # fmt: skip
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
     return MotionPlan(motion, path.yaw, speed, duration_s, path)
@@ -317,7 +318,7 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     )
     if kind == "wheelie":
         return Wheelie(path, 0.30 * model.length, 0.3 * model.height)
-    if kind == "roll" and not getattr(model, "is_wheeled", False):
+    if kind == "roll" and not (plan.is_vehicle or getattr(model, "is_wheeled", False)):
         return Rolling(path, 0.5 * model.height, 0.5 * model.height)
     return path
 

@@ -100,6 +100,7 @@ _RAKE = still(
       for y in (-0.21, -0.14, -0.07, 0.0, 0.07, 0.14, 0.21)),
 )  # fmt: skip
 _LEAF_COLOURS = ((0.75, 0.35, 0.05), (0.70, 0.15, 0.05), (0.75, 0.60, 0.10))
+_OF_LEAVES = ("leaf pile", "leaf", "leaves")
 _LEAVES = still(
     *(ball(Material(_LEAF_COLOURS[n % 3]),
            (0.95 + 0.045 * ((7 * n) % 11), -0.42 + 0.07 * ((5 * n) % 13), 0.03 + 0.02 * (n % 4)),
@@ -110,7 +111,10 @@ CHORE_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
     {
         "vacuum": (Prop("right hand", _CLEANER, ("vacuum cleaner",)),),
         "mop": (Prop("right hand", _MOP, ("mop",)), Prop("ground", _BUCKET, ("bucket",))),
-        "rake": (Prop("right hand", _RAKE, ("rake",)), Prop("ground", _LEAVES)),
+        "rake": (
+            Prop("right hand", _RAKE, ("rake",)),
+            Prop("ground", _LEAVES, _OF_LEAVES),
+        ),
         "row oars": (Prop("ground", _oars),),
     }
 )
