@@ -91,6 +91,7 @@ RELATION_WORDS = {
     "surround": "surrounded by",
     "follow": "following",
     "overtake": "overtaking",
+    "look at": "looking at",
     "hold": "holding",
     "carry": "carrying",
     "wear": "wearing",

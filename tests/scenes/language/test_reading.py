@@ -65,6 +65,14 @@ def who_does_what(prompt: str) -> list[tuple[str, str, str]]:
         ("a flock of birds crosses the frame", [("a flock of birds", "crosses", "frame")]),
         ("a deer stands in the road", [("deer", "stands", "")]),
         ("a chair, the light flickers", [("light", "flickers", "")]),
+        ("a girl is eating soup and talking", [("girl", "eating", "soup"), ("girl", "talking", "")]),
+        ("rain, with people crossing", [("people", "crossing", "")]),
+        ("clouds drift below", [("clouds", "drift", "")]),
+        ("the glow lights up a face", [("glow", "lights", "face")]),
+        ("a cat tosses a ball, closes it in a box", [
+            ("cat", "tosses", "ball"), ("cat", "closes", "it")]),
+        ("it loops once and drifts", [("it", "loops", ""), ("it", "drifts", "")]),
+        ("a runner stops to tie his shoe", [("runner", "stops", ""), ("runner", "tie", "shoe")]),
     ],
 )  # fmt: skip
 def test_a_verb_belongs_to_the_subject_of_its_own_clause(
@@ -124,7 +132,13 @@ def test_speeds_change_and_begin_when_they_are_said_to() -> None:
         ("a statue of a horse", ["statue"], ("of", "horse")),
         ("an excavator swings its arm", ["excavator"], ("swings", "arm")),
         ("a hedgehog curls into a ball", ["hedgehog"], ("curls", "ball")),
-        ("a baker slides a peel into an oven", ["baker"], ("slides", "peel", "oven")),
+        ("a boy turns a bottle upside down", ["child", "bottle"], ("turns", "upside", "down")),
+        (
+            "a man lifts a wug and drops it",
+            ["man"],
+            ("lifts", "wug", "drops", "it"),
+        ),
+        ("a baker slides a peel into an oven", ["baker", "oven"], ("slides", "peel", "into")),
     ],
 )
 def test_what_is_not_shown_is_reported_and_does_nothing_else(
@@ -270,6 +284,10 @@ def test_crossings_and_bends_of_roads() -> None:
         ("A red car hits a blue car.", ["1 car, red, meeting 1 car", "1 car, blue"]),
         ("A man hits a ball.", ["hitting 1 ball", "1 ball"]),
         ("A ball falls from above.", ["1 ball, falls down"]),
+        ("A ball is thrown.", ["1 ball, flies through the air"]),
+        ("People sit around a table eating pizza.", ["people, eat, at 1 table", "table", "pizza"]),
+        ("A man stands on a bridge looking at a dog.", ["looking at 1 dog", "bridge", "1 dog"]),
+        ("A dog jumps through a hoop held by a boy.", ["1 dog, jumps", "1 child, stands still"]),
         ("A flag flutters.", ["1 flag, moves in place"]),
         ("An eagle dives.", ["1 eagle, flies down"]),
         ("A ball bounces five times and comes to rest.", ["1 ball, bounces, then stands still"]),

@@ -251,7 +251,7 @@ def _is_moving(scene_object: SceneObject) -> bool:
 
 
 _KEEPS_PLACE = frozenset(
-    {"behind", "front", "beside", "between", "under", "left of", "right of", "around"}
+    {"behind", "front", "beside", "between", "under", "left of", "right of", "around", "look at"}
 )
 """Relations that what moves off would undo."""
 

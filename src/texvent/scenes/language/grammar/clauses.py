@@ -251,6 +251,9 @@ class _ClauseReader(GroupAttachment):
         elif is_participle and self._is_joined != "and":
             self._open_participle()
             self._clause.is_participle = True
+        elif self._goes_on_being(form):
+            self._continue_with_same_subjects("same")
+            self._clause.auxiliaries = list(clause.auxiliaries)
         elif self._is_joined and not (is_participle and not clause.is_participle):
             is_finite_after_participle = clause.is_participle and not is_participle
             outer = self._find_finite() if is_finite_after_participle else None
@@ -267,6 +270,14 @@ class _ClauseReader(GroupAttachment):
         self._is_joined, self._phrase = "", None
         self._at += 1
 
+    def _goes_on_being(self, form: VerbForm | None) -> bool:
+        """As in "is sitting on a bench and reading": the auxiliary holds for both."""
+        clause = self._clause
+        is_same = clause.verb is not None and clause.verb.meaning.form is form
+        return is_same and form is VerbForm.ING and self._is_joined == "and" and bool(
+            clause.auxiliaries
+        )  # fmt: skip
+
     def _find_main(self) -> Clause | None:
         """As in "curls up when a fox comes, and stays still": the clause before "when"."""
         at = self._at - 1
@@ -280,10 +291,11 @@ class _ClauseReader(GroupAttachment):
     def _is_small_clause(self) -> bool:
         """As in "A boat with dolphins jumping": the dolphins jump."""
         clause = self._clause
-        if clause.auxiliaries or not clause.subjects or not clause.subjects[-1].phrases:
+        own = clause.subjects[-1].phrases if clause.subjects else []
+        phrases = clause.phrases or own
+        if clause.auxiliaries or not phrases:
             return False
-        phrase = clause.subjects[-1].phrases[-1]
-        return phrase.preposition.text == "with" and phrase.groups[-1] is self._last
+        return phrases[-1].preposition.text == "with" and phrases[-1].groups[-1] is self._last
 
     def _split_list(self) -> None:
         """As in "A chair, the light flickers": only the last is the subject."""
@@ -302,11 +314,13 @@ class _ClauseReader(GroupAttachment):
         has_noun_before = before.pos in (Pos.NOUN, Pos.PRONOUN) and self._last is not None
         if not self._is_joined and has_noun_before and self._last is not None:
             self._outer.append(self._clause)
-            subjects = [self._last]
+            subjects, host = [self._last], self._clause
         else:
-            subjects = list(self._clause.subjects)
+            subjects, host = list(self._clause.subjects), Clause()
         self._close()
-        self._clause.subjects = subjects
+        self._clause.subjects, self._clause.hosts = subjects, list(host.subjects)
+        by = [one.preposition.text for one in host.phrases if one.groups[-1] in subjects]
+        self._clause.hosts_by = by[-1] if by else ""
 
     def _resume_outer(self, is_participle: bool) -> None:
         """A verb without "and" after a complete clause."""

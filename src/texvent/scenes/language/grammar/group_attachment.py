@@ -21,6 +21,17 @@ _HANGS_ON = frozenset(
 """What pictures are on: a picture "on a table" may show the table."""
 _PARTICLES = ("out", "off")
 """Prepositions that belong to the verb before them: "blows out the candles"."""
+_WAYS_OF_PARTICLES = ("up", "down")
+_DONE_UP = frozenset(
+    {"hold", "light", "lift", "soak", "throw", "toss", "pull", "tear", "wash", "clean", "chop",
+     "cut", "break", "dig", "fold", "hang", "raise", "whip", "stir", "scoop", "sweep", "wipe",
+     "mop", "prop", "gather", "block"}
+)  # fmt: skip
+_DONE_DOWN = frozenset(
+    {"set", "lay", "throw", "slam", "knock", "tear", "cut", "chop", "hold", "pull", "push", "take",
+     "tie", "hammer", "nail", "lower", "pat", "sand", "write"}
+)  # fmt: skip
+"""Verbs that are done to what follows "up" and "down": "lights up his face"."""
 
 
 class GroupAttachment(ClauseState):
@@ -35,7 +46,10 @@ class GroupAttachment(ClauseState):
             self._at += 1
         self._negation = None
         follows_verb = self._at >= 2 and self._words[self._at - 2].pos is Pos.VERB
-        if word.text in _PARTICLES and follows_verb and not self._goes(self._words[self._at - 2]):
+        if follows_verb and self._is_particle(word, self._words[self._at - 2]):
+            if word.text in _WAYS_OF_PARTICLES:
+                # As in "holds up a box": no way that it goes.
+                word.meaning = Meaning(Role.DIRECTION, Pos.ADVERB, word.text)
             self._clause.adverbs.append(word)
             return
         opens_group = starts_group(self._words, self._at, is_opening=True)
@@ -59,6 +73,13 @@ class GroupAttachment(ClauseState):
         self._phrase, self._last, self._is_joined = phrase, group, ""
         if not is_of:
             self._anchor = group
+
+    def _is_particle(self, word: Word, verb: Word) -> bool:
+        """Whether it belongs to the verb before it."""
+        if word.text in _PARTICLES:
+            return not self._goes(verb)
+        done = {"up": _DONE_UP, "down": _DONE_DOWN}.get(word.text, frozenset())
+        return verb.lemma in done and verb.role is not Role.CAMERA_MOVE and not self._clause.objects
 
     @staticmethod
     def _goes(verb: Word) -> bool:

@@ -85,6 +85,10 @@ class Clause:
     """Number of its sentence."""
     is_participle: bool = False
     """Whether its verb is a participle without auxiliary."""
+    hosts: list[NounGroup] = field(default_factory=list)
+    """Of a participle right after a noun: subjects of the clause that the noun is in."""
+    hosts_by: str = ""
+    """The preposition by which the noun is in that clause, "" for its object."""
     is_relative: bool = False
     is_listed: bool = False
     """Whether its subjects are joined by "and"."""

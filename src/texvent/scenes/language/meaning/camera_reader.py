@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import CameraMove, Shot
-from texvent.scenes.language.grammar.syntax import Clause, PrepPhrase
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.adjectives import Attributes
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -40,6 +40,8 @@ _WITH: dict[str, str | None] = {
     "behind": "behind", "in front of": "front", "ahead of": "front",
 }  # fmt: skip
 """Preposition of a camera that goes with something → from where it follows."""
+_TURNED = ("pan", "tilt")
+"""Moves of a camera that stays where it is, along whatever it looks."""
 _FREE = frozenset({"travel", "truck", "pan", "dolly", "pedestal"})
 _OUT_OF_WINDOW = CameraMove("truck", "right", 2.0)
 _HIGH = ("aerial", "top")
@@ -186,7 +188,7 @@ class CameraReader:
             return
         if means is not None:
             self._travel(word, means, clause, phrases)
-        elif move is not None and not self._goes_through(phrases):
+        elif move is not None and (move.value[0] in _TURNED or not self._goes_through(phrases)):
             kind, direction = move.value
             self._add(CameraMove(kind, direction))
             self._claimed = word
@@ -282,6 +284,11 @@ class CameraReader:
         elif word.text in ("in", "out") and self._moves[-1].kind in ("zoom", "dolly"):
             self._moves[-1] = replace(self._moves[-1], direction=word.text)
             self._claim(word)
+        elif word.text in _WITH and self._draft.subjects:
+            # As in "the camera moves alongside": of what was said before.
+            self._go_with(word, Referent("things", NounGroup(), list(self._draft.subjects)))
+            if self._moves[-1].kind == "follow":
+                self._claim(word)
 
     def _direct(self, word: Word) -> None:
         last, said = self._moves[-1], word.meaning.value

@@ -12,6 +12,7 @@ from texvent.scenes.language.meaning.acts.devices import take_handled
 from texvent.scenes.language.meaning.acts.doers import add_doings, give_to_owners, mount_riders
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.hand_work import give_bodies
+from texvent.scenes.language.meaning.acts.hosts import take_host
 from texvent.scenes.language.meaning.acts.named_acts import read_named_act
 from texvent.scenes.language.meaning.acts.partners import take_fellows, take_receivers
 from texvent.scenes.language.meaning.acts.reader import ActReader
@@ -111,6 +112,7 @@ class ClauseMeaning:
 
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
+        take_host(clause, self._draft.nouns)
         turn_views(clause)
         turn_active(clause)
         self._camera.read_phrases(clause.adverbs)
@@ -204,7 +206,7 @@ class ClauseMeaning:
         groups = [one for one in clause.objects if not any(one is group for group in brought)]
         objects = [self._referents.resolve(group) for group in groups]
         if clause.verb is not None:
-            self._referents.acted_on = [i for one in objects if one.is_things for i in one.things]
+            self._referents.note_objects(objects)
         agents = self._find_agents(clause)
         self._read_subject_phrases(clause, subjects, things)
         movers: list[int] = []
@@ -226,7 +228,8 @@ class ClauseMeaning:
         has_object = bool(clause.objects) and not is_picture
         acted_on = tuple(i for one in objects if one.is_things for i in one.things)
         acted_on = () if self._acts.is_activity else acted_on
-        scope = Scope(things, movers, is_lost, has_verb, is_shown, has_object, acted_on)
+        verb = clause.verb.lemma if clause.verb is not None else ""
+        scope = Scope(things, movers, is_lost, has_verb, is_shown, has_object, acted_on, verb)
         if has_verb and not is_shown:
             self._lose_verb([*things, *acted_on])
         for one in objects:

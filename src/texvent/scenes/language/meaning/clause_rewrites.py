@@ -8,6 +8,7 @@ from dataclasses import replace
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
+from texvent.scenes.language.meaning.acts.looking import LOOKS, LOOKS_TO
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.named_acts import DONE, NAMED
 from texvent.scenes.language.words.english import Pos, VerbForm
@@ -161,6 +162,8 @@ def take_partners(clause: Clause) -> None:
     prepositions: tuple[str, ...] = ()
     if isinstance(verb, Verb) and verb.act == "collide":
         prepositions = ("into", "with", "against")
+    elif clause.verb is not None and clause.verb.lemma in LOOKS and not clause.objects:
+        prepositions = LOOKS_TO
     elif clause.verb is not None and clause.verb.lemma in HANDWORK:
         prepositions = list_goals(clause)
     elif clause.verb is not None and clause.verb.lemma in DRINKS and not clause.objects:
@@ -179,6 +182,10 @@ def take_partners(clause: Clause) -> None:
 def turn_views(clause: Clause) -> None:
     """As in "a ball drops from above": the ball does, not the camera."""
     if clause.verb is None:
+        return
+    if any(word.text in _OVERTURNED for word in clause.adverbs) and clause.verb.lemma != "flip":
+        # As in "turns a bottle upside down": no turn about its axis.
+        clause.verb.meaning = Meaning(Role.UNKNOWN, Pos.VERB, None, clause.verb.meaning.form)
         return
     verb = clause.verb.meaning.value
     is_vertical = isinstance(verb, Verb) and verb.kind in _VERTICAL
@@ -203,6 +210,7 @@ def _lose_sides(clause: Clause, verb: str) -> None:
             word.meaning, word.is_lost = Meaning(Role.UNKNOWN, word.pos), True
 
 
+_OVERTURNED = ("upside down", "inside out", "right side up")
 _COMES_WITH = frozenset(
     {*AT_HEAD, "play chess", "play video games", "serve", "dunk", "flip pan", "bowl", "tug of war",
      "skip rope", "hula hoop", "archery", "mow"}

@@ -44,7 +44,13 @@ _FROM_THE_SKY = frozenset({"day", "sunny", "overcast", "dawn", "dusk", "moonligh
 
 def _is_steady(word: Word, one: Referent) -> bool:
     """Whether the verb says that it flickers, and it cannot."""
-    return word.role is Role.FLICKER and one.kind == "light" and one.value in _FROM_THE_SKY
+    if word.role is not Role.FLICKER:
+        return False
+    head = one.group.head
+    # Of several lights that blink, each does so by itself: not the light of the scene.
+    are_lamps = one.kind == "glow" and head is not None and head.text == "lights"
+    is_of_sky = one.kind == "light" and one.value in _FROM_THE_SKY
+    return is_of_sky or (are_lamps and word.lemma != "flicker")
 
 
 class SceneClauses:

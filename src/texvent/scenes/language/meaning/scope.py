@@ -25,3 +25,5 @@ class Scope:
     has_object: bool = False
     acted_on: tuple[int, ...] = ()
     """Objects that the verb acts on: "candles on a cake" are on the cake, not who blows."""
+    verb: str = ""
+    """Base form of its verb."""

@@ -167,3 +167,12 @@ LIKENESSES = frozenset(
      "replica", "costume", "shadow"}
 )  # fmt: skip
 """What shows a thing without its being there: "a statue of a horse"."""
+CHANGES = frozenset(
+    {"turn", "curl", "transform", "change", "form", "shape", "morph", "grow", "fold", "twist",
+     "melt", "crumple", "cut", "break", "split", "roll", "make", "bend", "carve", "slice", "chop",
+     "tear", "evolve", "blossom", "develop", "burst", "explode", "dissolve", "merge", "arrange",
+     "weave", "knit", "mold", "mould", "wobble", "fall", "bake", "grind", "mix", "blend", "divide",
+     "collapse", "crush", "shatter", "crack", "stack", "pile", "rake", "braid", "knead", "sculpt",
+     "paint", "draw", "become", "dress", "fashion", "whip", "beat", "cook", "tie", "wrap"}
+)  # fmt: skip
+"""Verbs after which "into" names what becomes of something: not "drops its load into a truck"."""

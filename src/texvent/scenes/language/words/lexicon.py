@@ -22,7 +22,12 @@ from texvent.scenes.language.vocabulary.acts import (
 from texvent.scenes.language.vocabulary.named_acts import NAMED_BY_NOUN
 from texvent.scenes.language.vocabulary.objects import COMPOUNDS
 from texvent.scenes.language.vocabulary.opaque import OPAQUE_COMPOUNDS
-from texvent.scenes.language.words.english import Pos, VerbForm, list_verb_forms
+from texvent.scenes.language.words.english import (
+    Pos,
+    VerbForm,
+    list_readings,
+    list_verb_forms,
+)
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.kinds import KINDS
 from texvent.scenes.models.kinds.people import PEOPLE_GROUPS, TRAFFIC_WORDS
@@ -189,6 +194,8 @@ class Lexicon:
                     self._add(text, Meaning(Role.UNKNOWN, Pos.NOUN, is_plural=number > 0))
 
 
+UNMEASURED = ("once", "upside down", "right side up", "inside out")
+"""Adverbs that are reported: how often, and which side up."""
 _VERBS = frozenset(verb.base for verb in vocabulary_motion.VERBS)
 
 
@@ -263,7 +270,17 @@ def _list_people_groups() -> Iterator[tuple[str, Meaning]]:
     for text, count in PEOPLE_GROUPS.items():
         noun = "elderly person" if text.split()[0] in ("elderly", "old") else "person"
         is_shown = text.endswith("couple")
-        yield text, Meaning(Role.NOUN, Pos.NOUN, noun, is_substitute=not is_shown, count=count)
+        yield (
+            text,
+            Meaning(
+                Role.NOUN,
+                Pos.NOUN,
+                noun,
+                is_substitute=not is_shown,
+                count=count,
+                can_be_both=is_shown,
+            ),
+        )
 
 
 def _list_activity_nouns() -> Iterator[tuple[str, Meaning]]:
@@ -303,7 +320,18 @@ def _list_table_entries() -> Iterator[tuple[str, Meaning]]:
                         yield plural, Meaning(role, pos, value, is_plural=True)
     for role, pos, words in _WORDS:
         for text in words:
-            yield text, Meaning(role, pos, text)
+            is_plural = pos is Pos.NOUN and any(
+                one.pos is Pos.NOUN and one.is_plural for one in list_readings(text.split()[-1])
+            )
+            # As in "a screen shows": of words of film, only this form is that of a verb.
+            form = VerbForm.THIRD if pos is Pos.VERB and _ends_in_s(text) else None
+            yield text, Meaning(role, pos, text, form, is_plural)
+    for text in UNMEASURED:
+        yield text, Meaning(Role.UNKNOWN, Pos.ADVERB)
+
+
+def _ends_in_s(text: str) -> bool:
+    return text.endswith("s") and " " not in text
 
 
 _TABLES: tuple[tuple[Role, Pos, Mapping[Any, Iterable[str]]], ...] = (

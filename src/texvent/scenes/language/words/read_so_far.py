@@ -51,7 +51,8 @@ class ReadSoFar:
         elif meaning.pos is Pos.CONJUNCTION and not self._has_verb:
             self._subject_is_plural = self._is_plural = None
             self._has_subject = True
-        if meaning.pos in _OPENS_CLAUSE:
+        is_next = meaning.pos is Pos.CONJUNCTION and self._has_verb
+        if is_next or meaning.pos in _OPENS_CLAUSE:
             self._has_subject = False
         self._counts_group = meaning.pos is Pos.NUMBER or (
             self._counts_group and meaning.pos in NOMINAL
@@ -116,6 +117,11 @@ class ReadSoFar:
                 text = self._texts[number]
                 return any(one.lemma in _PERCEIVED for one in list_readings(text))
         return False
+
+    def _follows_object_pronoun(self) -> bool:
+        """As in "pulls himself ...", unlike "he ..."."""
+        pair = [one.pos for one in self._chosen[-2:]]
+        return pair == [Pos.VERB, Pos.PRONOUN]
 
     def _opens_clause(self) -> bool:
         """Whether another finite verb may come: after a comma, "and", or a relative clause."""

@@ -67,11 +67,7 @@ class _Tagger(ReadSoFar):
         before, after = self._before(), self._after(index)
         if Pos.TO in by_pos:
             coming = self._candidates[index + 1] if after else []
-            is_verb = any(one.pos is Pos.VERB and one.form is VerbForm.BASE for one in coming)
-            is_other = any(
-                one.pos is not Pos.VERB and one.role is not Role.UNKNOWN for one in coming
-            )
-            return Pos.TO if is_verb and not is_other else Pos.PREPOSITION
+            return Pos.TO if self._is_infinitive(index, coming) else Pos.PREPOSITION
         if Pos.RELATIVE in by_pos:
             if before in (Pos.NOUN, Pos.PRONOUN, Pos.SIGN, Pos.PREPOSITION, Pos.ADJUNCT):
                 is_determiner = Pos.DETERMINER in by_pos and before is Pos.PREPOSITION
@@ -88,6 +84,19 @@ class _Tagger(ReadSoFar):
         if Pos.SUBORDINATOR in by_pos and Pos.ADVERB in by_pos:
             return Pos.SUBORDINATOR if before in (None, Pos.SIGN, Pos.CONJUNCTION) else Pos.ADVERB
         return None
+
+    def _is_infinitive(self, index: int, coming: Sequence[Meaning]) -> bool:
+        """As in "stops to tie his shoe", unlike "to hot oil" and "to tie"."""
+        if not any(one.pos is Pos.VERB and one.form is VerbForm.BASE for one in coming):
+            return False
+        object_follows = self._after(index, 2)
+        if object_follows and object_follows <= _ONLY_OPENS:
+            return True
+        is_known_verb = any(one.pos is Pos.VERB and one.role is not Role.UNKNOWN for one in coming)
+        is_attribute = any(one.pos is Pos.ADJECTIVE for one in coming) and not is_known_verb
+        if is_attribute and object_follows & NOMINAL:
+            return False
+        return not any(one.pos is not Pos.VERB and one.role is not Role.UNKNOWN for one in coming)
 
     def _preposition(self, by_pos: dict[Pos, Meaning], after: frozenset[Pos]) -> Pos | None:
         before = self._before()
@@ -163,7 +172,7 @@ class _Tagger(ReadSoFar):
         if verb.form is VerbForm.ING:
             return self._gerund(index, verb, others)
         if verb.form is VerbForm.PAST and before in _OPENS_NOUN | {None, Pos.SIGN, Pos.PREPOSITION}:
-            return self._attribute(others, after)
+            return self._attribute(index, others, after)
         if before is Pos.NOUN:
             return self._after_noun(index, verb)
         if before in (Pos.CONJUNCTION, Pos.SIGN, Pos.SUBORDINATOR, Pos.ADVERB):
@@ -175,6 +184,11 @@ class _Tagger(ReadSoFar):
         before, after = self._before(), self._after(index)
         if Pos.NOUN in others and verb.role is Role.UNKNOWN and self._finite_follows(index):
             return Pos.NOUN
+        if (
+            any(one.role is Role.GLOW for one in self._candidates[index])
+            and not after & _ONLY_OPENS
+        ):
+            return Pos.NOUN  # "warm lighting"
         if before in _OPENS_NOUN:
             if after & NOMINAL and not after & {Pos.PREPOSITION}:
                 return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
@@ -184,11 +198,15 @@ class _Tagger(ReadSoFar):
             return Pos.NOUN if is_head else Pos.VERB
         return Pos.VERB
 
-    def _attribute(self, others: set[Pos] | frozenset[Pos], after: frozenset[Pos]) -> Pos | None:
+    def _attribute(
+        self, index: int, others: set[Pos] | frozenset[Pos], after: frozenset[Pos]
+    ) -> Pos | None:
         """A past participle before its noun: "a parked car", "painted walls"."""
         if after & NOMINAL:
             return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
-        return next(iter(others)) if others else Pos.VERB
+        rest = [one for one in self._candidates[index] if one.pos in others]
+        known = [one for one in rest if one.role is not Role.UNKNOWN]
+        return (known or rest)[0].pos if rest else Pos.VERB
 
     def _after_noun(self, index: int, verb: Meaning) -> Pos | None:
         """Subject and verb agree in number: "a dog barks", "dogs bark", but "dog barks"."""
@@ -225,10 +243,12 @@ class _Tagger(ReadSoFar):
         return Pos.VERB if is_parallel else None
 
     def _after_object(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos | None:
-        """As "high" in "throws the ball high", which is no noun of "ball"."""
+        """As "high" in "throws the ball high", "back" in "snaps back", which are no nouns."""
         is_known = any(one.role is not Role.UNKNOWN for one in by_pos.values())
         if is_known or Pos.ADVERB not in by_pos or self._after(index) & NOMINAL:
             return None
+        if self._before() is Pos.VERB or self._follows_object_pronoun():
+            return Pos.ADVERB
         group = [one.pos for one in self._chosen]
         while group and group[-1] in NOMINAL | {Pos.DETERMINER}:
             group.pop()

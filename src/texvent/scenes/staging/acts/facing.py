@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.description import Relation
 from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.people.acts.pairs import GIVEN_S, PAIR_GAPS
 from texvent.scenes.models.people.timing import ease
@@ -27,6 +29,8 @@ _SWAY_HZ = 0.45
 _TUGGING = "tug of war"
 _ROPE_SHARE, _ROPE_M = 0.22, 0.03
 """Half of the rope between two animals, in their lengths, and its radius in their heights."""
+_TIED = frozenset({"at", "on", "in", "work on", "ride", "ride along", "push", "pull", "give"})
+"""Relations that give their subject its heading."""
 _TURNING_RAD_S = {"tango": 1.5}
 _OPEN_RAD = 0.22
 """How far two who talk are turned to the viewer out of facing each other, rad."""
@@ -99,6 +103,28 @@ def face_each_other(cast: Cast, numbers: list[int]) -> None:
             other = _tied_by_mouth(other, one)
         cast.put(first, one)
         cast.put(number, other)
+
+
+def look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> None:
+    """Who stays in its place turns to what it looks at, where that is at mid clip.
+
+    Args:
+        cast: the actors, as they are placed; those who look are replaced.
+        relations: of the scene.
+        duration_s: length of the clip, s.
+    """
+    tied = {one.subject for one in relations if one.kind in _TIED}
+    for relation in relations:
+        if relation.kind != "look at" or relation.subject in tied:
+            continue
+        goals = [number for target in relation.targets for number in cast.copies(target)]
+        for turn, number in enumerate(cast.copies(relation.subject) if goals else ()):
+            actor = cast.get(number)
+            path = actor.trajectory
+            if isinstance(path, Stationary):
+                goal = cast.get(goals[turn % len(goals)]).middle(0.5 * duration_s)
+                yaw = math.atan2(goal[1] - path.home[1], goal[0] - path.home[0])
+                cast.put(number, replace(actor, trajectory=replace(path, yaw=yaw)))
 
 
 def hand_over(giver: Actor, thing: Actor, taker: Actor) -> tuple[Actor, Actor, Actor]:

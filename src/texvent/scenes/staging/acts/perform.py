@@ -24,7 +24,7 @@ from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, load, 
 from texvent.scenes.staging.acts.cargo import take_along
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.crews import put_to_work
-from texvent.scenes.staging.acts.facing import face_each_other, hand_over
+from texvent.scenes.staging.acts.facing import face_each_other, hand_over, look_at
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
@@ -48,23 +48,9 @@ from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _ORDER = (
-    "push",
-    "pull",
-    "kick",
-    "throw",
-    "catch",
-    "hit",
-    "collide",
-    "work on",
-    "give",
-    "hold",
-    "carry",
-    "on head",
-    "on shoulder",
-    "on back",
-    "on lap",
-    "wear",
-)
+    "push", "pull", "kick", "throw", "catch", "hit", "collide", "work on", "give", "hold",
+    "carry", "on head", "on shoulder", "on back", "on lap", "wear",
+)  # fmt: skip
 """What moves bodies comes before what hangs on them."""
 
 
@@ -241,6 +227,7 @@ def perform_acts(
         one for r in description.relations if r.kind in ACTS for one in (r.subject, *r.targets)
     }
     free = [n for n, one in enumerate(actors) if one.object_index not in bound]
+    look_at(cast, description.relations, duration_s)
     face_each_other(cast, free)
     relations = [r for r in description.relations if r.kind in ACTS and r.targets]
     ridden = {r.targets[0] for r in relations if r.kind in RIDES}

@@ -196,7 +196,7 @@ def to_subject(
 
 TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
-     "left of", "right of"}
+     "left of", "right of", "look at"}
 )  # fmt: skip
 """Relations of which both things must be in the picture."""
 _RECOGNISED = 0.35
@@ -255,7 +255,7 @@ def is_backdrop(actor: Actor, main: Actor) -> bool:
     return is_large and actor.noun.habitat == "fixed" and not actor.is_mover
 
 
-_ANYWHERE = frozenset({"beside", "past", "towards", "away from", "from"})
+_ANYWHERE = frozenset({"beside", "look at", "past", "towards", "away from", "from"})
 """Relations that a backdrop far behind fulfils; "behind" too, where it is what stands behind."""
 
 

@@ -327,6 +327,7 @@ CHECKS: Mapping[str, Callable[[Body, list[Body]], bool]] = {
     "from": _by_copies(comes_from),
     "away from": goes_away,
     "follow": is_behind_in_line,
+    "look at": _by_copies(faces),
 }
 """Relation → whether a scene shows it; x is to the right, y away from the viewer. What surrounds
 as scenery is counted where it is placed (`compose`)."""

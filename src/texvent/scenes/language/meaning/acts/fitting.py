@@ -38,6 +38,7 @@ def fit_verb(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     at a ball hangs on no rope, and a plane that taxis does not fly.
     """
     other = _choose_manoeuvre(verb, noun, clause) or _choose_kind(verb, noun, clause)
+    other = other or _choose_other(verb, noun)
     if other is not None:
         return other
     prepositions = {phrase.preposition.text for phrase in clause.phrases}
@@ -81,6 +82,19 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
         return replace(verb, kind="roll")
     if verb.base == "roll" and noun.motion in ("sail", "paddle"):
         return replace(verb, kind="sway")
+    return None
+
+
+def _choose_other(verb: Verb, noun: Noun) -> Verb | None:
+    """As in "a radio sits on a shelf", "a fan runs", "a kayaker paddles", "a robot weaves"."""
+    if verb.base in ("paddle", "row") and is_person(noun) and noun.name != "surfer":
+        return replace(verb, kind="row", pace=1.0)
+    if verb.kind == "sit" and not is_living(noun):
+        return replace(verb, kind="stand")
+    if verb.base == "run" and noun.is_working:
+        return replace(verb, kind="work")
+    if verb.kind in ("zigzag", "run") and noun.motion == "roll":
+        return replace(verb, kind="move")
     return None
 
 

@@ -33,6 +33,7 @@ from texvent.scenes.language.meaning.acts.hand_work import (
     lacks_thing,
     work_on,
 )
+from texvent.scenes.language.meaning.acts.looking import look_at
 from texvent.scenes.language.meaning.acts.partners import (
     PAIRED,
     collide,
@@ -41,10 +42,11 @@ from texvent.scenes.language.meaning.acts.partners import (
     tug,
 )
 from texvent.scenes.language.meaning.acts.sequence import (
+    STOPS,
     add_motion,
     find_mount,
     is_part_of_doer,
-    name_kind,
+    set_off,
     stand,
 )
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
@@ -52,12 +54,13 @@ from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import OF_ONESELF
 from texvent.scenes.language.vocabulary.motion import Verb
-from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS, shown_as
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
+_ON_LEGS = ("walk", "run", "jump", "swim", "paddle")
+"""Usual motions of animals that are not thrown through the air."""
 _OF_PARTS = ("work", "sway", "wave")
 """Motions that an animal shows when it does them with a part of itself."""
 _SINGLE = frozenset({"kick", "hit", "throw", "catch"})
@@ -101,8 +104,9 @@ class ActReader:
             return subjects
         if clause.verb_word.role is Role.FLICKER:
             return blink(self._draft, clause.verb_word, subjects)
-        if lift_load(self._draft, clause, subjects, targets):
-            return subjects
+        for does in (lift_load, look_at):
+            if does(self._draft, clause, subjects, targets):
+                return subjects
         if switch(self._draft, clause, subjects):
             return subjects
         return self._read_verb(clause, subjects, objects, targets)
@@ -132,7 +136,7 @@ class ActReader:
             one.kind in ("unknown", "part") and one.group.text.split()[-1:] != ["times"]
             for one in (outer if verb.kind in _OF_PARTS else objects)
         )
-        is_own = verb.kind in _TAKES_ANY_OBJECT or verb.base in _STOPS
+        is_own = verb.kind in _TAKES_ANY_OBJECT or verb.base in STOPS
         if not verb.kind or (acts_on_unshown and not is_own):
             return []
         moved = self._give(clause, verb, subjects)
@@ -192,7 +196,17 @@ class ActReader:
         if agents:
             return self._do_to(clause, verb, agents, subjects)
         kind = verb.object_kind or (verb.kind if not verb.act else "")
+        if verb.act == "throw":
+            return self._fly_off(clause, verb, subjects)
         return self._give(clause, replace(verb, kind=kind), subjects) if kind else []
+
+    def _fly_off(self, clause: Clause, verb: Verb, subjects: list[int]) -> list[int]:
+        """As in "a ball is thrown": it flies, whoever threw it."""
+        nouns = [self._draft.noun(index) for index in subjects]
+        if any(is_person(noun) or noun.motion in _ON_LEGS for noun in nouns):
+            return []
+        kind = "fly" if all(noun.motion == "fly" for noun in nouns) else "throw"
+        return self._give(clause, replace(verb, kind=kind), subjects)
 
     def _read_activity(
         self, clause: Clause, subjects: list[int], objects: Sequence[Referent]
@@ -365,7 +379,7 @@ class ActReader:
             fitting = fit_verb(verb, noun, clause)
             if fitting is None or not can_do(noun, fitting.kind):
                 continue
-            self._set_off(index, verb, clause)
+            set_off(self._draft, index, verb, clause)
             motion = ObjectMotion(
                 fitting.kind, verb.direction, fitting.pace, end_pace=verb.end_pace
             )
@@ -377,16 +391,6 @@ class ActReader:
         word.is_used = word.is_used or bool(added)
         return added
 
-    def _set_off(self, index: int, verb: Verb, clause: Clause) -> None:
-        """As in "a car stops at a kerb": what stops has moved before; not "a stopped car"."""
-        item, noun = self._draft.objects[index], self._draft.noun(index)
-        is_resting = clause.verb_word.meaning.form is VerbForm.PAST
-        if verb.base not in _STOPS or item.motions or is_resting or noun.is_working:
-            return
-        if noun.motion != "stand":
-            item.motions.append(name_kind(self._draft, index, ObjectMotion("move")))
-            clause.order = "after"
-
 
 _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})
 """Prepositions of who goes somewhere with what it carries."""
@@ -395,4 +399,3 @@ _LINES = frozenset({"rope", "chain", "hose"})
 _AT_SHOES, _BLOWING = "tie shoes", "blow bubbles"
 _UNSTEADY = ("wobble", "rock", "tilt")
 """How the whole of a thing moves that works in its place: a top, a metronome."""
-_STOPS = ("stop", "halt", "come to a stop", "come to rest")

@@ -10,11 +10,13 @@ from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import OWNERS
 from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
 
 _HASTE = 1.5
 """Pace above which who walks runs: "races", "rushes"."""
+STOPS = ("stop", "halt", "come to a stop", "come to rest")
 _SEATED = ("type", "play piano", "play drums", "row")
 """Activities with a seat of their own."""
 
@@ -89,6 +91,17 @@ def stand(draft: Draft, clause: Clause, subjects: list[int]) -> list[int]:
     for index in subjects:
         add_motion(draft, index, STANDING, clause)
     return subjects
+
+
+def set_off(draft: Draft, index: int, verb: Verb, clause: Clause) -> None:
+    """As in "a car stops at a kerb": what stops has moved before; not "a stopped car"."""
+    item, noun = draft.objects[index], draft.noun(index)
+    is_resting = clause.verb_word.meaning.form is VerbForm.PAST
+    if verb.base not in STOPS or item.motions or is_resting or noun.is_working:
+        return
+    if noun.motion != "stand":
+        item.motions.append(name_kind(draft, index, ObjectMotion("move")))
+        clause.order = "after"
 
 
 def find_mount(draft: Draft, index: int) -> int:

@@ -25,7 +25,7 @@ from texvent.scenes.language.meaning.referents.resolver import OWNERS, Referents
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE
-from texvent.scenes.language.vocabulary.objects import LIKENESSES, LIQUIDS
+from texvent.scenes.language.vocabulary.objects import CHANGES, LIKENESSES, LIQUIDS
 from texvent.scenes.language.vocabulary.scene import SPELT
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
@@ -157,7 +157,7 @@ class CircumstanceReader:
     def _is_likeness(self, phrase: PrepPhrase, scope: Scope) -> bool:
         """As in "Shaped like a dragon", "curls into a ball": nothing of the sort is there."""
         name = phrase.preposition.text
-        is_change = name == "into" and scope.has_verb and not scope.is_verb_shown
+        is_change = name == "into" and not scope.is_verb_shown and scope.verb in CHANGES
         heads = [group.head for group in phrase.groups if group.head is not None]
         is_thing = all(head.read_as(Role.PLACE) is None for head in heads)
         return name == "like" or (is_change and is_thing)

@@ -140,6 +140,10 @@ class RelationReader:
         if phrase.has_pronoun and near.is_things and set(near.things) != set(things):
             # As in "pushes a stroller with a baby in it": the baby is.
             return Scope(near.things, [], has_verb=False)
+        is_worn = phrase.preposition.text == "in" and self._draft.noun(things[0]).name in WEARABLE
+        if is_worn and near.is_things and all(is_person(self._draft.noun(n)) for n in near.things):
+            # As in "camels led by a man in a robe".
+            return Scope(near.things, [], has_verb=False)
         is_acted_on = near.is_things and set(near.things) <= set(scope.acted_on)
         is_goal = near.is_things and any(
             one.kind in _GOALS and one.subject in scope.subjects

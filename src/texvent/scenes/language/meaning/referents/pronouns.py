@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -30,6 +31,9 @@ class Antecedents:
         """Subjects of the clause, whom no pronoun after the verb means."""
         self.acted_on: list[int] = []
         """What the verb before acts on, which "it" after another verb means."""
+        self.lost_object = self._next_is_lost = False
+        """Whether what the last verb acts on is not shown: then "it" is not either."""
+        self._last_subject: NounGroup | None = None
         self.near: list[int] = []
         """What a pronoun of a phrase hangs on: "a baby in it" is not in itself."""
         self.lost_person = False
@@ -37,12 +41,25 @@ class Antecedents:
 
     def note_subjects(self, subjects: Sequence[Referent]) -> None:
         """Keep in mind whom "he" may mean."""
+        named = [one.group for one in subjects if one.group.head and one.group.head.pos is Pos.NOUN]
+        if named and named[0] is not self._last_subject:
+            self._last_subject, self._next_is_lost = named[0], False
+        self.lost_object = self._next_is_lost
         for one in subjects:
             head = one.group.head
             if one.is_things and any(is_living(self._draft.noun(i)) for i in one.things):
                 self.lost_person = False
             elif one.kind == "unknown" and head is not None and head.pos is Pos.NOUN:
                 self.lost_person = head.lemma.endswith(_PERSONAL) or self.lost_person
+
+    def note_objects(self, objects: Sequence[Referent]) -> None:
+        """Keep in mind what "it" after another verb may mean."""
+        self.acted_on = [index for one in objects if one.is_things for index in one.things]
+        named = [one for one in objects if one.group.head and one.group.head.pos is Pos.NOUN]
+        if named:
+            self._next_is_lost = all(
+                one.kind in ("unknown", "part") and not one.group.phrases for one in named
+            )
 
     def look_back(self, pronoun: str) -> list[int]:
         """What a pronoun means: the subject before, or else what was named last, if it fits."""
@@ -51,6 +68,8 @@ class Antecedents:
         others = [self.acted_on] if self.acted_on and self.doers else []
         named = [[one] for one in reversed(self._named)]
         candidates = [first, *others, *named] if first else []
+        if self.lost_object and self.doers and pronoun in ("it", "them"):
+            return []
         if pronoun.endswith(("self", "selves")):
             return list(self._draft.subjects)
         not_meant = self.near or self.doers

@@ -1,0 +1,32 @@
+"""Who looks at something stands turned to it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.description import STANDING
+from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.capabilities import is_living
+from texvent.scenes.language.meaning.draft import Draft
+
+LOOKS = frozenset({"look", "watch", "stare", "gaze", "observe", "glance", "peer", "glare"})
+"""Verbs of looking: "looks at a dog", "watches a train"."""
+LOOKS_TO = ("at", "toward", "towards")
+"""Prepositions before what is looked at."""
+_LEAST_M = 0.35
+"""Shortest thing that one is seen to look at; what is smaller is held."""
+
+
+def look_at(draft: Draft, clause: Clause, subjects: Sequence[int], targets: Sequence[int]) -> bool:
+    """As in "a man watches a train": he stays in his place and faces it; whether it is read so."""
+    if clause.verb_word.lemma not in LOOKS or not targets or set(targets) & set(subjects):
+        return False
+    if not all(is_living(draft.noun(index)) for index in subjects):
+        return False
+    motions = [draft.objects[index].motions for index in subjects]
+    if any(one and one[-1].is_moving for one in motions) or draft.length_m(targets[0]) < _LEAST_M:
+        return False
+    for own in motions:
+        own.extend([] if own else [STANDING])
+    clause.verb_word.is_used = draft.relate("look at", list(subjects), list(targets))
+    return clause.verb_word.is_used
