@@ -65,7 +65,7 @@ def who_does_what(prompt: str) -> list[tuple[str, str, str]]:
         ("a flock of birds crosses the frame", [("a flock of birds", "crosses", "frame")]),
         ("a deer stands in the road", [("deer", "stands", "")]),
         ("a chair, the light flickers", [("light", "flickers", "")]),
-        ("a girl is eating soup and talking", [("girl", "eating", "soup"), ("girl", "talking", "")]),
+        ("a boy is eating soup and talking", [("boy", "eating", "soup"), ("boy", "talking", "")]),
         ("rain, with people crossing", [("people", "crossing", "")]),
         ("clouds drift below", [("clouds", "drift", "")]),
         ("the glow lights up a face", [("glow", "lights", "face")]),

@@ -6,6 +6,7 @@ import re
 
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.people.activities import DONE_SEATED, SEATS
 
 _OBJECTS = frozenset({"it", "him", "her", "them"})
 _DETERMINERS = frozenset({"his", "her", "its", "their", "the", "a", "an"})
@@ -18,6 +19,7 @@ _HERDING = re.compile(r"(driv|drove|herd|lead|led|walk|push|pull)\w*")
 
 _HANGING = re.compile(r"(hang|hung)\w*")
 _FALLING = re.compile(r"(fall|fell)\w*")
+_SITTING = re.compile(r"sit|sits|sat|sitting|seated")
 _MOUTH = re.compile(r"(laugh|giggl|chuckl|smil|grin)\w*")
 
 
@@ -70,9 +72,22 @@ def _judge_word(
         "stays upright": word.startswith("wobbl") and _is_going(claim, description),
         "the box bursts": word.startswith("pop") and "popcorn" in nouns,
         "stands": _HANGING.fullmatch(word) and "stand" in kinds and is_alive,
+        "stands, on no seat": (
+            _SITTING.fullmatch(word) and kinds & DONE_SEATED and not _has_seat(claim, description)
+        ),
         "falls where it is": is_off and _FALLING.fullmatch(word) and "fall over" in kinds,
     }
     return next((reason for reason, holds in faults.items() if holds), None)
+
+
+def _has_seat(claim: Claim, description: SceneDescription) -> bool:
+    """Whether a relation puts it on a seat, at a table or on what it rides."""
+    return any(
+        one.subject in claim.things
+        and (one.kind != "on" or description.objects[one.targets[0]].noun in SEATS)
+        for one in description.relations
+        if one.kind in ("on", "at", "in", "ride", "ride along", "work on")
+    )
 
 
 def _is_going(claim: Claim, description: SceneDescription) -> bool:
