@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from texvent.scenes.report import PromptReport
     from texvent.scenes.scene import Camera, Scene
     from texvent.scenes.staging.compose import ComposedScene
+    from texvent.scenes.staging.take import Take
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
@@ -310,25 +311,25 @@ class ProceduralGenerator:
 
     def _stage(self, prompt: str) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
-        from texvent.generate.seen_things import find_evidence
+        from texvent.generate.takes import film
         from texvent.scenes.assets import list_files
-        from texvent.scenes.evidence import report_on
         from texvent.scenes.language.parser import parse_prompt
         from texvent.scenes.staging.compose import compose_scene
 
         description = parse_prompt(prompt, self._nouns)
         self._accepted(description.report())  # before the scene is built
-        scene = compose_scene(
-            description,
-            seed=self.seed,
-            size=self.size,
-            duration_s=self.config.duration,
-            nouns=self._shown_nouns(description),
-        )
-        scene = replace(scene, has_highlights=self.config.hdr)
-        evidence = find_evidence(scene, description, self.size, self.config.duration)
-        report = self._accepted(report_on(description, evidence))
-        return scene, report, list_files(description, self._nouns)
+        nouns, duration_s = self._shown_nouns(description), self.config.duration
+
+        def stage(take: Take) -> ComposedScene:
+            scene = compose_scene(
+                description, seed=self.seed, size=self.size, duration_s=duration_s, nouns=nouns,
+                take=take,
+            )  # fmt: skip
+            return replace(scene, has_highlights=self.config.hdr)
+
+        best = film(description, stage, self.size, duration_s)
+        report = self._accepted(best.report)
+        return best.scene, report, list_files(description, self._nouns)
 
     @cached_property
     def _nouns(self) -> Mapping[str, Noun]:

@@ -80,10 +80,23 @@ def find_evidence(
         size: of the image, pixels.
         duration_s: of the clip, s.
     """
-    found = look_for_things(
-        scene, size, duration_s,
-        landmarks=list_landmarks(description), scenery=scene.list_scenery(),
-    )  # fmt: skip
+    found = look_at_scene(scene, description, size, duration_s)
+    return judge_findings(scene, description, size, found)
+
+
+def look_at_scene(
+    scene: ComposedScene, description: SceneDescription, size: SensorSize, duration_s: float
+) -> Findings:
+    """What is seen of its things and places; arguments as of `find_evidence`."""
+    landmarks = list_landmarks(description)
+    scenery = scene.list_scenery()
+    return look_for_things(scene, size, duration_s, landmarks=landmarks, scenery=scenery)
+
+
+def judge_findings(
+    scene: ComposedScene, description: SceneDescription, size: SensorSize, found: Findings
+) -> Evidence:
+    """What a staged scene shows of its description, from what is seen of its things."""
     copies: dict[int, list[int]] = {index: [] for index in range(len(description.objects))}
     for instance, index in scene.object_of.items():
         copies[index].append(instance)

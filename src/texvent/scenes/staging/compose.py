@@ -36,7 +36,7 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
-from texvent.scenes.staging.placement.fitting import enlarge_small
+from texvent.scenes.staging.placement.fitting import enlarge_lost, enlarge_small
 from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
@@ -57,6 +57,7 @@ from texvent.scenes.staging.surroundings.scenery_along import is_placed_by_view,
 from texvent.scenes.staging.surroundings.scenery_tables import BACKDROPS, SCENERY, ScatterRule
 from texvent.scenes.staging.surroundings.wading import goes_over_shore, wade
 from texvent.scenes.staging.surroundings.waterside import STRIPS, WATERSIDE, water_line
+from texvent.scenes.staging.take import USUAL, Take
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -155,6 +156,7 @@ def compose_scene(
     size: SensorSize,
     duration_s: float,
     nouns: Mapping[str, Noun] = NOUNS,
+    take: Take = USUAL,
 ) -> ComposedScene:
     """An animated scene from a description.
 
@@ -165,6 +167,7 @@ def compose_scene(
         size: image size, pixels, for the framing.
         duration_s: length of the clip, s; moves are spread over it.
         nouns: table of models.
+        take: what is otherwise than usual.
 
     Returns:
         The scene; the same arguments give the same scene.
@@ -175,14 +178,15 @@ def compose_scene(
     if not (math.isfinite(duration_s) and duration_s > 0.0):
         raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
     said, missing = prepare(description, nouns, duration_s)
-    description = set_on_table(enlarge_small(said, nouns), nouns)
+    description = enlarge_lost(set_on_table(enlarge_small(said, nouns), nouns), nouns, take.larger)
     place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
     travel = plan_travel(description, place, duration_s)
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
+    how = (seed, size, duration_s, take)
+    actors, camera_path = _set_camera(description, placer, place, how, travel)
     view = _describe_view(description, place, camera_path, actors, duration_s)
     actors = wade(description, actors, place, view.road, PLACES[place].road_half_width)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
@@ -235,14 +239,14 @@ def _set_camera(
     description: SceneDescription,
     placer: ObjectPlacer,
     place: str,
-    how: tuple[int, SensorSize, float],
+    how: tuple[int, SensorSize, float, Take],
     travel: TravelPlan | None,
 ) -> tuple[list[Actor], CameraPath]:
     """The camera, and the actors, placed so that it shows them.
 
-    `how` are the seed, the image's size, and the length of the clip, s.
+    `how` are the seed, the image's size, the length of the clip, s, and the take.
     """
-    seed, size, duration_s = how
+    seed, size, duration_s, take = how
     aspect = size.height / size.width
     has_lanes = travel is None and PLACES[place].ground in STRIPS and place not in WATERSIDE
 
@@ -256,8 +260,9 @@ def _set_camera(
 
     actors = stand(placer.place_all())
     path = place_camera(
-        description, actors, place, seed=seed, aspect=aspect, duration_s=duration_s, travel=travel
-    )
+        description, actors, place, seed=seed, aspect=aspect, duration_s=duration_s, travel=travel,
+        take=take,
+    )  # fmt: skip
     if actors and PLACES[place].ground is not Ground.NONE:
         subject = None if travel else choose_main(description, actors).object_index
         shifts = find_shifts(

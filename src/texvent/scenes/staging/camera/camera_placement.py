@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,9 +24,11 @@ from texvent.scenes.staging.camera.framed_points import (
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
+from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
 from texvent.scenes.staging.camera.view_angles import choose_angles
 from texvent.scenes.staging.surroundings.environment import is_room
+from texvent.scenes.staging.take import USUAL, Take
 
 SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
@@ -46,6 +49,14 @@ _VISIBLE_SHARE = 0.97
 _CHECKS = 41
 
 
+class _How(NamedTuple):
+    seed: int
+    aspect: float
+    """Image height over width."""
+    duration_s: float
+    take: Take
+
+
 def place_camera(
     description: SceneDescription,
     actors: Sequence[Actor],
@@ -55,6 +66,7 @@ def place_camera(
     aspect: float,
     duration_s: float,
     travel: TravelPlan | None = None,
+    take: Take = USUAL,
 ) -> CameraPath:
     """The camera over the clip: near enough to recognise the objects and far enough to show them.
 
@@ -66,6 +78,7 @@ def place_camera(
         aspect: image height over width.
         duration_s: length of the clip, s.
         travel: the route of a camera that travels.
+        take: how far it is from where it usually stands.
     """
     if travel is not None:
         return _travel(description, travel, actors, place, duration_s)
@@ -73,7 +86,9 @@ def place_camera(
         return _look_around(description, place, duration_s)
     main = choose_main(description, actors)
     moves = _plan_moves(description, main, duration_s)
-    path = _frame(description, actors, main, moves, place, (seed, aspect, duration_s))
+    how = _How(seed, aspect, duration_s, take)
+    path = _frame(description, actors, main, moves, place, how)
+    path = retake(path, take, actors)
     path = _keep_in_view(path, main, actors, aspect)
     if is_room(place):
         near = [a for a in actors if description.objects[a.object_index].side != "far"]
@@ -89,17 +104,17 @@ def _frame(
     main: Actor,
     moves: tuple[CameraMove, ...],
     place: str,
-    how: tuple[int, float, float],
+    how: _How,
 ) -> CameraPath:
     """The camera from which the subject is large enough; followed where it is small or creeps."""
-    duration_s = how[2]
+    duration_s = how.duration_s
     is_said = bool(description.shot.moves) or description.shot.framing == "wide"
     is_said |= _has_landmark(description, main) or _goes_in_depth(description, main)
     path = _fit_path(description, actors, main, moves, place, how)
     if is_said or not main.is_mover:
         return path
     copies = [actor for actor in actors if actor.object_index == main.object_index]
-    prominence = Prominence.of(copies, np.linspace(0.0, duration_s, INSTANTS), how[1])
+    prominence = Prominence.of(copies, np.linspace(0.0, duration_s, INSTANTS), how.aspect)
     size = prominence(path)
     is_tiny, is_small = size < _TINY, size < _SMALL or _creeps(path, main)
     if not (is_tiny or (is_small and _stay_together(actors, main, duration_s))):
@@ -115,16 +130,14 @@ def _fit_path(
     main: Actor,
     moves: tuple[CameraMove, ...],
     place: str,
-    how: tuple[int, float, float],
+    how: _How,
 ) -> CameraPath:
-    """The widest camera with a large subject, for moves.
-
-    `how` are the seed, the image's height over its width, and the length of the clip, s.
-    """
-    seed, aspect, duration_s = how
+    """The widest camera with a large subject, for moves."""
+    seed, aspect, duration_s, take = how
     has_floor = place not in ("sky", "space")
     is_open = has_floor and place != "underwater" and not is_room(place)
     azimuth, elevation = choose_angles(description, main, moves, place, seed)
+    azimuth, elevation = azimuth + take.turn_rad, elevation + take.rise_rad
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription, SceneObject
@@ -88,6 +88,28 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
         most = _LARGER_WORN if index in worn else _LARGER_BIRD if is_bird else _LARGER
         factor = min(max((_SMALL_BIRD_M if is_bird else _SMALL_M) / size, 1.0), most)
         objects[index] = replace(one, scale=one.scale * factor)
+    return replace(description, objects=tuple(objects))
+
+
+_LARGER_AGAIN = 1.6
+"""Factor by which lost things are larger still."""
+_LOST_M = 0.7
+"""Size up to which they are, m."""
+
+
+def enlarge_lost(
+    description: SceneDescription, nouns: Mapping[str, Noun], lost: Collection[int]
+) -> SceneDescription:
+    """The description with larger things of those that were too small in the picture.
+
+    What is worn and what the prompt calls small keeps its size.
+    """
+    worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
+    objects = list(description.objects)
+    for index in sorted(set(lost) - worn):
+        one = objects[index]
+        if one.scale >= 1.0 and extent(one, nouns) <= _LOST_M:
+            objects[index] = replace(one, scale=one.scale * _LARGER_AGAIN)
     return replace(description, objects=tuple(objects))
 
 

@@ -1,0 +1,190 @@
+"""Other takes of a scene whose picture loses things that the prompt names.
+
+What is lost says what to try: what is too small is drawn larger, and seen from nearer; what is
+hidden is seen from another side, what is cut off from further away. A take counts only if it shows
+more of the prompt's words and loses none.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent.generate.seen_things import Findings, judge_findings, look_at_scene
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.evidence import Evidence, report_on
+from texvent.scenes.projection import project
+from texvent.scenes.report import PromptReport
+from texvent.scenes.staging.camera.camera_placement import choose_main
+from texvent.scenes.staging.compose import ComposedScene
+from texvent.scenes.staging.take import USUAL, Take
+from texvent.sensor import SensorSize
+
+MOST = 4
+"""Takes that are tried beside the usual one."""
+NEAREST, NEARER, FURTHER, FURTHEST = 0.6, 0.85, 1.35, 1.7
+"""Distances of the camera, as multiples of the usual one."""
+TURN_RAD, RISE_RAD = 0.55, 0.45
+_INSTANTS = 5
+_KEPT = 0.92
+"""Share of the subject's box in the image that a take keeps, of that in the usual one."""
+_SMALL = frozenset({"too small"})
+_HIDDEN = frozenset({"hidden", "mostly hidden"})
+_OUTSIDE = frozenset({"cut off", "out of view", "in view too briefly"})
+_TURNED = frozenset({"side", "front", "back", "shoulder", "first person"})
+"""Views that say from which side the camera looks."""
+_COUNTED = re.compile(r"\d+ of \d+ ")
+_REASON = re.compile(r" \([^()]*\)$")
+
+
+class Filmed(NamedTuple):
+    """A take and what it shows."""
+
+    scene: ComposedScene
+    found: Findings
+    evidence: Evidence
+    report: PromptReport
+
+
+def film(
+    description: SceneDescription,
+    stage: Callable[[Take], ComposedScene],
+    size: SensorSize,
+    duration_s: float,
+) -> Filmed:
+    """The scene from the take that shows most of what the prompt says; the usual one of equals.
+
+    Args:
+        description: what the prompt says.
+        stage: builds the scene of a take.
+        size: of the image, pixels.
+        duration_s: of the clip, s.
+    """
+
+    def judge(scene: ComposedScene, found: Findings) -> Filmed:
+        evidence = judge_findings(scene, description, size, found)
+        return Filmed(scene, found, evidence, report_on(description, evidence))
+
+    def look(scene: ComposedScene) -> Findings:
+        return look_at_scene(scene, description, size, duration_s)
+
+    scene = stage(USUAL)
+    best = usual = judge(scene, look(scene))
+    is_named = _is_subject_named(description, usual.scene)
+    for take in list_takes(description, usual.evidence, is_subject_named=is_named)[:MOST]:
+        scene = stage(take)
+        found = look(scene)
+        if _count_lost(found) >= _count_lost(best.found):
+            continue
+        other = judge(scene, found)
+        is_whole = not is_named or _keeps_subject(description, usual.scene, scene, size)
+        if is_whole and shows_more(other, best):
+            best = other
+        if not any(_list_reasons(best.evidence)):
+            break
+    return best
+
+
+def list_takes(
+    description: SceneDescription, evidence: Evidence, *, is_subject_named: bool = True
+) -> list[Take]:
+    """What may show more of the things that a scene loses, the likeliest first.
+
+    Args:
+        description: what the prompt says.
+        evidence: what the usual take shows.
+        is_subject_named: whether the prompt names what the camera is about; it does not name who
+            shuffles cards in "shuffling cards".
+    """
+    shot = description.shot
+    if any(move.kind == "travel" for move in shot.moves):
+        return []
+    reasons = set(_list_reasons(evidence))
+    small = frozenset(
+        index for index, faults in evidence.faults.items() if _SMALL.intersection(faults)
+    )
+    is_small, is_hidden = bool(reasons & _SMALL), bool(reasons & _HIDDEN)
+    is_outside = bool(reasons & _OUTSIDE) and shot.framing is None
+    may_come = is_small and shot.framing is None
+    is_tied = any(move.kind == "follow" for move in shot.moves)
+    may_turn = is_hidden and not is_tied and shot.view not in _TURNED
+    choices = [
+        (is_small, Take()),
+        (is_outside, Take(distance=FURTHER)),
+        (is_hidden and shot.view is None, Take(rise_rad=RISE_RAD)),
+        (may_come, Take(distance=NEARER)),
+        (may_come and not is_subject_named, Take(distance=NEAREST, aim=small)),
+        (is_outside, Take(distance=FURTHEST)),
+        (may_turn, Take(turn_rad=TURN_RAD)),
+        (may_turn, Take(turn_rad=-TURN_RAD)),
+    ]
+    return [take._replace(larger=small) for may, take in choices if may]
+
+
+def _is_subject_named(description: SceneDescription, scene: ComposedScene) -> bool:
+    if not scene.actors:
+        return True
+    main = choose_main(description, scene.actors).object_index
+    return any(one.aspect == "name" and main in one.things for one in description.claims)
+
+
+def _count_lost(found: Findings) -> int:
+    """Things and places that are not seen."""
+    return len(found.places) + sum(fault is not None for fault in found.faults.values())
+
+
+def _list_reasons(evidence: Evidence) -> Iterator[str]:
+    """Why copies of things are not seen."""
+    for faults in evidence.faults.values():
+        yield from (one for one in faults if one in _SMALL | _HIDDEN | _OUTSIDE)
+
+
+def shows_more(take: Filmed, than: Filmed) -> bool:
+    """Whether a take shows more of the prompt, and all that the other one shows of it."""
+    words, known = ({_name(one) for one in some.report.not_shown} for some in (take, than))
+    doubts, unsure = ({_name(one) for one in some.report.in_doubt} for some in (take, than))
+    copies, before = (_count_unseen(some.evidence) for some in (take, than))
+    is_worse = words - known - {""} or doubts - unsure - known
+    if is_worse or any(count > before[index] for index, count in copies.items()):
+        return False
+    return len(words) < len(known) or sum(copies.values()) < sum(before.values())
+
+
+def _name(phrase: str) -> str:
+    """What is lost, without the reason; "" of "1 of 3 dogs (hidden)", which counts as copies."""
+    return "" if _COUNTED.match(phrase) else _REASON.sub("", phrase)
+
+
+def _count_unseen(evidence: Evidence) -> dict[int, int]:
+    """Object → copies that are not seen."""
+    return {
+        index: sum(fault is not None for fault in faults)
+        for index, faults in evidence.faults.items()
+    }
+
+
+def _keeps_subject(
+    description: SceneDescription, usual: ComposedScene, other: ComposedScene, size: SensorSize
+) -> bool:
+    """Whether as much of the subject is in the picture as usual."""
+    if not usual.actors:
+        return True
+    before, after = (_share_in_view(description, one, size) for one in (usual, other))
+    return after >= _KEPT * before
+
+
+def _share_in_view(description: SceneDescription, scene: ComposedScene, size: SensorSize) -> float:
+    """Share of the subject's box that is in the picture, mean over the clip."""
+    main = choose_main(description, scene.actors)
+    edge = np.array([size.width, size.height], dtype=np.float64)
+    shares = []
+    for time in np.linspace(0.0, scene.camera_path.duration_s, _INSTANTS):
+        seen = project(scene.camera(float(time)), size, main.corners(float(time)))
+        low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+        inner = np.clip(high, 0.0, edge) - np.clip(low, 0.0, edge)
+        is_ahead = bool(seen[:, 2].min() > 0.0)
+        shares.append(float(np.prod(inner / np.maximum(high - low, 1e-9))) if is_ahead else 0.0)
+    return float(np.mean(shares))

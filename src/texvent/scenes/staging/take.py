@@ -1,0 +1,24 @@
+"""A take: the same scene staged another way, where the prompt leaves it open."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Take(NamedTuple):
+    """How a scene is staged otherwise than usual."""
+
+    turn_rad: float = 0.0
+    """How far the camera goes around what it looks at, anticlockwise."""
+    rise_rad: float = 0.0
+    """How far it goes up."""
+    distance: float = 1.0
+    """Its distance, as a multiple of the usual one."""
+    larger: frozenset[int] = frozenset()
+    """Objects of the description that are drawn larger, if they are small and none wears them."""
+    aim: frozenset[int] = frozenset()
+    """Objects of the description at the middle of which the camera looks."""
+
+
+USUAL = Take()
+"""Nothing is otherwise."""
