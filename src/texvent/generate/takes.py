@@ -25,12 +25,18 @@ from texvent.sensor import SensorSize
 
 MOST = 4
 """Takes that are tried beside the usual one."""
+MOST_BODIES = 24
+"""Bodies that are staged again for all of them together; of more, one take is tried."""
+LARGEST_M = 0.7
+"""Size up to which things are drawn larger, m."""
 NEAREST, NEARER, FURTHER, FURTHEST = 0.6, 0.85, 1.35, 1.7
 """Distances of the camera, as multiples of the usual one."""
 TURN_RAD, RISE_RAD = 0.55, 0.45
 _INSTANTS = 5
 _KEPT = 0.92
 """Share of the subject's box in the image that a take keeps, of that in the usual one."""
+_LEAST_EXTENT = 0.22
+"""Share of the image's width or height over which a take that goes away leaves the subject."""
 _SMALL = frozenset({"too small"})
 _HIDDEN = frozenset({"hidden", "mostly hidden"})
 _OUTSIDE = frozenset({"cut off", "out of view", "in view too briefly"})
@@ -74,7 +80,9 @@ def film(
     scene = stage(USUAL)
     best = usual = judge(scene, look(scene))
     is_named = _is_subject_named(description, usual.scene)
-    for take in list_takes(description, usual.evidence, is_subject_named=is_named)[:MOST]:
+    larger = _list_larger(description, usual)
+    takes = list_takes(description, usual.evidence, larger, is_subject_named=is_named)
+    for take in takes[: min(MOST, max(1, MOST_BODIES // max(1, len(scene.actors))))]:
         scene = stage(take)
         found = look(scene)
         if _count_lost(found) >= _count_lost(best.found):
@@ -89,13 +97,18 @@ def film(
 
 
 def list_takes(
-    description: SceneDescription, evidence: Evidence, *, is_subject_named: bool = True
+    description: SceneDescription,
+    evidence: Evidence,
+    larger: frozenset[int] = frozenset(),
+    *,
+    is_subject_named: bool = True,
 ) -> list[Take]:
     """What may show more of the things that a scene loses, the likeliest first.
 
     Args:
         description: what the prompt says.
         evidence: what the usual take shows.
+        larger: objects that may be drawn larger.
         is_subject_named: whether the prompt names what the camera is about; it does not name who
             shuffles cards in "shuffling cards".
     """
@@ -103,25 +116,39 @@ def list_takes(
     if any(move.kind == "travel" for move in shot.moves):
         return []
     reasons = set(_list_reasons(evidence))
-    small = frozenset(
-        index for index, faults in evidence.faults.items() if _SMALL.intersection(faults)
-    )
     is_small, is_hidden = bool(reasons & _SMALL), bool(reasons & _HIDDEN)
     is_outside = bool(reasons & _OUTSIDE) and shot.framing is None
     may_come = is_small and shot.framing is None
     is_tied = any(move.kind == "follow" for move in shot.moves)
     may_turn = is_hidden and not is_tied and shot.view not in _TURNED
     choices = [
-        (is_small, Take()),
+        (is_small and bool(larger), Take()),
         (is_outside, Take(distance=FURTHER)),
         (is_hidden and shot.view is None, Take(rise_rad=RISE_RAD)),
         (may_come, Take(distance=NEARER)),
-        (may_come and not is_subject_named, Take(distance=NEAREST, aim=small)),
+        (may_come and not is_subject_named, Take(distance=NEAREST, aim=_list_small(evidence))),
         (is_outside, Take(distance=FURTHEST)),
         (may_turn, Take(turn_rad=TURN_RAD)),
         (may_turn, Take(turn_rad=-TURN_RAD)),
     ]
-    return [take._replace(larger=small) for may, take in choices if may]
+    return [take._replace(larger=larger) for may, take in choices if may]
+
+
+def _list_small(evidence: Evidence) -> frozenset[int]:
+    """Objects of which a copy is too small."""
+    return frozenset(one for one, faults in evidence.faults.items() if _SMALL.intersection(faults))
+
+
+def _list_larger(description: SceneDescription, usual: Filmed) -> frozenset[int]:
+    """Those that may be drawn larger: nothing large, nothing worn, nothing that is called small."""
+    worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
+    kept = {index for index, one in enumerate(description.objects) if one.scale < 1.0}
+    fitting = {
+        one.object_index
+        for one in usual.scene.actors
+        if max(one.model.length, one.model.width, one.model.height) <= LARGEST_M
+    }
+    return _list_small(usual.evidence) & frozenset(fitting - worn - kept)
 
 
 def _is_subject_named(description: SceneDescription, scene: ComposedScene) -> bool:
@@ -169,22 +196,29 @@ def _count_unseen(evidence: Evidence) -> dict[int, int]:
 def _keeps_subject(
     description: SceneDescription, usual: ComposedScene, other: ComposedScene, size: SensorSize
 ) -> bool:
-    """Whether as much of the subject is in the picture as usual."""
-    if not usual.actors:
-        return True
-    before, after = (_share_in_view(description, one, size) for one in (usual, other))
-    return after >= _KEPT * before
+    """Whether as much of the subject is in the picture as usual, and no less than is well seen."""
+    (share, extent), (kept, left) = (
+        _measure_subject(description, one, size) for one in (usual, other)
+    )
+    return kept >= _KEPT * share and left >= min(_LEAST_EXTENT, extent)
 
 
-def _share_in_view(description: SceneDescription, scene: ComposedScene, size: SensorSize) -> float:
-    """Share of the subject's box that is in the picture, mean over the clip."""
+def _measure_subject(
+    description: SceneDescription, scene: ComposedScene, size: SensorSize
+) -> tuple[float, float]:
+    """Share of the subject's box that is in the picture, and how large it is there.
+
+    Both are means over the clip; the size is a share of the image's width or height, the greater.
+    """
     main = choose_main(description, scene.actors)
     edge = np.array([size.width, size.height], dtype=np.float64)
-    shares = []
+    found = []
     for time in np.linspace(0.0, scene.camera_path.duration_s, _INSTANTS):
         seen = project(scene.camera(float(time)), size, main.corners(float(time)))
         low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
         inner = np.clip(high, 0.0, edge) - np.clip(low, 0.0, edge)
+        share = float(np.prod(inner / np.maximum(high - low, 1e-9)))
         is_ahead = bool(seen[:, 2].min() > 0.0)
-        shares.append(float(np.prod(inner / np.maximum(high - low, 1e-9))) if is_ahead else 0.0)
-    return float(np.mean(shares))
+        found.append((share, float((inner / edge).max())) if is_ahead else (0.0, 0.0))
+    share, extent = np.mean(found, axis=0)
+    return float(share), float(extent)

@@ -36,7 +36,7 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
-from texvent.scenes.staging.placement.fitting import enlarge_lost, enlarge_small
+from texvent.scenes.staging.placement.fitting import enlarge_again, enlarge_small
 from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
@@ -178,7 +178,7 @@ def compose_scene(
     if not (math.isfinite(duration_s) and duration_s > 0.0):
         raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
     said, missing = prepare(description, nouns, duration_s)
-    description = enlarge_lost(set_on_table(enlarge_small(said, nouns), nouns), nouns, take.larger)
+    description = enlarge_again(set_on_table(enlarge_small(said, nouns), nouns), take.larger)
     place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
     travel = plan_travel(description, place, duration_s)

@@ -15,7 +15,7 @@ class Take(NamedTuple):
     distance: float = 1.0
     """Its distance, as a multiple of the usual one."""
     larger: frozenset[int] = frozenset()
-    """Objects of the description that are drawn larger, if they are small and none wears them."""
+    """Objects of the description that are drawn larger."""
     aim: frozenset[int] = frozenset()
     """Objects of the description at the middle of which the camera looks."""
 

@@ -92,24 +92,14 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
 
 
 _LARGER_AGAIN = 1.6
-"""Factor by which lost things are larger still."""
-_LOST_M = 0.7
-"""Size up to which they are, m."""
+"""Factor by which things are larger still in a take."""
 
 
-def enlarge_lost(
-    description: SceneDescription, nouns: Mapping[str, Noun], lost: Collection[int]
-) -> SceneDescription:
-    """The description with larger things of those that were too small in the picture.
-
-    What is worn and what the prompt calls small keeps its size.
-    """
-    worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
+def enlarge_again(description: SceneDescription, some: Collection[int]) -> SceneDescription:
+    """The description with some of its objects still larger."""
     objects = list(description.objects)
-    for index in sorted(set(lost) - worn):
-        one = objects[index]
-        if one.scale >= 1.0 and extent(one, nouns) <= _LOST_M:
-            objects[index] = replace(one, scale=one.scale * _LARGER_AGAIN)
+    for index in some:
+        objects[index] = replace(objects[index], scale=objects[index].scale * _LARGER_AGAIN)
     return replace(description, objects=tuple(objects))
 
 
