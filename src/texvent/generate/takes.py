@@ -43,6 +43,7 @@ _OUTSIDE = frozenset({"cut off", "out of view", "in view too briefly"})
 _TURNED = frozenset({"side", "front", "back", "shoulder", "first person"})
 """Views that say from which side the camera looks."""
 _COUNTED = re.compile(r"\d+ of \d+ ")
+"""Begin of "1 of 3 dogs (hidden)", which names no word."""
 _REASON = re.compile(r" \([^()]*\)$")
 
 
@@ -140,15 +141,24 @@ def _list_small(evidence: Evidence) -> frozenset[int]:
 
 
 def _list_larger(description: SceneDescription, usual: Filmed) -> frozenset[int]:
-    """Those that may be drawn larger: nothing large, nothing worn, nothing that is called small."""
-    worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
-    kept = {index for index, one in enumerate(description.objects) if one.scale < 1.0}
+    """Those that may be drawn larger: nothing large, nothing worn, nothing that is called small.
+
+    What is in a thing grows with it.
+    """
     fitting = {
         one.object_index
         for one in usual.scene.actors
         if max(one.model.length, one.model.width, one.model.height) <= LARGEST_M
     }
-    return _list_small(usual.evidence) & frozenset(fitting - worn - kept)
+    fitting &= {index for index, one in enumerate(description.objects) if one.scale >= 1.0}
+    found = fitting & _list_small(usual.evidence)
+    for relation in description.relations:
+        if relation.kind == "wear":
+            found -= set(relation.targets)
+        elif relation.kind == "in" and relation.subject in found:
+            around = set(relation.targets)
+            found = found | around if around <= fitting else found - {relation.subject}
+    return frozenset(found)
 
 
 def _is_subject_named(description: SceneDescription, scene: ComposedScene) -> bool:
@@ -170,19 +180,18 @@ def _list_reasons(evidence: Evidence) -> Iterator[str]:
 
 
 def shows_more(take: Filmed, than: Filmed) -> bool:
-    """Whether a take shows more of the prompt, and all that the other one shows of it."""
-    words, known = ({_name(one) for one in some.report.not_shown} for some in (take, than))
-    doubts, unsure = ({_name(one) for one in some.report.in_doubt} for some in (take, than))
+    """Whether a take shows more of the prompt's words, and all that the other one shows of it."""
+    words, known = (
+        {_REASON.sub("", one) for one in some.report.not_shown if not _COUNTED.match(one)}
+        for some in (take, than)
+    )
+    doubts, unsure = (
+        {_REASON.sub("", one) for one in some.report.in_doubt} for some in (take, than)
+    )
     copies, before = (_count_unseen(some.evidence) for some in (take, than))
-    is_worse = words - known - {""} or doubts - unsure - known
-    if is_worse or any(count > before[index] for index, count in copies.items()):
+    if not doubts <= unsure | known or any(n > before[index] for index, n in copies.items()):
         return False
-    return len(words) < len(known) or sum(copies.values()) < sum(before.values())
-
-
-def _name(phrase: str) -> str:
-    """What is lost, without the reason; "" of "1 of 3 dogs (hidden)", which counts as copies."""
-    return "" if _COUNTED.match(phrase) else _REASON.sub("", phrase)
+    return words < known
 
 
 def _count_unseen(evidence: Evidence) -> dict[int, int]:
