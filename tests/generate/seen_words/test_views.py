@@ -33,13 +33,12 @@ def test_what_the_camera_does_is_shown(prompt, word) -> None:
 @pytest.mark.parametrize(
     ("prompt", "words"),
     [
-        ("A truck followed by dogs.", "followed by (it is not seen to follow)"),
+        ("A drone flies over a city.", "over (not above the roofs)"),
         ("A boy sits in his bedroom.", "bedroom (no bed or double bed)"),
         ("Two balls lie on the grass, seen from the stands.",
          "stands (the camera is not up there)"),
         ("A runner runs. The camera falls behind.",
          "falls (the camera does not stay behind)"),
-        ("Lightning inside the clouds.", "inside the clouds (nothing is seen in the clouds)"),
         ("A woman walks, lens flare.", "lens flare (the lens flares nowhere)"),
         ("A cat sits, shallow depth of field.", "shallow depth of field (the lens blurs nothing)"),
         ("A dog sits. The camera follows the dog.",

@@ -1,11 +1,9 @@
-"""Whether what crosses, passes, follows or stays above something is seen to do so.
-
-The phrases are sought in the text of the prompt: the reader makes no claims of them.
-"""
+"""Whether what crosses a road, goes above roofs or stands in rows is seen to do so."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -32,55 +30,42 @@ TRAVEL_M = 1.0
 """Way of a camera from which on it travels, m."""
 ALOFT_M = 0.3
 """Height above what carries it from which on a foot is in the air, m."""
-_ROADS = r"(road|street|highway|lane|avenue|motorway|crosswalk|crossing|intersection|junction)s?"
-_CROSSING = re.compile(rf"\b(cross(es|ed|ing)?|across)\b( \w+){{0,3}}? {_ROADS}\b")
-_GOES_OVER = re.compile(r"cross(es|ed|ing)?|across|walk\w*")
-_OVER_TOWN = re.compile(
-    r"\b(over|above)( the| a)?( \w+)?"
-    r" (city|town|village|skyline|rooftops?|roofs|skyscrapers|downtown|harbou?r)\b"
-)
-_IN_CLOUDS = re.compile(r"\b(inside|within|behind|in)( the| a| \w+){0,3}? (storm ?)?clouds?\b")
-_FOLLOWED = re.compile(r"\bfollowed (closely )?by\b")
-_FROM_STANDS = re.compile(r"\bfrom the (stands|bleachers|grandstand|tribune|balcony)\b")
-_LINED = re.compile(r"\blined (with|by)\b")
+_CROSSES = re.compile(r"cross(es|ed|ing)?")
 
 
 def judge_courses(picture: Picture, description: SceneDescription) -> dict[str, str]:
-    """Phrases of ways and places that the picture does not show, and why.
+    """Words of ways and places that the picture does not show, and why.
 
     Args:
         picture: of the staged scene.
         description: what it was staged from.
     """
-    prompt = " ".join(description.prompt.casefold().replace("-", " ").split())
     found: dict[str, str] = {}
     for claim in description.claims:
-        goes = claim.things and _GOES_OVER.fullmatch(claim.word) and _CROSSING.search(prompt)
-        if goes and not _goes_over_road(picture, claim):
+        if claim.aspect == "course":
+            reason, is_shown = _COURSES[claim.value]
+            if not is_shown(picture, claim):
+                found.setdefault(claim.word, reason)
+        elif _crosses(description, claim) and not _goes_over_road(picture, claim):
             found.setdefault(claim.word, "it does not go across the road")
         is_stripes = any(description.objects[one].noun == "crosswalk" for one in claim.things)
         if claim.aspect == "name" and is_stripes and not _lies_on_roads(picture, claim):
             found.setdefault(claim.word, "it does not lie across the road")
-    if _OVER_TOWN.search(prompt) and not _is_over_roofs(picture):
-        found[_phrase(_OVER_TOWN, prompt)] = "not above the roofs"
-    clouds = _phrase(_IN_CLOUDS, prompt)
-    if clouds and not _relates(description, "cloud"):
-        found[clouds] = "nothing is seen in the clouds"
-    if (
-        _FOLLOWED.search(prompt)
-        and not any(one.kind == "follow" for one in description.relations)
-        and _names_follower(description, prompt)
-    ):
-        found["followed by"] = "it is not seen to follow"
-    stands = _FROM_STANDS.search(prompt)
-    if stands is not None and not _is_seen_from_stands(picture):
-        found[stands.group(1)] = "the camera is not up there"
-    if _LINED.search(prompt) and not _stands_in_rows(picture, description):
-        found[_phrase(_LINED, prompt)] = "they stand in no row"
     return found
 
 
-def _is_seen_from_stands(picture: Picture) -> bool:
+def _crosses(description: SceneDescription, claim: Claim) -> bool:
+    """As in "a dog crosses": the road, where the scene has one."""
+    return bool(
+        claim.aspect == "motion" and claim.things and _CROSSES.fullmatch(claim.word)
+    ) and any(
+        motion is not None and motion.direction == "across"
+        for one in claim.things
+        for motion in (description.objects[one].motion, *description.objects[one].then)
+    )
+
+
+def _is_seen_from_stands(picture: Picture, claim: Claim) -> bool:
     """Whether the camera is up above the ground, and far from all that is looked at."""
     view = picture.views[0]
     place = view.camera.position
@@ -103,27 +88,6 @@ def list_walkers_in_air(picture: Picture) -> list[str]:
         if is_walker and actor.tether is None and _is_in_air(picture, actor):
             found.append(f"the {actor.noun.name} is in the air")
     return list(dict.fromkeys(found))
-
-
-def _phrase(pattern: re.Pattern[str], prompt: str) -> str:
-    match = pattern.search(prompt)
-    return match.group(0) if match else ""
-
-
-def _relates(description: SceneDescription, noun: str) -> bool:
-    """Whether a relation has things of that noun for its target."""
-    return any(
-        description.objects[index].noun == noun
-        for relation in description.relations
-        for index in relation.targets
-    )
-
-
-def _names_follower(description: SceneDescription, prompt: str) -> bool:
-    """Whether a thing of the prompt is named after "followed by"."""
-    after = " ".join(_FOLLOWED.split(prompt)[-1].split()[:5])
-    names = [one.word for one in description.claims if one.aspect == "name" and one.things]
-    return any(re.search(rf"\b{re.escape(name)}\b", after) for name in names)
 
 
 def _road_line(environment: Environment) -> RoadLine:
@@ -166,19 +130,21 @@ def _lies_on_road(picture: Picture, actor: Actor) -> bool:
     return bool(abs(line.across(place)) < 0.5 * environment.road_half_width and turned > 0.9)
 
 
-def _is_over_roofs(picture: Picture) -> bool:
+def _is_over_roofs(picture: Picture, claim: Claim) -> bool:
     """Whether something in the air, or the camera, is above all that stands in view.
 
     A camera that flies over a city goes between its towers.
     """
     still = picture.scene.still.to_world
     if not len(still):
-        return True
+        return False
     tops = still[:, 2, 3] + np.linalg.norm(still[:, 2, :3], axis=1)
     seen = np.unique(np.concatenate([view.number for view in picture.views]))
     before = len(picture.scene.list_scenery()) - len(still)
     number = seen[(seen >= before) & (seen < before + len(still))] - before
-    roof = float(tops[number].max(initial=0.0)) if len(number) else 0.0
+    if not len(number):
+        return False  # nothing stands below it
+    roof = float(tops[number].max())
     half = picture.views[len(picture.views) // 2]
     if half.camera.position[2] > roof:
         return True
@@ -189,11 +155,9 @@ def _is_over_roofs(picture: Picture) -> bool:
     return any(float(part_boxes(one, half.time_s).hull[0][2]) > roof for one in flying)
 
 
-def _stands_in_rows(picture: Picture, description: SceneDescription) -> bool:
+def _stands_in_rows(picture: Picture, claim: Claim) -> bool:
     """Whether what lines a road stands in a line beside it, in view."""
-    indices = {
-        target for one in description.relations if one.kind == "surround" for target in one.targets
-    }
+    indices = set(claim.things)
     environment = picture.scene.environment(0.0)
     if not indices or not _has_road(environment):
         return False
@@ -233,3 +197,12 @@ def _carries(other: Actor, low: Float64Array, high: Float64Array, time_s: float)
     base, top = part_boxes(other, time_s).hull
     return bool(np.all(base[:2] <= high[:2]) and np.all(top[:2] >= low[:2])
                 and top[2] > low[2] - ALOFT_M)  # fmt: skip
+
+
+_COURSES: Mapping[str, tuple[str, Callable[[Picture, Claim], bool]]] = {
+    "over roofs": ("not above the roofs", _is_over_roofs),
+    "across road": ("it does not go across the road", _goes_over_road),
+    "in rows": ("they stand in no row", _stands_in_rows),
+    "in stands": ("the camera is not up there", _is_seen_from_stands),
+}
+"""Value of a claim of a course → what is said where it is not seen, and whether it is."""

@@ -45,6 +45,8 @@ _OF_SCENE = {
 
 def says_something(word: Word) -> bool:
     """Whether a word that has an effect is worth a mention as shown: no mere grammar."""
+    if word.course:
+        return True
     if word.pos is Pos.PREPOSITION and word.text in SILENT_PREPOSITIONS:
         return False
     if word.role is Role.RELATION or word.pos is Pos.PREPOSITION:
@@ -118,6 +120,8 @@ def is_unread(word: Word) -> bool:
 
 
 def _aspect_of(word: Word) -> str:
+    if word.course:
+        return "course"
     if word.is_viewpoint and not word.things:
         return "viewpoint"
     if word.role in _OF_MOTION:
@@ -137,6 +141,8 @@ def _aspect_of(word: Word) -> str:
 
 def _value_of(word: Word, aspect: str) -> str:
     """What it means, where it is a word of the scene; or why it is not shown."""
+    if aspect == "course":
+        return word.course
     if aspect == "viewpoint":
         return "the camera is there, nothing of it is in view"
     place = word.read_as(Role.PLACE) if aspect == "place" else None

@@ -176,6 +176,10 @@ class _ClauseReader(GroupAttachment):
         if [one.pos for one in coming] == [Pos.NUMBER, Pos.NOUN] and coming[1].role is Role.UNIT:
             self._read_preposition(word)
             return
+        if self._is_followed_by_thing(word):
+            word.meaning = Meaning(Role.RELATION, Pos.PREPOSITION, "follow")
+            self._read_preposition(word)
+            return
         word.is_used = True
         self._at += 1
         is_first = self._clause.is_empty
@@ -203,6 +207,14 @@ class _ClauseReader(GroupAttachment):
             self._clause.subjects = list(subjects)
         self._is_joined = ""
         self._last = self._anchor = None
+
+    def _is_followed_by_thing(self, word: Word) -> bool:
+        """As in "a duck followed by three ducklings", unlike "a jump followed by a spin"."""
+        at = self._at + 1
+        if "followed" not in word.text or not starts_group(self._words, at, is_opening=True):
+            return False
+        head = read_group(self._words, at)[0].head
+        return head is not None and head.read_as(Role.NOUN) is not None
 
     def _next_is_verb(self) -> bool:
         at = self._at

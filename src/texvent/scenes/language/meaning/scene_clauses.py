@@ -135,6 +135,7 @@ class SceneClauses:
                 if found.is_things:
                     sources.extend(found.things)
                     phrase.preposition.is_used = True
+                    self._around.place_among(phrase.preposition, found.things)
                 else:
                     sources.extend(self._around.parts.find_whose(found))
                     self._around.read_phrase(phrase, Scope([], []))

@@ -43,7 +43,7 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
         "while", "as", "when", "whenever", "until", "till", "because", "if", "though", "although",
         "so that", "before", "after", "once", "since", "where", "whereas", "just as", "even as",
         "so", "than", "then", "and then", "afterwards", "finally", "at first", "first", "next",
-        "later", "and finally", "followed by",
+        "later", "and finally", "followed by", "followed closely by", "closely followed by",
     ),
     Pos.RELATIVE: ("which", "who", "whose", "that", "whom"),
     Pos.AUXILIARY: (

@@ -270,3 +270,16 @@ PART_COLOURS: dict[tuple[str, str], str] = {
 """(noun, part) that a model shows in any case → the colour it has."""
 SPELT = ("letter", "letters", "digit", "number", "word", "words")
 """Nouns before what is written: "the letter B"."""
+
+PLACE_PREPOSITIONS = frozenset(
+    {"in", "on", "at", "through", "across", "along", "into", "inside", "over", "by", "past", "down",
+     "up", "around", "near", "onto", "within", "throughout", "above", "upon", "next to", "beside",
+     "from", "to", "towards", "toward", "off", "under", "of", "against", "facing", "with",
+     "in front of", "behind", "during", "out of", "among", "surrounded by", "between", "amid",
+     "beneath", "below"}
+)  # fmt: skip
+"""Prepositions after which a place is where the scene is."""
+LIGHT_PREPOSITIONS = frozenset(
+    {"in", "at", "by", "under", "during", "on", "with", "into", "of", "against", "before", "from",
+     "as", "through"}
+)  # fmt: skip

@@ -157,6 +157,8 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "bark": (_sense("dog seal"),),
     "patch": (_sense("eye pirate knee elbow jacket"),),
     "deck": (_sense("card"),),
+    "well": (_sense("pipette scientist plate lab laboratory sample"),),
+    "charger": (_sense("phone laptop plug socket cable unplug plugging"),),
     "saw": (_sense("seesaw"),),
     "screen": (_sense("wipe"),),
     "shot": (_sense("block goalie fire gun drink espresso tequila whiskey score rifle save"),),
@@ -289,6 +291,7 @@ PARTICLES: dict[str, frozenset[str]] = {
     "work": frozenset({"out"}),
     "throw": frozenset({"up"}),
     "blow": frozenset({"up", "out"}),
+    "keep": frozenset({"up"}),
 }  # fmt: skip
 """Verb → particles with which it is none of what the word shows alone."""
 NO_OBJECT: dict[str, frozenset[str]] = {

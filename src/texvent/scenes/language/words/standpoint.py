@@ -19,6 +19,8 @@ _FROM = frozenset({"from", "from behind", "from inside", "from within", "from un
 _VIEWS = frozenset({Role.VIEW, Role.FRAMING, Role.CAMERA, Role.CAMERA_MOVE})
 _ENDS = frozenset({"of", "as", "while", "and", "with", "to", "toward", "towards", "into"})
 _FARTHEST = 7
+_STANDS = frozenset({"stands", "bleachers", "grandstand", "tribune", "balcony"})
+"""Standpoints high above what is filmed."""
 
 
 def mark_standpoints(words: Sequence[Word]) -> None:
@@ -38,6 +40,7 @@ def mark_standpoints(words: Sequence[Word]) -> None:
             if one.pos is Pos.NOUN:
                 one.meaning, one.others = Meaning(Role.CAMERA, Pos.NOUN), ()
                 one.is_used, one.shown_as = True, "where the camera stands"
+                one.course = "in stands" if one.text in _STANDS else ""
             elif one.pos in (Pos.VERB, Pos.PREPOSITION) or one is word:
                 one.meaning, one.others = Meaning(Role.FUNCTION, Pos.ADVERB), ()
                 one.is_used = True

@@ -40,6 +40,8 @@ class Word:
     """Whether it carries the camera, and so is not in the picture."""
     is_content: bool = False
     """Whether it is in a vessel, or drunk, and so no place: "a bottle of water"."""
+    course: str = ""
+    """What it claims of a place besides being there: "over roofs", "across road", "in rows"."""
     companions: tuple[Word, ...] = ()
     """Words that it goes with: where one of them is lost, it may mean something else."""
 

@@ -10,6 +10,7 @@ from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.meaning.circumstances.courses import name_course, place_among
 from texvent.scenes.language.meaning.circumstances.effects import add_effect
 from texvent.scenes.language.meaning.circumstances.parts import PartReader
 from texvent.scenes.language.meaning.circumstances.place_ways import go_to
@@ -26,24 +27,12 @@ from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.objects import CHANGES, LIKENESSES, LIQUIDS
-from texvent.scenes.language.vocabulary.scene import SPELT
+from texvent.scenes.language.vocabulary.scene import LIGHT_PREPOSITIONS, PLACE_PREPOSITIONS, SPELT
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.effects import EFFECTS
 
-_PLACE_PREPOSITIONS = frozenset(
-    {"in", "on", "at", "through", "across", "along", "into", "inside", "over", "by", "past", "down",
-     "up", "around", "near", "onto", "within", "throughout", "above", "upon", "next to", "beside",
-     "from", "to", "towards", "toward", "off", "under", "of", "against", "facing", "with",
-     "in front of", "behind", "during", "out of", "among", "surrounded by", "between", "amid",
-     "beneath", "below"}
-)  # fmt: skip
-"""Prepositions after which a place is where the scene is."""
-_LIGHT_PREPOSITIONS = frozenset(
-    {"in", "at", "by", "under", "during", "on", "with", "into", "of", "against", "before", "from",
-     "as", "through"}
-)  # fmt: skip
 _OF_THINGS = (Role.DIRECTION, Role.PACE, Role.SIDE, Role.STILL)
 """Roles of adverbs that say something of the clause's objects."""
 _MOTION_BY_PREPOSITION = {"across": "across", "up": "up", "down": "down"}
@@ -146,6 +135,7 @@ class CircumstanceReader:
         things = [index for one in found if one.is_things for index in one.things]
         if things:
             self._relations.read(phrase, things, scope)
+            self.place_among(phrase.preposition, things)
         for one in found:
             if not one.is_things:
                 self._read_other(phrase, one, scope)
@@ -153,6 +143,10 @@ class CircumstanceReader:
                 # As in "sits on the roof of a car": where on it is not shown.
                 phrase.preposition.is_lost = True
             self.read_group_phrases(one, scope)
+
+    def place_among(self, word: Word, things: Sequence[int]) -> None:
+        """What a preposition claims besides relations: "lined with trees", "inside the clouds"."""
+        place_among(self._draft, word, things)
 
     def _is_likeness(self, phrase: PrepPhrase, scope: Scope) -> bool:
         """As in "Shaped like a dragon", "curls into a ball": nothing of the sort is there."""
@@ -284,7 +278,7 @@ class CircumstanceReader:
         if one.kind == "glow" and word.text == "with" and scope.subjects:
             word.is_used = light_up(self._draft, one, scope.subjects)
             return
-        names = _PLACE_PREPOSITIONS if one.kind == "place" else _LIGHT_PREPOSITIONS
+        names = PLACE_PREPOSITIONS if one.kind == "place" else LIGHT_PREPOSITIONS
         if word.text not in names and one.kind in ("place", "light"):
             return
         is_read = self._surroundings.read_referent(one, is_negated=is_negated)
@@ -292,6 +286,7 @@ class CircumstanceReader:
         is_unread = word.text == "facing" or (is_covered and bool(scope.subjects))
         is_unread |= is_read and one.kind == "place" and not go_to(self._draft, word, one, scope)
         word.is_used, word.is_lost = is_read and not is_unread, is_unread
+        name_course(self._draft, word, one, scope)
         self._put_on_road(word, one, scope)
         direction = _MOTION_BY_PREPOSITION.get(word.text)
         for index in scope.movers if is_read and direction == "across" else ():

@@ -8,6 +8,7 @@ from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_followed
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
@@ -62,7 +63,7 @@ class RelationReader:
         is_used, before = False, len(self._draft.relations)
         kind = self._at_bench(self._relation_kind(word, things), things, scope)
         kind = "at" if self._is_at_table(word, things, scope) else kind
-        if word.text in _FULL:
+        if word.text in (*_FULL, *FOLLOWED):
             is_used = self._fill(phrase, things, scope)
         elif scope.has_verb and not scope.is_verb_shown:
             is_used = self._rest(word, kind, things, scope)
@@ -205,7 +206,12 @@ class RelationReader:
             head.shown_as = f"{head.text} by itself"
 
     def _fill(self, phrase: PrepPhrase, things: Sequence[int], scope: Scope) -> bool:
-        """As in "a basket full of tulips"; what a harbour is full of, is few."""
+        """As in "a basket full of tulips"; what a harbour is full of, is few.
+
+        As in "a duck followed by ducklings".
+        """
+        if phrase.preposition.text in FOLLOWED:
+            return be_followed(self._draft, things, scope)
         near = self._referents.recall(phrase.near)
         if near is not None and near.kind == "place":
             phrase.preposition.is_lost = True

@@ -1,0 +1,78 @@
+"""Phrases of places that say where something goes or stands, and so must be seen to be there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.description import ObjectMotion
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.words.word import Word, link
+
+_ABOVE = ("over", "above")
+_TOWNS = frozenset({"city", "rooftop", "harbour"})
+_OF_STREETS = frozenset({"street", "sidewalk", "pavement", "intersection", "crossing", "junction"})
+"""Words for a city at whose level one goes: a drone "over the street" is above no roofs."""
+_ROADS = ("road", "dirt road", "city")
+_LINED = ("lined with", "lined by")
+FOLLOWED = ("followed by", "followed closely by", "closely followed by")
+"""Said of what goes first."""
+_IN_CLOUDS = ("in", "inside", "within", "behind")
+
+
+def name_course(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
+    """Note at a preposition before a place what it claims; the word changes.
+
+    Args:
+        draft: the objects.
+        word: the preposition, after it is read.
+        one: what follows it.
+        scope: what the clause is about.
+    """
+    head = one.group.head.lemma if one.group.head is not None else ""
+    if one.kind == "clouds" and word.text in _IN_CLOUDS:
+        word.is_used, word.is_lost = False, True
+    elif one.kind != "place":
+        return
+    elif word.text in _ABOVE and one.value in _TOWNS and head not in _OF_STREETS:
+        # Fireworks over a city are in its sky.
+        is_effect = scope.has_verb and not scope.subjects
+        word.course = "" if is_effect else "over roofs"
+    elif word.text == "across" and one.value in _ROADS and scope.movers:
+        word.course = "across road"
+        link([word], scope.movers)
+
+
+def place_among(draft: Draft, word: Word, things: Sequence[int]) -> None:
+    """As in "a street lined with trees": they stand in rows; the preposition changes.
+
+    As in "lightning inside the clouds": what has no place of its own is not seen there.
+    """
+    if word.text in _LINED:
+        word.course = "in rows"
+        link([word], things)
+    are_clouds = all(draft.noun(index).name == "cloud" for index in things)
+    if word.text in _IN_CLOUDS and are_clouds and not word.relations:
+        word.is_used, word.is_lost = False, True
+
+
+def be_followed(draft: Draft, followers: Sequence[int], scope: Scope) -> bool:
+    """As in "a duck followed by three ducklings": these go behind it; whether it is read so.
+
+    Who is followed goes, as usual where no verb says how.
+    """
+    leaders = list(scope.movers or scope.subjects)
+    for index in leaders:
+        motions, usual = draft.objects[index].motions, draft.noun(index).motion
+        if not motions and not scope.has_verb and usual != "stand":
+            motions.append(ObjectMotion(usual))
+        if not motions or not motions[-1].is_moving:
+            return False
+    for index in followers:
+        motions, usual = draft.objects[index].motions, draft.noun(index).motion
+        if usual == "stand":
+            return False
+        if not motions:
+            motions.append(ObjectMotion(usual, draft.objects[leaders[0]].motions[-1].direction))
+    return bool(leaders) and draft.relate("follow", list(followers), leaders[:1])
