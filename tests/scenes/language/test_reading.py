@@ -285,6 +285,8 @@ def test_crossings_and_bends_of_roads() -> None:
         ("A man hits a ball.", ["hitting 1 ball", "1 ball"]),
         ("A ball falls from above.", ["1 ball, falls down"]),
         ("A ball is thrown.", ["1 ball, flies through the air"]),
+        ("A penguin colony walks.", ["8 penguins, walk"]),
+        ("A duck runs followed by two dogs.", ["1 duck", "2 dogs, walk, following 1 duck"]),
         ("People sit around a table eating pizza.", ["people, eat, at 1 table", "table", "pizza"]),
         ("A man stands on a bridge looking at a dog.", ["looking at 1 dog", "bridge", "1 dog"]),
         ("A dog jumps through a hoop held by a boy.", ["1 dog, jumps", "1 child, stands still"]),

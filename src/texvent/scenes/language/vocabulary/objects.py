@@ -19,7 +19,7 @@ COUNTS: dict[int, tuple[str, ...]] = {
     12: ("a crowd of", "crowd of", "countless", "dozens of", "a dozen", "dozen", "twelve"),
     6: ("a row of", "row of", "a line of", "a fleet of", "a bunch of", "six",
         "a pile of", "a stack of", "half a dozen"),
-    8: ("many", "a lot of", "lots of", "numerous", "eight"),
+    8: ("a colony of", "many", "a lot of", "lots of", "numerous", "eight"),
     24: ("hundreds of",),
     1: ("one", "a single", "single", "lone", "lonely"),
     11: ("eleven",),

@@ -1,10 +1,11 @@
-"""Nouns that mean many things at once: what drifts through the air, and traffic."""
+"""Nouns that mean many things at once (traffic), and several nouns that mean one thing."""
 
 from __future__ import annotations
 
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
+from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.kinds.people import TRAFFIC
@@ -47,3 +48,17 @@ def add_traffic(draft: Draft, head: Word) -> list[int]:
             found.append(index)
     head.is_used = bool(found)
     return found
+
+
+def name_kind_before(group: NounGroup, noun: str) -> None:
+    """As in "a humpback whale", "an oak tree": the word before says which kind.
+
+    Args:
+        group: of a thing that is shown; words before its head change.
+        noun: what its head is shown as.
+    """
+    for word in group.modifiers:
+        kind = word.read_as(Role.NOUN) if word.pos is Pos.NOUN else None
+        if kind is not None and kind.value == noun:
+            word.is_used = True
+            word.shown_as = noun if kind.is_substitute else None

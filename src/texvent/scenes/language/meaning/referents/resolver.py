@@ -9,7 +9,11 @@ from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.meaning.adjectives import Attributes, read_attributes
 from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
-from texvent.scenes.language.meaning.referents.crowds import add_traffic, find_drifting
+from texvent.scenes.language.meaning.referents.crowds import (
+    add_traffic,
+    find_drifting,
+    name_kind_before,
+)
 from texvent.scenes.language.meaning.referents.parts_shown import (
     BODY_PARTS,
     is_own_hand,
@@ -293,6 +297,7 @@ class Referents(Antecedents):
         head.is_used = True
         is_other = meaning.is_substitute or (noun != meaning.value and not is_drinks)
         head.shown_as = LOOKS.get(noun, noun if is_other else head.usual_sense)
+        name_kind_before(group, noun)
         return Referent("things", group, [index], attributes=attributes)
 
     def _read_noun(

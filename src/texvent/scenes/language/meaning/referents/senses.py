@@ -264,7 +264,7 @@ def is_no_pattern(group: NounGroup, noun: str, preposition: str | None, draft: D
 
 
 _HERDS = {"herd": 7, "flock": 9, "pack": 5, "caravan": 5, "swarm": 14, "school": 10, "shoal": 10,
-          "pair": 2, "team": 4, "convoy": 5, "fleet": 6, "trio": 3}  # fmt: skip
+          "colony": 8, "pair": 2, "team": 4, "convoy": 5, "fleet": 6, "trio": 3}  # fmt: skip
 """Word for a group after the name of its members → how many they are."""
 _ANY = frozenset({"animal", "member", "creature", "individual"})
 
