@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
-from texvent.generate.seen_words.courses import list_walkers_in_air
+from texvent.generate.seen_words.courses import judge_goals, list_walkers_in_air
 from texvent.generate.seen_words.faces import judge_face
 from texvent.generate.seen_words.people import is_portrait, judge_head
 from texvent.generate.seen_words.picture import Picture, View
@@ -127,7 +127,12 @@ def judge_findings(
         scene.unmet,
         {index: [faults[one] for one in own] or [NO_ROOM] for index, own in copies.items()},
         frozenset(index for index, own in copies.items() if found.still.issuperset(own)),
-        {**judge_verbs(picture, description), **words, **found.places},
+        {
+            **judge_goals(description, {**words, **found.places}),
+            **judge_verbs(picture, description),
+            **words,
+            **found.places,
+        },
         qualities,
         found.scenery,
         tuple(

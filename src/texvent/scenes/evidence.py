@@ -107,12 +107,13 @@ def report_on(description: SceneDescription, evidence: Evidence) -> PromptReport
 def _find_idle_adjectives(description: SceneDescription, gone: set[str]) -> dict[str, str]:
     """Adjectives of the scene right before a noun that is not shown, and that noun."""
     prompt = description.prompt.casefold()
+    nouns = gone - {one.word for one in description.claims if one.aspect == "motion"}
     found = {}
     for claim in description.claims:
         if claim.things or claim.move is not None or claim.aspect not in _OF_NOUN:
             continue
         for after in re.split(rf"\b{re.escape(claim.word)}\b", prompt)[1:]:
-            noun = next((one for one in gone if re.match(rf"[ -]{re.escape(one)}\b", after)), None)
+            noun = next((one for one in nouns if re.match(rf"[ -]{re.escape(one)}\b", after)), None)
             if noun is not None:
                 found[claim.word] = noun
     return found

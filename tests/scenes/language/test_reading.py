@@ -345,7 +345,7 @@ def test_no_part_count_second_act_or_other_sense_is_invented(
     ("prompt", "nouns"),
     [
         ("a batter waits while the catcher crouches behind him", ["baseball batter", "catcher"]),
-        ("a collie barks and the dog runs", ["dog"]),
+        ("a collie barks and the dog runs", ["border collie"]),
         ("a flock of sheep stands, then the sheep run", ["sheep"]),
         ("people and stalls slide by", ["person"]),
         ("the lamps of a lorry blind the driver", ["person"]),

@@ -30,6 +30,10 @@ TRAVEL_M = 1.0
 """Way of a camera from which on it travels, m."""
 ALOFT_M = 0.3
 """Height above what carries it from which on a foot is in the air, m."""
+LEAST_OVER_PICTURE = 0.25
+"""Way in the picture of what crosses it, over its width."""
+_BARE = ("sky", "space", "plain")
+"""Places where nothing but the picture's edges tells that something goes across."""
 _CROSSES = re.compile(r"cross(es|ed|ing)?")
 
 
@@ -46,12 +50,53 @@ def judge_courses(picture: Picture, description: SceneDescription) -> dict[str, 
             reason, is_shown = _COURSES[claim.value]
             if not is_shown(picture, claim):
                 found.setdefault(claim.word, reason)
-        elif _crosses(description, claim) and not _goes_over_road(picture, claim):
-            found.setdefault(claim.word, "it does not go across the road")
+        elif _crosses(description, claim):
+            fault = _judge_crossing(picture, description, claim)
+            if fault is not None:
+                found.setdefault(claim.word, fault)
         is_stripes = any(description.objects[one].noun == "crosswalk" for one in claim.things)
         if claim.aspect == "name" and is_stripes and not _lies_on_roads(picture, claim):
             found.setdefault(claim.word, "it does not lie across the road")
     return found
+
+
+def judge_goals(description: SceneDescription, unseen: Mapping[str, str]) -> dict[str, str]:
+    """Verbs that need a place which is not seen, as in "crosses a river" → why.
+
+    Args:
+        description: what the scene was staged from.
+        unseen: words that are not seen → why.
+    """
+    place = description.surroundings.place
+    own = [one.word for one in description.claims if one.aspect == "place" and one.value == place]
+    lost = next((word for word in own if word in unseen), None)
+    if lost is None:
+        return {}
+    return {one.word: f"{lost} {unseen[lost]}" for one in description.claims
+            if _crosses(description, one)}  # fmt: skip
+
+
+def _judge_crossing(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """Over a road, or over the picture where no ground tells its way."""
+    if description.surroundings.place in _BARE:
+        is_far = _goes_over_picture(picture, claim)
+        return None if is_far else "it stays where it is in the picture"
+    is_over = _goes_over_road(picture, claim)
+    return None if is_over else "it does not go across the road"
+
+
+def _goes_over_picture(picture: Picture, claim: Claim) -> bool:
+    """Whether something goes far in the picture itself, whatever the camera does."""
+    for actor in picture.scene.actors:
+        places = [
+            float(picture.points[view.instance == actor.instance, 0].mean())
+            for view in picture.views
+            if (view.instance == actor.instance).any()
+        ]
+        far = places and np.ptp(places) >= LEAST_OVER_PICTURE * picture.size.width
+        if far and actor.object_index in claim.things:
+            return True
+    return False
 
 
 def _crosses(description: SceneDescription, claim: Claim) -> bool:

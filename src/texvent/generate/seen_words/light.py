@@ -32,6 +32,8 @@ LEAST_SKY = 0.03
 _CHANGING = ("sunny", "overcast", "dawn", "dusk")
 """Lights of the sky, which rooms do not show."""
 _SUN_WORDS = frozenset({"sun", "moon"})
+_NOON = frozenset({"noon", "midday"})
+"""Words for a high sun, whose light is seen as sunshine is."""
 _LAMP_OF = {
     "candle": ("candle", "candlelight", "candlelit"),
     "street lamp": ("gaslit", "gaslight", "street light glow", "street lighting", "streetlight"),
@@ -63,7 +65,7 @@ def _judge_kind(picture: Picture, description: SceneDescription, claim: Claim) -
     if kind in ("night", "moonlight"):
         is_lit = picture.brightness() > MOST_LIT and sky_share(picture) < LEAST_SKY
         return "the picture is bright" if is_lit or not picture.is_dark() else None
-    if kind == "sunny":
+    if kind == "sunny" or _NOON & set(claim.word.split()):
         return _judge_sunshine(picture)
     if kind in ("dawn", "dusk") and sky_share(picture) < LEAST_SKY:
         return "no sky in view"

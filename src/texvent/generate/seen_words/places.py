@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from texvent.generate.seen_words.light import sky_share
 from texvent.generate.seen_words.picture import USUAL, Picture, View
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.scene import Float64Array
@@ -11,6 +12,8 @@ from texvent.scenes.staging.actors import Actor
 
 MOST_RED = 0.04
 """How much more red than blue water may be, as a share of white."""
+LEAST_CLOUDED = 0.1
+"""Share of the picture that a sky of clouds covers."""
 LEAST_STRIP, LEAST_EDGE = 0.02, 0.05
 """Share of the picture that water or a road covers; its difference from the ground beside it."""
 _WATER_WORDS = frozenset({"water", "waters"})
@@ -81,6 +84,8 @@ _NEEDS: dict[str, tuple[str, ...]] = {
 _WATERS = ("river", "lake", "sea", "beach")
 _TOWNS = ("city", "town", "downtown", "cityscape", "skyline", "city skyline")
 _TOWN_HOUSES = frozenset({"building", "house", "skyscraper", "wooden house"})
+LEAST_HILLS = 0.03
+"""Share of the picture that hills cover by which a hilly land is told."""
 LEAST_TOWN = 0.03
 """Share of the picture that houses of the scenery cover by which a town is told."""
 _SHORES = ("beach", "shore", "coast", "seaside", "seashore", "shoreline", "coastline", "lakeside",
@@ -93,6 +98,8 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     """Why a word of a place is not seen, or None."""
     if claim.aspect == "steep":
         return _FLAT
+    if claim.aspect == "clouds" and sky_share(picture) < LEAST_CLOUDED:
+        return "hardly any sky in view"
     if claim.aspect != "place":
         return None
     fault = _find_lack(picture, claim)
@@ -130,7 +137,8 @@ def _find_lack(picture: Picture, claim: Claim) -> str | None:
     if needed is not None and not names & set(needed):
         return f"no {' or '.join(needed)}"
     sky = max(float(view.is_sky.mean()) for view in picture.views)
-    if claim.value == "hills" and ("green hill" not in names or sky < LEAST_GROUND):
+    is_hilly = "green hill" in names and picture.scenery_share({"green hill"}) >= LEAST_HILLS
+    if claim.value == "hills" and (not is_hilly or sky < LEAST_GROUND):
         return "not told as hills"
     return None
 

@@ -10,10 +10,11 @@ from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.materials import judge_material
 from texvent.generate.seen_words.picture import USUAL, Picture, View
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
-from texvent.scenes.evidence import MOST_COUNTED
+from texvent.scenes.evidence import MOST_COUNTED, is_to_move
 from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.acts import ACTS
 
 LEAST_COLOURED, LEAST_DRESSED = 0.25, 0.12
 """Share of a thing's pixels that have the colour that is said of it; of a person's, who is dressed
@@ -26,6 +27,9 @@ LEAST_TEXTURED = 0.18
 """The same for its material."""
 MOST_SHARED = 0.25
 """Share of a copy's box in the picture that another may cover while they are told apart."""
+LEAST_NAMED, LEAST_NAMED_SHARE = 0.12, 0.012
+"""Extent of a single thing, as a share of the picture's width or height, and share of the picture
+that it covers, below which strangers do not name it while it rests."""
 LEAST_OUTLINE = 0.07
 """Difference from its surroundings, and within it, that a thing is told by, as a share of white."""
 PATTERN_SIZE = 0.2
@@ -47,6 +51,9 @@ _AT_FRONT = frozenset({"apron", "tie", "bow tie", "bib", "necklace", "medal"})
 """What is worn before the chest."""
 FRONT_COSINE, LEAST_FRONT_VIEWS = 0.5, 3
 """Cosine between a heading and the way to the camera of who is seen from the front; views."""
+SIDE_COSINE = -0.1
+"""The same from which on lamps of an end are seen: from the side, as glow."""
+_LAMP_ENDS = {"headlight": 1.0, "tail light": -1.0, "taillight": -1.0, "brake light": -1.0}
 _OPAQUE = frozenset({"glass", "crystal", "ice"})
 
 
@@ -55,7 +62,9 @@ def judge_thing(
 ) -> str | None:
     """Why what a word says of an object is not seen, or None."""
     if claim.aspect == "name":
-        return _judge_garment(picture, description, index)
+        return _judge_garment(picture, description, index) or _judge_small(
+            picture, description, index
+        )
     if claim.aspect == "colour":
         return _judge_colour(picture, description, index)
     if claim.aspect in ("size", "material") and _is_substituted(description, index):
@@ -92,6 +101,18 @@ def _judge_garment(picture: Picture, description: SceneDescription, index: int) 
     wearers = [one for one in picture.scene.actors if one.instance in bearers]
     seen = [sum(_is_from_front(one, view) for view in picture.views) for one in wearers]
     return "seen from the side" if seen and max(seen) < LEAST_FRONT_VIEWS else None
+
+
+def _judge_small(picture: Picture, description: SceneDescription, index: int) -> str | None:
+    """One thing that rests is told by its shape, of which a small one has too little."""
+    copies = copies_of(picture, index)
+    if len(copies) != 1 or is_to_move(index, description):
+        return None
+    if any(one.kind in ACTS and index in one.targets for one in description.relations):
+        return None  # what is kicked is told by the kick
+    shares = [float((view.instance == copies[0]).mean()) for view in picture.views]
+    is_small = extent_of(picture, index) < LEAST_NAMED and max(shares) < LEAST_NAMED_SHARE
+    return "too small" if is_small else None
 
 
 def _is_from_front(actor: Actor, view: View) -> bool:
@@ -213,7 +234,23 @@ def _judge_part(
     is_lit = "light" in claim.word and description.light.kind in ("night", "moonlight", "dusk")
     if claim.word in _ONE_SIDED and not is_lit:
         return "not told apart"
+    ends = {one: end for one, end in _LAMP_ENDS.items() if one in claim.word}
+    if ends and not _is_end_seen(picture, index, next(iter(ends.values()))):
+        return "on the side away from the camera"
     return None if extent_of(picture, index) >= LEAST_DETAIL else "too small to tell"
+
+
+def _is_end_seen(picture: Picture, index: int, end: float) -> bool:
+    """Whether the front (1) or the back (-1) of one of its copies is turned to the camera."""
+    for actor in picture.scene.actors:
+        if actor.object_index != index:
+            continue
+        for view in picture.views:
+            yaw = actor.trajectory.at(view.time_s).yaw
+            x, y = (np.asarray(view.camera.position) - actor.middle(view.time_s))[:2]
+            if end * (x * np.cos(yaw) + y * np.sin(yaw)) > SIDE_COSINE * np.hypot(x, y):
+                return True
+    return not copies_of(picture, index)
 
 
 def judge_outline(picture: Picture, instance: int) -> str | None:

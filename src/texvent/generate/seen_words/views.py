@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -27,6 +28,7 @@ MOST_WIDE = 0.5
 """The same up to which a shot is wide."""
 LEAST_UP = 0.15
 """How much higher than the camera something seen from below is, per metre of distance."""
+_FROM_WHOM = re.compile(r"\b(from|of|through)( the eyes of)? (a|an|the|its|his|her)( \w+){1,3}")
 _BELOW = ("below", "underneath", "worm eye", "worm eye view", "worm eye shot")
 EYES_M, MOST_SLANT = (0.15, 2.4), 0.3
 """Heights of a camera at the level of eyes, m; and sine of the angle at which it looks at most."""
@@ -63,7 +65,7 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
     if claim.value == "wide" and _greatest_extent(picture) > MOST_WIDE:
         return "things fill the picture"
     if claim.value == "first person":
-        return _judge_own_eyes(description)
+        return _judge_own_eyes(picture, description)
     actors = picture.scene.actors
     if not actors:
         return "nothing is there to look at" if claim.value in (*_BEARINGS, *_SIZES) else None
@@ -126,10 +128,17 @@ def _judge_level(picture: Picture, word: str) -> str | None:
     return "the camera is not at that height"
 
 
-def _judge_own_eyes(description: SceneDescription) -> str | None:
-    """Whether the camera goes itself, as who looks through it."""
-    moves = description.shot.moves
-    return None if any(move.kind == "travel" for move in moves) else "the camera looks on"
+def _judge_own_eyes(picture: Picture, description: SceneDescription) -> str | None:
+    """Whether the camera goes itself, as who looks through it, who is not in the picture."""
+    if not any(move.kind == "travel" for move in description.shot.moves):
+        return "the camera looks on"
+    found = _FROM_WHOM.search(description.prompt.casefold())
+    names = [one for one in description.claims if one.aspect == "name"]
+    for claim in names if found else ():
+        is_there = any(one.object_index in claim.things for one in picture.scene.actors)
+        if is_there and found and re.search(rf"\b{re.escape(claim.word)}\b", found.group(0)):
+            return f"the {claim.word} itself is in the picture"
+    return None
 
 
 def _judge_bearing(picture: Picture, main: Actor, view_from: str) -> str | None:

@@ -47,7 +47,8 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
 _OUTDOORS = frozenset(
     {"tree", "pine", "palm", "birch", "bush", "hedge", "house", "barn", "castle", "lighthouse",
      "car", "bus", "truck", "horse", "cow", "sheep", "street lamp", "fence", "bench", "tent",
-     "temple", "church", "tractor", "taxi"}
+     "temple", "church", "tractor", "taxi", "train", "tram", "steam locomotive", "bridge", "ship",
+     "airplane", "helicopter", "excavator", "waterfall", "tower", "volcano"}
 )  # fmt: skip
 """Nouns that are not found in a room."""
 _NEUTRAL = ("grass", "plain")

@@ -33,7 +33,7 @@ def complete_description(
     Objects that live in the air or water always move unless the prompt says that they rest. When
     nothing moves, objects that can move do what they usually do; when none can, the camera sways.
     """
-    description = _add_crew(description, nouns)
+    description = _wheel_seats(_add_crew(description, nouns))
     description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
     objects = tuple(
         _decide_motion(scene_object, nouns[scene_object.noun])
@@ -122,6 +122,22 @@ HAS_RIDER = frozenset({"bicycle", "motorcycle"})
 _RIDES = ("ride", "ride along")
 _RIDERS = frozenset({"cyclist", "bicyclist", "motorcyclist", "biker"})
 """Words for who rides them."""
+
+
+_WHEELED_SEATS = frozenset({"wheelchair", "stroller"})
+_GOING = ("walk", "run", "move", "drive", "roll", "slide")
+
+
+def _wheel_seats(description: SceneDescription) -> SceneDescription:
+    """Who goes somewhere in a wheelchair sits, and the wheelchair goes."""
+    objects = list(description.objects)
+    for one in description.relations:
+        seat, who = one.targets[0], objects[one.subject]
+        is_there = one.kind in ("in", "on") and objects[seat].noun in _WHEELED_SEATS
+        if is_there and who.motion is not None and who.motion.kind in _GOING:
+            objects[seat] = replace(objects[seat], motion=replace(who.motion, kind="roll"))
+            objects[one.subject] = replace(who, motion=ObjectMotion("sit"))
+    return replace(description, objects=tuple(objects))
 
 
 def _run_in_place(description: SceneDescription) -> SceneDescription:

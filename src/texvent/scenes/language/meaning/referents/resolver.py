@@ -14,6 +14,7 @@ from texvent.scenes.language.meaning.referents.crowds import (
     find_drifting,
     name_kind_before,
 )
+from texvent.scenes.language.meaning.referents.earlier import find_coloured, find_kind
 from texvent.scenes.language.meaning.referents.parts_shown import (
     BODY_PARTS,
     is_own_hand,
@@ -330,22 +331,16 @@ class Referents(Antecedents):
     ) -> int | None:
         """The object that "the dog" was said of already."""
         determiner = group.determiner
-        if determiner is None or determiner.text not in DEFINITE or attributes.is_new:
+        if determiner is None or determiner.text not in DEFINITE:
             return None
+        if attributes.is_new:
+            return find_coloured(self._draft, noun, is_plural, attributes)
         if determiner.text in OWNERS and group.head_word.lemma in RELATIVES:
             return self._relatives.get(group.head_word.lemma)
         index = self._draft.find(noun, is_plural, said)
-        return self._find_kind(noun, is_plural) if index is None and said is None else index
-
-    def _find_kind(self, noun: str, is_plural: bool | None) -> int | None:
-        """As in "a football ... the ball": one of that kind, if it was named before."""
-        for index in reversed(self._named):
-            item = self._draft.objects[index]
-            is_ball = noun == "ball" and item.noun.endswith(noun)
-            is_kind = is_ball or item.noun.split()[-1] == noun
-            if is_kind and is_plural in (None, item.count > 1):
-                return index
-        return None
+        if index is not None or said is not None:
+            return index
+        return find_kind(self._draft, self._named, noun, is_plural)
 
     def _add(self, noun: str, is_plural: bool, attributes: Attributes, bare: int) -> int | None:
         if noun in PAIRED and is_plural and bare == PLURAL_COUNT:
