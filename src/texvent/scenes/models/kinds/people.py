@@ -43,17 +43,38 @@ PEOPLE_KINDS: dict[str, str] = {
         trainer, dog walker, dog trainer, horse trainer, stable boy, ranch hand,
         milkmaid, beekeeper in a veil, winemaker, brewer, cheesemaker, fishmonger,
         greengrocer, grocer, confectioner, chocolatier, pastry cook, line cook,
-        dishwasher person, caterer, performer""",
+        dishwasher person, caterer, performer,
+        ranger, park ranger, bowler, cellist, flautist, flutist, harpist, trumpeter,
+        saxophonist, bassist, percussionist, trombonist, clarinetist, oboist, organist,
+        accordionist, banjoist, chorister, coxswain, musher, winger, classmate,
+        embroiderer, quilter, basketmaker, glazier, silversmith, engraver, bookbinder,
+        cartoonist, animator, woodcarver, cabinetmaker, luthier, wheelwright, farrier,
+        distiller, landscaper, goatherd, cowherd, drover, helmsman, deckhand, copilot,
+        housekeeper, concierge, hawker, peddler, auctioneer, accountant, juror, bodyguard,
+        orthodontist, masseuse, masseur, botanist, zoologist, archaeologist, geologist,
+        physicist, astronomer, lecturer, historian, videographer, filmmaker, choreographer,
+        illusionist, ventriloquist, kickboxer, judoka, karateka, powerlifter, vaulter,
+        speedskater, biathlete, canoeist, oarsman, snorkeler, equestrian, polo player,
+        caddie, linesman, rollerblader, hitchhiker, imam, rabbi, preacher, worshipper,
+        onlooker, passerby, trainee, activist, protester, marcher, demonstrator,
+        pickpocket, sibling, tattooist, stylist, beautician, manicurist, ringmaster,
+        falconer, reenactor, cosplayer, newscaster, stargazer, birder, prospector,
+        ceramist, grandchild, linebacker""",
     "woman": """
         actress, housewife, businesswoman, bridesmaid, cheerleader, stewardess, ballroom
         lady, nurse midwife, saleswoman, female runner, pregnant woman, hostess,
         business woman, policewoman in plain clothes, goddess, landlady, grandaunt,
-        niece, girlfriend, schoolmistress, mermaid""",
+        niece, girlfriend, schoolmistress, mermaid,
+        stepmother, fiancee, cowgirl, horsewoman, stuntwoman""",
     "man": """
         prince, boyfriend, businessperson, nephew, landlord, grandson, bearded man, bald
-        man, middle aged man, mister, lad, chap, cousin""",
+        man, middle aged man, mister, lad, chap, cousin,
+        groomsman, stepfather, deliveryman, chauffeur, trucker, cabbie, signalman,
+        horseman, bellboy, busboy, weatherman""",
     "child": "twin, youth, kindergartner, kid in a costume, preschooler, orphan, boy scout",
-    "girl": "teenage girl, girl scout, girl in a dress, mermaid girl",
+    "girl": """
+        teenage girl, girl scout, girl in a dress, mermaid girl,
+        granddaughter""",
     "worker": """
         lineman, road worker, roofer, bricklayer, ground crew member, warehouse worker,
         factory worker, labourer, laborer, demolition worker, dock worker, sewage
@@ -61,7 +82,8 @@ PEOPLE_KINDS: dict[str, str] = {
         painter and decorator, plasterer, tiler, scaffolder, crane operator, forklift
         driver, forklift operator, machine operator, excavator operator, machinist,
         assembler, foreman, site manager, farmhand, farm worker, cleaning worker, oil
-        worker, power line worker, garbage collector, garbage man""",
+        worker, power line worker, garbage collector, garbage man,
+        ironworker, logger, forester, arborist, foundryman, quarryman""",
     "knight": "viking, gladiator, crusader, roman soldier, spartan, warrior in armor, swordsman",
     "teenager": "teenage boy, highschooler, high schooler, youngster in a hoodie",
     "angel": "fairy, cupid, tooth fairy",
