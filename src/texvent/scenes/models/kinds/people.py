@@ -59,7 +59,7 @@ PEOPLE_KINDS: dict[str, str] = {
         onlooker, passerby, trainee, activist, protester, marcher, demonstrator,
         pickpocket, sibling, tattooist, stylist, beautician, manicurist, ringmaster,
         falconer, reenactor, cosplayer, newscaster, stargazer, birder, prospector,
-        ceramist, grandchild, linebacker""",
+        ceramist, grandchild""",
     "woman": """
         actress, housewife, businesswoman, bridesmaid, cheerleader, stewardess, ballroom
         lady, nurse midwife, saleswoman, female runner, pregnant woman, hostess,
