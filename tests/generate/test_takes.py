@@ -49,7 +49,7 @@ def test_a_take_that_loses_a_word_or_a_copy_or_puts_one_in_doubt_does_not(other)
         (Shot(framing="close"), "too small", [Take()]),
         (Shot(framing="wide"), "cut off", []),
         (Shot(), "cut off", [Take(distance=takes.FURTHER), Take(distance=takes.FURTHEST)]),
-        (Shot(view="side"), "hidden", []),
+        (Shot(view="aerial"), "hidden", []),
         (Shot((CameraMove("follow"),)), "hidden", [Take(rise_rad=takes.RISE_RAD)]),
         (Shot((CameraMove("travel"),)), "too small", []),
         (Shot(), None, []),

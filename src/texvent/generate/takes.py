@@ -1,7 +1,7 @@
 """Other takes of a scene whose picture loses things that the prompt names.
 
 What is lost says what to try: what is too small is drawn larger, and seen from nearer; what is
-hidden is seen from another side, what is cut off from further away. A take counts only if it shows
+hidden is seen from higher up, what is cut off from further away. A take counts only if it shows
 more of the prompt's words and loses none.
 """
 
@@ -23,7 +23,7 @@ from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.take import USUAL, Take
 from texvent.sensor import SensorSize
 
-MOST = 4
+MOST = 3
 """Takes that are tried beside the usual one."""
 MOST_BODIES = 24
 """Bodies that are staged again for all of them together; of more, one take is tried."""
@@ -31,7 +31,8 @@ LARGEST_M = 0.7
 """Size up to which things are drawn larger, m."""
 NEAREST, NEARER, FURTHER, FURTHEST = 0.6, 0.85, 1.35, 1.7
 """Distances of the camera, as multiples of the usual one."""
-TURN_RAD, RISE_RAD = 0.55, 0.45
+RISE_RAD = 0.45
+"""How far the camera goes up."""
 _INSTANTS = 5
 _KEPT = 0.92
 """Share of the subject's box in the image that a take keeps, of that in the usual one."""
@@ -40,8 +41,6 @@ _LEAST_EXTENT = 0.22
 _SMALL = frozenset({"too small"})
 _HIDDEN = frozenset({"hidden", "mostly hidden"})
 _OUTSIDE = frozenset({"cut off", "out of view", "in view too briefly"})
-_TURNED = frozenset({"side", "front", "back", "shoulder", "first person"})
-"""Views that say from which side the camera looks."""
 _COUNTED = re.compile(r"\d+ of \d+ ")
 """Begin of "1 of 3 dogs (hidden)", which names no word."""
 _REASON = re.compile(r" \([^()]*\)$")
@@ -120,8 +119,6 @@ def list_takes(
     is_small, is_hidden = bool(reasons & _SMALL), bool(reasons & _HIDDEN)
     is_outside = bool(reasons & _OUTSIDE) and shot.framing is None
     may_come = is_small and shot.framing is None
-    is_tied = any(move.kind == "follow" for move in shot.moves)
-    may_turn = is_hidden and not is_tied and shot.view not in _TURNED
     choices = [
         (is_small and bool(larger), Take()),
         (is_outside, Take(distance=FURTHER)),
@@ -129,8 +126,6 @@ def list_takes(
         (may_come, Take(distance=NEARER)),
         (may_come and not is_subject_named, Take(distance=NEAREST, aim=_list_small(evidence))),
         (is_outside, Take(distance=FURTHEST)),
-        (may_turn, Take(turn_rad=TURN_RAD)),
-        (may_turn, Take(turn_rad=-TURN_RAD)),
     ]
     return [take._replace(larger=larger) for may, take in choices if may]
 

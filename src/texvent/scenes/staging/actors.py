@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zlib
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -111,6 +112,10 @@ class Actor:
         """Whether its origin is at its middle, not on the ground below."""
         return is_centred(self.noun)
 
+    @cached_property
+    def _has_limbs(self) -> bool:
+        return has_places(self.model)
+
     def place(self, time_s: float) -> PlacedModel:
         """Its parts in the world at that instant."""
         state = self.trajectory.at(time_s)
@@ -138,7 +143,7 @@ class Actor:
 
     def _change_over(self, time_s: float, activity: str) -> tuple[str | None, float]:
         """What a body with limbs did just before, and how far it has gone over to the next."""
-        if not has_places(self.model):
+        if not self._has_limbs:
             return None, 1.0
         earlier, later = time_s - CHANGE_S, time_s
         before = self.trajectory.at(earlier).activity
@@ -186,7 +191,7 @@ class Actor:
     def _box(self, time_s: float) -> tuple[Float64Array, Float64Array]:
         """Least and greatest body coordinates: of a body with limbs, at that instant."""
         pose = self.pose(time_s)
-        if has_places(self.model) or pose.activity in self.noun.acts:
+        if self._has_limbs or pose.activity in self.noun.acts:
             parts = [*self.model.parts(pose)]
             for prop in self.props:
                 parts += moved(prop.draw(pose.time_s), locate(self.model, prop.anchor, pose))

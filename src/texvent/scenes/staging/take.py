@@ -8,10 +8,8 @@ from typing import NamedTuple
 class Take(NamedTuple):
     """How a scene is staged otherwise than usual."""
 
-    turn_rad: float = 0.0
-    """How far the camera goes around what it looks at, anticlockwise."""
     rise_rad: float = 0.0
-    """How far it goes up."""
+    """How far the camera goes up around what it looks at."""
     distance: float = 1.0
     """Its distance, as a multiple of the usual one."""
     larger: frozenset[int] = frozenset()

@@ -137,7 +137,7 @@ def _fit_path(
     has_floor = place not in ("sky", "space")
     is_open = has_floor and place != "underwater" and not is_room(place)
     azimuth, elevation = choose_angles(description, main, moves, place, seed)
-    azimuth, elevation = azimuth + take.turn_rad, elevation + take.rise_rad
+    elevation += take.rise_rad
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
 
