@@ -6,7 +6,7 @@ import numba
 import numpy as np
 import pytest
 
-from texvent.pairs import warp_cpu, warp_reference
+from texvent.pairs import sampling_reference, warp_cpu, warp_reference
 
 KERNELS = [warp_reference.warp_between, warp_cpu.warp_between]
 kernels = pytest.mark.parametrize("warp", KERNELS, ids=["reference", "cpu"])
@@ -105,11 +105,11 @@ def test_places_are_looked_at_bilinearly_and_outside_at_the_edge():
     flow = np.stack([image, -image], axis=-1)
     way = np.zeros((2, 2, 2))
     way[0, 0], way[0, 1], way[1, 0], way[1, 1] = (0.5, 0.4), (-0.75, 0.0), (-3.0, -0.5), (0.3, 9.0)
-    seen, vectors, is_inside = warp_reference.sample_along(image, flow, way)
+    seen, vectors, is_inside = sampling_reference.sample_along(image, flow, way)
     np.testing.assert_allclose(seen, [[13.0, 2.5], [10.0, 30.0]])
     np.testing.assert_array_equal(vectors[..., 0], [[10.0, 0.0], [20.0, 30.0]])
     np.testing.assert_array_equal(is_inside, [[True, True], [False, False]])
-    assert warp_reference.sample_along(image, flow, way + np.array([0.2, -8.5]))[2][1, 1]
+    assert sampling_reference.sample_along(image, flow, way + np.array([0.2, -8.5]))[2][1, 1]
 
 
 def test_some_points_of_an_image_are_those_of_the_whole_image():

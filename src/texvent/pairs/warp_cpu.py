@@ -1,7 +1,8 @@
 """`warp_reference.warp_between`, compiled by Numba: same steps, same order, equal results.
 
-Some rows at a time, in three stages: find the places (vector instructions), gather what lies there
-(scattered loads), mix it (vector instructions). The number of threads does not change the result.
+Some rows at a time, in three stages: find the places (vector instructions), sample both frames
+there (`sampling_cpu`), mix the samples (vector instructions). The number of threads does not change
+the result.
 """
 
 from __future__ import annotations
@@ -13,6 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.paths_cpu import choose_path, find_sweep, list_contested, mark_contested
+from texvent.pairs.sampling_cpu import (
+    Corners,
+    Floats,
+    Numbers,
+    PixelWords,
+    Samples,
+    Words,
+    list_words,
+    make_corners,
+    make_samples,
+    sample,
+)
 from texvent.pairs.warp_tolerance import (
     LOST_PX2,
     LOST_RELATIVE,
@@ -23,11 +36,6 @@ from texvent.pairs.warp_tolerance import (
 )
 from texvent.runtime.jit import jit
 from texvent.runtime.read_only import read_only
-
-Floats = NDArray[np.float32]
-Numbers = NDArray[np.int32]
-Words = NDArray[np.uint64]
-"""Two float32 in each, loaded together."""
 
 POINTS = 3072
 """About how many pixels are warped at a time: their data stays in the nearest caches."""
@@ -52,9 +60,11 @@ class WarpPair(NamedTuple):
     second: Floats
     """[H, W] the later frame."""
     first_pixels: Words
-    """[(H + 1) · W] each pixel of the earlier frame with its right neighbour; the last row is
-    repeated once."""
+    """Of `sampling_cpu.PixelWords`, of the earlier frame."""
+    first_bends: Words
+    """The same."""
     second_pixels: Words
+    second_bends: Words
     forward: Words
     """[H · W] flow from first to second, (x, y), px."""
     backward: Words
@@ -86,33 +96,13 @@ class Points(NamedTuple):
     """How many of the points are contested, then their numbers; [n + 1]."""
 
 
-class Samples(NamedTuple):
-    """Samples of one of the frames at the places of points; [n]."""
-
-    corner: Numbers
-    """Flat index of the pixel up left of the place."""
-    nearest: Numbers
-    """Flat index of the pixel nearest to the place."""
-    u: Floats
-    """Distance of the place to the right of the corner, 0..1."""
-    v: Floats
-    """Distance below the corner, 0..1."""
-    outside: Floats
-    """Distance outside the image, px."""
-    upper: Words
-    """Intensity of the corner and its right neighbour."""
-    lower: Words
-    """The same, a row below."""
-    flow: Words
-    """At the nearest pixel, px."""
-
-
 class Room(NamedTuple):
     """Scratch memory for some points."""
 
     points: Points
     in_first: Samples
     in_second: Samples
+    corners: Corners
 
 
 def warp_between(
@@ -139,32 +129,18 @@ def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Float
     """What all intermediate frames of a pair share; see `warp_between`."""
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
-    pixels = [read_only(_with_neighbours(frame)) for frame in frames]
+    prepared = *list_words(frames[0]), *list_words(frames[1])
     ahead, back = (read_only(np.ascontiguousarray(flow)) for flow in (forward, backward))
     words = [read_only(flow.reshape(-1).view(np.uint64)) for flow in (ahead, back)]
     sweep = read_only(find_sweep(ahead, back))
     contested = read_only(mark_contested(ahead, back, sweep))
-    return WarpPair(
-        frames[0], frames[1], pixels[0], pixels[1], words[0], words[1], sweep, contested
-    )
+    return WarpPair(frames[0], frames[1], *prepared, words[0], words[1], sweep, contested)
 
 
 def warm_up() -> None:
     """Compile the kernels that draw frames, or load them from disk."""
     image, flow = np.zeros((2, 2), np.float32), np.zeros((2, 2, 2), np.float32)
     warp_pair(prepare_pair(image, image, flow, flow), np.array([0.5]))
-
-
-@jit
-def _with_neighbours(image: Floats) -> Words:
-    height, width = image.shape
-    levels = np.empty((height + 1, 2 * width), np.float32)
-    for row in range(height + 1):
-        source, target = image[min(row, height - 1)], levels[row]
-        for x in range(width - 1):
-            target[2 * x], target[2 * x + 1] = source[x], source[x + 1]
-        target[2 * width - 2], target[2 * width - 1] = source[width - 1], source[width - 1]
-    return levels.reshape(-1).view(np.uint64)
 
 
 @jit(nogil=False, parallel=True)
@@ -212,28 +188,14 @@ def make_room(number: int) -> Room:
         np.zeros(room, np.float32),
         np.zeros(room + 1, np.int32),
     )
-    return Room(points, _make_samples(room), _make_samples(room))
-
-
-@jit(error_model="numpy", inner=True)
-def _make_samples(room: int) -> Samples:
-    return Samples(
-        np.empty(room, np.int32),
-        np.empty(room, np.int32),
-        np.empty(room, np.float32),
-        np.empty(room, np.float32),
-        np.empty(room, np.float32),
-        np.empty(room, np.uint64),
-        np.empty(room, np.uint64),
-        np.empty(room, np.uint64),
-    )
+    return Room(points, make_samples(room), make_samples(room), make_corners(room))
 
 
 @jit
 def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
     """Set the points to all pixels of some rows."""
     pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later, contested = points
-    first, second, _, _, forward, backward, _, _ = pair
+    first, second, forward, backward = pair.first, pair.second, pair.forward, pair.backward
     width = first.shape[1]
     start, number = top * width, (bottom - top) * width
     # All arrays start at the first of these pixels: Numba allows for negative indices where the
@@ -296,15 +258,17 @@ def _choose_paths(pair: WarpPair, points: Points, position: np.float32) -> None:
 @jit
 def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: Floats) -> None:
     """Intensity of the first `number` points at a position; fills in out[:number]."""
-    points, in_first, in_second = room
+    points, in_first, in_second, corners = room
     place, shape = np.float32(position), pair.first.shape
     padded = (number + LANES - 1) // LANES * LANES
     if points.contested[0] > 0:
         _choose_paths(pair, points, place)
     _locate(points, padded, shape, (place, -place), in_first)
     _locate(points, padded, shape, (place, _1 - place), in_second)
-    _gather(pair.first_pixels, pair.forward, number, shape[1], in_first)
-    _gather(pair.second_pixels, pair.backward, number, shape[1], in_second)
+    first = PixelWords(pair.first_pixels, pair.first_bends)
+    second = PixelWords(pair.second_pixels, pair.second_bends)
+    sample(first, pair.forward, number, shape[1], (in_first, corners))
+    sample(second, pair.backward, number, shape[1], (in_second, corners))
     _mix(points, in_first, in_second, number, place, out)
 
 
@@ -319,7 +283,7 @@ def _locate(
     """Find the places of points in a frame: the second of the times along their path."""
     position, share = times
     pixel, column, row, forward_x, forward_y, error_x, error_y, _, _, _ = points
-    corner, nearest, u, v, outside, _, _, _ = samples
+    corner, nearest, u, v, outside, _, _ = samples
     width = np.int32(shape[1])
     last_column, last_row = np.float32(shape[1] - 1), np.float32(shape[0] - 1)
     for k in range(number):
@@ -338,18 +302,6 @@ def _locate(
 
 
 @jit(error_model="numpy", inner=True)
-def _gather(pixels: Words, flows: Words, number: int, width: int, samples: Samples) -> None:
-    """Gather intensity and flow at the places."""
-    corner, nearest, _, _, _, upper, lower, flow = samples
-    for k in range(number):
-        # Unsigned, or Numba allows for negative indices.
-        upper[k] = pixels[np.uint64(corner[k])]
-        lower[k] = pixels[np.uint64(corner[k] + width)]
-    for k in range(number):
-        flow[k] = flows[np.uint64(nearest[k])]
-
-
-@jit(error_model="numpy", inner=True)
 def _mix(
     points: Points,
     in_first: Samples,
@@ -360,10 +312,8 @@ def _mix(
 ) -> None:
     """Mix the samples of both frames."""
     _, _, _, forward_x, forward_y, error_x, error_y, earlier, later, _ = points
-    u1, v1, outside1 = in_first.u, in_first.v, in_first.outside
-    u2, v2, outside2 = in_second.u, in_second.v, in_second.outside
-    upper1, lower1 = in_first.upper.view(np.float32), in_first.lower.view(np.float32)
-    upper2, lower2 = in_second.upper.view(np.float32), in_second.lower.view(np.float32)
+    outside1, outside2 = in_first.outside, in_second.outside
+    value1, value2 = in_first.value, in_second.value
     flow1, flow2 = in_first.flow.view(np.float32), in_second.flow.view(np.float32)
     rest = _1 - position
     for k in range(number):
@@ -384,12 +334,7 @@ def _mix(
         seen1 = (visible if outside1[k] <= _HALF else _0) + unseen1 * (_1 - trust2)
         seen2 = (visible if outside2[k] <= _HALF else _0) + unseen2 * (_1 - trust1)
         weight1, weight2 = rest * (seen1 * doubt2), position * (seen2 * doubt1)
-        above = upper1[2 * k] + (upper1[2 * k + 1] - upper1[2 * k]) * u1[k]
-        below = lower1[2 * k] + (lower1[2 * k + 1] - lower1[2 * k]) * u1[k]
-        a = above + (below - above) * v1[k]
-        above = upper2[2 * k] + (upper2[2 * k + 1] - upper2[2 * k]) * u2[k]
-        below = lower2[2 * k] + (lower2[2 * k + 1] - lower2[2 * k]) * u2[k]
-        b = above + (below - above) * v2[k]
+        a, b = value1[k], value2[k]
         warped = a + (b - a) * (weight2 / (weight1 + weight2))
 
         lost = _LOST_RELATIVE * length2 + _LOST_PX2

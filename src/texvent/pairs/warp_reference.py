@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.paths_reference import choose_paths
+from texvent.pairs.sampling_reference import sample_along
 from texvent.pairs.warp_tolerance import (
     LOST_PX2,
     LOST_RELATIVE,
@@ -78,36 +79,6 @@ def warp_between(
     confidence = lost / (lost + _squared_number(np.minimum(error_first, error_second)))
     blended = first + (second - first) * position
     return np.asarray(blended + (warped - blended) * confidence)
-
-
-def sample_along(
-    image: FloatArray, flow: FloatArray, shift: FloatArray
-) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Samples of an image at displaced places; places outside take its nearest edge.
-
-    Args:
-        image: [H, W].
-        flow: [H, W, 2].
-        shift: of each pixel's place, [H, W, 2] as (x, y), px.
-
-    Returns:
-        The image there (bilinear), the flow of the nearest pixel, and whether the place lies inside
-        the image, whose pixels reach half a pixel past their centres.
-    """
-    height, width = image.shape
-    row, column = np.mgrid[:height, :width]
-    kind = image.dtype
-    x = np.clip(shift[..., 0], (-column).astype(kind), (width - 1 - column).astype(kind))
-    y = np.clip(shift[..., 1], (-row).astype(kind), (height - 1 - row).astype(kind))
-    outside = np.maximum(np.abs(shift[..., 0] - x), np.abs(shift[..., 1] - y))
-    left, top = np.floor(x), np.floor(y)
-    u, v = x - left, y - top
-    left, top = column + left.astype(np.intp), row + top.astype(np.intp)
-    right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
-    upper = image[top, left] + (image[top, right] - image[top, left]) * u
-    lower = image[bottom, left] + (image[bottom, right] - image[bottom, left]) * u
-    nearest = np.where(v >= 0.5, bottom, top), np.where(u >= 0.5, right, left)
-    return upper + (lower - upper) * v, flow[nearest], outside <= 0.5
 
 
 def _squared(vectors: FloatArray) -> FloatArray:

@@ -1,13 +1,14 @@
 """Bounds of the luma of a pixel between two frames, to skip pixels that cannot fire.
 
-Every intermediate frame is, pixel by pixel, a mean of bilinear samples of both frames, at most
-the length of the flow away (`pairs.warp_reference.warp_between`: the
-displacement to a frame is τ or 1 − τ times a mean of one flow and the other reversed). So the luma
-of a pixel lies between the darkest and the brightest that both frames have within that distance.
+Every intermediate frame is, pixel by pixel, a mean of samples of both frames, at most the length of
+the flow away (`pairs.warp_reference.warp_between`: the displacement to a frame is τ or 1 − τ times
+a mean of one flow and the other reversed). A sample lies in the range of the four pixels around it.
+So the luma of a pixel lies between the darkest and the brightest that both frames have within that
+distance.
 
-* Up to 1 px of flow, a bilinear sample differs from the pixel itself by less than
-  `|dx|` times the steps to its left and right neighbours (in the rows it may touch) plus `|dy|`
-  times those up and down.
+* Up to 1 px of flow, a sample differs from the pixel itself by less than `|dx|` times the steps to
+  its left and right neighbours (in the rows it may touch) plus `|dy|` times those up and down, plus
+  the bends of `pairs.sampling_reference` along x and y times at most `|dx|`, `|dy|` and 1/4.
 * Further out, the extremes over cells of `CELL` pixels that the flow of the pixel's cell reaches.
 """
 
@@ -28,10 +29,19 @@ FARTHEST = 8
 """A flow that leads further than this many cells leaves its cell without bounds."""
 SLACK = 8.0 * MARGIN
 """Relative margin of trigger levels for rounding."""
-_1 = np.float32(1.0)
+_QUARTER, _1 = np.float32(0.25), np.float32(1.0)
 ROUNDING = np.float32(1e-6)
 """By how much rounding may take a mean past its terms, as a share of the brightest; ten times the
 error of mixing float32."""
+
+Rows = tuple[
+    NDArray[np.float32],
+    NDArray[np.float32],
+    NDArray[np.float32],
+    NDArray[np.float32],
+    NDArray[np.float32],
+]
+"""A row, in the middle, and the two on each side; at the border of the image the last one again."""
 
 
 @jit
@@ -126,11 +136,9 @@ def list_active(
         How many there are.
     """
     earlier, later, forward, backward = arrays
-    height, width = earlier.shape
+    width = earlier.shape[1]
     low, high = np.empty(width, np.float32), np.empty(width, np.float32)
-    above, below = max(row - 1, 0), min(row + 1, height - 1)
-    first = earlier[above], earlier[row], earlier[below]
-    second = later[above], later[row], later[below]
+    first, second = _rows_around(earlier, row), _rows_around(later, row)
     reachable = bounds[0, row // CELL], bounds[1, row // CELL]
     _bound_row(first, second, (forward[row], backward[row]), reachable, low, high)
     level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
@@ -141,6 +149,14 @@ def list_active(
         active[number] = x
         number += marks[x]
     return number
+
+
+@jit(inline="always")
+def _rows_around(image: NDArray[np.float32], row: int) -> Rows:
+    last = len(image) - 1
+    above, below = max(row - 1, 0), min(row + 1, last)
+    outer = image[max(row - 2, 0)], image[min(row + 2, last)]
+    return outer[0], image[above], image[row], image[below], outer[1]
 
 
 @jit
@@ -160,9 +176,6 @@ def _mark(
         marks[x] = is_up | is_down
 
 
-Rows = tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]
-
-
 @jit
 def _bound_row(
     first: Rows,
@@ -176,14 +189,17 @@ def _bound_row(
     width = low.size
     work = np.empty((4, width), np.float32)
     dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]
+    turns = np.zeros((2, width + 2), np.float32)
     ahead, back = flows[0].reshape(-1), flows[1].reshape(-1)
     least, most = reachable
     for x in range(width):
         dx[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
         dy[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
-    _find_room(first, dx, dy, room_first)
-    _find_room(second, dx, dy, room_second)
-    a, b = first[1], second[1]
+    _find_room(first[1:4], dx, dy, room_first)
+    _find_room(second[1:4], dx, dy, room_second)
+    _add_bends(first, dx, dy, turns, room_first)
+    _add_bends(second, dx, dy, turns, room_second)
+    a, b = first[2], second[2]
     for x in range(width):
         is_near = (dx[x] <= _1) & (dy[x] <= _1)
         near = min(a[x] - room_first[x], b[x] - room_second[x])
@@ -194,9 +210,12 @@ def _bound_row(
 
 @jit
 def _find_room(
-    rows: Rows, dx: NDArray[np.float32], dy: NDArray[np.float32], room: NDArray[np.float32]
+    rows: tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]],
+    dx: NDArray[np.float32],
+    dy: NDArray[np.float32],
+    room: NDArray[np.float32],
 ) -> None:
-    """By how much a sample at most (dx, dy) away differs from a row's pixels, at most."""
+    """By how much a bilinear sample at most (dx, dy) away differs from a row's pixels, at most."""
     above, here, below = rows
     last = here.size - 1
     for x in range(0, last + 1, max(last, 1)):  # the edges
@@ -220,3 +239,46 @@ def _find_room(
 def _step(before: np.float32, here: np.float32, after: np.float32) -> np.float32:
     """The larger step from a pixel to its neighbours."""
     return max(abs(before - here), abs(after - here))
+
+
+@jit
+def _add_bends(
+    rows: Rows,
+    dx: NDArray[np.float32],
+    dy: NDArray[np.float32],
+    turns: NDArray[np.float32],
+    room: NDArray[np.float32],
+) -> None:
+    """Add by how much a sample at most (dx, dy) away differs from the bilinear one, at most.
+
+    Args:
+        rows: rows of the image, [W] each.
+        dx: [W] px.
+        dy: [W] px.
+        turns: [2, W + 2] scratch memory; the first and last column are 0.
+        room: [W], added to.
+    """
+    above_2, above, here, below, below_2 = rows
+    along, across = turns[0, 1:], turns[1, 1:]
+    before_1, before_2, before_3 = above[1:], here[1:], below[1:]
+    after_1, after_2, after_3 = above[2:], here[2:], below[2:]
+    inner = along[1:]
+    for x in range(after_1.size):
+        # By how much the slope changes: at pixels of all three rows, along x.
+        upper = abs((above[x] - before_1[x]) + (after_1[x] - before_1[x]))
+        middle = abs((here[x] - before_2[x]) + (after_2[x] - before_2[x]))
+        lower = abs((below[x] - before_3[x]) + (after_3[x] - before_3[x]))
+        inner[x] = max(max(upper, lower), middle)
+    for x in range(here.size):
+        # Along y: in the middle row, plus that above or below.
+        upper = abs((above_2[x] - above[x]) + (here[x] - above[x]))
+        middle = abs((above[x] - here[x]) + (below[x] - here[x]))
+        lower = abs((here[x] - below[x]) + (below_2[x] - below[x]))
+        across[x] = middle + max(upper, lower)
+    left, right = turns[0], along[1:]
+    left_2, right_2 = turns[1], across[1:]
+    for x in range(room.size):
+        bend = along[x] + max(left[x], right[x])
+        bend_2 = max(max(left_2[x], right_2[x]), across[x])
+        share, share_2 = min(dx[x], _QUARTER), min(dy[x], _QUARTER)
+        room[x] += _QUARTER * (share * bend + share_2 * bend_2)
