@@ -100,7 +100,7 @@ def test_a_flow_that_is_no_number_does_no_harm():
     np.testing.assert_array_equal(warp_cpu.warp_between(frame, frame, flow, flow, 0.5), frame)
 
 
-def test_places_are_looked_at_bilinearly_and_outside_at_the_edge():
+def test_places_outside_are_looked_at_at_the_edge():
     image = np.array([[0.0, 10.0], [20.0, 30.0]])
     flow = np.stack([image, -image], axis=-1)
     way = np.zeros((2, 2, 2))

@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 
+from texvent.pairs.sampling_reference import sample_along
 from texvent.pairs.warp_cpu import prepare_pair
 from texvent.pairs.warp_reference import warp_between
 from texvent.runtime.read_only import read_only
@@ -139,6 +140,24 @@ def test_pixels_that_cannot_fire_are_not_followed():
     arrays = pair_of(ramp, ramp, fast, -fast)
     bounds = find_bounds(arrays)
     assert list_active(arrays, own_levels(TAKES), bounds, 3, active) == 32
+
+
+@pytest.mark.parametrize("shape", [(1, 5), (5, 1), (33, 40)])
+@pytest.mark.parametrize("speed", [0.1, 0.5, 1.0, 3.0])
+def test_no_pixel_is_left_out_whose_trigger_level_a_sample_reaches(shape, speed):
+    # Noise bends most between pixels. Each level is the most that any sample reaches.
+    image = np.random.default_rng(3).uniform(0, 255, shape).astype(np.float32)
+    forward = np.random.default_rng(4).uniform(-speed, speed, (*shape, 2)).astype(np.float32)
+    shares = itertools.product(np.linspace(-1, 1, 9, dtype=np.float32), repeat=2)
+    seen = np.float64([sample_along(image, forward, forward * share)[0] for share in shares])
+    arrays = pair_of(image, image, forward, -forward)
+    bounds, active = find_bounds(arrays), np.empty(shape[1], np.int64)
+    for levels in (
+        ReferenceLevels((seen.max(axis=0) + 30.0) / UP, 30.0, UP, 1e-9, TAKES),
+        ReferenceLevels((seen.min(axis=0) + 30.0) * UP, 30.0, 1e9, 1 / UP, TAKES),
+    ):
+        found = [list_active(arrays, levels, bounds, row, active) for row in range(shape[0])]
+        assert found == [shape[1]] * shape[0]
 
 
 def test_some_pixels_of_a_picture_are_those_of_the_whole_picture():
