@@ -22,7 +22,7 @@ class FlowInterpolator:
     Deviation: the paper uses RIFE, which needs published weights.
     """
 
-    bytes_per_pixel: ClassVar[int] = 130
+    bytes_per_pixel: ClassVar[int] = 160
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config, stream  # the arguments of every interpolator; not used here
