@@ -62,9 +62,8 @@ def judge_thing(
 ) -> str | None:
     """Why what a word says of an object is not seen, or None."""
     if claim.aspect == "name":
-        return _judge_garment(picture, description, index) or _judge_small(
-            picture, description, index
-        )
+        fault = _judge_garment(picture, description, index)
+        return fault or _judge_small(picture, description, index)
     if claim.aspect == "colour":
         return _judge_colour(picture, description, index)
     if claim.aspect in ("size", "material") and _is_substituted(description, index):
@@ -106,7 +105,9 @@ def _judge_garment(picture: Picture, description: SceneDescription, index: int) 
 def _judge_small(picture: Picture, description: SceneDescription, index: int) -> str | None:
     """One thing that rests is told by its shape, of which a small one has too little."""
     copies = copies_of(picture, index)
-    if len(copies) != 1 or is_to_move(index, description):
+    said = description.objects[index].motion
+    is_going = is_to_move(index, description) and said is not None and said.kind != "work"
+    if len(copies) != 1 or is_going:
         return None
     if any(one.kind in ACTS and index in one.targets for one in description.relations):
         return None  # what is kicked is told by the kick
