@@ -1,6 +1,8 @@
 """Calibrate `physical` to the sensor that makes the benchmark's true events.
 
-    python -m benchmarks.oracle_sensor src/texvent/bench/oracle/sensor.toml
+    python -m benchmarks.oracle_sensor
+
+writes src/texvent/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
 
 It does what docs/calibration.md tells the owner of a sensor to do, with recordings that the
 benchmark does not score: first a field that flickers, without frames, then a camera at rest before
@@ -10,10 +12,12 @@ a texture of which one half moves, with the frames of an ordinary camera.
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from pathlib import Path
 
 import numpy as np
 
+from texvent.bench.fidelity.entries import SENSOR_FILE, THRESHOLD_FILE
 from texvent.bench.oracle.pixel import NOISY, REFERENCE_SEED
 from texvent.bench.oracle.recording import FPS, SIZE, record, render_video
 from texvent.bench.oracle.scenes import Float64Array, Scene, panning_texture
@@ -25,6 +29,7 @@ from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.threshold_map import write_threshold_map
 
 FLICKER_HZ, RATIO, BRIGHT = 4.0, 5.0, 0.9
 FRAMES = 2 * int(FPS) + 1
@@ -56,20 +61,23 @@ def recorded(scene: Scene) -> EventStream:
 
 
 def main() -> None:
-    """Write the sensor file."""
+    """Write both files."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("out", type=Path)
-    path = parser.parse_args().out
+    parser.add_argument("--folder", type=Path, default=SENSOR_FILE.parent)
+    folder = parser.parse_args().folder
     flicker = measure_flicker(
         recorded(flickering_field), PhysicalConfig(), hz=FLICKER_HZ, ratio=RATIO
     )
     video = render_video(half_moving, frames=FRAMES)
     recording = Recording(video, recorded(half_moving), InterpolateConfig(motion_floor=True))
-    fit = fit_sensor(recording, start=flicker.config, report=print)
+    pixels = write_threshold_map(flicker.thresholds, folder / THRESHOLD_FILE.name, overwrite=True)
+    start = dataclasses.replace(flicker.config, threshold_map=pixels)
+    fit = fit_sensor(recording, start=start, report=print)
+    config = dataclasses.replace(fit.config, threshold_map=None)  # each entry names its place
     lines = describe_fit(
         fit, "two recordings of the benchmark's sensor, as benchmarks/oracle_sensor.py makes them"
     )
-    write_preset(fit.config, lines, path, size=SIZE, overwrite=True)
+    write_preset(config, lines, folder / SENSOR_FILE.name, size=SIZE, overwrite=True)
 
 
 if __name__ == "__main__":

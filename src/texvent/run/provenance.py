@@ -40,7 +40,13 @@ def describe_run(
 
 
 def describe_weights(settings: Settings) -> dict[str, Any]:
-    """Which weight files the networks of a run read, under "weights"; nothing where it has none."""
+    """Which files the models of a run read, such as network weights, under "weights".
+
+    Nothing where they read none.
+
+    Raises:
+        InputError: such a file is missing.
+    """
     interpolator = INTERPOLATORS.load(settings.interpolate.interpolate)
     simulator = SIMULATORS.load(settings.run.simulator)
     parts = {
@@ -48,8 +54,8 @@ def describe_weights(settings: Settings) -> dict[str, Any]:
         "simulator": (simulator, settings.simulate),
     }
     files = {
-        role: part.provenance(config)
+        role: facts
         for role, (part, config) in parts.items()
-        if hasattr(part, "provenance")
+        if hasattr(part, "provenance") and (facts := part.provenance(config))
     }
     return {"weights": files} if files else {}

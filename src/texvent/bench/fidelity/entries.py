@@ -28,16 +28,18 @@ Track: TypeAlias = Literal[
     "recorded",
 ]
 """What a simulator gets: frames as a camera records them, those and the frequency of a lamp, or the
-scene at any instant; and whether it knows the kind of sensor. "recorded" marks events of a sensor,
+scene at any instant; and whether it knows the sensor. "recorded" marks events of a sensor,
 which no simulator made."""
 
 INTERPOLATIONS = ("none", "blend", "flow", "exact")
 """Interpolators that are compared; "exact" gets the true frames, all others the camera's frames."""
 
 CALIBRATED = ("physical", "calibrated")
-"""Simulator and preset that know the oracle's kind of sensor."""
+"""Simulator and preset that know the oracle's sensor."""
 SENSOR_FILE = Path(__file__).parents[1] / "oracle" / "sensor.toml"
-"""Their options, which `python -m benchmarks.oracle_sensor` finds."""
+THRESHOLD_FILE = SENSOR_FILE.with_name("sensor_thresholds.npz")
+"""Their options and the thresholds of each pixel, which `python -m benchmarks.oracle_sensor`
+finds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +64,7 @@ class Entry:
 
     @property
     def track(self) -> Track:
-        """Whether it is given the true intermediate frames, or a lamp, or the kind of sensor."""
+        """Whether it is given the true intermediate frames, or a lamp, or the sensor."""
         if self.interpolate == "exact":
             return "true frames, sensor known" if self._is_calibrated else "true frames"
         if self.lamp_hz is not None:
@@ -98,6 +100,7 @@ class Entry:
             "interpolate": self.interpolate,
             "lamp_hz": self.lamp_hz,
             "seed": seed,
+            "threshold_map": THRESHOLD_FILE if self._is_calibrated else None,
         }
         return resolve("simulate", options, config=SENSOR_FILE if self._is_calibrated else None)
 

@@ -32,8 +32,10 @@ from texvent.calibrate.events_only.flicker_cycles import Bursts, Cycles, find_bu
 from texvent.calibrate.events_only.pixel_trains import PixelTrains
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.sensor import SensorSize
 from texvent.simulate.physical.circuit import DARK_OFFSET, WHITE
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.threshold_map import ThresholdMap
 
 WINDOWS, GROUPS = 10, 100
 """Windows of time and groups of pixels that the bootstrap draws."""
@@ -70,8 +72,8 @@ class Flicker(NamedTuple):
     kept: tuple[Kept, ...]
     remarks: tuple[str, ...]
     cycles: Cycles
-    threshold_map: Float64Array
-    """[H, W] mean of both thresholds over that of all pixels; NaN where there is none."""
+    thresholds: ThresholdMap
+    """Of every pixel, over the mean of all."""
 
 
 class _Polarity(NamedTuple):
@@ -132,7 +134,7 @@ def measure_flicker(
         tuple(kept),
         (*_settling(fit, cycles, dark), *_remark(dark, ratio)),
         cycles,
-        _threshold_map(fit, events.size),
+        _map_thresholds(fit, events.size),
     )
 
 
@@ -264,11 +266,9 @@ def _remark(slowness: float, ratio: float | None) -> list[str]:
     ]
 
 
-def _threshold_map(fit: BurstFit, size: tuple[int, int]) -> Float64Array:
-    total, number = np.zeros(size[0] * size[1]), np.zeros(size[0] * size[1])
-    for pairs in fit.pairs:
+def _map_thresholds(fit: BurstFit, size: SensorSize) -> ThresholdMap:
+    off, on = np.full((2, size.width * size.height), np.nan)
+    for one, pairs in zip((off, on), fit.pairs, strict=True):
         each = pixel_means(pairs, pair_thresholds(pairs, fit.omega, fit.dead_s))
-        total[pairs.where] += each / each.mean()
-        number[pairs.where] += 1
-    with np.errstate(invalid="ignore"):
-        return np.asarray((total / number).reshape(size[1], size[0]))
+        one[pairs.where] = each / each.mean()
+    return ThresholdMap(on.reshape(size.shape), off.reshape(size.shape))

@@ -100,10 +100,12 @@ def report_flicker(
     caption += "." if ratio else f"; the model sees a ratio of {UNKNOWN_RATIO:g}, none is given."
     comparison = Comparison(part, replayed, chosen, seconds, caption)
     charts = [
-        map_chart("Threshold over the mean of all pixels; grey: unknown", flicker.threshold_map)
+        map_chart(
+            "Threshold over the mean of all pixels; grey: unknown", np.mean(flicker.thresholds, 0)
+        )
     ]
     return Report(source, start, flicker.found, flicker.kept, flicker.remarks, comparison, charts)
 
 
 def _linear(config: PhysicalConfig) -> PhysicalConfig:
-    return dataclasses.replace(config, gamma=1.0)
+    return dataclasses.replace(config, gamma=1.0, threshold_map=None)

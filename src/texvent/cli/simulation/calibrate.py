@@ -31,6 +31,7 @@ from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
 from texvent.simulate.physical.cameras.presets import PRESETS
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.threshold_map import write_threshold_map
 
 DESCRIPTION = """Fit the physical model to a recording of your sensor. With frames of a moving
 scene: thresholds, balance, bandwidth, noise and leak. From events alone: a scene at rest gives
@@ -49,11 +50,11 @@ class CalibrateOptions:
     """Which recording, and where the result goes."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("frames", "start_preset")
-    outputs: ClassVar[tuple[str, ...]] = ("out", "report")
+    outputs: ClassVar[tuple[str, ...]] = ("out", "report", "threshold_map")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
-        "frames", "events", "scene", "flicker_hz", "flicker_ratio", "out", "report", "sensor",
-        "start_preset", "frames_gamma", "seconds", "overwrite",
+        "frames", "events", "scene", "flicker_hz", "flicker_ratio", "out", "report",
+        "threshold_map", "sensor", "start_preset", "frames_gamma", "seconds", "overwrite",
     )  # fmt: skip
 
     frames: str | None = None
@@ -73,6 +74,9 @@ class CalibrateOptions:
     """Config file to write, .toml."""
     report: Path | None = None
     """Page to write, .html: constants, and the model beside the recording."""
+    threshold_map: Path | None = None
+    """File to write, .npz: the thresholds of each pixel, which a flickering field tells. The config
+    file then names it, and simulates this very sensor."""
     sensor: str | None = None
     """Sensor size, for event formats that do not store it."""
     format: str | None = None
@@ -107,6 +111,10 @@ class CalibrateOptions:
             )
         if self.scene != "flicker" and (self.flicker_hz or self.flicker_ratio):
             raise ConfigError("--flicker-hz and --flicker-ratio are for --scene flicker")
+        if self.scene != "flicker" and self.threshold_map is not None:
+            raise ConfigError("--threshold-map is for --scene flicker")
+        if self.threshold_map is not None and self.threshold_map.suffix != ".npz":
+            raise ConfigError(f"--threshold-map is {self.threshold_map}; its name must end in .npz")
         if self.scene != "moving" and self.frames is not None:
             raise ConfigError(
                 f"--scene {self.scene} is measured from events alone; leave out --frames"
@@ -143,8 +151,8 @@ def run(arguments: Sequence[str]) -> int:
     options, capture, interpolate = parse_configs(
         arguments, groups, prog="texvent calibrate", description=DESCRIPTION
     )
-    outputs = [options.out] if options.report is None else [options.out, options.report]
-    check_outputs(outputs, overwrite=options.overwrite)
+    outputs = options.out, options.report, options.threshold_map
+    check_outputs([one for one in outputs if one is not None], overwrite=options.overwrite)
     start = options.start_config
     if not options.events.exists():
         raise InputError(f"no such file: {options.events}")
@@ -195,4 +203,12 @@ def _measure(
     flicker = measure_flicker(events, start, hz=options.flicker_hz, ratio=ratio)
     what = f"a field that flickers at {flicker.cycles.hz:.5g} Hz"
     lines = describe_scene(flicker, source, what)
-    return flicker.config, lines, report_flicker(flicker, events, start, source, ratio=ratio)
+    config, report = flicker.config, report_flicker(flicker, events, start, source, ratio=ratio)
+    if options.threshold_map is not None:
+        if not flicker.found:
+            raise InputError(f"no threshold map is written: {flicker.kept[0].reason}")
+        written = write_threshold_map(
+            flicker.thresholds, options.threshold_map, overwrite=options.overwrite
+        )
+        config = dataclasses.replace(config, threshold_map=written.resolve())
+    return config, lines, report

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 from texvent.config import check_choices, check_range
@@ -41,9 +42,13 @@ class PhysicalConfig:
     """ON threshold divided by OFF threshold."""
     threshold_sigma: float = 0.03
     """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
-    initial_phase: Literal["random", "zero"] = "zero"
+    threshold_map: Path | None = None
+    """Thresholds of each pixel of one sensor, over their mean: a file of texvent calibrate --scene
+    flicker. Pixels that it does not know have drawn ones."""
+    initial_phase: Literal["random", "zero"] = "random"
     """How far each pixel is from its next event at the first frame: anywhere between its
-    thresholds (random), or just reset (zero); leak then begins to fire after 1 / leak_rate_hz."""
+    thresholds, as in a sensor that was on before (random), or just reset (zero); leak then begins
+    to fire after 1 / leak_rate_hz."""
     residual_decay_hz: float = 0.0
     """Rate at which a pixel forgets change that has not fired yet, per second; 0 is never, 2.5
     does what a cache leak of 0.1 per frame does at 24 frames per second."""

@@ -25,6 +25,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.networks.weight_files import describe_file
 from texvent.sensor import SensorSize
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.limits import check_event_number
@@ -45,6 +46,7 @@ from texvent.simulate.physical.noise_curve import parse_noise_curve
 from texvent.simulate.physical.photoreceptor import InputFrames
 from texvent.simulate.physical.readout import Readout
 from texvent.simulate.physical.refractory import ResetRules
+from texvent.simulate.physical.threshold_map import read_threshold_map
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.mismatch import (
     PixelMismatch,
@@ -84,6 +86,19 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         name: tuple(one.option for one in camera.constants) for name, camera in CAMERAS.items()
     }
     """Preset of a camera → its options that have a source."""
+
+    @staticmethod
+    def provenance(config: PhysicalConfig) -> dict[str, str]:
+        """Name and sha256 of the threshold map, if there is one; stored with the events.
+
+        Raises:
+            InputError: there is no such file.
+            FileFormatError: it is no threshold map.
+        """
+        if config.threshold_map is None:
+            return {}
+        read_threshold_map(config.threshold_map)
+        return describe_file(config.threshold_map)
 
     @property
     def contrast_threshold(self) -> float:
@@ -141,6 +156,8 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         config = self.config
         key = sensor_key(self._seed if config.sensor_seed is None else config.sensor_seed)
         on, off = draw_threshold_pair(shape, key, config)
+        if config.threshold_map is not None:
+            on, off = read_threshold_map(config.threshold_map).thresholds((on, off), config)
         leak = config.leak_rate_hz * _factors_of_mean_1(
             shape, key, Purpose.LEAK_RATE, config.leak_rate_decades
         )

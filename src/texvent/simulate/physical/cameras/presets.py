@@ -10,7 +10,7 @@ from texvent.simulate.physical.cameras.constants import CAMERAS, Constant
 from texvent.simulate.physical.config import PhysicalConfig
 
 NOT_OF_A_CAMERA = (
-    "gamma", "initial_phase", "noise_resets", "sensor_seed",
+    "gamma", "initial_phase", "noise_resets", "sensor_seed", "threshold_map",
     "readout_filters", "bias_camera", "bias",
 )  # fmt: skip
 """Options that are no constants of a camera: they belong to the frames, the run or the model."""
@@ -59,6 +59,7 @@ PRESETS: Mapping[str, PhysicalConfig] = {
     "clean": PhysicalConfig(
         contrast_threshold=0.2,
         threshold_sigma=0.0,
+        initial_phase="zero",
         cutoff_hz=0.0,
         refractory_period_us=0,
         leak_rate_hz=0.0,
