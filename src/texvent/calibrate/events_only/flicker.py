@@ -33,7 +33,7 @@ from texvent.calibrate.events_only.pixel_trains import PixelTrains
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.circuit import DARK_OFFSET, WHITE
+from texvent.simulate.physical.circuit import WHITE
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.threshold_map import ThresholdMap
 
@@ -106,7 +106,7 @@ def measure_flicker(
     bursts = tuple(find_bursts(trains, cycles, p) for p in (0, 1))
     off, on = (find_pairs(one) for one in bursts)
     _check(off, on)
-    fit = _fit(off, on, ratio)
+    fit = _fit(off, on, ratio, start.balance)
     dark = fit.pairs[0].slowness
     weighed = tuple(one.thinned(WEIGHED_PAIRS) for one in fit.pairs)
     sides = tuple(_polarity(one, bursts[p], cycles.number) for p, one in enumerate(weighed))
@@ -132,7 +132,7 @@ def measure_flicker(
         with_estimates(start, found),
         tuple(found),
         tuple(kept),
-        (*_settling(fit, cycles, dark), *_remark(dark, ratio)),
+        (*_settling(fit, cycles, dark), *_remark(dark, ratio, start.balance)),
         cycles,
         _map_thresholds(fit, events.size),
     )
@@ -148,7 +148,7 @@ def _check(off: Pairs, on: Pairs) -> None:
         )
 
 
-def _fit(off: Pairs, on: Pairs, ratio: float | None) -> BurstFit:
+def _fit(off: Pairs, on: Pairs, ratio: float | None, balance: float) -> BurstFit:
     """The fit with the bandwidth of the dark half that the model has for that ratio.
 
     Where the one that bursts tell fits much better, that is taken.
@@ -156,14 +156,14 @@ def _fit(off: Pairs, on: Pairs, ratio: float | None) -> BurstFit:
     free = fit_bursts([off._replace(slowness=find_slowness(off, on)), on])
     if ratio is None:
         return free
-    modelled = fit_bursts([off._replace(slowness=_modelled_slowness(ratio)), on])
+    modelled = fit_bursts([off._replace(slowness=_modelled_slowness(ratio, balance)), on])
     is_better = free.disagreement < MUCH_BETTER * modelled.disagreement
     return free if is_better else modelled
 
 
-def _modelled_slowness(ratio: float) -> float:
+def _modelled_slowness(ratio: float, balance: float) -> float:
     """Bandwidth of the dark half over that of the bright one in the model."""
-    return (WHITE / ratio + DARK_OFFSET) / (WHITE + DARK_OFFSET)
+    return (WHITE / ratio + balance) / (WHITE + balance)
 
 
 def _contrast(ratio: float, balance: float) -> float:
@@ -256,9 +256,9 @@ def _settling(fit: BurstFit, cycles: Cycles, slowness: float) -> list[str]:
     ]
 
 
-def _remark(slowness: float, ratio: float | None) -> list[str]:
+def _remark(slowness: float, ratio: float | None, balance: float) -> list[str]:
     """Says so where the bandwidth falls with the light otherwise than the model's does."""
-    if ratio is None or slowness == (modelled := _modelled_slowness(ratio)):
+    if ratio is None or slowness == (modelled := _modelled_slowness(ratio, balance)):
         return []
     return [
         f"the dark half has {slowness:.2f} of the bandwidth of the bright one, in the model "

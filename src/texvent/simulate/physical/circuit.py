@@ -25,8 +25,6 @@ Luma: TypeAlias = NDArray[Any]
 """[n] 0..255 scale, uint8 or float32."""
 
 WHITE = 255.0
-DARK_OFFSET = 20.0
-"""Intensity, linear levels, that stands for the dark current; v2e's value."""
 ALMOST_BLACK = 1e-25
 """Added to luma before the logarithm that makes it linear; too small to change any but black."""
 BLOCK = 256
@@ -39,9 +37,10 @@ class Optics(NamedTuple):
     gamma: float
     """Exponent that makes the luma linear; 1 if it is already."""
     balance: float
-    """α, linear levels, above 0."""
+    """α, linear levels, above 0: the dark current."""
     cutoff_per_level: float
-    """Cutoff frequency ω of a photoreceptor per linear level, 1/µs; 0 is unlimited."""
+    """Cutoff frequency ω of a photoreceptor per linear level, dark current included, 1/µs; 0 is
+    unlimited."""
 
 
 class PhotoreceptorInput(NamedTuple):
@@ -103,14 +102,11 @@ def brightness_and_cutoff(luma: Float64Array, optics: Optics) -> tuple[Float64Ar
         optics: the constants.
 
     Returns:
-        `L = ln(α + I)`, log units, and `ω = cutoff_per_level · (I + 20)`, 1/µs, with the linear
+        `L = ln(α + I)`, log units, and `ω = cutoff_per_level · (α + I)`, 1/µs, with the linear
         intensity `I = 255 · (luma / 255)^gamma`.
     """
-    intensity = linearize(luma, optics.gamma)
-    return (
-        natural_log(optics.balance + intensity),
-        optics.cutoff_per_level * (intensity + DARK_OFFSET),
-    )
+    current = optics.balance + linearize(luma, optics.gamma)
+    return natural_log(current), optics.cutoff_per_level * current
 
 
 def linearize(luma: Float64Array, gamma: float) -> Float64Array:

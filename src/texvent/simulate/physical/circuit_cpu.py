@@ -22,7 +22,6 @@ from texvent.simulate.physical import reference
 from texvent.simulate.physical.circuit import (
     ALMOST_BLACK,
     BLOCK,
-    DARK_OFFSET,
     WHITE,
     CircuitState,
     Float64Array,
@@ -177,8 +176,8 @@ def _convert(
             if optics.gamma != 1.0:
                 exponent = optics.gamma * natural_log((level + ALMOST_BLACK) / WHITE)
                 level = WHITE * exponential(exponent)
-            brightness[j] = natural_log(optics.balance + level)
-            cutoff[j] = optics.cutoff_per_level * (level + DARK_OFFSET)
+            current = optics.balance + level
+            brightness[j], cutoff[j] = natural_log(current), optics.cutoff_per_level * current
 
 
 @jit(error_model="numpy")

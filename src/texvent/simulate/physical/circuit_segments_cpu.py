@@ -15,7 +15,7 @@ from texvent.events import NOISE
 from texvent.runtime.jit import jit
 from texvent.simulate.backend.elementary_cpu import decay_and_gain, exponential
 from texvent.simulate.backend.lanes_cpu import make_room
-from texvent.simulate.physical.circuit import DARK_OFFSET, CircuitState, Optics
+from texvent.simulate.physical.circuit import CircuitState, Optics
 from texvent.simulate.physical.circuit_lanes_cpu import (
     L_ARRIVAL,
     L_BASE,
@@ -109,11 +109,10 @@ def advance_lanes(
     """Advance all lanes through the interval; their events, and how many there are."""
     lanes, lane_of, steps, solving, stepping, firing, count = work
     duration, made, segment = float(rules.duration_us), 0, 0.0
-    constants = optics.cutoff_per_level, DARK_OFFSET - optics.balance
     count[:size] = 0
-    _cut_into_segments(lanes, size, duration, constants[0] > 0)
+    _cut_into_segments(lanes, size, duration, optics.cutoff_per_level > 0)
     while size > 0:
-        _enter_segment(lanes, size, segment, duration, constants)
+        _enter_segment(lanes, size, segment, duration, optics.cutoff_per_level)
         going = size
         for j in range(size):
             stepping[j] = j
@@ -160,10 +159,9 @@ def _cut_into_segments(lanes: Float64Array, size: int, duration: float, is_limit
 
 @jit(error_model="numpy")
 def _enter_segment(
-    lanes: Float64Array, size: int, segment: float, duration: float, constants: tuple[float, float]
+    lanes: Float64Array, size: int, segment: float, duration: float, per_level: float
 ) -> None:
     """The photoreceptors on the next segment; see `reference._CircuitPixels.enter_segment`."""
-    per_level, offset = constants
     for j in range(size):
         segments, length = lanes[L_SEGMENTS, j], lanes[L_SEGMENT_US, j]
         lanes[L_BEGIN, j], lanes[L_NOW, j] = segment * length, segment * length
@@ -174,7 +172,7 @@ def _enter_segment(
         here = lanes[L_OFFSET_INTENSITY, j]
         ahead = here * lanes[L_GROWTH_RATIO, j]
         mean = (here + ahead) * (1 / 6) + math.sqrt(here * ahead) * (2 / 3)
-        lanes[L_CUTOFF, j], lanes[L_OFFSET_INTENSITY, j] = per_level * (mean + offset), ahead
+        lanes[L_CUTOFF, j], lanes[L_OFFSET_INTENSITY, j] = per_level * mean, ahead
     for j in range(size):
         angle = lanes[L_CUTOFF, j] * lanes[L_SEGMENT_US, j]
         lanes[L_KEPT, j], lanes[L_TRANSIENT, j] = decay_and_gain(angle)
@@ -182,7 +180,7 @@ def _enter_segment(
         cutoff, length = lanes[L_CUTOFF, j], lanes[L_SEGMENT_US, j]
         cutoff_start, input_slope = lanes[L_CUTOFF_START, j], lanes[L_BRIGHTNESS_SLOPE, j]
         kept, gain, lag = lanes[L_KEPT, j], lanes[L_TRANSIENT, j], lanes[L_LAG, j]
-        cutoff_stop = per_level * (lanes[L_OFFSET_INTENSITY, j] + offset)
+        cutoff_stop = per_level * lanes[L_OFFSET_INTENSITY, j]
         angle = cutoff * length
         is_straight = angle < STRAIGHT
         bend = (cutoff_stop - cutoff_start) / cutoff * 0.5

@@ -1,8 +1,9 @@
 """The input of the photoreceptors: frame after frame, in the type of the frames.
 
 The photoreceptor is a first-order low-pass of the brightness ln(α + I) whose cutoff frequency is
-proportional to intensity, as the photocurrent charges its capacitance. Its response to a straight
-line is known in closed form, so the frame rate decides only how well straight lines fit the scene.
+proportional to α + I, as photocurrent and dark current charge its capacitance. Its response to a
+straight line is known in closed form, so the frame rate decides only how well straight lines fit
+the scene.
 
 Source: v2e (Hu, Liu and Delbruck, CVPRW 2021), section 4.2, which follows the proportionality of
     photocurrent and bandwidth (Lichtsteiner et al., JSSC 2008).
@@ -16,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.physical.circuit import (
-    DARK_OFFSET,
     WHITE,
     Luma,
     Optics,
@@ -42,9 +42,9 @@ class InputFrames:
             luma: 0..255 scale, [H, W], uint8 or float; copied.
             gamma: exponent that makes it linear; 1 if it is already.
             balance: α, linear levels, above 0.
-            cutoff_hz: bandwidth at white; 0 is unlimited. It is `cutoff · (I + 20) / 275`.
+            cutoff_hz: bandwidth at white; 0 is unlimited. It is `cutoff · (α + I) / (α + 255)`.
         """
-        cutoff_per_level = 2.0 * math.pi * cutoff_hz / (WHITE + DARK_OFFSET) / MICROSECONDS
+        cutoff_per_level = 2.0 * math.pi * cutoff_hz / (balance + WHITE) / MICROSECONDS
         self._optics = Optics(gamma, balance, cutoff_per_level)
         self._table = brightness_and_cutoff(np.arange(256.0), self._optics)
         self._seen: Luma = luma.reshape(-1).copy()

@@ -11,7 +11,6 @@ from texvent.events import NOISE, SIGNAL
 from texvent.simulate.backend.elementary import decay_and_gain, exponential
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical.circuit import (
-    DARK_OFFSET,
     CircuitState,
     Float64Array,
     Int64Array,
@@ -229,10 +228,9 @@ class _CircuitPixels:
             self.lag = np.zeros(self.lag.shape)
             return
         ahead = self.offset_intensity * self.growth_ratio
-        offset = DARK_OFFSET - light.optics.balance
         middle = np.sqrt(self.offset_intensity * ahead)
         mean = (self.offset_intensity + ahead) * (1 / 6) + middle * (2 / 3)
-        cutoff, cutoff_stop = per_level * (mean + offset), per_level * (ahead + offset)
+        cutoff, cutoff_stop = per_level * mean, per_level * ahead
         angle = cutoff * length
         kept, gain = decay_and_gain(angle)
         is_straight = angle < STRAIGHT
