@@ -68,6 +68,9 @@ def test_a_sensor_of_other_making_is_found_within_a_tenth(bright):
     for name, value in zip(NAMES, expected, strict=True):
         assert found[name] == pytest.approx(value, rel=0.1), name
     assert "of the bandwidth of the bright one" in flicker.remarks[-1]
+    for measured, true in zip(flicker.thresholds, (sensor._on, sensor._off), strict=True):
+        error = measured.reshape(-1) * true.mean() - true
+        assert np.sqrt(np.nanmean(error**2)) < 0.2 * true.std()
 
 
 def test_pixels_with_high_thresholds_are_bright_in_the_map(flicker):

@@ -8,6 +8,7 @@ from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
+from texvent.simulate.physical.threshold_map import read_threshold_map
 from texvent.video import Video
 
 
@@ -96,13 +97,16 @@ def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, c
     assert "noise_<wbr>on_<wbr>fraction" in text
     second = ["calibrate", "--events", str(scenes / "flicker.npz"), "--scene", "flicker"]
     light = ["--flicker-hz", "5", "--flicker-ratio", "6", "--start-preset", str(rest)]
-    report = ["--report", str(tmp_path / "flicker.html"), "-q"]
+    pixels = tmp_path / "pixels.npz"
+    report = ["--report", str(tmp_path / "flicker.html"), "--threshold-map", str(pixels), "-q"]
     assert main([*second, *light, "-o", str(both), *report]) == 0
     found = resolve("simulate", {}, config=both).simulate
     assert found.contrast_threshold == pytest.approx(0.3, rel=0.1)
     assert float(found.noise_curve.partition(":")[2]) == pytest.approx(2.0, rel=0.1)
     assert "# found contrast_threshold" in both.read_text()
     assert "Threshold over the mean" in (tmp_path / "flicker.html").read_text()
+    assert found.threshold_map == pixels
+    assert read_threshold_map(pixels).on.shape == SMALL.shape
 
 
 @pytest.mark.parametrize(
@@ -112,6 +116,8 @@ def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, c
         (("--scene", "flicker"), "needs --flicker-hz"),
         (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker-ratio"),
         (("--scene", "still"), "--scene"),
+        (("--scene", "static", "--threshold-map", "a.npz"), "is for --scene flicker"),
+        (("--scene", "flicker", "--flicker-hz", "5", "--threshold-map", "a.h5"), "in .npz"),
     ],
 )
 def test_scenes_without_frames_are_refused_in_one_line(scenes, tmp_path, capsys, more, message):

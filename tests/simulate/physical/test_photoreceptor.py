@@ -18,9 +18,9 @@ def follow_line(t: float, slope: float, tau: float) -> float:
 
 @pytest.mark.parametrize("count", [1, 7, 100])
 def test_the_low_pass_follows_a_line_by_its_closed_form(backend, count):
-    # So small a contrast that the corner frequency, (100 + 20) / 275 of the cutoff, stays.
+    # So small a contrast that the corner frequency, (10 + 100) / 265 of the cutoff, stays.
     cutoff, threshold, balance = 5.0, 0.011, 10.0
-    tau = 1 / (math.tau * cutoff * 120 / 275)
+    tau = 1 / (math.tau * cutoff * 110 / 265)
     start = math.log(110)
     values = [intensity(start + 0.05 * i / count, balance) for i in range(count + 1)]
     times = [round(i * 500_000 / count) for i in range(count + 1)]
@@ -80,12 +80,11 @@ def test_dark_pixels_are_slower_than_bright_ones(backend):
         events = run(clean(backend, cutoff_hz=100.0), frames_of(values, [0, 100, 500_000]))
         return int(events.t[0])
 
-    # Half of a step of 0.4 is reached after ln 2 · τ.
-    for level in (20.0, 150.0):
-        end = (level + intensity(math.log(10 + level) + 0.4)) / 2
-        tau = 275 / (math.tau * 100 * (end + 20)) * 1e6
-        assert delay(level) == pytest.approx(tau * math.log(2), rel=0.35)
-    assert delay(20.0) > 2 * delay(150.0)
+    # Half of a step of 0.4, which takes 100 µs, is reached after ln 2 · τ.
+    for level in (2.0, 20.0, 150.0):
+        end = intensity(math.log(10 + level) + 0.4)
+        tau = 265 / (math.tau * 100 * (10 + end)) * 1e6
+        assert delay(level) == pytest.approx(50 + tau * math.log(2), rel=0.01)
 
 
 def test_more_bandwidth_converges_to_no_limit():

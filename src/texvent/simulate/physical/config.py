@@ -45,10 +45,10 @@ class PhysicalConfig:
     threshold_map: Path | None = None
     """Thresholds of each pixel of one sensor, over their mean: a file of texvent calibrate --scene
     flicker. Pixels that it does not know have drawn ones."""
-    initial_phase: Literal["random", "zero"] = "random"
+    initial_phase: Literal["random", "zero"] = "zero"
     """How far each pixel is from its next event at the first frame: anywhere between its
-    thresholds, as in a sensor that was on before (random), or just reset (zero); leak then begins
-    to fire after 1 / leak_rate_hz."""
+    thresholds, as in a sensor that was on before, for frames without grain (random), or just reset
+    (zero); leak then begins to fire after 1 / leak_rate_hz."""
     residual_decay_hz: float = 0.0
     """Rate at which a pixel forgets change that has not fired yet, per second; 0 is never, 2.5
     does what a cache leak of 0.1 per frame does at 24 frames per second."""

@@ -59,7 +59,6 @@ PRESETS: Mapping[str, PhysicalConfig] = {
     "clean": PhysicalConfig(
         contrast_threshold=0.2,
         threshold_sigma=0.0,
-        initial_phase="zero",
         cutoff_hz=0.0,
         refractory_period_us=0,
         leak_rate_hz=0.0,
