@@ -81,6 +81,7 @@ class SimulatorOptions(TypedDict, total=False):
     gamma: float | None
     on_off_ratio: float | None
     threshold_sigma: float | None
+    threshold_map: str | Path | None
     initial_phase: Literal["random", "zero"] | None
     residual_decay_hz: float | None
     cutoff_hz: float | None
