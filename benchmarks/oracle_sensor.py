@@ -5,8 +5,9 @@
 writes src/texvent/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
 
 It does what docs/calibration.md tells the owner of a sensor to do, with recordings that the
-benchmark does not score: first a field that flickers, without frames, then a camera at rest before
-a texture of which one half moves, with the frames of an ordinary camera.
+benchmark does not score: first a camera at rest before a texture of which one half moves, with the
+frames of an ordinary camera, then a field that flickers, without frames. The first tells balance
+and noise, the second the rest.
 """
 
 from __future__ import annotations
@@ -18,20 +19,22 @@ from pathlib import Path
 import numpy as np
 
 from texvent.bench.fidelity.entries import SENSOR_FILE, THRESHOLD_FILE
+from texvent.bench.oracle.camera import EXPOSURE
 from texvent.bench.oracle.pixel import NOISY, REFERENCE_SEED
 from texvent.bench.oracle.recording import FPS, SIZE, record, render_video
 from texvent.bench.oracle.scenes import Float64Array, Scene, panning_texture
 from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.fit import fit_sensor
-from texvent.calibrate.preset import describe_fit, write_preset
+from texvent.calibrate.preset import describe_fit, describe_scene, write_preset
 from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.threshold_map import write_threshold_map
 
-FLICKER_HZ, RATIO, BRIGHT = 4.0, 5.0, 0.9
+FLICKER_HZ, RATIO, BRIGHT = 4.0, 5.0, 1 / EXPOSURE
+"""Bright is what the camera shows as white."""
 FRAMES = 2 * int(FPS) + 1
 TEXTURE = 7
 """The texture on which the benchmark fits thresholds; others are scored."""
@@ -65,19 +68,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--folder", type=Path, default=SENSOR_FILE.parent)
     folder = parser.parse_args().folder
-    flicker = measure_flicker(
-        recorded(flickering_field), PhysicalConfig(), hz=FLICKER_HZ, ratio=RATIO
-    )
     video = render_video(half_moving, frames=FRAMES)
     recording = Recording(video, recorded(half_moving), InterpolateConfig(motion_floor=True))
-    pixels = write_threshold_map(flicker.thresholds, folder / THRESHOLD_FILE.name, overwrite=True)
-    start = dataclasses.replace(flicker.config, threshold_map=pixels)
-    fit = fit_sensor(recording, start=start, report=print)
-    # Its camera has no grain, so pixels may begin anywhere; each entry names the map's place.
-    config = dataclasses.replace(fit.config, initial_phase="random", threshold_map=None)
-    lines = describe_fit(
-        fit, "two recordings of the benchmark's sensor, as benchmarks/oracle_sensor.py makes them"
-    )
+    fit = fit_sensor(recording, start=PhysicalConfig(), report=print)
+    flicker = measure_flicker(recorded(flickering_field), fit.config, hz=FLICKER_HZ, ratio=RATIO)
+    write_threshold_map(flicker.thresholds, folder / THRESHOLD_FILE.name, overwrite=True)
+    # Its camera has no grain, so pixels may begin anywhere.
+    config = dataclasses.replace(flicker.config, initial_phase="random")
+    lines = [
+        *describe_fit(fit, "a texture of which one half moves, see benchmarks/oracle_sensor.py"),
+        *describe_scene(flicker, "the same sensor", "a field that flickers"),
+    ]
     write_preset(config, lines, folder / SENSOR_FILE.name, size=SIZE, overwrite=True)
 
 

@@ -9,6 +9,7 @@ changed by θ_on + θ_off / 2, and the first OFF event likewise.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import NamedTuple
 
@@ -62,6 +63,10 @@ UNITS = ("ln", "", "ln", "Hz", "µs")
 SYSTEMATIC = np.array([0.02, 0.03, 0.05, 0.01, 0.01])
 """Relative error of each that more data do not remove, from simulated sensors
 (`benchmarks/calibration.py`): intervals are that much wider on both sides."""
+
+
+EXCESS_ERROR = 0.05
+"""Relative error of the bandwidth of the dark half over that of the bright one."""
 
 
 class Flicker(NamedTuple):
@@ -126,6 +131,9 @@ def measure_flicker(
     )
     ends *= scale * (1 + np.outer([-1, 1], SYSTEMATIC))
     found, kept = _judge(values * scale, ends, start, ratio)
+    if ratio is not None:
+        start = dataclasses.replace(start, cutoff_limit_hz=0.0)
+        found = _with_limit(found, dark / _modelled_slowness(ratio, start.balance))
     if fit.omega * fit.dead_s > MOST_LOST:
         found, kept = [], _lost(fit, start, kept)
     return Flicker(
@@ -236,6 +244,25 @@ def _judge(
     return found, kept
 
 
+def _with_limit(found: list[Estimate], excess: float) -> list[Estimate]:
+    """Bandwidths where that of the bright half is limited by more than the light.
+
+    Args:
+        found: constants, with the bandwidth of the bright half as that at white.
+        excess: bandwidth of the dark half over that of the bright one, over what the model has.
+    """
+    if excess <= 1.0:
+        return found
+    limit = [one._replace(name="cutoff_limit_hz") for one in found if one.name == "cutoff_hz"]
+    for place, one in enumerate(found):
+        if one.name == "cutoff_hz":
+            low, high = one.low * (1 - EXCESS_ERROR), one.high * (1 + EXCESS_ERROR)
+            found[place] = Estimate(
+                one.name, one.value * excess, low * excess, high * excess, one.unit
+            )
+    return [*found, *limit]
+
+
 def _lost(fit: BurstFit, start: PhysicalConfig, kept: list[Kept]) -> list[Kept]:
     """Nothing is told where most of the change falls into refractory periods."""
     reason = (
@@ -257,8 +284,8 @@ def _settling(fit: BurstFit, cycles: Cycles, slowness: float) -> list[str]:
 
 
 def _remark(slowness: float, ratio: float | None, balance: float) -> list[str]:
-    """Says so where the bandwidth falls with the light otherwise than the model's does."""
-    if ratio is None or slowness == (modelled := _modelled_slowness(ratio, balance)):
+    """Says so where the bandwidth falls faster with the light than the model's does."""
+    if ratio is None or slowness >= (modelled := _modelled_slowness(ratio, balance)):
         return []
     return [
         f"the dark half has {slowness:.2f} of the bandwidth of the bright one, in the model "

@@ -41,6 +41,8 @@ class Optics(NamedTuple):
     cutoff_per_level: float
     """Cutoff frequency ω of a photoreceptor per linear level, dark current included, 1/µs; 0 is
     unlimited."""
+    most_current: float
+    """α + I from which on the cutoff frequency grows no further, linear levels."""
 
 
 class PhotoreceptorInput(NamedTuple):
@@ -102,11 +104,12 @@ def brightness_and_cutoff(luma: Float64Array, optics: Optics) -> tuple[Float64Ar
         optics: the constants.
 
     Returns:
-        `L = ln(α + I)`, log units, and `ω = cutoff_per_level · (α + I)`, 1/µs, with the linear
-        intensity `I = 255 · (luma / 255)^gamma`.
+        `L = ln(α + I)`, log units, and `ω = cutoff_per_level · min(α + I, most_current)`, 1/µs,
+        with the linear intensity `I = 255 · (luma / 255)^gamma`.
     """
     current = optics.balance + linearize(luma, optics.gamma)
-    return natural_log(current), optics.cutoff_per_level * current
+    cutoff = optics.cutoff_per_level * np.minimum(current, optics.most_current)
+    return natural_log(current), cutoff
 
 
 def linearize(luma: Float64Array, gamma: float) -> Float64Array:

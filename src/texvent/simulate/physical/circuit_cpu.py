@@ -94,7 +94,7 @@ def warm_up(dtype: str) -> None:
     """Compile for one type of frames, or load what was compiled before."""
     luma, one, none = np.zeros(1, dtype), np.ones(1, np.float32), np.zeros(0, np.int64)
     table = (np.ones(256), np.ones(256)) if dtype == "uint8" else None
-    light = PhotoreceptorInput(luma.copy(), luma, Optics(1.0, 1.0, 0.0), table, (1, 1))
+    light = PhotoreceptorInput(luma.copy(), luma, Optics(1.0, 1.0, 0.0, np.inf), table, (1, 1))
     state = new_state(np.zeros(1), np.zeros(1), 0)
     noise = NoiseEvents(none, none, none.astype(np.uint8))
     advance_pixels(light, PixelMismatch(one, one, one), state, noise, ResetRules(0, True), (0, 1))
@@ -177,7 +177,8 @@ def _convert(
                 exponent = optics.gamma * natural_log((level + ALMOST_BLACK) / WHITE)
                 level = WHITE * exponential(exponent)
             current = optics.balance + level
-            brightness[j], cutoff[j] = natural_log(current), optics.cutoff_per_level * current
+            brightness[j] = natural_log(current)
+            cutoff[j] = optics.cutoff_per_level * min(current, optics.most_current)
 
 
 @jit(error_model="numpy")

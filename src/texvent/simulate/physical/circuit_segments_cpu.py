@@ -112,7 +112,7 @@ def advance_lanes(
     count[:size] = 0
     _cut_into_segments(lanes, size, duration, optics.cutoff_per_level > 0)
     while size > 0:
-        _enter_segment(lanes, size, segment, duration, optics.cutoff_per_level)
+        _enter_segment(lanes, size, segment, duration, optics)
         going = size
         for j in range(size):
             stepping[j] = j
@@ -159,9 +159,10 @@ def _cut_into_segments(lanes: Float64Array, size: int, duration: float, is_limit
 
 @jit(error_model="numpy")
 def _enter_segment(
-    lanes: Float64Array, size: int, segment: float, duration: float, per_level: float
+    lanes: Float64Array, size: int, segment: float, duration: float, optics: Optics
 ) -> None:
     """The photoreceptors on the next segment; see `reference._CircuitPixels.enter_segment`."""
+    per_level, most = optics.cutoff_per_level, optics.most_current
     for j in range(size):
         segments, length = lanes[L_SEGMENTS, j], lanes[L_SEGMENT_US, j]
         lanes[L_BEGIN, j], lanes[L_NOW, j] = segment * length, segment * length
@@ -172,7 +173,7 @@ def _enter_segment(
         here = lanes[L_OFFSET_INTENSITY, j]
         ahead = here * lanes[L_GROWTH_RATIO, j]
         mean = (here + ahead) * (1 / 6) + math.sqrt(here * ahead) * (2 / 3)
-        lanes[L_CUTOFF, j], lanes[L_OFFSET_INTENSITY, j] = per_level * mean, ahead
+        lanes[L_CUTOFF, j], lanes[L_OFFSET_INTENSITY, j] = per_level * min(mean, most), ahead
     for j in range(size):
         angle = lanes[L_CUTOFF, j] * lanes[L_SEGMENT_US, j]
         lanes[L_KEPT, j], lanes[L_TRANSIENT, j] = decay_and_gain(angle)
@@ -180,7 +181,7 @@ def _enter_segment(
         cutoff, length = lanes[L_CUTOFF, j], lanes[L_SEGMENT_US, j]
         cutoff_start, input_slope = lanes[L_CUTOFF_START, j], lanes[L_BRIGHTNESS_SLOPE, j]
         kept, gain, lag = lanes[L_KEPT, j], lanes[L_TRANSIENT, j], lanes[L_LAG, j]
-        cutoff_stop = per_level * lanes[L_OFFSET_INTENSITY, j]
+        cutoff_stop = per_level * min(lanes[L_OFFSET_INTENSITY, j], most)
         angle = cutoff * length
         is_straight = angle < STRAIGHT
         bend = (cutoff_stop - cutoff_start) / cutoff * 0.5

@@ -55,6 +55,9 @@ class PhysicalConfig:
     cutoff_hz: float = 250.0
     """Bandwidth of the photoreceptor at white; proportionally less at lower intensity. 0 is
     unlimited."""
+    cutoff_limit_hz: float = 0.0
+    """Bandwidth that bright light does not exceed, that of the circuit behind the photodiode; 0 is
+    unlimited."""
     refractory_period_us: int = 300
     """Time for which an event holds its pixel in reset; changes in it are lost."""
     leak_rate_hz: float = 0.01
@@ -198,6 +201,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "threshold_sigma": (0.0, 10.0),
     "residual_decay_hz": (0.0, 1e6),
     "cutoff_hz": (0.0, 1e6),
+    "cutoff_limit_hz": (0.0, 1e6),
     "refractory_period_us": (0, 10**9),
     "leak_rate_hz": (0.0, 1e3),
     "leak_rate_decades": (0.0, 1.0),

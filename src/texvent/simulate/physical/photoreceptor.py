@@ -34,7 +34,13 @@ class InputFrames:
     """The last frame that the photoreceptors received, and what they receive until the next."""
 
     def __init__(
-        self, luma: IntensityArray, *, gamma: float, balance: float, cutoff_hz: float
+        self,
+        luma: IntensityArray,
+        *,
+        gamma: float,
+        balance: float,
+        cutoff_hz: float,
+        cutoff_limit_hz: float = 0.0,
     ) -> None:
         """Start from the first frame.
 
@@ -42,10 +48,14 @@ class InputFrames:
             luma: 0..255 scale, [H, W], uint8 or float; copied.
             gamma: exponent that makes it linear; 1 if it is already.
             balance: α, linear levels, above 0.
-            cutoff_hz: bandwidth at white; 0 is unlimited. It is `cutoff · (α + I) / (α + 255)`.
+            cutoff_hz: bandwidth at white; 0 is unlimited. It is `cutoff · (α + I) / (α + 255)`, ...
+            cutoff_limit_hz: ... and at most this; 0 is unlimited.
         """
         cutoff_per_level = 2.0 * math.pi * cutoff_hz / (balance + WHITE) / MICROSECONDS
-        self._optics = Optics(gamma, balance, cutoff_per_level)
+        most_current = math.inf
+        if cutoff_hz > 0 and cutoff_limit_hz > 0:
+            most_current = cutoff_limit_hz / cutoff_hz * (balance + WHITE)
+        self._optics = Optics(gamma, balance, cutoff_per_level, most_current)
         self._table = brightness_and_cutoff(np.arange(256.0), self._optics)
         self._seen: Luma = luma.reshape(-1).copy()
 

@@ -230,7 +230,8 @@ class _CircuitPixels:
         ahead = self.offset_intensity * self.growth_ratio
         middle = np.sqrt(self.offset_intensity * ahead)
         mean = (self.offset_intensity + ahead) * (1 / 6) + middle * (2 / 3)
-        cutoff, cutoff_stop = per_level * mean, per_level * ahead
+        most = light.optics.most_current
+        cutoff, cutoff_stop = (per_level * np.minimum(one, most) for one in (mean, ahead))
         angle = cutoff * length
         kept, gain = decay_and_gain(angle)
         is_straight = angle < STRAIGHT

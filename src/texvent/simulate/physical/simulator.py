@@ -123,7 +123,11 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         )
         self._readout = Readout(config.readout, first_us=self._last_us, size=size)
         self._frames = InputFrames(
-            intensity, gamma=config.gamma, balance=config.balance, cutoff_hz=config.cutoff_hz
+            intensity,
+            gamma=config.gamma,
+            balance=config.balance,
+            cutoff_hz=config.cutoff_hz,
+            cutoff_limit_hz=config.cutoff_limit_hz,
         )
         output = self._frames.brightness()
         level = output.copy()
