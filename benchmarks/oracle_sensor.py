@@ -5,9 +5,8 @@
 writes src/texvent/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
 
 It does what docs/calibration.md tells the owner of a sensor to do, with recordings that the
-benchmark does not score: first a camera at rest before a texture of which one half moves, with the
-frames of an ordinary camera, then a field that flickers, without frames. The first tells balance
-and noise, the second the rest.
+benchmark does not score: first a field that flickers, without frames, then a camera at rest before
+a texture of which one half moves, with the frames of an ordinary camera.
 """
 
 from __future__ import annotations
@@ -24,6 +23,7 @@ from texvent.bench.oracle.pixel import NOISY, REFERENCE_SEED
 from texvent.bench.oracle.recording import FPS, SIZE, record, render_video
 from texvent.bench.oracle.scenes import Float64Array, Scene, panning_texture
 from texvent.bench.oracle.smooth_texture import ValueNoise
+from texvent.calibrate.estimates import describe_estimates
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.preset import describe_fit, describe_scene, write_preset
@@ -68,16 +68,20 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--folder", type=Path, default=SENSOR_FILE.parent)
     folder = parser.parse_args().folder
+    flicker = measure_flicker(
+        recorded(flickering_field), PhysicalConfig(), hz=FLICKER_HZ, ratio=RATIO
+    )
+    pixels = write_threshold_map(flicker.thresholds, folder / THRESHOLD_FILE.name, overwrite=True)
+    start = dataclasses.replace(flicker.config, threshold_map=pixels)
     video = render_video(half_moving, frames=FRAMES)
     recording = Recording(video, recorded(half_moving), InterpolateConfig(motion_floor=True))
-    fit = fit_sensor(recording, start=PhysicalConfig(), report=print)
-    flicker = measure_flicker(recorded(flickering_field), fit.config, hz=FLICKER_HZ, ratio=RATIO)
-    write_threshold_map(flicker.thresholds, folder / THRESHOLD_FILE.name, overwrite=True)
-    # Its camera has no grain, so pixels may begin anywhere.
-    config = dataclasses.replace(flicker.config, initial_phase="random")
+    fit = fit_sensor(recording, start=start, report=print)
+    # Its camera has no grain, so pixels may begin anywhere; entries name the map's place.
+    config = dataclasses.replace(fit.config, initial_phase="random", threshold_map=None)
     lines = [
+        *describe_scene(flicker, "the benchmark's sensor", "a field that flickers"),
         *describe_fit(fit, "a texture of which one half moves, see benchmarks/oracle_sensor.py"),
-        *describe_scene(flicker, "the same sensor", "a field that flickers"),
+        *describe_estimates(fit.found, fit.kept),
     ]
     write_preset(config, lines, folder / SENSOR_FILE.name, size=SIZE, overwrite=True)
 

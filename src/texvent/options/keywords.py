@@ -85,6 +85,7 @@ class SimulatorOptions(TypedDict, total=False):
     initial_phase: Literal["random", "zero"] | None
     residual_decay_hz: float | None
     cutoff_hz: float | None
+    cutoff_limit_hz: float | None
     refractory_period_us: int | None
     leak_rate_hz: float | None
     leak_rate_decades: float | None

@@ -21,13 +21,14 @@ from texvent.bench.fidelity.run import (
 )
 from texvent.bench.fidelity.table import fidelity_tables
 from texvent.bench.oracle.camera import EXPOSURE
-from texvent.bench.oracle.pixel import IDEAL, NOISY
-from texvent.bench.oracle.recording import TrueFrames, oracle_scene, record
+from texvent.bench.oracle.pixel import IDEAL, NOISY, PixelArray
+from texvent.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
 from texvent.run.settings import resolve
+from texvent.simulate.physical.threshold_map import read_threshold_map
 
 from ..synthetic_report import synthetic_report
 
@@ -124,13 +125,22 @@ def test_entries_are_chosen_by_name_and_preset():
     assert [Entry.parse(entry.name) for entry in entries] == entries
 
 
-def test_the_calibrated_entry_knows_the_kind_of_sensor():
+def test_the_calibrated_entry_knows_the_sensor():
     (entry,) = choose_entries("physical:calibrated", "exact")
     assert Entry.parse(entry.name) == entry
     assert entry.track == "true frames, sensor known"
     found = entry.settings(0).simulate
-    # Half of the radiance is level 115, where the true bandwidth is 250 Hz.
-    assert found.cutoff_hz * (115 + 20) / 275 == pytest.approx(250, rel=0.2)
+    # Half of the radiance is level 115, from which on the true bandwidth is 250 Hz.
+    assert found.cutoff_limit_hz == pytest.approx(250, rel=0.02)
+    for level, tolerance in ((28, 0.4), (57, 0.4), (115, 0.2)):
+        share = (level + found.balance) / (255 + found.balance)
+        bandwidth = min(found.cutoff_hz * share, found.cutoff_limit_hz)
+        assert bandwidth == pytest.approx(250 * level / 115, rel=tolerance)
+    true = PixelArray(NOISY, SIZE, 0)
+    measured = read_threshold_map(found.threshold_map)
+    for each, own in zip(measured, (true._on, true._off), strict=True):
+        error = each.reshape(-1) * own.mean() - own
+        assert np.sqrt(np.nanmean(error**2)) < 0.2 * own.std()
     assert found.contrast_threshold == pytest.approx(NOISY.threshold, rel=0.15)
     assert found.threshold_sigma == pytest.approx(NOISY.threshold_sigma, rel=0.15)
 

@@ -73,17 +73,22 @@ def test_few_pieces_are_as_good_as_many(frame_us, cutoff_hz, monkeypatch):
     assert few == pytest.approx(times(), abs=0.01 * frame_us)
 
 
-def test_dark_pixels_are_slower_than_bright_ones(backend):
+@pytest.mark.parametrize("limit_hz", [0.0, 20.0])
+def test_dark_pixels_are_slower_than_bright_ones(backend, limit_hz):
     def delay(level):
         start = math.log(10 + level)
         values = [level, intensity(start + 0.4), intensity(start + 0.4)]
-        events = run(clean(backend, cutoff_hz=100.0), frames_of(values, [0, 100, 500_000]))
+        events = run(
+            clean(backend, cutoff_hz=100.0, cutoff_limit_hz=limit_hz),
+            frames_of(values, [0, 100, 500_000]),
+        )
         return int(events.t[0])
 
     # Half of a step of 0.4, which takes 100 µs, is reached after ln 2 · τ.
     for level in (2.0, 20.0, 150.0):
         end = intensity(math.log(10 + level) + 0.4)
-        tau = 265 / (math.tau * 100 * (10 + end)) * 1e6
+        cutoff_hz = 100 * (10 + end) / 265
+        tau = 1e6 / (math.tau * min(cutoff_hz, limit_hz or cutoff_hz))
         assert delay(level) == pytest.approx(50 + tau * math.log(2), rel=0.01)
 
 
