@@ -125,6 +125,11 @@ def test_entries_are_chosen_by_name_and_preset():
     assert [Entry.parse(entry.name) for entry in entries] == entries
 
 
+def test_a_wrong_preset_names_the_calibrated_one():
+    with pytest.raises(ConfigError, match="has no preset 'calibrate'; .*did you mean 'calibrated'"):
+        choose_entries("physical:calibrate", "flow")
+
+
 def test_the_calibrated_entry_knows_the_sensor():
     (entry,) = choose_entries("physical:calibrated", "exact")
     assert Entry.parse(entry.name) == entry

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from texvent._registry import SIMULATORS
+from texvent._registry import SIMULATORS, suggest
 from texvent.bench.oracle.recording import TrueFrames, render_video
 from texvent.bench.oracle.scenes import Scene
 from texvent.errors import ConfigError, shown
@@ -165,18 +165,29 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
             means `INTERPOLATIONS`.
 
     Raises:
-        ConfigError: a frequency is no number.
+        ConfigError: a frequency is no number, or `physical` has no such preset.
     """
     chosen = [*simulators_to_compare(), CALIBRATED]
     if simulators is not None:
         words = (word.partition(":") for word in simulators.split(","))
         chosen = [(simulator, preset or None) for simulator, _, preset in words]
+        _check_presets(chosen)
     names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
     return [
         Entry(simulator=simulator, preset=preset, interpolate=interpolate, lamp_hz=hz)
         for simulator, preset in chosen
         for interpolate, hz in map(_name_and_hz, names)
     ]
+
+
+def _check_presets(chosen: list[tuple[str, str | None]]) -> None:
+    """Refuse presets of `physical` that are neither its own nor the benchmark's."""
+    allowed = (*SIMULATORS.load(CALIBRATED[0]).presets, CALIBRATED[1])
+    for simulator, preset in chosen:
+        if simulator == CALIBRATED[0] and preset is not None and preset not in allowed:
+            raise ConfigError(
+                f"simulator {simulator!r} has no preset {shown(preset)}; {suggest(preset, allowed)}"
+            )
 
 
 def _name_and_hz(word: str) -> tuple[str, float | None]:
