@@ -126,7 +126,9 @@ def test_entries_are_chosen_by_name_and_preset():
 
 
 def test_a_wrong_preset_names_the_calibrated_one():
-    with pytest.raises(ConfigError, match=r"has no preset 'calibrate'; .*did you mean 'calibrated'"):
+    with pytest.raises(
+        ConfigError, match=r"has no preset 'calibrate'; .*did you mean 'calibrated'"
+    ):
         choose_entries("physical:calibrate", "flow")
 
 
