@@ -106,6 +106,7 @@ def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, c
     assert "# found contrast_threshold" in both.read_text()
     assert "Threshold over the mean" in (tmp_path / "flicker.html").read_text()
     assert found.threshold_map == pixels
+    assert capsys.readouterr().out.splitlines()[1] == str(pixels)
     assert read_threshold_map(pixels).on.shape == SMALL.shape
 
 

@@ -171,6 +171,8 @@ def run(arguments: Sequence[str]) -> int:
         config, lines, options.out, size=events.size, overwrite=options.overwrite
     )
     write_out(f"{written}\n")
+    if options.threshold_map is not None:
+        write_out(f"{options.threshold_map}\n")
     if options.report is not None:
         page = write_report(report, options.report, overwrite=options.overwrite)
         write_out(f"{page}\n")
