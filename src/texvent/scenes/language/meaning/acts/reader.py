@@ -246,9 +246,8 @@ class ActReader:
 
     def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
         """Whether the verb acts on an object of the scene, or moves in a plain way."""
-        if not isinstance(clause.verb_word.meaning.value, Verb):
-            return False
-        return any(one.is_things for one in objects)
+        is_verb = isinstance(clause.verb_word.meaning.value, Verb)
+        return is_verb and any(one.is_things for one in objects)
 
     def _do_to(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
