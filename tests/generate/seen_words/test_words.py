@@ -49,6 +49,7 @@ def report_of(prompt: str) -> PromptReport:
         ("view from inside a car driving through a city", "car"),
         ("a woman wears a woollen hat", "woollen"),
         ("cars drive in heavy rain", "heavy rain"),
+        ("snowflakes drift past a street lamp on an empty road", "road"),
         ("a flickering candle on a table", "flickering"),
         ("a motorboat with white sails on the sea", "sails"),
     ],

@@ -45,9 +45,37 @@ def test_what_is_outdoors_is_in_no_room(prompt) -> None:
         ("A cup rolls over the floor.", "indoor"),
         ("A man hammers on an anvil.", "workshop"),
         ("A man buys bread in a shop.", "supermarket"),
+        ("A woman kneads dough.", "kitchen"),
+        ("A man cracks an egg into a bowl.", "kitchen"),
     ],
 )
 def test_what_is_inside_is_in_a_room(prompt, place) -> None:
+    assert parse_prompt(prompt).surroundings.place == place
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("A shark passes a diver.", "underwater"),
+        ("An octopus crawls over a rock.", "underwater"),
+        ("A shark circles a boat.", "sea"),
+        ("A tractor ploughs.", "soil"),
+        ("A combine harvester drives.", "wheat field"),
+        ("A tractor drives.", "road"),
+        ("A car passes a farmhouse.", "road"),
+        ("An astronaut floats.", "space"),
+        ("A spacecraft passes a planet.", "space"),
+        ("An astronaut rides a horse.", "grass"),
+        ("A drone lifts off from a picnic table.", "grass"),
+        ("A cup falls off a garden table.", "grass"),
+        ("A woman whisks cream by a campfire.", "grass"),
+        ("A man chops wood.", "grass"),
+        ("A pitch-black cat runs.", "grass"),
+        ("A waiter drops ice into a glass.", "indoor"),
+        ("A polar bear walks over ice.", "snow"),
+    ],
+)
+def test_what_lives_and_is_done_in_one_place_is_there(prompt, place) -> None:
     assert parse_prompt(prompt).surroundings.place == place
 
 

@@ -15,8 +15,10 @@ MOST_RED = 0.04
 LEAST_CLOUDED = 0.1
 """Share of the picture that a sky of clouds covers."""
 LEAST_STRIP, LEAST_EDGE = 0.02, 0.05
-"""Share of the picture that water or a road covers; its difference from the ground beside it."""
+"""Share of the picture that water covers; difference of it, or a road, from the ground beside."""
 _WATER_WORDS = frozenset({"water", "waters"})
+LEAST_ROAD = 0.05
+"""Share of the picture that a road covers, no sliver at its edge."""
 LEAST_FLYER = 0.05
 """Extent of what is in the sky, as a share of the picture's width or height."""
 LEAST_GROUND = 0.05
@@ -73,6 +75,11 @@ _NEEDS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("station", "train station", "railway station", "subway station",
                      "metro station", "underground station"), ("railway track", "rail track")),
     "classroom": ("school desk",),
+    **dict.fromkeys(("forest", "wood", "woods", "woodland", "pine forest", "grove"),
+                    ("pine", "tree", "palm", "birch")),
+    **dict.fromkeys(("warehouse", "storehouse"), ("shelf", "crate", "pallet")),
+    **dict.fromkeys(("laboratory", "lab", "research lab", "chemistry lab", "science lab"),
+                    ("lab bench", "centrifuge", "microscope", "beaker", "flask")),
     "stage": ("stage curtain", "spotlight"),
     "garden": ("flower", "fence", "garden fence"),
     **dict.fromkeys(("garage", "auto repair shop", "car workshop"), ("car lift",)),
@@ -170,7 +177,7 @@ def _judge_road(picture: Picture, *, is_trodden: bool) -> str | None:
     """A road differs from the ground beside it, which must be in view where the road is earth."""
     for number in USUAL:
         road, beside = picture.strip(number)
-        if road.mean() < LEAST_STRIP:
+        if road.mean() < LEAST_ROAD:
             continue
         colours = picture.colours(number)
         is_told = not is_trodden or beside.mean() >= LEAST_EDGE

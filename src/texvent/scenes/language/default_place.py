@@ -53,9 +53,16 @@ _OUTDOORS = frozenset(
 """Nouns that are not found in a room."""
 _NEUTRAL = ("grass", "plain")
 """Places that say nothing where the program chose them."""
+_FIELDS = ("wheat field", "soil")
+"""Where vehicles of farms are that work, on no road."""
+_FARM_VEHICLES = frozenset({"tractor"})
+_DIVERS = ("scuba diver",)
+_SEA_BED = ("rock", "seaweed", "coral", "anchor", "chest", "treasure chest", "starfish", "crab")
+"""What is under water beside what swims there."""
 _UNREMARKABLE = (*_NEUTRAL, "sky", "indoor", "road")
 """Places that need no note where the program chose them: vehicles are on roads anyway."""
 _NAMES = {"snow": "snow", "sand": "sand", "hills": "hills",
+          "space": "space",
           "underwater": "under water", "sea": "the sea", "soil": "bare soil"}  # fmt: skip
 """Place → its name in a sentence, where that is not the word itself with "a"."""
 _INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", "gym",
@@ -75,12 +82,22 @@ def choose_place(
     if description.surroundings.place is not None:
         return usual
     is_open = usual in _NEUTRAL or (usual == SHORE and cues.outdoor == "sea")
+    if cues.is_outdoors and cues.outdoor in _FIELDS and usual == "road":
+        return cues.outdoor if _is_of_farms(description) else usual
+    if cues.outdoor == "space" and usual not in _NEUTRAL:
+        return usual
     if cues.is_outdoors and cues.outdoor and (usual in ENCLOSED or is_open):
         is_ashore = {nouns[one.noun].habitat for one in description.objects} <= {"ground", "fixed"}
         return BEACH if cues.outdoor == "sea" and is_ashore else cues.outdoor
     if cues.is_indoors and cues.indoor and (usual not in ENCLOSED or usual == "indoor"):
         return cues.indoor
     return usual
+
+
+def _is_of_farms(description: SceneDescription) -> bool:
+    """Whether all vehicles that are usually on roads work on farms, too."""
+    on_roads = {one.noun for one in description.objects} & set(_USUAL_PLACES["road"])
+    return on_roads <= _FARM_VEHICLES
 
 
 def _list_members(description: SceneDescription, nouns: Mapping[str, Noun]) -> list[Noun]:
@@ -108,8 +125,9 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
         and nouns[one.noun].habitat == "ground"
         for one in description.objects
     )
-    is_submerged = bool(members) and all(
-        noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in members
+    swimmers = [noun for noun in members if noun.name not in (*_DIVERS, *_SEA_BED)]
+    is_submerged = bool(swimmers) and all(
+        noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in swimmers
     )
     is_submerged = is_submerged and not _leaps(description)
     stated = _fit_stated(description, members, nouns, is_submerged=is_submerged)
@@ -121,6 +139,8 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
         return "underwater"
     if is_in_water:
         return "sea"
+    if _floats_in_space(description):
+        return "space"
     for move in description.shot.moves:
         if move.kind == "travel" and move.means in _PLACE_OF_TRAVEL:
             return _PLACE_OF_TRAVEL[move.means]
@@ -143,6 +163,8 @@ _ALOFT = frozenset({"fly", "hover", "float", "fall", "rise", "sink", "throw", "b
 """Motions in which what lives on the ground is in the air."""
 _AT_SEA = frozenset({"swim", "surf", "sail", "paddle", "float", "dive", "row", "sink"})
 """Motions in which it is in the water."""
+_WEIGHTLESS = frozenset({"float", "hover", "fly", "orbit", "tumble"})
+"""Motions of an astronaut in space."""
 _OFFSHORE = frozenset({_PIER, "bridge", "lighthouse", "oil rig", "iceberg", "rock", "island"})
 """Things that stand in the sea."""
 
@@ -178,6 +200,14 @@ _NO_GROUND = ("space", "underwater", "sky")
 def _leaps(description: SceneDescription) -> bool:
     """As in "a dolphin jumps": out of the water."""
     return all(one.motion is not None and one.motion.kind == "jump" for one in description.objects)
+
+
+def _floats_in_space(description: SceneDescription) -> bool:
+    """As in "an astronaut floats"."""
+    return any(
+        one.noun == "astronaut" and one.motion is not None and one.motion.kind in _WEIGHTLESS
+        for one in description.objects
+    )
 
 
 def _is_of_clouds(description: SceneDescription) -> bool:

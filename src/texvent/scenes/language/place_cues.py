@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from texvent.scenes.language.vocabulary.place_cues import (
     APPROACHES,
     BUILDINGS,
     ENCLOSED,
     FARM_CUES,
+    FIELD_ACTS,
+    FIELD_WORKERS,
+    FOOD_ACTS,
+    FOODS,
     INDOOR_CUES,
+    KITCHEN_ACTS,
     OUTDOOR_CUES,
     OUTSIDE,
     OWN_GROUND,
@@ -102,7 +107,19 @@ def find_cues(words: Sequence[Word], *, is_outside: bool) -> PlaceCues:
     outdoor = _find(said, OUTDOOR_CUES)
     if outdoor in (None, "grass") and is_outside:
         outdoor = "farmyard" if said & FARM_CUES else "city"
-    return PlaceCues(outdoor or ("grass" if is_fair else None), _find(said, INDOOR_CUES))
+    outdoor = outdoor or ("grass" if is_fair else None)
+    return _read_acts(words, said, PlaceCues(outdoor, _find(said, INDOOR_CUES)))
+
+
+def _read_acts(words: Sequence[Word], said: set[str], cues: PlaceCues) -> PlaceCues:
+    """With what the verbs tell: who ploughs is in a field, and who whisks in a kitchen."""
+    done = {word.lemma for word in words if word.pos is Pos.VERB}
+    if cues.outdoor in (None, "grass") and said & FIELD_WORKERS:
+        cues = replace(cues, outdoor=_find(done, FIELD_ACTS) or cues.outdoor)
+    cooks = done & KITCHEN_ACTS or (done & FOOD_ACTS and said & FOODS)
+    if cooks and cues.outdoor is None and cues.indoor in (None, "indoor"):
+        return replace(cues, indoor="kitchen")
+    return cues
 
 
 def _find(said: set[str], cues: dict[str, frozenset[str]]) -> str | None:

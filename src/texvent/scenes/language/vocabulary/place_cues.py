@@ -32,6 +32,8 @@ def _words(text: str) -> frozenset[str]:
 
 
 OUTDOOR_CUES: dict[str, frozenset[str]] = {
+    "space": _words("spacecraft cosmonaut spacewalk")
+    | {"space station", "space capsule", "space probe", "space telescope"},
     "sea": _words("wave surf surfer surfboard wakeboard seagull gull whale dolphin sailor yacht"),
     "stadium": _words(
         "referee penalty soccer footballer goalkeeper goalpost striker quarterback touchdown"
@@ -40,7 +42,8 @@ OUTDOOR_CUES: dict[str, frozenset[str]] = {
         "street shop taxi pedestrian traffic avenue sidewalk pavement curb bus tram limousine"
         " crosswalk skyline busker skyscraper storefront streetlight lamppost"
     ),
-    "wheat field": _words("farmland farmhouse harvester"),
+    "wheat field": _words("farmland farmhouse harvester crop") | {"combine harvester", "combine"},
+    "soil": _words("plough plow furrow"),
     "railway": _words("train locomotive"),
     "forest": _words("branch monkey squirrel owl woodpecker lumberjack ape gorilla fern bear wolf"),
     "hills": _words("shepherd hiker"),
@@ -54,10 +57,44 @@ OUTDOOR_CUES: dict[str, frozenset[str]] = {
         " flower bunker golfer golf bird eagle hawk falcon fox deer lion elephant zebra giraffe"
         " horse cow sheep goat tractor farmer gardener tent campfire kite airplane plane helicopter"
         " balloonist archer cowboy hunter picnic climber tiger kangaroo camel butterfly bee hedge"
-        " panda stork crane peacock frog football frisbee javelin outdoors outdoor"
-    ),
+        " panda stork crane peacock frog football frisbee javelin outdoors outdoor deckchair"
+        " garden patio"
+    )
+    | {
+        "picnic table",
+        "picnic bench",
+        "park bench",
+        "garden table",
+        "garden chair",
+        "garden bench",
+        "patio table",
+        "patio chair",
+        "lawn chair",
+        "camping table",
+        "camping chair",
+        "market stall",
+        "stall",
+    },
 }
 """Outdoor place → nouns that are found there or in places like it, the most telling first."""
+FIELD_ACTS: dict[str, frozenset[str]] = {
+    "soil": _words("plough plow harrow till sow"),
+    "wheat field": _words("harvest reap thresh"),
+}
+"""Outdoor place → verbs of the farm work that is done there."""
+KITCHEN_ACTS = _words("whisk knead fry grate saute simmer bake")
+"""Verbs of what is done in a kitchen."""
+FIELD_WORKERS = _words(
+    "tractor farmer harvester ox horse wheat corn barley rye grain crop seed"
+) | {"combine harvester"}
+"""Nouns beside which these verbs are of a field: who does the work, and what grows there."""
+FOOD_ACTS = _words("crack beat chop slice dice mince peel stir mix roll boil cook flip")
+"""Verbs of what is done in a kitchen with food."""
+FOODS = _words(
+    "egg dough batter pancake onion carrot tomato potato vegetable garlic cucumber soup sauce"
+    " stew omelette pasta noodle rice flour bacon mushroom celery pastry"
+)
+"""What is made or cut up in a kitchen."""
 FARM_CUES = _words("barn stable farm farmer farmhouse hay cow sheep goat hen tractor")
 """Nouns beside buildings that stand on a farm, in no city."""
 INDOOR_CUES: dict[str, frozenset[str]] = {

@@ -145,6 +145,9 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "wave": (_sense("hair crowd stadium sound radio"),),
     "brush": (_sense(_CARWASH),),
     "calf": (_sense("muscle stretch tattoo cramp runner leg"),),
+    "ice": (_sense("crushed fishmonger stall market glass cube drink cocktail bartender barman"
+                   " waiter bucket cooler lemonade whisky whiskey soda cola juice tongs freezer"
+                   " blender shaker"),),
     "cell": (_sense("prison prisoner jail"),),
     "charger": (_sense("knight phone laptop plug socket cable"),),
     "chest": (_sense("muscle breathe hairy bare gorilla beat doctor stethoscope"),),

@@ -27,6 +27,8 @@ _SHAPES = frozenset({"circle", "ring", "square", "triangle", "disc", "line"})
 """What "of" makes an arrangement: "a circle of friends"."""
 _LIGHTS = frozenset({"spark", "sparks", "light", "glow", "flame", "fire"})
 """What is orange in colour, where "orange" might be read as the fruit."""
+_DARK = ("black", "dark", "darkness")
+"""What "pitch" says how dark it is of, and is no field: "pitch-black"."""
 _OF_SHOTS = frozenset({Role.FRAMING, Role.VIEW, Role.CAMERA, Role.CAMERA_MOVE})
 """Roles of what "overhead" is a view of: "overhead close-up"."""
 _OUTLINES = frozenset({"flat", "square"})
@@ -133,7 +135,8 @@ def _choose_noun(
     is_before_noun = follower is not None and (
         follower.pos in (Pos.NOUN, Pos.ADJECTIVE) or follower.read_as(Role.PART) is not None
     )
-    if word.lemma in _OUTLINES and is_before_noun:
+    is_darkness = word.text == "pitch" and follower is not None and follower.text in _DARK
+    if is_darkness or (word.lemma in _OUTLINES and is_before_noun):
         _forget(word, Pos.ADJECTIVE)
         return
     if word.lemma == "flat":
