@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.models.nouns import AFLOAT
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.surroundings.waterside import WATERSIDE
 
 _HIGH_PLACES = ("mountain", "forest", "city")
 """Where what flies does so above the trees and streets."""
+_OFF_THE_BED = 0.5
+"""How high people swim above the bed of the sea, as a multiple of their height."""
 
 
 def choose_levels(
@@ -30,6 +32,8 @@ def choose_levels(
     }
     if place == "underwater":
         levels["water"] = 0.9
+        divers = [one.noun for one in description.objects if _swims_from_land(one, nouns)]
+        levels.update(dict.fromkeys(divers, _OFF_THE_BED))
     elif place == "sea" or place in WATERSIDE:
         levels.update({noun.name: -0.18 for noun in nouns.values() if noun.habitat == "water"})
         levels.update(dict.fromkeys(AFLOAT, 0.0))
@@ -37,3 +41,9 @@ def choose_levels(
         levels["water"] = 0.5
         levels.update(dict.fromkeys(AFLOAT, 0.25))
     return levels
+
+
+def _swims_from_land(one: SceneObject, nouns: Mapping[str, Noun]) -> bool:
+    """As a diver does: what lives in the water is high enough anyway."""
+    is_of_land = nouns[one.noun].habitat == "ground"
+    return is_of_land and one.motion is not None and one.motion.kind == "swim"
