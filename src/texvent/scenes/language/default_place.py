@@ -82,6 +82,8 @@ def choose_place(
     if description.surroundings.place is not None:
         return usual
     is_open = usual in _NEUTRAL or (usual == SHORE and cues.outdoor == "sea")
+    if usual in _NEUTRAL and _floats_in_space(description):
+        return "space"
     if cues.is_outdoors and cues.outdoor in _FIELDS and usual == "road":
         return cues.outdoor if _is_of_farms(description) else usual
     if cues.outdoor == "space" and usual not in _NEUTRAL:
@@ -139,8 +141,6 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
         return "underwater"
     if is_in_water:
         return "sea"
-    if _floats_in_space(description):
-        return "space"
     for move in description.shot.moves:
         if move.kind == "travel" and move.means in _PLACE_OF_TRAVEL:
             return _PLACE_OF_TRAVEL[move.means]
