@@ -23,9 +23,9 @@ COORDINATES: Mapping[str, tuple[float, float]] = {
 """Options that are searched, with their limits."""
 STEPS = (2.0, math.sqrt(2.0))
 """Factors by which they are changed, one round each."""
-COUNT_ROUNDS = 5
+COUNT_ROUNDS = 7
 """Simulations that may be spent on the thresholds of one candidate."""
-COUNT_TOLERANCE = 0.01
+COUNT_TOLERANCE = 0.002
 """Logarithm of a count ratio at which thresholds are good enough."""
 COUNT_GAIN = 0.7
 """Step of the logarithm of a threshold per logarithm of a count ratio: counts fall with its power
