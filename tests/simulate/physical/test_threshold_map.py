@@ -1,6 +1,7 @@
 """Thresholds of each pixel of a sensor, from a file."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -64,6 +65,8 @@ def test_a_run_names_its_map_and_refuses_frames_of_another_size(path):
 def test_other_files_are_refused(tmp_path):
     with pytest.raises(InputError, match="no threshold map"):
         read_threshold_map(tmp_path / "none.npz")
+    with pytest.raises(InputError, match="longer than 255 bytes"):
+        read_threshold_map(Path("x" * 256))
     other, text = tmp_path / "other.npz", tmp_path / "text.npz"
     np.savez(other, x=np.zeros(3))
     text.write_text("on off")

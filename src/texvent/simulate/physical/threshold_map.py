@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
+from texvent.runtime.file_names import usable_path
 from texvent.simulate.random.mismatch import LOWEST_THRESHOLD, NominalThresholds
 
 Float64Array = NDArray[np.float64]
@@ -56,9 +57,10 @@ def read_threshold_map(path: Path) -> ThresholdMap:
     """Read a file of `write_threshold_map`.
 
     Raises:
-        InputError: there is no such file.
+        InputError: there is no such file, or no file can have that name.
         FileFormatError: it holds something else.
     """
+    path = usable_path(path)
     if not path.is_file():
         raise InputError(f"there is no threshold map {path}; texvent calibrate --scene flicker "
                          "--threshold-map FILE writes one")  # fmt: skip
