@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from texvent.scenes.evidence import Evidence, report_on
 from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.language.word_claims import MANY_LOST
 
 
 def doubts(prompt: str) -> dict[str, tuple[str, ...]]:
@@ -36,6 +37,14 @@ def test_in_a_crowded_prompt_a_lost_word_puts_its_sentence_in_doubt() -> None:
     assert set(doubts(crowded)) >= {"cat", "table", "beside"}
     assert not {"man", "dog", "car", "tree", "chair"} & set(doubts(crowded))
     assert "cat" not in doubts("A cat beside a table near the wug.")
+
+
+def test_where_many_words_are_lost_every_other_word_is_in_doubt() -> None:
+    few = "A red dog runs at dusk. The quarterly fiscal audit explains joint ventures."
+    many = f"{few[:-1]}, monetary policy, legal theory, civic virtue and annual budgets."
+    assert len(parse_prompt(many).not_understood) >= MANY_LOST
+    assert doubts(few) == {}
+    assert set(doubts(many)) == {"red", "dog", "runs", "dusk"}
 
 
 def test_the_report_lists_words_in_doubt_with_the_lost_ones() -> None:

@@ -337,6 +337,7 @@ def test_the_summary_reads_as_what_will_be_shown() -> None:
         "place: road",
         "light: dusk",
         "camera: static",
+        "no place is said: a road is chosen",
     ]
 
 

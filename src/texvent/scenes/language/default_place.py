@@ -59,10 +59,10 @@ _FARM_VEHICLES = frozenset({"tractor"})
 _DIVERS = ("scuba diver",)
 _SEA_BED = ("rock", "seaweed", "coral", "anchor", "chest", "treasure chest", "starfish", "crab")
 """What is under water beside what swims there."""
-_UNREMARKABLE = (*_NEUTRAL, "sky", "indoor", "road")
-"""Places that need no note where the program chose them: vehicles are on roads anyway."""
-_NAMES = {"snow": "snow", "sand": "sand", "hills": "hills",
-          "space": "space",
+_UNREMARKABLE = "plain"
+"""The place that needs no note where the program chose it: bare ground."""
+_NAMES = {"snow": "snow", "sand": "sand", "hills": "hills", "grass": "grass", "sky": "the sky",
+          "space": "space", "indoor": "a room",
           "underwater": "under water", "sea": "the sea", "soil": "bare soil"}  # fmt: skip
 """Place → its name in a sentence, where that is not the word itself with "a"."""
 _INSIDE = ("indoor", "living room", "kitchen", "bedroom", "office", "workshop", "gym",
@@ -240,7 +240,7 @@ def _fit_stated(
 
 def report_place(description: SceneDescription, place: str) -> SceneDescription:
     """The description with a note where the program chose the place."""
-    if description.surroundings.place is None and place not in _UNREMARKABLE:
+    if description.surroundings.place is None and place != _UNREMARKABLE:
         article = "an" if place[0] in "aeiou" else "a"
         name = _NAMES.get(place, f"{article} {place}")
         note = f"no place is said: {name} is chosen"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from texvent.scenes.description import Claim
 from texvent.scenes.language.grammar.clauses import SENTENCE_SIGNS
@@ -22,6 +23,8 @@ _SILENT = frozenset(
 """Parts of speech that need no effect of their own."""
 CROWDED = 5
 """Things of a prompt from which on a lost word puts all of its sentence in doubt."""
+MANY_LOST = 12
+"""Words that are not understood from which on all others of the prompt are in doubt."""
 _MISREAD = frozenset({"name", "place", "relation"})
 """Aspects of words that mean something else more often where words around them are lost."""
 _GRAMMAR = frozenset({Role.FUNCTION, Role.CAMERA, Role.GLOW})
@@ -61,12 +64,16 @@ def list_claims(words: Sequence[Word], *, is_crowded: bool = False) -> tuple[Cla
         words: of the prompt, in order.
         is_crowded: whether it names `CROWDED` things or more.
     """
+    unread = tuple(dict.fromkeys(one.text for one in words if is_unread(one)))
+    everywhere = unread if len(unread) >= MANY_LOST else ()
     claims: list[Claim] = []
     for sentence in _cut_sentences(words):
         lost = tuple(one.text for one in sentence if _changes_meaning(one))
         for word in sentence:
             if (word.is_used or word.shown_as is not None) and says_something(word):
-                claims.append(_claim(word, lost, is_crowded=is_crowded))
+                claim = _claim(word, lost, is_crowded=is_crowded)
+                lost_for_it = tuple(dict.fromkeys((*claim.lost, *everywhere)))
+                claims.append(replace(claim, lost=lost_for_it))
     return tuple(claims)
 
 
@@ -74,8 +81,9 @@ def _claim(word: Word, lost: tuple[str, ...], *, is_crowded: bool) -> Claim:
     """A word's claim; `lost`: the words of its sentence that are not understood.
 
     A noun depends on those that it goes with; verbs, and in a crowded prompt nouns, places and
-    relations, on all of the sentence. Of 120 graded prompts, half of the words in doubt were wrong
-    and one in six of the other words (docs/prompts.md).
+    relations, on all of the sentence; where many are lost, every word on all of them. Of graded
+    words in doubt half were wrong, of the others one in six (docs/prompts.md); of prompts with
+    `MANY_LOST` words or more that are not understood, half had a wrong word among those shown.
     """
     aspect = _aspect_of(word)
     is_of_sentence = aspect == "motion" or (is_crowded and aspect in _MISREAD)
