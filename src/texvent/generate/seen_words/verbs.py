@@ -201,8 +201,12 @@ class _Judge:
             return None
         if self.picture.ground_share() == 0.0 and len(self.picture.scene.actors) == 1:
             return "no ground in view"
-        low, high = part_boxes(actor, phase.start_s if is_start else phase.end_s).hull
-        if low[2] <= OFF_GROUND * (high[2] - low[2]):
+        time_s = phase.start_s if is_start else phase.end_s
+        low, high = part_boxes(actor, time_s).hull
+        others = (one for one in self.picture.scene.actors if one.object_index != index)
+        if low[2] <= OFF_GROUND * (high[2] - low[2]) or any(
+            is_on(actor, one, time_s) for one in others
+        ):
             return None
         name = actor.noun.name
         return f"{name} is in the air from the start" if is_start else f"{name} stays in the air"

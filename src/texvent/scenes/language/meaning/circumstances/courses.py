@@ -19,6 +19,11 @@ _LINED = ("lined with", "lined by")
 FOLLOWED = ("followed by", "followed closely by", "closely followed by")
 """Said of what goes first."""
 _IN_CLOUDS = ("in", "inside", "within", "behind")
+_ASIDE = frozenset({"behind", "in front of", "beyond", "between", "below", "beneath", "under",
+                    "underneath"})  # fmt: skip
+"""Prepositions that put something beside a place; who is in the place is not there."""
+_ALL_ROUND = frozenset({"plain", "underwater", "sky", "space"})
+"""Places that are behind and below everything."""
 
 
 def name_course(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
@@ -35,6 +40,8 @@ def name_course(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
         word.is_used, word.is_lost = False, True
     elif one.kind != "place":
         return
+    elif word.text in _ASIDE and one.value not in _ALL_ROUND:
+        word.is_used, word.is_lost = False, True
     elif word.text in _ABOVE and one.value in _TOWNS and head not in _OF_STREETS:
         # Fireworks over a city are in its sky.
         is_effect = scope.has_verb and not scope.subjects
