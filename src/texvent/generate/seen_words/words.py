@@ -10,6 +10,7 @@ from texvent.generate.seen_words.effects import FILLING, judge_effects, judge_fi
 from texvent.generate.seen_words.light import HARD, judge_light, judge_snow, judge_weather
 from texvent.generate.seen_words.picture import USUAL, Picture
 from texvent.generate.seen_words.places import judge_place
+from texvent.generate.seen_words.positions import judge_position
 from texvent.generate.seen_words.things import judge_thing
 from texvent.generate.seen_words.views import judge_camera
 from texvent.scenes.description import Claim, SceneDescription
@@ -42,6 +43,8 @@ def judge_words(
         if claim.word in _WAVES and claim.aspect == "name" and claim.motion is not None:
             words.setdefault(claim.word, "the sea is calm")
         fault = judge_degree(picture, description, claim)
+        if fault is None and claim.aspect == "relation":
+            fault = judge_position(picture, claim)
         if fault is None and claim.things and claim.aspect in _OF_THINGS:
             qualities = {**_judge_qualities(picture, description, claim), **qualities}
             continue

@@ -322,7 +322,7 @@ RELATIONS: dict[str, tuple[str, ...]] = {
 PREPOSITION_WAYS: dict[str, str] = {
     "into": "into", "onto": "onto", "out of": "out of", "off of": "off", "off": "off",
     "against": "against", "across": "across", "along": "along", "opposite": "opposite",
-    "across from": "opposite",
+    "across from": "opposite", "at": "at",
 }  # fmt: skip
 """Preposition → `Relation.way`: what it says besides the kind of the relation."""
 

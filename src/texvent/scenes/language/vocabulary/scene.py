@@ -255,6 +255,7 @@ PARTS_SHOWN: dict[str, tuple[str, ...]] = {
     "excavator": ("arm", "boom", "bucket"),
     "spinning disc": ("sector", "sectors", "segment", "segments", "stripe", "stripes"),
     "tree": ("trunk", "branch", "branches", "leaves"),
+    "satellite": ("solar panel", "solar panels", "solar array", "solar arrays"),
     "house": ("door", "window", "windows", "roof", "wall", "walls"),
 }  # fmt: skip
 """Usual motion or name of a noun, "person" for all people → parts that its model shows in any

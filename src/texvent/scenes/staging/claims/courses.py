@@ -11,6 +11,7 @@ from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
+from texvent.scenes.staging.claims.contact import is_on, touches
 
 _SAMPLES = 13
 _NEARER = 0.94
@@ -21,6 +22,8 @@ _FACING = 0.75
 """The same of what faces something."""
 _AT_SHARE, _AT_M = 0.6, 0.3
 """Gap up to which something starts at another: share of its size, m."""
+_LOW_M = 2.0
+"""Height up to which one jumps from the top of a thing."""
 _ROUND_RAD = 1.5
 """Angle round something that a body must cover, or that several must be spread over."""
 _FRONTLESS = ("roll", "stand", "slide")
@@ -78,6 +81,22 @@ def comes_from(subjects: Sequence[Actor], targets: Sequence[Actor], duration_s: 
         any(_starts_at(one, target) and _leaves(one, target, duration_s) for target in targets)
         for one in subjects
     )
+
+
+def lifts_from(subjects: Sequence[Actor], targets: Sequence[Actor], duration_s: float) -> bool:
+    """Every subject begins at the surface of a target, above a low one, and leaves it."""
+    return all(
+        any(
+            _leaves(one, target, duration_s)
+            and (is_on(one, target, 0.0) if _is_low(target) else touches(one, target, 0.0))
+            for target in targets
+        )
+        for one in subjects
+    )
+
+
+def _is_low(target: Actor) -> bool:
+    return target.noun.habitat == "fixed" and target.model.height < _LOW_M
 
 
 def _starts_at(subject: Actor, target: Actor) -> bool:

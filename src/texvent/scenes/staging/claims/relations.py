@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import Relation, SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.models.people.activities import PERSON_NOUNS
@@ -30,7 +30,13 @@ from texvent.scenes.staging.claims.contact import (
     strikes,
     touches,
 )
-from texvent.scenes.staging.claims.courses import approaches, comes_from, faces, goes_round
+from texvent.scenes.staging.claims.courses import (
+    approaches,
+    comes_from,
+    faces,
+    goes_round,
+    lifts_from,
+)
 from texvent.scenes.staging.claims.positions import (
     BESIDE,
     BESIDE_M,
@@ -63,6 +69,9 @@ _SMALL = 0.35
 _LOW_M = 2.0
 
 
+_Check = Callable[[Body, list[Body]], bool]
+_LIFTING = frozenset({"rise", "jump", "fall"})
+"""Motions that begin at the surface of what they lead away from."""
 _Course = Callable[[Sequence[Actor], Sequence[Actor], float], bool]
 
 
@@ -91,8 +100,7 @@ def list_not_shown(
                 copies = [actor for actor in actors if actor.object_index == index]
                 bodies[index] = measure(copies, times)
         targets = [bodies[index] for index in relation.targets]
-        checks = [CHECKS[relation.kind]]
-        checks += [WAYS[relation.way]] if relation.way else []
+        checks = _list_checks(relation, description)
         if not all(check(bodies[relation.subject], targets) for check in checks):
             names = " and ".join(_name(description, index) for index in relation.targets)
             said = relation.way or _PHRASES.get(relation.kind, relation.kind)
@@ -101,6 +109,15 @@ def list_not_shown(
             text = f"{_name(description, relation.subject)} {words}" if is_named else words
             missing.append(Unmet(text, relation=(relation.subject, relation.targets)))
     return missing
+
+
+def _list_checks(relation: Relation, description: SceneDescription) -> list[_Check]:
+    """What must hold of a relation: what its preposition says, and the verb of its subject."""
+    motion = description.objects[relation.subject].motion
+    checks = [CHECKS[relation.kind]]
+    if relation.kind == "from" and motion is not None and motion.kind in _LIFTING:
+        checks = [_by_copies(lifts_from)]
+    return checks + ([WAYS[relation.way]] if relation.way else [])
 
 
 def _name(description: SceneDescription, index: int) -> str:
@@ -112,7 +129,7 @@ def _is_in_front(subject: Body, targets: list[Body]) -> bool:
     """Nearer to the viewer; before a mirror or a screen, near it and turned to it."""
     target = targets[0]
     if subject.copies[0].noun.name == "crosswalk" and target.copies[0].noun.motion == "drive":
-        return _points_ahead(target, subject)
+        return _lead(target, subject, target.duration_s) > _PAST_END
     looks = target.copies[0].noun.name in LOOKED_AT and subject.copies[0].noun.habitat == "ground"
     if looks and not subject.copies[0].noun.is_working:
         goals = list(target.copies)
@@ -120,18 +137,30 @@ def _is_in_front(subject: Body, targets: list[Body]) -> bool:
     return _is_behind(target, [subject])
 
 
-def _points_ahead(vehicle: Body, stripes: Body) -> bool:
-    """Whether stripes on the road lie before a vehicle in the end."""
-    time_s = vehicle.duration_s
+def _is_in_traffic(subject: Body, vehicle: Body) -> bool:
+    """Whether "behind" means behind its tail: of who drives or walks, at a vehicle that drives."""
+    one, other = subject.copies[0], vehicle.copies[0]
+    return other.noun.motion == "drive" and other.is_mover and one.noun.motion in _IN_TRAFFIC
+
+
+_IN_TRAFFIC = frozenset({"drive", "walk", "run"})
+_PAST_END = 0.5
+"""Lengths of a vehicle from its middle to its ends."""
+
+
+def _lead(vehicle: Body, other: Body, time_s: float) -> float:
+    """How far something is ahead of a vehicle's middle, along its heading, in its lengths."""
     one = vehicle.copies[0]
-    way = (stripes.copies[0].middle(time_s) - one.middle(time_s))[:2]
+    way = (other.copies[0].middle(time_s) - one.middle(time_s))[:2]
     front = one.trajectory.at(time_s).to_world()[:2, 0]
-    return float(way @ front) > 0.5 * one.model.length
+    return float(way @ front) / one.model.length
 
 
 def _is_behind(subject: Body, targets: list[Body]) -> bool:
     """Farther from the viewer, and in line with the target at some instant."""
     target = targets[0]
+    if _is_in_traffic(subject, target):
+        return _lead(target, subject, 0.0) < -_PAST_END
     aside = np.maximum(subject.low - target.high, target.low - subject.high)[:, 0]
     reach = _ASIDE * max(size_of(subject), size_of(target))
     is_farther = np.mean(subject.places[:, 1] > target.places[:, 1]) > _MOST
@@ -201,11 +230,24 @@ def _is_with(subject: Body, targets: list[Body]) -> bool:
         # What goes along is near all the time.
         reach = BESIDE * max(size_of(subject), size_of(targets[0])) + BESIDE_M
         return float(gaps(subject, targets[0]).max()) < reach
+    if _is_fitted(own, other):
+        return holds_for_all(
+            touches, targets[0].copies, subject.copies, subject.duration_s, always=True
+        )
     is_still = own.noun.habitat == "fixed" and other.noun.habitat == "fixed"
     is_load = other.size_m < _SMALL * own.size_m and own.model.height < _LOW_M
     if not (is_still and is_load):
         return True
     return holds_for_all(touches, targets[0].copies, subject.copies, subject.duration_s)
+
+
+def _is_fitted(own: Actor, other: Actor) -> bool:
+    """As in "a truck with two flags": a thing with what goes nowhere by itself has it on it."""
+    goes = own.noun.motion in ("drive", "sail", "fly", "orbit") or own.noun.name in _MACHINES
+    return goes and other.noun.motion == "stand" and other.size_m < own.size_m
+
+
+_MACHINES = frozenset({"robot", "satellite", "rover"})
 
 
 def _is_touching(subject: Body, targets: list[Body]) -> bool:

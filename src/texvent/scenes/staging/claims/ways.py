@@ -15,6 +15,8 @@ from texvent.scenes.staging.claims.positions import Body, gaps, is_near
 _INSTANTS = 13
 _TOUCH_M, _TOUCH_SHARE = 0.04, 0.05
 """Gap up to which something is against another: metres, and share of the smaller one."""
+_AT_M, _AT_SHARE = 0.3, 0.2
+"""Gap up to which something is at another: metres, and share of the larger one."""
 _ACROSS = 0.35
 """Share of the target's extent that who goes across it covers at least."""
 _ALONG_COSINE = 0.8
@@ -94,6 +96,20 @@ def _rests(subject: Body, targets: list[Body]) -> bool:
     )
 
 
+def _is_close(subject: Body, targets: list[Body]) -> bool:
+    """As near to it at some instant as who is "at" a window; a thing touches it."""
+    if subject.copies[0].noun.habitat == "fixed" and not subject.copies[0].is_mover:
+        return _lies_against(subject, targets)
+    reach = _AT_M + _AT_SHARE * max(_extent(one) for one in (subject, *targets))
+    return all(float(gaps(subject, target).min()) < reach for target in targets)
+
+
+def _extent(body: Body) -> float:
+    """Greatest extent of one copy in the beginning, m."""
+    hulls = [part_boxes(one, 0.0).hull for one in body.copies]
+    return float(max(np.max(high - low) for low, high in hulls))
+
+
 def _is_opposite(subject: Body, targets: list[Body]) -> bool:
     others = [copy for target in targets for copy in target.copies]
     return faces(subject.copies, others, subject.duration_s)
@@ -109,6 +125,7 @@ WAYS: Mapping[str, Way] = {
     "across": _goes_across,
     "along": _goes_along,
     "opposite": _is_opposite,
+    "at": _is_close,
     "not on": lambda subject, targets: not _rests(subject, targets),
 }  # fmt: skip
 """`Relation.way` → whether a scene shows it."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from texvent.scenes.description import Relation
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
@@ -17,20 +18,25 @@ LOOKED_AT = frozenset(
      "whiteboard", "vending machine"}
 )  # fmt: skip
 """Nouns with a face at which one looks who is in front of them."""
+STOOD_AT = frozenset({"window", "aquarium", "easel", "blackboard", "whiteboard"})
+"""Nouns that one looks at who stands at them."""
 _TO_CAMERA_RAD = 0.45
 """How far both are turned to the camera out of facing each other."""
 _APART_M = 0.55
 
 
-def face(subject: ObjectGroup, target: ObjectGroup) -> tuple[float, float] | None:
-    """Turn a group that stays in its place and what it is in front of to each other.
+def face(
+    subject: ObjectGroup, target: ObjectGroup, relation: Relation
+) -> tuple[float, float] | None:
+    """Turn a group that stays in its place and what it is in front of, or at, to each other.
 
     Returns:
         Metres to the right and away at which the target stands; None: nothing is turned.
     """
     plan = subject.plan
     goes = plan.is_path or plan.path is not None or subject.carrier is not None
-    if target.noun.name not in LOOKED_AT or goes or subject.noun.habitat != "ground":
+    nouns = LOOKED_AT if relation.kind == "front" else STOOD_AT if relation.way == "at" else ()
+    if target.noun.name not in nouns or goes or subject.noun.habitat != "ground":
         return None
     subject.plan = replace(plan, yaw=-_TO_CAMERA_RAD)
     target.plan = replace(target.plan, yaw=math.pi + _TO_CAMERA_RAD)

@@ -222,7 +222,7 @@ class ObjectPlacer:
         for relation in self._description.relations:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
-                return _place_for(group, relation.kind, subject, height)
+                return _place_for(group, relation, subject, height)
         if self._along is not None:
             is_goal = self._description.shot.target == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
@@ -349,9 +349,10 @@ class ObjectPlacer:
         return _gripping(path, group)
 
 
-def _place_for(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
+def _place_for(group: ObjectGroup, relation: Relation, subject: ObjectGroup, height: float) -> Goal:
     """Where the target of a relation stands whose subject is placed already."""
-    shift = face(subject, group) if kind == "front" else None
+    kind = relation.kind
+    shift = face(subject, group, relation)
     if shift is not None:
         x, y, _ = subject.centre
         return Goal(np.array([x + shift[0], y + shift[1], height]), np.zeros(3))

@@ -188,7 +188,8 @@ class RelationReader:
         if kind == "on" and self._draft.noun(things[0]).name in _LEANT_ON:
             # As in "leans on a fence": they stand at it, not on its top.
             kind = "beside"
-        return self._relate(kind, scope.subjects, things)
+        way = word.text if word.text == "at" else ""
+        return self._relate(kind, scope.subjects, things, way)
 
     def _is_tool(self, scope: Scope, things: Sequence[int]) -> bool:
         noun = self._draft.noun(things[0])

@@ -1,0 +1,63 @@
+"""Whether one thing is seen behind another, or before it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from texvent.generate.seen_words.picture import Picture, View
+from texvent.scenes.description import Claim, Relation
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.placement.faced import LOOKED_AT
+
+_IN_DEPTH = ("behind", "front")
+ASIDE = 0.1
+"""Gap to the side in the picture, as a share of the wider one, up to which one is behind another."""
+LEAST_DEEPER = 0.5
+"""Share of the instants at which it must be farther away."""
+
+
+def judge_position(picture: Picture, claim: Claim) -> str | None:
+    """Why "behind" or "in front of" is not seen, or None.
+
+    Args:
+        picture: of the staged scene.
+        claim: of a relation.
+    """
+    for relation in claim.relations:
+        if relation.kind in _IN_DEPTH and not _is_flat(picture, relation):
+            rear, front = relation.subject, relation.targets[0]
+            if relation.kind == "front":
+                rear, front = front, rear
+            if not _is_seen_behind(picture, rear, front):
+                return "not in line in the picture"
+    return None
+
+
+def _is_flat(picture: Picture, relation: Relation) -> bool:
+    """Stripes on a road, and what one looks at, are not judged by what hides what."""
+    own = {one.noun.name for one in picture.scene.actors
+           if one.object_index in (relation.subject, *relation.targets)}  # fmt: skip
+    return bool(own & ({"crosswalk"} | LOOKED_AT))
+
+
+def _is_seen_behind(picture: Picture, rear: int, front: int) -> bool:
+    """Farther away at most instants, and in line with it at one; True where one is never seen."""
+    is_deeper, is_in_line = [], []
+    for view in picture.views:
+        back, near = (_find(picture, view, index) for index in (rear, front))
+        if back is None or near is None:
+            continue
+        is_deeper.append(back[2] > near[2])
+        gap = max(back[0] - near[1], near[0] - back[1])
+        is_in_line.append(gap <= ASIDE * max(back[1] - back[0], near[1] - near[0]))
+    return not is_deeper or (np.mean(is_deeper) >= LEAST_DEEPER and any(is_in_line))
+
+
+def _find(picture: Picture, view: View, index: int) -> Float64Array | None:
+    """[3] left and right end in the picture, pixels, and depth, m, of an object."""
+    own = [one for one, number in picture.scene.object_of.items() if number == index]
+    where = np.isin(view.instance, own)
+    if not where.any():
+        return None
+    columns = picture.points[where, 0]
+    return np.array([columns.min(), columns.max(), np.median(view.depth[where])])
