@@ -351,11 +351,9 @@ class ObjectPlacer:
 
 def _place_for(group: ObjectGroup, relation: Relation, subject: ObjectGroup, height: float) -> Goal:
     """Where the target of a relation stands whose subject is placed already."""
-    kind = relation.kind
-    shift = face(subject, group, relation)
+    kind, shift = relation.kind, face(subject, group, relation)
     if shift is not None:
-        x, y, _ = subject.centre
-        return Goal(np.array([x + shift[0], y + shift[1], height]), np.zeros(3))
+        return Goal(np.array([*(subject.centre[:2] + shift), height]), np.zeros(3))
     if subject.plan.motion.kind == "appear" and kind in ("behind", "from"):
         kind = "appear"
     return place_by_subject(group, kind, subject, height)

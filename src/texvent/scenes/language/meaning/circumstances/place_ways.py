@@ -1,10 +1,12 @@
-"""Ways to and from a place: "runs into the sea"; "out of the ring" is not shown."""
+"""Ways to and from a place: "runs into the sea", "lifts off from a table"; "out of the ring" is
+not shown."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 
+from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
@@ -14,6 +16,17 @@ from texvent.scenes.language.words.word import Word
 _OPEN = frozenset({"sky", "space", "underwater"})
 """Places into which one rises or dives."""
 _ON_LAND = frozenset({"walk", "run", "move", "jump", "crawl", "roll", "slide", "drive"})
+
+
+_OPENINGS = frozenset({"window", "door", "gate", "tunnel", "arch", "box", "basket", "bucket"})
+"""Out of what one comes."""
+
+
+def lifts_off(draft: Draft, movers: Sequence[int], target: int) -> bool:
+    """As in "lifts off from a table": they are on the table first."""
+    is_first = all(len(draft.objects[index].motions) == 1 for index in movers)
+    noun = draft.noun(target)
+    return is_first and _rise(draft, movers) and not (is_person(noun) or noun.name in _OPENINGS)
 
 
 def _rise(draft: Draft, movers: Sequence[int]) -> bool:

@@ -9,6 +9,7 @@ from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_followed
+from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
@@ -101,7 +102,7 @@ class RelationReader:
             name = self._draft.noun(things[0]).name
             place = "in" if name == "window" else "on" if name in _PERCHES else "beside"
             return self._relate(place, scope.subjects, things)
-        if kind == "from" and self._lifts_off(scope, things):
+        if kind == "from" and lifts_off(self._draft, scope.movers, things[0]):
             return self._relate("on", scope.movers, things, "off")
         if self._is_journey_of_none(kind, scope):
             return False
@@ -280,13 +281,6 @@ class RelationReader:
             for one in motions
         )
 
-    def _lifts_off(self, scope: Scope, things: Sequence[int]) -> bool:
-        """As in "lifts off from a table": it is on the table first."""
-        motions = [self._draft.objects[index].motions for index in scope.movers]
-        is_rising = bool(motions) and all(len(one) == 1 and one[0].kind == "rise" for one in motions)
-        target = self._draft.noun(things[0])
-        return is_rising and not is_person(target) and target.name not in _OPENINGS
-
     def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
         return kind in _JOURNEYS and scope.has_verb and not scope.movers
 
@@ -371,8 +365,6 @@ _STEERING = frozenset(
 _ABOARD = ("behind", "in front of", "beside", "next to")
 _PERCHES = SEATS | {"branch", "shelf", "fence", "wall", "rock", "pier", "bridge"}
 """On what one is who watches or waves "from" it."""
-_OPENINGS = frozenset({"window", "door", "gate", "tunnel", "arch", "box", "basket", "bucket"})
-"""Out of what one comes."""
 _TABLES = frozenset({"table", "desk"})
 _DECKS = frozenset({"pier", "bridge"})
 _WALKED = {"along": "along", "across": "across", "over": "across", "down": "along"}
