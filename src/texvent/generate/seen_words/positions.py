@@ -11,7 +11,7 @@ from texvent.scenes.staging.placement.faced import LOOKED_AT
 
 _IN_DEPTH = ("behind", "front")
 ASIDE = 0.1
-"""Gap to the side in the picture, as a share of the wider one, up to which one is behind another."""
+"""Gap to the side in the picture up to which they are in line, as a share of the wider one."""
 LEAST_DEEPER = 0.5
 """Share of the instants at which it must be farther away."""
 

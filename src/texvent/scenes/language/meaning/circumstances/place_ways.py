@@ -1,5 +1,4 @@
-"""Ways to and from a place: "runs into the sea", "lifts off from a table"; "out of the ring" is
-not shown."""
+"""Ways to and from places and things: "runs into the sea"; "out of the ring" is not shown."""
 
 from __future__ import annotations
 
