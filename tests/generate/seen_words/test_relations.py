@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-
 from tests.generate.seen_words.test_words import report_of
 
 
