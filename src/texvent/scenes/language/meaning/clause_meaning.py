@@ -39,6 +39,7 @@ from texvent.scenes.language.meaning.referents.resolver import PERSON, Referents
 from texvent.scenes.language.meaning.scene_clauses import SceneClauses
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
+from texvent.scenes.language.meaning.wholes import take_wholes
 from texvent.scenes.language.vocabulary.film import TRAVEL_MEANS
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import WEATHER_VERBS
@@ -113,6 +114,7 @@ class ClauseMeaning:
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
         take_host(clause, self._draft.nouns)
+        take_wholes(clause, self._draft.nouns)
         turn_views(clause)
         turn_active(clause)
         self._camera.read_phrases(clause.adverbs)

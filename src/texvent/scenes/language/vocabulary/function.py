@@ -87,3 +87,19 @@ TIME_ORDER: dict[str, str] = {
 """Subordinator → whether the clause it opens comes "after" or "before" the one it belongs to;
 the others happen at the same time."""
 SENTENCE_OPENERS = ("first", "at first", "then", "and then", "next", "later", "finally")
+_HAPPENINGS = """
+    finale startup calibration trick walkthrough rotation insertion splash action activity
+    experiment test demo demonstration trial practice practise training session workout exercise
+    routine performance show display race match game competition contest tournament final derby
+    parade ceremony celebration festival event scenario simulation measurement inspection
+    maintenance repair assembly operation process procedure production movement dynamics
+    behaviour behavior interaction navigation tracking detection recognition segmentation
+    localization odometry slam dataset sample evaluation setup benchmark vibration oscillation
+    flicker acceleration deceleration expansion contraction deformation collision impact launch
+    takeoff landing liftoff arrival departure approach escape hunt feeding migration breakdown
+    failure malfunction ignition combustion explosion release deployment delivery transport
+    sorting packing exit entrance entry closeup macro reveal flyover flyby flythrough tour trip
+    commute ride spin stunt attempt attack defence defense
+"""
+HAPPENINGS = frozenset(_HAPPENINGS.split())
+"""Nouns of what happens to the thing before them, or why it is filmed: "fireworks finale"."""

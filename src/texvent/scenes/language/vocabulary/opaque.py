@@ -10,8 +10,8 @@ _TEXT = """
     waves breaking, waves crashing, waves lapping, waves rolling, waves washing, sea horse, sea
     cucumber, sea urchin, sea cow, sea pen, ant lion, antlion, star fish, jelly bean, cuttle fish,
     silver fish, butter cup, water bear, gummy bear, horse shoe, horseshoe, sea dragon, bearded
-    dragon, tasmanian devil, cray fish, lion fish, dog fish, catwalk, cat tail, fox glove,
-    foxglove, pig tail, pigtail, pony tail, ponytail, horse tail, dove tail, swallow tail, goose
+    dragon, tasmanian devil, cray fish, lion fish, dog fish, catwalk, fox glove,
+    foxglove, pig tail, pigtail, pony tail, ponytail, dove tail, swallow tail, goose
     bump, goose neck, fish finger, fish stick, fried fish, egg cup, egg shell, meat loaf, meat
     ball, rice ball, rice cake, crab cake, fish cake, pan cake, hot pot, potpie, hot plate, home
     plate, face plate, solar dish, dish rag, dishrag, gravy boat, banana split, adam apple, oak
@@ -29,9 +29,9 @@ _TEXT = """
     ouija board, mood board, spring board, diving tower, computer tower, light tower, leaning
     tower of pisa, big ben, golden gate, statue of liberty, light saber, light year, traffic jam,
     fire screen, window screen, sun screen, sunscreen, smoke screen, screen saver, wind screen,
-    car mirror, rear view mirror, eye ball, eyeball, paint ball, pin ball, wrecking ball, cotton
+    rear view mirror, eye ball, eyeball, paint ball, pin ball, wrecking ball, cotton
     ball, fur ball, dust ball, hair ball, masked ball, mosquito net, hair net, butterfly net, lens
-    cap, bottle cap, bottlecap, ice cap, gas cap, hub cap, knee cap, polar cap, brake shoe, snow
+    cap, bottlecap, ice cap, gas cap, hub cap, knee cap, polar cap, brake shoe, snow
     shoe, shoe horn, shoe shop, shoe lace, shoe shiner, sock puppet, bell cote, alarm bell, bell
     boy, bell bottom, dumb waiter, cow bell, barbell squat, door knob, doorknob, trap door, cat
     flap, train station, parking lot car, side car, dining car, street car, car seat, child seat,
@@ -47,8 +47,8 @@ _TEXT = """
     sheriff star, road fork, bicycle fork, jack knife,
     butterfly knife trick, tooth pick, guitar pick, finger nail, fingernail, toe nail, toenail,
     nail file, jig saw, drill sergeant, oil filter, coffee filter, water filter, water meter, gas
-    meter, speed meter, parking brake, disk brake, hand brake, floppy disk, disk jockey, piano
-    key, arrow key, computer key, key lime, space bar, crow bar, wrist watch band, neck watch,
+    meter, speed meter, parking brake, disk brake, hand brake, floppy disk, disk jockey, arrow
+    key, computer key, key lime, space bar, crow bar, wrist watch band, neck watch,
     cell wall, cell division, fire wall, firewall, sidewall, wall paper, wallpaper, wall nut, fly
     paper, sand paper, sandpaper, paper weight, paperweight, paper trail, periodic table, water
     table, time table, timetable, multiplication table, table cloth, pool party,
@@ -68,7 +68,7 @@ _TEXT = """
     wine cellar, cup holder, cup board, world cup, suction cup, ice cup, tea bag, teabag, air bag,
     airbag, body bag, saddle bag, vacuum bag, plastic surgery, tin opener, tin foil, tinfoil,
     trash compactor, tin whistle, glass eye, opera glass, hour hand, second hand, minute hand,
-    clock hand, hand cuff, handcuff, hand rail, hand bag strap, hand gun, hand brush, hand towel
+    hand cuff, handcuff, hand rail, hand bag strap, hand gun, hand brush, hand towel
     rail, hand cream, hand print, handprint, foot ball field, foot print, footprint, foot step,
     footstep, foot bridge toll, ear phone jack, ear plug, earplug, spark plug, bath plug, fire
     plug, hair plug, power strip, comic strip, landing strip, bathing suit, swim suit, swimsuit,

@@ -138,7 +138,7 @@ OUTDOOR_KINDS: dict[str, str] = {
     "surfboard": "wakeboard, windsurf board, windsurfer, kiteboard, boogie board",
     "paddle": "canoe paddle, kayak paddle, rowing oar, rudder, wooden paddle",
     "frisbee": "hubcap, flying ring, sewer lid",
-    "wind turbine": "wind turbine blade, wind turbine rotor, wind power plant",
+    "wind turbine": "wind power plant",
     "wheel": """
         bicycle wheel, wagon wheel, water wheel, waterwheel, mill wheel, spoked wheel,
         flat tire, spare tire, spare wheel, hamster wheel, ship wheel, car tire, car
@@ -146,7 +146,7 @@ OUTDOOR_KINDS: dict[str, str] = {
     "propeller": """
         rotor,
         ship propeller, drone propeller, propeller blade, jet engine, windmill blade,
-        turbine wheel, turbine blade, rotor blade""",
+        turbine wheel, rotor blade""",
     "sign": """
         construction sign, license plate, licence plate, number plate, wooden sign, exit
         sign, for sale sign, protest sign, direction sign, yield sign, name plate, no

@@ -96,7 +96,7 @@ THING_KINDS: dict[str, str] = {
     "flashlight": "headlamp, penlight",
     "clock": "analog clock, digital clock, timepiece, cuckoo clock, alarm clock",
     "watch": "stopwatch, smartwatch, pocket watch, digital watch",
-    "fan": "ceiling fan, ventilator, fan blade",
+    "fan": "ceiling fan, ventilator",
     "radio": "cassette player, tape player, boombox, cd player, walkie talkie",
     "monitor": "computer, desktop computer, pc, crt screen, imac, oscilloscope",
     "tv": "home theater, plasma tv, entertainment center",

@@ -39,6 +39,7 @@ from texvent.scenes.language.meaning.referents.senses import (
 )
 from texvent.scenes.language.vocabulary.function import (
     DEFINITE,
+    HAPPENINGS,
     NOBODY,
     SOMEONE,
     UNNAMED,
@@ -64,6 +65,8 @@ _KINDS = {
     Role.FRAMING: "camera",
 }  # fmt: skip
 """Role of a head → kind of referent."""
+_SHOWN = (Role.PLACE, Role.EFFECT)
+"""Roles of nouns that are shown, but for things."""
 _LOCATIVE = frozenset(
     {"in", "on", "through", "across", "along", "at", "into", "up", "down", "onto", "over", "inside",
      "to", "from", "past", "around", "within", "above", "towards", "toward"}
@@ -371,12 +374,14 @@ def name_kind(head: Word) -> str:
 
 
 def _find_head(group: NounGroup) -> Word:
-    """Its head; the known noun before it where the last word cannot be a noun: "a car blorp"."""
+    """Its head; the noun before it where the last word names nothing: "a fireworks finale"."""
     head = group.head_word
     readings = list_readings(head.text)
     is_noun = len(head.text) > 1 and any(one.pos is Pos.NOUN for one in readings)
-    is_lost = head.role in (Role.UNKNOWN, Role.UNIT) and not is_noun and bool(group.modifiers)
-    if is_lost and group.modifiers[-1].read_as(Role.NOUN) is not None:
+    is_head = is_noun and head.lemma not in HAPPENINGS
+    is_lost = head.role in (Role.UNKNOWN, Role.UNIT) and not is_head and bool(group.modifiers)
+    before = group.modifiers[-1] if is_lost else None
+    if before is not None and (before.read_as(Role.NOUN) is not None or before.role in _SHOWN):
         group.head = group.modifiers.pop()
     return group.head_word
 

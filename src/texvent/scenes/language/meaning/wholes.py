@@ -1,0 +1,142 @@
+"""Parts of things: the leg of a chair is shown with the chair."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from texvent.scenes.language.grammar.syntax import Clause, NounGroup
+from texvent.scenes.language.words.lexicon import Role
+from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.opening_model import OPENING
+from texvent.scenes.models.protocol import Noun
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+_PARTS = _words(
+    """leg handle lid rim edge side corner surface tip blade spoke rotor propeller head string pedal
+    cap spout nozzle piston paw hoof wing fin mane beak ear eye nose tail tire tyre wheel window
+    roof windshield windscreen mirror hood bonnet bumper mast sail hull cabin fuselage screen
+    display button knob dial switch cable wire cord gripper joint claw jaw stem base bottom drawer
+    flap shaft barrel lens antenna seat backrest armrest tread"""
+)
+"""What many things have, and what is shown with them."""
+_OWN_PARTS: Mapping[str, frozenset[str]] = {
+    "hand": _words("clock watch wristwatch"),
+    "door": _words("car van bus truck taxi train tram refrigerator fridge oven microwave washer"
+                   " dryer dishwasher wardrobe cupboard safe machine elevator"),
+    "needle": _words("machine compass gauge speedometer"),
+    "turbine": _words("engine"),
+    "drum": _words("machine washer dryer"),
+    "hook": _words("crane"),
+    "bucket": _words("excavator loader digger"),
+    "arm": _words("excavator crane digger"),
+    "key": _words("piano keyboard laptop"),
+    "chain": _words("bicycle bike motorcycle"),
+    "wing": _words("bird butterfly bee eagle owl gull seagull airplane plane aircraft jet drone bat"
+                   " insect dragonfly moth pigeon hummingbird swan goose"),
+}  # fmt: skip
+"""Part that is a thing by itself, or food → last words of the things of which it is a part."""
+_OF_BODIES = _words("hair beard fur feather skin ponytail braid moustache shell coat")
+"""Parts of people and animals that are shown with them."""
+_ALONE = _words("wheel propeller barrel mirror lens gripper")
+"""Parts that are shown alone, unless the whole does what is said of them."""
+_TURNING = _words("spin rotate turn revolve whirl move run")
+_OPENING = _words("open close shut")
+
+
+def take_wholes(clause: Clause, nouns: Mapping[str, Noun]) -> None:
+    """As in "bumps into a chair leg": into a chair; the clause changes.
+
+    The whole does what its part does if that is how it works: it opens by its door, and a fan turns
+    by its blades. Else the verb is lost: a helicopter does not spin with its rotor.
+
+    Args:
+        clause: any clause.
+        nouns: the objects that can be shown, by name.
+    """
+    verb = clause.verb.lemma if clause.verb is not None else ""
+    for group in _list_others(clause):
+        whole = _find_whole(group, nouns)
+        if whole is not None and _name(group.head_word) not in _ALONE:
+            _show_whole(group, whole)
+    for at, group in enumerate(clause.subjects):
+        owner = _find_owner(group)
+        whole = _find_whole(group, nouns) if owner is None else _find_noun(owner.head, nouns)
+        if whole is None:
+            continue
+        part = group.head_word
+        is_by_part = _works_by_part(_name(part), verb, whole)
+        if _name(part) in _ALONE and not is_by_part:
+            continue
+        if owner is None:
+            _show_whole(group, whole)
+        else:
+            part.shown_as, clause.subjects[at] = whole.name, owner
+        if not is_by_part:
+            _lose_verb(clause)
+
+
+def _list_others(clause: Clause) -> Iterator[NounGroup]:
+    yield from clause.objects
+    for phrase in clause.phrases:
+        yield from phrase.groups
+
+
+def _find_whole(group: NounGroup, nouns: Mapping[str, Noun]) -> Noun | None:
+    """The thing of which the head of a group is a part, as the noun before it says."""
+    head = group.head
+    before = group.modifiers[-1] if group.modifiers else None
+    if head is None or before is None or not _is_part(head, before):
+        return None
+    return _find_noun(before, nouns)
+
+
+def _is_part(head: Word, whole: Word) -> bool:
+    part = _name(head)
+    owners = _OWN_PARTS.get(part)
+    return part in _PARTS if owners is None else _name(whole) in owners
+
+
+def _find_owner(group: NounGroup) -> NounGroup | None:
+    """As in "a cat's tail", "the tail of a cat": the cat, for a part that is no thing by itself."""
+    inner = [one for one in group.phrases if one.preposition.text == "of" and len(one.groups) == 1]
+    owner = group.owner or (inner[0].groups[0] if inner else None)
+    if owner is None or owner.head is None or group.head is None:
+        return None
+    part = _name(group.head)
+    is_part = part in _OF_BODIES or (
+        _is_part(group.head, owner.head)
+        and (part in _OWN_PARTS or group.head.read_as(Role.NOUN) is None)
+    )
+    return owner if is_part else None
+
+
+def _find_noun(word: Word | None, nouns: Mapping[str, Noun]) -> Noun | None:
+    meaning = word.read_as(Role.NOUN) if word is not None else None
+    return nouns.get(str(meaning.value)) if meaning is not None else None
+
+
+def _lose_verb(clause: Clause) -> None:
+    """The clause only names things then."""
+    if clause.verb is not None:
+        clause.verb.is_lost, clause.verb = True, None
+        clause.subjects, clause.objects = [*clause.subjects, *clause.objects], []
+
+
+def _show_whole(group: NounGroup, whole: Noun) -> None:
+    group.head_word.shown_as = whole.name
+    group.head = group.modifiers.pop()
+
+
+def _works_by_part(part: str, verb: str, whole: Noun) -> bool:
+    """Whether the whole does what its part does."""
+    if verb in _OPENING:
+        return whole.name in OPENING and part in ("door", "lid", "drawer", "flap")
+    return whole.is_working and verb in _TURNING
+
+
+def _name(word: Word) -> str:
+    return word.lemma.split()[-1]
