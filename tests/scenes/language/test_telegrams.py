@@ -78,7 +78,7 @@ def test_a_part_of_the_body_that_acts_is_a_person() -> None:
     assert [str(one) for one in description.substituted] == ["head → person"]
 
 
-@pytest.mark.parametrize("prompt", ["trampoline jump", "tunnel exit"])
+@pytest.mark.parametrize("prompt", ["trampoline jump", "tunnel move"])
 def test_what_is_fixed_and_what_is_vague_is_no_act(prompt: str) -> None:
     with pytest.raises(InputError, match="nothing in the prompt was understood"):
         parse_prompt(prompt)

@@ -27,7 +27,8 @@ def test_a_part_is_shown_with_the_whole_that_moves_only_by_it(
     description = parse_prompt(prompt)
     (only,) = description.objects
     assert (only.noun, only.count) == (noun, 1)
-    assert only.motion is not None and only.motion.kind == motion
+    assert only.motion is not None
+    assert only.motion.kind == motion
     assert [(one.said, one.shown) for one in description.report().substituted] == [(part, noun)]
     assert description.not_understood == lost
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.opening_model import OPENING
@@ -15,14 +16,19 @@ def _words(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-_PARTS = _words(
-    """leg handle lid rim edge side corner surface tip blade spoke rotor propeller head string pedal
-    cap spout nozzle piston paw hoof wing fin mane beak ear eye nose tail tire tyre wheel window
-    roof windshield windscreen mirror hood bonnet bumper mast sail hull cabin fuselage screen
-    display button knob dial switch cable wire cord gripper joint claw jaw stem base bottom drawer
-    flap shaft barrel lens antenna seat backrest armrest tread"""
+_OF_PEOPLE = _words("hair beard skin ponytail braid moustache")
+"""Parts that are shown with people; of arms and legs there are activities."""
+_OF_ANIMALS = _words(
+    "fur feather head leg tail paw hoof fin mane beak ear eye nose claw jaw blade rotor"
 )
-"""What many things have, and what is shown with them."""
+"""Parts of animals, and of what flies like one."""
+_OF_THINGS = _words(
+    """handle lid rim edge side corner surface tip blade spoke rotor propeller string pedal cap head
+    leg spout nozzle piston wing tail fin tire tyre wheel window roof windshield windscreen mirror
+    hood bonnet bumper mast sail hull cabin fuselage screen display button knob dial switch cable
+    wire cord gripper joint stem base bottom drawer flap shaft barrel lens antenna seat backrest
+    armrest tread"""
+)
 _OWN_PARTS: Mapping[str, frozenset[str]] = {
     "hand": _words("clock watch wristwatch"),
     "door": _words("car van bus truck taxi train tram refrigerator fridge oven microwave washer"
@@ -39,8 +45,6 @@ _OWN_PARTS: Mapping[str, frozenset[str]] = {
                    " insect dragonfly moth pigeon hummingbird swan goose"),
 }  # fmt: skip
 """Part that is a thing by itself, or food → last words of the things of which it is a part."""
-_OF_BODIES = _words("hair beard fur feather skin ponytail braid moustache shell coat")
-"""Parts of people and animals that are shown with them."""
 _ALONE = _words("wheel propeller barrel mirror lens gripper")
 """Parts that are shown alone, unless the whole does what is said of them."""
 _TURNING = _words("spin rotate turn revolve whirl move run")
@@ -63,7 +67,7 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun]) -> None:
         if whole is not None and _name(group.head_word) not in _ALONE:
             _show_whole(group, whole)
     for at, group in enumerate(clause.subjects):
-        owner = _find_owner(group)
+        owner = _find_owner(group, nouns)
         whole = _find_whole(group, nouns) if owner is None else _find_noun(owner.head, nouns)
         if whole is None:
             continue
@@ -87,31 +91,32 @@ def _list_others(clause: Clause) -> Iterator[NounGroup]:
 
 def _find_whole(group: NounGroup, nouns: Mapping[str, Noun]) -> Noun | None:
     """The thing of which the head of a group is a part, as the noun before it says."""
-    head = group.head
     before = group.modifiers[-1] if group.modifiers else None
-    if head is None or before is None or not _is_part(head, before):
+    noun = _find_noun(before, nouns)
+    if group.head is None or before is None or noun is None:
         return None
-    return _find_noun(before, nouns)
+    return noun if _is_part(_name(group.head), _name(before), noun) else None
 
 
-def _is_part(head: Word, whole: Word) -> bool:
-    part = _name(head)
+def _is_part(part: str, whole: str, noun: Noun) -> bool:
     owners = _OWN_PARTS.get(part)
-    return part in _PARTS if owners is None else _name(whole) in owners
+    if owners is not None:
+        return whole in owners
+    if is_person(noun):
+        return part in _OF_PEOPLE
+    return part in (_OF_ANIMALS if is_living(noun) else _OF_THINGS)
 
 
-def _find_owner(group: NounGroup) -> NounGroup | None:
+def _find_owner(group: NounGroup, nouns: Mapping[str, Noun]) -> NounGroup | None:
     """As in "a cat's tail", "the tail of a cat": the cat, for a part that is no thing by itself."""
     inner = [one for one in group.phrases if one.preposition.text == "of" and len(one.groups) == 1]
     owner = group.owner or (inner[0].groups[0] if inner else None)
-    if owner is None or owner.head is None or group.head is None:
+    noun = _find_noun(owner.head, nouns) if owner is not None else None
+    if owner is None or owner.head is None or group.head is None or noun is None:
         return None
     part = _name(group.head)
-    is_part = part in _OF_BODIES or (
-        _is_part(group.head, owner.head)
-        and (part in _OWN_PARTS or group.head.read_as(Role.NOUN) is None)
-    )
-    return owner if is_part else None
+    is_alone = part not in _OWN_PARTS and group.head.read_as(Role.NOUN) is not None
+    return owner if not is_alone and _is_part(part, _name(owner.head), noun) else None
 
 
 def _find_noun(word: Word | None, nouns: Mapping[str, Noun]) -> Noun | None:
