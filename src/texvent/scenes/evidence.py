@@ -202,6 +202,9 @@ def _find_reason(claim: Claim, description: SceneDescription, evidence: Evidence
     if poor is not None:
         return poor
     if claim.aspect == "motion":
+        untold = [one for one in claim.things if ("name", one) in evidence.qualities]
+        if untold and len(untold) == len(claim.things):
+            return f"{description.objects[untold[0]].noun} {evidence.qualities['name', untold[0]]}"
         movers = [index for index in claim.things if is_to_move(index, description)]
         if movers and evidence.still.issuperset(movers):
             return STILL

@@ -497,7 +497,7 @@ def test_hands_of_a_person_are_that_person() -> None:
     description = parse_prompt("gloved hands of a surgeon tie a suture")
     assert [one.noun for one in description.objects] == ["surgeon"]
     assert "suture" in description.not_understood
-    assert "tie → tie nothing" in map(str, description.substituted)
+    assert "tie → handle nothing" in map(str, description.substituted)
 
 
 def test_both_words_beside_a_slash_do_it() -> None:

@@ -20,6 +20,8 @@ _HERDING = re.compile(r"(driv|drove|herd|lead|led|walk|push|pull)\w*")
 _HANGING = re.compile(r"(hang|hung)\w*")
 _FALLING = re.compile(r"(fall|fell)\w*")
 _SITTING = re.compile(r"sit|sits|sat|sitting|seated")
+_GRASPING = re.compile(r"(grab|seiz|snatch|bring|brought)\w*")
+_BACKWARD = ("backward", "backwards", "back")
 _MOUTH = re.compile(r"(laugh|giggl|chuckl|smil|grin)\w*")
 
 
@@ -67,6 +69,9 @@ def _judge_word(
             return f"rides the {mount}"
     is_alive = _is_alive(claim, description)
     is_off = any(rest.startswith("off") for rest in rests)
+    is_on_any = any(one.kind == "on" and one.subject in claim.things
+                    for one in description.relations)  # fmt: skip
+    is_held = any(one.kind in ("hold", "carry") for one in claim.relations)
     faults = {
         "faces do not move": _MOUTH.fullmatch(word),
         "stays upright": word.startswith("wobbl") and _is_going(claim, description),
@@ -75,6 +80,9 @@ def _judge_word(
         "stands, on no seat": (
             _SITTING.fullmatch(word) and kinds & DONE_SEATED and not _has_seat(claim, description)
         ),
+        "falls forwards": word in _BACKWARD and "fall over" in kinds,
+        "holds it from the start": is_held and _GRASPING.fullmatch(word),
+        "on nothing": word.startswith("perch") and not is_on_any,
         "falls where it is": is_off and _FALLING.fullmatch(word) and "fall over" in kinds,
     }
     return next((reason for reason, holds in faults.items() if holds), None)

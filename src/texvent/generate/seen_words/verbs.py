@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from texvent.generate.seen_words.image_motion import ImageMotion, measure_motion
 from texvent.generate.seen_words.picture import Picture
+from texvent.generate.seen_words.verb_changes import judge_change
 from texvent.generate.seen_words.verb_senses import judge_sense
 from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
-from texvent.scenes.language.vocabulary.motion import GETTING, PACE_ADJECTIVES, PACES
+from texvent.scenes.language.vocabulary.motion import GETTING, PACE_ADJECTIVES, PACES, VERBS
+from texvent.scenes.language.words.english import list_verb_forms
 from texvent.scenes.models.opening_model import OPENS
-from texvent.scenes.models.people.work.verbs import MOVED
+from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.claims.bodies import part_boxes
@@ -65,8 +68,18 @@ _GETTING = re.compile(
 _TAKING_OFF = re.compile(r"(t[ao]k|lift|blast)\w* ?off|launch\w*")
 _LANDING = re.compile(r"land(s|ed|ing)?|touch\w* down|settle\w*")
 _ENDS = re.compile(r"onto|into|off|out of")
+_HASTE = 1.4
+_MOVING = MOVED | {"lift", "rock"}
+"""Patterns of hand work in which the thing moves."""
 _PACE = {word: pace for table in (PACES, PACE_ADJECTIVES) for pace, words in table.items()
          for word in words if pace != 1.0}  # fmt: skip
+_HASTY = {
+    form: verb.pace
+    for verb in VERBS
+    if verb.pace >= _HASTE and verb.kind in ("move", "run") and verb.end_pace is None
+    for form, _ in list_verb_forms(verb.base)
+}
+"""Forms of verbs that say how fast it goes → pace."""
 _PACE |= {"racing": 1.7, "rushing": 1.7, "slow motion": 0.3}
 NOTHING_MOVES = "nothing moves"
 
@@ -120,10 +133,15 @@ class _Judge:
             return sense
         if self._is_moved_by_hand(claim):
             return None
-        idle = self._judge_targets(claim)
+        idle = self._judge_targets(claim) or self._judge_handled(claim)
         if idle is not None:
             return idle
-        found = [self._judge_motion(claim, index) for index in claim.things]
+        found = [
+            self._judge_motion(claim, index)
+            or judge_change(self.picture, claim, self._actors(index))
+            or self._judge_haste(claim, index)
+            for index in claim.things
+        ]
         return None if None in found else found[0]
 
     def _judge_motion(self, claim: Claim, index: int) -> str | None:
@@ -175,6 +193,27 @@ class _Judge:
                 if path.work.pattern in MOVED:
                     return any(one.shift >= LEAST_WAY for one in moves)
         return False
+
+    def _judge_handled(self, claim: Claim) -> str | None:
+        """What hands put down, pick up, drop or shake must move, whoever does it."""
+        for index in claim.things:
+            for phase in self._phases(index, claim.motion):
+                work = HANDWORK.get(phase.motion.kind)
+                if work is None or work.pattern not in _MOVING:
+                    continue
+                targets = [n for one in self.description.relations for n in one.targets
+                           if one.kind == "work on" and one.subject == index]  # fmt: skip
+                moves = [one for n in targets for one in self._measure(n, phase)]
+                least = LEAST_WAY if work.pattern in MOVED else LEAST_CHANGE
+                if not any(max(one.shift, one.change) >= least for one in moves):
+                    noun = self.description.objects[targets[0]].noun if targets else "what is held"
+                    return f"{noun} stays where it is"
+        return None
+
+    def _judge_haste(self, claim: Claim, index: int) -> str | None:
+        """Verbs such as "races" and "dashes" need something fast."""
+        pace = _HASTY.get(claim.word)
+        return None if pace is None else self._judge_pace(replace(claim, things=(index,)), pace)
 
     def _find_doer(self, claim: Claim) -> int | None:
         """The object whose name stands right before a verb that was read for the scene."""

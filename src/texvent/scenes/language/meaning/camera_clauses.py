@@ -8,13 +8,15 @@ from texvent.scenes.language.grammar.syntax import Clause, PrepPhrase
 from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.referents.referent import Referent
-from texvent.scenes.language.meaning.referents.resolver import Referents
+from texvent.scenes.language.meaning.referents.resolver import OWNERS, Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 
 FILMED = ("taken", "filmed", "shot", "seen")
 """Participles that say how it is filmed."""
+_ONLY_CAMERAS = frozenset({"pan", "tilt", "zoom", "dolly", "crane", "truck"})
+"""Verbs that nothing but a camera does, whatever word names it."""
 _STANDPOINTS = ("from", "in", "on", "inside", "aboard")
 
 
@@ -30,6 +32,8 @@ class CameraClauses:
 
     def is_about(self, clause: Clause, subjects: Sequence[Referent]) -> bool:
         """Whether a clause is about the camera."""
+        if any(_is_of_a_thing(one) for one in subjects):
+            return False
         if any(one.kind in ("camera", "function") for one in subjects):
             return True
         if clause.verb is None:
@@ -42,12 +46,10 @@ class CameraClauses:
 
     @staticmethod
     def _does_it(subject: Referent, clause: Clause) -> bool:
-        """As in "a baker pulls out two loaves": no camera does."""
-        is_other = subject.kind == "unknown" and bool(clause.objects)
-        comes = clause.verb_word.text in ("moves in", "move in") and subject.kind == "unknown"
-        return (
-            is_other or comes or subject.kind in ("things", "part", "effect", "weather", "clouds")
-        )
+        """As in "a baker pulls out two loaves", "paramecia, backing away": no camera does."""
+        is_plain = bool(clause.objects) or clause.verb_word.lemma.split()[0] not in _ONLY_CAMERAS
+        is_other = subject.kind == "unknown" and is_plain
+        return is_other or subject.kind in ("things", "part", "effect", "weather", "clouds")
 
     def read(
         self, clause: Clause, subjects: Sequence[Referent]
@@ -109,3 +111,9 @@ class CameraClauses:
                 group.negation = phrase.negation or group.negation
                 found.append((phrase, self._referents.resolve(group, phrase.preposition.text)))
         return found
+
+
+def _is_of_a_thing(subject: Referent) -> bool:
+    """As in "a rover and its mast camera": not the one that films."""
+    determiner = subject.group.determiner
+    return subject.kind == "camera" and determiner is not None and determiner.text in OWNERS

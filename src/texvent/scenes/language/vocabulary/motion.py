@@ -26,17 +26,16 @@ class Verb:
 
 _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "move": {
-        1.0: ("move", "head", "proceed", "advance", "journey", "go", "travel", "shuffle"),
+        1.0: ("move", "head", "proceed", "advance", "journey", "go", "travel"),
         1.7: ("race", "speed"), 1.6: ("rush",), 1.8: ("zip",), 1.5: ("hurry",),
-        0.4: ("creep", "drift"),
+        0.4: ("creep",), 0.7: ("drift",),
     },
-    "drive": {0.8: ("cruise",), 0.6: ("plough", "plow"), 1.0: ("pedal", "cycle")},
+    "drive": {0.8: ("cruise",), 1.0: ("pedal", "cycle")},
     "run": {
-        1.4: ("dash", "sprint"), 0.8: ("jog",), 1.3: ("gallop", "charge", "flee", "bound"),
-        0.7: ("trot",),
+        1.4: ("dash", "sprint"), 0.8: ("jog",), 1.3: ("gallop",), 0.7: ("trot",),
     },
     "walk": {
-        1.0: ("walk", "slither", "waddle"), 0.7: ("stroll", "wander", "prowl", "roam"),
+        1.0: ("walk", "waddle"), 0.7: ("stroll", "wander"),
         1.2: ("march", "stride"), 0.8: ("step",), 0.9: ("hike",),
     },
     "fly": {0.8: ("glide",), 0.7: ("flutter",), 1.0: ("soar",)},
@@ -57,7 +56,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "work": {1.0: ("flap", "work", "operate", "beat", "pulse")},
     "stand": {
         1.0: ("park", "wait", "rest", "stay", "pause", "pose", "stand", "hang", "remain",
-               "perch", "idle", "freeze"),
+               "perch", "idle"),
     },
     "sit": {1.0: ("sit",)},
     "lie": {1.0: ("lie", "doze", "sleep")},
@@ -72,7 +71,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("approach", "move", direction="towards", relation="towards"),
     Verb("leave", "leave"),
     Verb("exit", "leave"),
-    Verb("depart", "move", direction="away"),
+    Verb("depart", "move", 0.0, direction="away", end_pace=1.0),
     Verb("retreat", "move", direction="away"),
     Verb("recede", "move", direction="away"),
     Verb("back up", "reverse"),
@@ -124,7 +123,6 @@ VERBS: tuple[Verb, ...] = (
             "switch lane",
             "switch lanes",
             "merge",
-            "cut in",
         )
     ),
     Verb("flip", "flip", object_kind="flip"),

@@ -231,7 +231,7 @@ def _list_bare_verbs() -> Iterator[tuple[str, Role, Any]]:
     for base in vocabulary_scene.FLICKERS:
         yield base, Role.FLICKER, base
     for activity in (*ACTIVITIES.values(), *HAND_GESTURES.values()):
-        for text in activity.words:
+        for text in (*activity.words, *activity.near):
             words = text.replace("-", " ").split()
             head = next((one for one in COMPOUND_VERBS if words == one.split()), words[0])
             yield head, Role.ACTIVITY, head

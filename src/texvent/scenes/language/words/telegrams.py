@@ -119,7 +119,8 @@ def _find_own(verbs: Sequence[Meaning], thing: Word, word: Word) -> Meaning | No
 @lru_cache(maxsize=1)
 def _activity_phrases() -> frozenset[tuple[str, ...]]:
     """Verb and noun of the activities that need both: "play", "guitar"."""
-    phrases = (text.replace("-", " ").split() for one in ACTIVITIES.values() for text in one.words)
+    phrases = (text.replace("-", " ").split() for one in ACTIVITIES.values()
+               for text in (*one.words, *one.near))  # fmt: skip
     return frozenset(
         (words[0], words[-1]) for words in phrases if len(words) > 1 and words[-1] not in _OF_PEOPLE
     )

@@ -65,6 +65,9 @@ in view and large; a speed stated in numbers is not."""
 MIN_LENGTHS_PER_S = 0.35
 """A usual speed of small things is at least this many lengths per second: a snail gets on."""
 SMALL_M = 2.5
+ROUND_RAD, ROUND_RAD_S = 2.6, 1.3
+"""Least angle of the round that what goes in a circle covers in a clip, and the rate up to which
+it turns for that."""
 RUN_FACTOR = 2.2
 """Running over walking speed."""
 FLAT = 0.62
@@ -268,11 +271,8 @@ def choose_trajectory(
         return build_leap(model, home, plan.yaw, plan.duration_s, clear_m)
     kind, direction = plan.motion.kind, plan.motion.direction
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
-    if kind in PATH_KINDS and direction == "circle":
-        radius = 1.3 * max(model.length, model.width)
-        lean = 0.35 if kind == "fly" else 0.0
-        rate = plan.speed_m_s / radius
-        return Circle(home, radius, rate, phase, _activity(kind), lean)
+    if kind == "orbit" or (kind in PATH_KINDS and direction == "circle"):
+        return _go_round(plan, model, home, phase)
     if direction in ("to and fro", "up and down") and kind != "sway":
         reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
         is_flat = model.length < 0.3 * min(model.width, model.height)
@@ -284,6 +284,16 @@ def choose_trajectory(
     if kind in PATH_KINDS:
         return _follow_path(plan, model, home, phase)
     return _act_in_place(plan, model, home, phase)
+
+
+def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Circle:
+    """Around its home; at a usual speed fast enough for a good part of the round to be seen."""
+    radius = 1.3 * max(model.length, model.width)
+    rate = plan.speed_m_s / radius
+    if plan.motion.speed_m_s is None:
+        rate = max(rate, plan.motion.pace * min(ROUND_RAD_S, ROUND_RAD / plan.duration_s))
+    lean = 0.35 if plan.motion.kind in ("fly", "orbit") else 0.0
+    return Circle(home, radius, rate, phase, _activity(plan.motion.kind), lean)
 
 
 def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:

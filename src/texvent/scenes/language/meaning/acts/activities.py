@@ -44,6 +44,13 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
     return None if name is None else (name, [clause.verb_word], False)
 
 
+def note_near(name: str, words: Sequence[Word]) -> None:
+    """Where words that `find_activity` found say more than the activity shows, the verb says so."""
+    key = tuple(lemma for word in dict.fromkeys(words) for lemma in _split(word))
+    if key in _near_phrases():
+        words[0].shown_as = name
+
+
 def _split(word: Word) -> list[str]:
     """Base forms of the parts of a word: "pick up" of "picks" once its particle is read."""
     if word.lemma in WITH_PARTICLE:
@@ -144,8 +151,19 @@ def _phrases(is_hand: bool) -> Mapping[Key, str]:
     plain = {verb.base for verb in VERBS if verb.act or verb.kind == "move" or verb.relation}
     found: dict[Key, str] = {}
     for name, activity in table.items():
-        for text in activity.words:
-            words = [word for word in text.replace("-", " ").split() if word not in DETERMINERS]
-            if len(words) > 1 or words[0] not in plain:
-                found.setdefault(tuple(_normalise(word) for word in words), name)
+        for text in (*activity.words, *activity.near):
+            key = _key_of(text)
+            if len(key) > 1 or key[0] not in plain:
+                found.setdefault(key, name)
     return found
+
+
+@lru_cache(maxsize=1)
+def _near_phrases() -> frozenset[Key]:
+    return frozenset(_key_of(text) for one in ACTIVITIES.values() for text in one.near)
+
+
+def _key_of(text: str) -> Key:
+    """Base forms of a phrase, without determiners."""
+    words = text.replace("-", " ").split()
+    return tuple(_normalise(word) for word in words if word not in DETERMINERS)

@@ -55,9 +55,14 @@ def do_job(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
         item = draft.objects[index]
         if not item.motions:
             item.motions.append(ObjectMotion(JOBS[item.noun][1]))
+    if doers and lemma in _JOBS_IN_PART:
+        clause.verb_word.shown_as = JOBS[draft.objects[doers[0]].noun][1]
     clause.verb_word.is_used = clause.verb_word.is_used or bool(doers)
     return bool(doers)
 
+
+_JOBS_IN_PART = frozenset({"sort", "stack", "pack", "load", "unload"})
+"""Jobs of which only the hand's way from place to place is seen."""
 
 _LIFTED_BY = frozenset({"forklift"})
 _LIFTING = frozenset({"lift", "raise", "hoist", "pick", "pick up", "lift up", "elevate"})

@@ -68,6 +68,8 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
         return replace(verb, kind="slide", pace=0.5 * verb.pace)
     if verb.base in _STEPS and (is_on_ground or noun.motion == "roll"):
         return replace(verb, kind="move")
+    if verb.base == "drift" and noun.motion in ("walk", "run"):
+        return replace(verb, kind="slide")
     if verb.base in ("chase", "pursue") and not is_living(noun):
         return replace(verb, kind="move")
     if verb.base in ("flap", "beat") and noun.motion == "fly" and is_living(noun):

@@ -106,5 +106,11 @@ def collide(draft: Draft, clause: Clause, subjects: list[int], targets: list[int
         ways = [one.direction for one in item.motions if one.direction is not None]
         if ways:
             draft.note(f"the {item.noun} may go another way than {ways[-1]}: to the hit")
+    if clause.verb_word.lemma in _BLOWS and draft.noun(subjects[0]).habitat == "fixed":
+        clause.verb_word.shown_as = "bump into"
     clause.verb_word.is_used = True
     return []
+
+
+_BLOWS = frozenset({"hit", "strike"})
+"""What a tool does only in a hand: alone it comes near and touches."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import Effect, ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.acts.activities import find_activity
+from texvent.scenes.language.meaning.acts.activities import find_activity, note_near
 from texvent.scenes.language.meaning.acts.devices import (
     blink,
     give_effect,
@@ -228,10 +228,11 @@ class ActReader:
             join_partners(self._draft, name, people, objects)
         self.is_activity = is_exact
         mark_used(words)
+        note_near(name, words)
         self._draft.link_motion(words, hands or people)
-        if name == _BLOWING:
+        if name == "blow bubbles":
             self._draft.effects += [Effect("bubbles", index) for index in people]
-        if name == _AT_SHOES:
+        if name == "tie shoes":
             shoes = [index for one in objects if one.is_things for index in one.things]
             self._draft.relate("wear", people, shoes[:1])
         if name in HANDWORK and not is_exact:
@@ -395,6 +396,5 @@ _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "pa
 """Prepositions of who goes somewhere with what it carries."""
 _LINES = frozenset({"rope", "chain", "hose"})
 """What is pulled at, not along."""
-_AT_SHOES, _BLOWING = "tie shoes", "blow bubbles"
 _UNSTEADY = ("wobble", "rock", "tilt")
 """How the whole of a thing moves that works in its place: a top, a metronome."""

@@ -14,6 +14,8 @@ from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED
 
+_WHERE_IT_STAYS = {"stand": "slide", "float": "fly"}
+"""Usual motion of what stays in its place → how it goes somewhere."""
 _HASTE = 1.5
 """Pace above which who walks runs: "races", "rushes"."""
 STOPS = ("stop", "halt", "come to a stop", "come to rest")
@@ -79,7 +81,7 @@ def name_kind(draft: Draft, index: int, motion: ObjectMotion) -> ObjectMotion:
     usual = draft.noun(index).motion
     if usual == "walk" and motion.pace > _HASTE:
         return replace(motion, kind="run", pace=motion.pace / _HASTE)
-    return replace(motion, kind=usual if usual != "stand" else "slide")
+    return replace(motion, kind=_WHERE_IT_STAYS.get(usual, usual))
 
 
 def stand(draft: Draft, clause: Clause, subjects: list[int]) -> list[int]:

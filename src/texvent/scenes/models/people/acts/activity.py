@@ -11,6 +11,8 @@ class Activity:
 
     words: tuple[str, ...]
     """Verb phrases in their base form."""
+    near: tuple[str, ...] = ()
+    """Phrases of what it shows only nearly, which is reported: "play football" of a kick."""
     travels: bool = False
     """Whether the body goes from place to place."""
     is_sideways: bool = False
@@ -21,14 +23,14 @@ class Activity:
     """Whether it is done at the head, so that the image may end at the waist."""
 
 
-def seen_from_side(*words: str) -> Activity:
+def seen_from_side(*words: str, near: tuple[str, ...] = ()) -> Activity:
     """An activity that is best seen from the side."""
-    return Activity(words, is_sideways=True)
+    return Activity(words, near, is_sideways=True)
 
 
-def at_head(*words: str) -> Activity:
+def at_head(*words: str, near: tuple[str, ...] = ()) -> Activity:
     """An activity of hands at the own head, or of the head."""
-    return Activity(words, is_close=True)
+    return Activity(words, near, is_close=True)
 
 
 def done_to(verbs: str, things: str) -> tuple[str, ...]:

@@ -19,19 +19,19 @@ _MAKEUP = ("makeup|make up|make-up|mascara|eyeliner|eyeshadow|eye shadow|foundat
 AT_HEAD: dict[str, Activity] = {
     "shave": at_head("shave", *done_to("shave|trim", _HAIRY)),
     "brush teeth": at_head(*done_to("brush|clean|floss", "teeth|tooth")),
-    "comb hair": at_head(*done_to("comb|brush|style|straighten|curl|fix|detangle", "hair|long hair"
-                                  "|beard")),
+    "comb hair": at_head(*done_to("comb|brush|detangle", "hair|long hair|beard"),
+                         near=done_to("style|straighten|curl|fix", "hair|long hair|beard")),
     "dry hair": at_head(*done_to("dry|blow dry|blow-dry", "hair"), "blow dry"),
     "put on makeup": at_head(*done_to("put on|apply|wear|do|touch up", _MAKEUP)),
     "put on lipstick": at_head(*done_to("put on|apply", "lipstick|lip balm|lip gloss")),
     "wash face": at_head(*done_to("wash|rinse|splash|scrub|cleanse|rub", "face|eyes|eye")),
-    "wash hair": at_head(*done_to("wash|shampoo|lather|rinse", "hair"), "massage scalp",
-                         "take a shower"),
+    "wash hair": at_head(*done_to("wash|shampoo|lather|rinse", "hair"),
+                         near=("massage scalp", "take a shower")),
     "wipe face": at_head(*done_to("wipe|dab|mop|dry", "forehead|brow|sweat|face|mouth|eyes|tears"
-                                  "|nose"), *done_to("blow|pick|scratch|touch", "nose")),
+                                  "|nose"), near=done_to("blow|pick|scratch|touch", "nose")),
     "scratch head": at_head(*done_to("scratch|touch", "head|ear|face|chin|hair")),
     "facepalm": at_head("facepalm"),
-    "sneeze": at_head("sneeze", "cough"),
+    "sneeze": at_head("sneeze"),
     "yawn": at_head("yawn",),
     "cry": at_head("cry", "weep", "sob"),
     "laugh": at_head("laugh", "giggle", "chuckle", "burst out laughing"),
@@ -71,7 +71,8 @@ EXERCISES: dict[str, Activity] = {
     "ballet": Activity((*done_to("do|dance|practice|practise|perform", "ballet"), "pirouette",
                         "do a pirouette", "do pirouettes")),
     "karate": seen_from_side(*done_to("do|practice|practise|perform", "karate|taekwondo"
-                             "|kung fu|martial arts|kickboxing|judo"), "kickbox"),
+                             "|kung fu|martial arts"), near=("kickbox", *done_to(
+                             "do|practice|practise|perform", "kickboxing|judo"))),
     "fence": seen_from_side("sword fight", *done_to("swing|wave|wield", "sword|lightsaber"
                             ), *done_to("fight|duel", "with swords|with a sword"), "duel"),
     "archery": seen_from_side(*done_to("shoot|release|draw", "arrow|arrows|bow|bow and arrow"
@@ -96,8 +97,9 @@ MUSIC: dict[str, Activity] = {
     "play cello": seen_from_side(*done_to("play", "cello|double bass|contrabass")),
     "play harp": seen_from_side(*done_to("play", "harp")),
     "play accordion": Activity((*done_to("play", "accordion|concertina"),)),
-    "play chess": seen_from_side(*done_to("play", "chess|checkers|cards|card game|board game|poker"
-                                 "|game of chess|playing cards")),
+    "play chess": seen_from_side(*done_to("play", "chess|board game|game of chess"),
+                                 near=done_to("play", "checkers|cards|card game|poker"
+                                              "|playing cards")),
     "play video games": seen_from_side(*done_to("play", "video game|video games|computer game"
                                   "|computer games|console|playstation|xbox")),
 }  # fmt: skip
@@ -114,8 +116,10 @@ PAIRED: dict[str, Activity] = {
     "arm wrestle": Activity(("arm wrestle", "arm-wrestle")),
     "argue": Activity(("argue", "quarrel", "bicker", "have an argument",
                        "have argument", )),
-    "tango": Activity((*done_to("dance|do|perform", "tango|salsa|waltz|ballroom|rumba|bachata"),
-                       "dance together", "slow dance", "waltz", "tango")),
+    "tango": Activity(("dance together", "slow dance", "tango",
+                       *done_to("dance|do|perform", "tango")),
+                      ("waltz", *done_to("dance|do|perform",
+                                         "salsa|waltz|ballroom|rumba|bachata"))),
     "give": Activity(()),
     "receive": Activity(()),
     "tug of war": Activity((*done_to("play|have", "tug of war|tug-of-war"), "tug at a rope",
