@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.generate.seen_words.image_motion import ImageMotion, measure_motion
+from texvent.generate.seen_words.people import are_hands_hidden
 from texvent.generate.seen_words.picture import Picture
 from texvent.generate.seen_words.verb_changes import judge_change
 from texvent.generate.seen_words.verb_senses import judge_sense
@@ -195,11 +196,16 @@ class _Judge:
         return False
 
     def _judge_handled(self, claim: Claim) -> str | None:
-        """What hands put down, pick up, drop or shake must move, whoever does it."""
+        """Hands at work must be in view, and what they put down, lift or shake must move."""
         for index in claim.things:
             for phase in self._phases(index, claim.motion):
                 work = HANDWORK.get(phase.motion.kind)
-                if work is None or work.pattern not in _MOVING:
+                if work is None:
+                    continue
+                workers = self._actors(index)
+                if workers and all(are_hands_hidden(self.picture, one) for one in workers):
+                    return "the hands are hidden"
+                if work.pattern not in _MOVING:
                     continue
                 targets = [n for one in self.description.relations for n in one.targets
                            if one.kind == "work on" and one.subject == index]  # fmt: skip
