@@ -22,7 +22,7 @@ HAND_M = 0.15
 ARM_M, SLIM_M = 0.26, 0.1
 """From a palm or the tip of a tool to the middle of the hand, the forearm or the tool, and half
 thickness of those, at most, m."""
-LEAST_SEEN = 0.34
+LEAST_SEEN = 0.5
 """Share of the views in which a hand at work must be seen."""
 _AT_HEAD_M = 0.4
 """What lies so near to the head, along the view, is a hat, glasses or a hand, m."""
@@ -83,7 +83,7 @@ def are_hands_hidden(picture: Picture, worker: Actor) -> bool:
 def _is_hand_seen(picture: Picture, view: View, worker: Actor) -> bool:
     """Whether the palm, the tip, or what they lie on is what the image has at their place."""
     tips = tool_tip(worker, view.time_s)
-    for tip, (x, y, far) in zip(tips, project(view.camera, picture.size, tips), strict=True):
+    for x, y, far in project(view.camera, picture.size, tips):
         is_inside = 0.0 <= x < picture.size.width and 0.0 <= y < picture.size.height
         if far <= 0.0 or not is_inside:
             continue

@@ -6,7 +6,7 @@ import re
 
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.people.activities import DONE_SEATED, SEATS
+from texvent.scenes.models.people.activities import DONE_SEATED, PERSON_NOUNS, SEATS
 
 _OBJECTS = frozenset({"it", "him", "her", "them"})
 _DETERMINERS = frozenset({"his", "her", "its", "their", "the", "a", "an"})
@@ -68,6 +68,7 @@ def _judge_word(
         if mount in NOUNS and NOUNS[mount].motion in ("walk", "run"):
             return f"rides the {mount}"
     is_alive = _is_alive(claim, description)
+    is_person = any(noun in PERSON_NOUNS for noun in nouns)
     is_off = any(rest.startswith("off") for rest in rests)
     is_on_any = any(one.kind == "on" and one.subject in claim.things
                     for one in description.relations)  # fmt: skip
@@ -80,6 +81,7 @@ def _judge_word(
         "stands, on no seat": (
             _SITTING.fullmatch(word) and kinds & DONE_SEATED and not _has_seat(claim, description)
         ),
+        "it only bobs and turns": word.startswith("danc") and "dance" in kinds and not is_person,
         "falls forwards": word in _BACKWARD and "fall over" in kinds,
         "holds it from the start": is_held and _GRASPING.fullmatch(word),
         "on nothing": word.startswith("perch") and not is_on_any,

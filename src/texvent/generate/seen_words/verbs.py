@@ -77,7 +77,10 @@ _PACE = {word: pace for table in (PACES, PACE_ADJECTIVES) for pace, words in tab
 _HASTY = {
     form: verb.pace
     for verb in VERBS
-    if verb.pace >= _HASTE and verb.kind in ("move", "run") and verb.end_pace is None
+    if verb.pace >= _HASTE
+    and verb.kind in ("move", "run")
+    and verb.end_pace is None
+    and verb.relation in (None, "past")
     for form, _ in list_verb_forms(verb.base)
 }
 """Forms of verbs that say how fast it goes → pace."""

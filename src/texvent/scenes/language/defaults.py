@@ -232,9 +232,9 @@ def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         target = relation.targets[0]
         noun = nouns[objects[target].noun]
         usual = "roll" if "ball" in noun.name.split() else noun.motion
-        is_passed = relation.kind == "overtake" and noun.motion == "drive"
+        is_passed = relation.kind == "overtake" and noun.speed_m_s > 0.0
         if is_passed and objects[target].motion is None:
-            objects[target] = replace(objects[target], motion=ObjectMotion("drive", pace=0.5))
+            objects[target] = replace(objects[target], motion=ObjectMotion(usual, pace=0.5))
         if relation.kind == "follow" and objects[target].motion is None and usual != "stand":
             objects[target] = replace(objects[target], motion=ObjectMotion(usual))
     aim = description.shot.target

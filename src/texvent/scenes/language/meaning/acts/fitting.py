@@ -68,8 +68,6 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
         return replace(verb, kind="slide", pace=0.5 * verb.pace)
     if verb.base in _STEPS and (is_on_ground or noun.motion == "roll"):
         return replace(verb, kind="move")
-    if verb.base == "drift" and noun.motion in ("walk", "run"):
-        return replace(verb, kind="slide")
     if verb.base in ("chase", "pursue") and not is_living(noun):
         return replace(verb, kind="move")
     if verb.base in ("flap", "beat") and noun.motion == "fly" and is_living(noun):
@@ -155,6 +153,8 @@ def _choose_manoeuvre(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     """As in "a car parks", which drives there first, "drifts", "skids"; "a tower falls"."""
     if COLLAPSE in noun.acts and verb.kind in ("fall", "topple", "roll"):
         return replace(verb, kind=COLLAPSE, pace=1.0)
+    if verb.base == "drift" and noun.motion in ("walk", "run"):
+        return replace(verb, kind="slide")
     is_parked = clause.verb is not None and clause.verb.meaning.form is VerbForm.PAST
     if noun.motion != "drive" or noun.habitat != "ground":
         return None
