@@ -262,7 +262,8 @@ def _choose_usual(members: Sequence[Noun], *, rests: bool, is_wet: bool) -> str:
     for noun in members:
         usual = [place for place, found in _USUAL_PLACES.items() if noun.name in found]
         place = usual[0] if usual else noun.place
-        if place and not (is_outdoors and place in _INSIDE):
+        is_on_ground = place in _NO_GROUND and any(one.habitat == "ground" for one in members)
+        if place and not is_on_ground and not (is_outdoors and place in _INSIDE):
             return place
     if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
         return "grass" if rests else "sky"

@@ -60,12 +60,15 @@ def complete_description(
 
 _IN_THE_DARK = frozenset({"lightning", "stage lights", "lasers", "blinking lights"})
 """Effects that are seen in the dark."""
+_FIREWORK = "firework"
 
 
 def _darken(description: SceneDescription) -> SceneDescription:
     """Lights that flash or blink do so in the dark, unless the prompt says otherwise."""
     is_lit = any(effect.kind in _IN_THE_DARK for effect in description.effects)
-    is_lit = is_lit or any(one.blink_hz is not None for one in description.objects)
+    is_lit = is_lit or any(
+        one.blink_hz is not None or one.noun == _FIREWORK for one in description.objects
+    )
     if description.light.kind is not None or not is_lit:
         return description
     note = "it is dark, so that the light that changes is seen"

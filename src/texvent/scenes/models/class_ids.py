@@ -173,6 +173,7 @@ _NOUNS: tuple[str, ...] = (
     "ward walls",
     "gripper", "domino row", "block tower", "card house", "box stack",
     "book stack",
+    "vertical edge", "random dots", "barcode", "qr code", "april tag",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

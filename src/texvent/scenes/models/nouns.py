@@ -64,6 +64,7 @@ from texvent.scenes.models.objects.work import (
     machines,
     rare_vehicles,
     robots,
+    targets,
     tools,
 )
 from texvent.scenes.models.people import hand, person, wearables
@@ -140,6 +141,7 @@ _MODULES = (
     coloured_birds,
     vegetation,
     experiments,
+    targets,
     dishes,
     house_and_games,
     rooms,

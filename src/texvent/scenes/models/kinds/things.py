@@ -194,7 +194,7 @@ THING_KINDS: dict[str, str] = {
     "book": "comic book, notebook, textbook, novel, dictionary, bible, diary, manual, atlas",
     "newspaper": "journal, magazine",
     "sign": "speed limit sign, scoreboard, guidepost",
-    "checkerboard": "aruco board, april tag",
+    "checkerboard": "aruco board",
     "telescope": "spyglass, periscope, kaleidoscope",
     "telephone": "dial telephone, landline",
     "candlestick": "candelabra, candelabrum",

@@ -83,8 +83,7 @@ WORK_KINDS: dict[str, str] = {
         raspberry pi, graphics card, memory card, sim card, usb stick, usb drive, flash
         drive, electronics, electronic component, semiconductor""",
     "checkerboard": """
-        qr code, barcode, chess pattern, crossword, grid, apriltag, chequered flag
-        board, fiducial marker, checkered pattern""",
+        chess pattern, crossword, grid, chequered flag board, checkered pattern""",
     "centrifuge": """
         incubator, autoclave, laboratory instrument, spectrometer, pcr machine, lab
         instrument, fume hood, sterilizer, shredder""",
@@ -182,7 +181,7 @@ WORK_KINDS: dict[str, str] = {
         block, toy cube, metal block, workpiece, block of wood, wood block, voxel""",
     "disc": "circle shape, cutting disc, round shape",
     "square": "rectangle, hexagon, rhombus, rectangle shape, square shape, polygon",
-    "grating": "zebra pattern, line pattern, barcode pattern",
+    "grating": "zebra pattern, line pattern",
     "sled": "snow tube, snow sled, dog sled, luge",
     "soap bubble": "foam bubble",
     "frying pan": "steel pan, cast iron pan, iron skillet",

@@ -13,6 +13,7 @@ from functools import partial
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.objects.figures import placed, thing
+from texvent.scenes.models.objects.work import targets
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import ball, box, fin, limb, rod
 from texvent.scenes.models.variation import paint
@@ -208,5 +209,5 @@ NOUNS = (
     _pattern("eye", _build_eye, ("human eye",)),
 )  # fmt: skip
 """Nouns of shapes and patterns."""
-FACING = frozenset(noun.name for noun in NOUNS)
+FACING = frozenset(noun.name for noun in (*NOUNS, *targets.NOUNS))
 """Names of nouns that turn their face straight to the camera."""

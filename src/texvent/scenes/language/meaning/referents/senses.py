@@ -231,12 +231,18 @@ def choose_sense(head: Word, noun: str, draft: Draft, verb: str = "") -> str:
 _TURNED = _words("spin rotate turn revolve whirl slow stop")
 _TURNING = _words("spinning rotating turning revolving sector sectors segment segments stripes")
 _GROWING = _words("expanding growing widening looming approaching")
+_OF_BARS = _words("black white dark bright grey gray vertical moving drifting sweeping")
+_SWEPT = _words("move sweep drift slide rotate jump cross translate")
+"""What a counter is not, and does not do."""
 _PATTERNS = {"ring": "expanding ring", "disc": "looming disc", "square": "looming disc"}
 
 
 def choose_pattern(group: NounGroup, noun: str, verb: str) -> str:
     """As in "a rotating disc", "an expanding ring": the pattern that moves so."""
     said = {word.text for word in group.modifiers}
+    if noun == "bar counter" and (said & _OF_BARS or verb in _SWEPT):
+        mark_used(word for word in group.modifiers if word.text == "vertical")
+        return "vertical bar"
     inner = {one.head.text for phrase in group.phrases for one in phrase.groups if one.head}
     if noun in _PATTERNS and said & _GROWING:
         mark_used(word for word in group.modifiers if word.text in _GROWING)

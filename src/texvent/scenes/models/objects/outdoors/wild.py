@@ -329,6 +329,8 @@ _SKY = placed("space", (
             for a in (math.pi / 2 + 2 * math.pi * k / 5
                 for k in range(5))] + [ball(Material(p.colour, emission=1.0), (0.0, 0.0, 0.0),
                 (0.26, 0.34, 0.34))], goes=("air", "float", 0.4)),
+))  # fmt: skip
+_FIREWORKS = placed("sky", (
     thing("firework", ((1.0, 0.25, 0.10), (0.20, 0.75, 1.0), (0.95, 0.80, 0.20)), nothing,
         ("fireworks", "firework burst"), plurals=("fireworks",),
         moving=(Moving(lambda p: [limb(Material(p.colour if k % 3 else (1.0, 0.9, 0.5),
@@ -336,5 +338,5 @@ _SKY = placed("space", (
             goes=("air", "float", 0.5)),
 ))  # fmt: skip
 
-NOUNS = (*_GARDEN, *_SKY)
+NOUNS = (*_GARDEN, *_SKY, *_FIREWORKS)
 """Nouns of nature and sky."""
