@@ -167,8 +167,8 @@ class Shot:
     moves: tuple[CameraMove, ...] = ()
     """Moves, which add up; empty = static."""
     view: str | None = None
-    """"aerial", "top", "low", "side", "front", "back" or "first person"; None = a little above
-    eye level."""
+    """"aerial", "top", "low", "side", "front", "back", "high" (from a bridge) or "first person";
+    None = a little above eye level."""
     framing: str | None = None
     """"close" or "wide"; None = all objects fit."""
     target: int | None = None

@@ -38,5 +38,12 @@ def test_what_is_seen_is_not_reported(prompt: str) -> None:
     assert listed(prompt) == ()
 
 
+def test_what_is_seen_from_a_bridge_is_seen_from_above_and_without_it() -> None:
+    report = report_of("highway traffic from an overpass")
+    assert not any("bridge" in line for line in report.scene)
+    assert any("high view" in line for line in report.scene)
+    assert [one.shown for one in report.substituted] == ["where the camera stands"]
+
+
 def test_what_lifts_off_from_a_table_is_on_it_first() -> None:
     assert "1 drone, rises, on 1 table" in report_of("a drone takes off from a table").scene

@@ -50,7 +50,8 @@ def says_something(word: Word) -> bool:
     """Whether a word that has an effect is worth a mention as shown: no mere grammar."""
     if word.course:
         return True
-    if word.pos is Pos.PREPOSITION and word.text in SILENT_PREPOSITIONS:
+    is_plain = word.pos is Pos.PREPOSITION or word.role is Role.VIEW
+    if is_plain and word.text in SILENT_PREPOSITIONS:
         return False
     if word.role is Role.RELATION or word.pos is Pos.PREPOSITION:
         return bool(word.relations) or word.role is Role.DIRECTION

@@ -19,37 +19,74 @@ _FROM = frozenset({"from", "from behind", "from inside", "from within", "from un
 _VIEWS = frozenset({Role.VIEW, Role.FRAMING, Role.CAMERA, Role.CAMERA_MOVE})
 _ENDS = frozenset({"of", "as", "while", "and", "with", "to", "toward", "towards", "into"})
 _FARTHEST = 7
-_STANDS = frozenset({"stands", "bleachers", "grandstand", "tribune", "balcony"})
+_HIGH = frozenset(
+    {"stands", "bleachers", "grandstand", "tribune", "balcony", "bridge", "footbridge", "overpass",
+     "flyover", "viaduct", "rooftop", "roof", "tower", "terrace"}
+)  # fmt: skip
 """Standpoints high above what is filmed."""
+_RAISED = frozenset({"high", "upper", "elevated", "tall"})
+_EDGES = frozenset({"rail", "railing", "edge", "top", "side", "middle", "end", "parapet", "roof"})
+"""Parts of them: "from the rail of a bridge"."""
 
 
 def mark_standpoints(words: Sequence[Word]) -> None:
     """Take what the camera films from out of the picture; the words change."""
     for index, word in enumerate(words):
-        is_first = index == 0 or words[index - 1].pos is Pos.SIGN
-        if word.text not in _SEEN and not (word.text in _SHOT and is_first):
+        if word.text not in _FROM:
             continue
-        after = words[index + 1 : index + 1 + _FARTHEST]
-        if not after or after[0].text not in _FROM:
-            continue
-        phrase = _take_phrase(after[1:])
+        phrase = _take_phrase(words[index + 1 : index + 1 + _FARTHEST])
         nouns = [one for one in phrase if one.pos is Pos.NOUN]
+        is_high = any(one.text.split()[-1] in _HIGH for one in nouns)
+        seen = _find_verb(words, index)
         if not nouns or any(one.is_viewpoint for one in phrase):
             continue
-        for one in (word, *after[:1], *phrase):
+        if seen is None and not (is_high and _is_view(words[:index])):
+            continue
+        for one in (*(() if seen is None else (seen,)), word, *phrase):
             if one.pos is Pos.NOUN:
                 one.meaning, one.others = Meaning(Role.CAMERA, Pos.NOUN), ()
                 one.is_used, one.shown_as = True, "where the camera stands"
-                one.course = "in stands" if one.text in _STANDS else ""
-            elif one.pos in (Pos.VERB, Pos.PREPOSITION) or one is word:
+                one.course = "in stands" if one.text.split()[-1] in _HIGH else ""
+            elif one.pos in (Pos.VERB, Pos.PREPOSITION) or one is seen or one.text in _RAISED:
                 one.meaning, one.others = Meaning(Role.FUNCTION, Pos.ADVERB), ()
                 one.is_used = True
+        if is_high:
+            word.meaning = Meaning(Role.VIEW, Pos.ADJUNCT, "high")
+
+
+def _find_verb(words: Sequence[Word], index: int) -> Word | None:
+    """As in "filmed from", "shot from" at the begin of a phrase."""
+    if index == 0:
+        return None
+    word = words[index - 1]
+    is_first = index == 1 or words[index - 2].pos is Pos.SIGN
+    return word if word.text in _SEEN or (word.text in _SHOT and is_first) else None
+
+
+def _is_view(before: Sequence[Word]) -> bool:
+    """As in "traffic from an overpass", "the camera looks down from a roof": nobody leaves it."""
+    sentence: list[Word] = []
+    for word in reversed(before):
+        if word.pos is Pos.SIGN:
+            break
+        sentence.append(word)
+    if any(word.role is Role.CAMERA or word.text in _SEEN for word in sentence):
+        return True
+    acts = any(word.pos is Pos.VERB or word.role is Role.EFFECT for word in sentence)
+    return bool(sentence) and not acts
 
 
 def _take_phrase(after: Sequence[Word]) -> list[Word]:
     found = []
     for word in after:
-        if word.text in _ENDS or word.pos in (Pos.SIGN, Pos.VERB) or word.role in _VIEWS:
+        is_end = word.text in _ENDS and not (
+            word.text == "of" and found[-1:] and _is_edge(found[-1])
+        )
+        if is_end or word.pos in (Pos.SIGN, Pos.VERB) or word.role in _VIEWS:
             break
         found.append(word)
     return found
+
+
+def _is_edge(word: Word) -> bool:
+    return word.text.split()[-1] in _EDGES
