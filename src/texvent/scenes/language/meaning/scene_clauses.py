@@ -53,6 +53,10 @@ def _is_steady(word: Word, one: Referent) -> bool:
     return is_of_sky or (are_lamps and word.lemma != "flicker")
 
 
+_AIMED_AT = frozenset({"lasers"})
+"""Effects that are shown all around, not on what they are said to hit."""
+
+
 class SceneClauses:
     """Reads clauses whose subject is no object."""
 
@@ -134,7 +138,9 @@ class SceneClauses:
                 found = self._referents.resolve(group, phrase.preposition.text)
                 if found.is_things:
                     sources.extend(found.things)
-                    phrase.preposition.is_used = True
+                    is_aimed = {str(one.value) for one in subjects} <= _AIMED_AT
+                    phrase.preposition.is_used = not is_aimed
+                    phrase.preposition.is_lost = is_aimed
                     self._around.place_among(phrase.preposition, found.things)
                 else:
                     sources.extend(self._around.parts.find_whose(found))

@@ -77,7 +77,7 @@ def _is_view(before: Sequence[Word]) -> bool:
 
 
 def _take_phrase(after: Sequence[Word]) -> list[Word]:
-    found = []
+    found: list[Word] = []
     for word in after:
         is_end = word.text in _ENDS and not (
             word.text == "of" and found[-1:] and _is_edge(found[-1])

@@ -19,6 +19,9 @@ _TOUCH_M, _TOUCH_SHARE = 0.02, 0.05
 """Gap that counts as contact: metres, and share of the smaller body."""
 _SUNK_SHARE = 0.75
 """Share of its height that what is on something may lie below its surface: a rug's pile, snow."""
+_SEAT_M, _HIPS = 0.1, 0.45
+"""How far from its middle a seat reaches under who sits, m; greatest height of hips, as a share of
+the size of who stands."""
 _LEAST_STAND = 0.2
 """Least size of what a person is on, as a share of the person's."""
 _LOOSE = 1.15
@@ -63,9 +66,23 @@ def is_on(subject: Actor, target: Actor, time_s: float) -> bool:
         return False
     if subject.noun.name in PERSON_NOUNS:
         # The legs of who sits lie below the seat; a telephone carries no person.
+        if subject.trajectory.at(time_s).activity == "sit" and not _has_seat(
+            subject, other, time_s
+        ):
+            return False
         return float(np.max(top - base)) > _LEAST_STAND * float(np.max(high - low))
     surface = top_below(target, time_s, 0.5 * (low[:2] + high[:2]))
     return bool(surface < low[2] + _SUNK_SHARE * (high[2] - low[2]) + _TOUCH_M)
+
+
+def _has_seat(subject: Actor, other: Boxes, time_s: float) -> bool:
+    """Whether a part of what it sits on is below its hips, and not beside the knees."""
+    x, y, foot = subject.trajectory.at(time_s).position
+    tall = subject.model.height
+    is_below = np.all(np.abs(other.high + other.low - 2.0 * np.array([x, y, 0.0]))[:, :2]
+                      < (other.high - other.low)[:, :2] + 2.0 * _SEAT_M, axis=1)  # fmt: skip
+    top = other.high[is_below, 2] - foot
+    return bool(np.any((top > 0.0) & (top < _HIPS * tall)))
 
 
 def hangs_on(subject: Actor, target: Actor, time_s: float) -> bool:

@@ -49,7 +49,7 @@ def is_near(subject: Body, targets: list[Body]) -> bool:
     reach = BESIDE * max(_own_size(one) for one in (subject, *targets)) + BESIDE_M
     for target in targets:
         apart = gaps(subject, target)
-        is_together = _moves(subject) and _moves(target)
+        is_together = moves(subject) and moves(target)
         if float(apart.max() if is_together else apart.min()) >= reach:
             return False
     return True
@@ -65,7 +65,8 @@ def _own_size(body: Body) -> float:
     return float(np.max(body.high[0] - body.low[0]))
 
 
-def _moves(body: Body) -> bool:
+def moves(body: Body) -> bool:
+    """Whether it leaves its place."""
     return float(np.linalg.norm(body.places[-1] - body.places[0])) > _LEAST_WAY_M
 
 
@@ -143,7 +144,7 @@ def passes(subject: Body, targets: list[Body]) -> bool:
 
     A clip shorter than a second shows a part of that: beside the target is enough.
     """
-    if not (_moves(subject) or _moves(targets[0])):
+    if not (moves(subject) or moves(targets[0])):
         return is_near(subject, targets)
     ahead = _along(subject, targets[0])
     beside = 0.5 * (size_of(subject) + size_of(targets[0])) if subject.duration_s < 1.0 else 0.0
@@ -173,4 +174,4 @@ def _finely(values: Float64Array) -> Float64Array:
 
 def is_behind_in_line(subject: Body, targets: list[Body]) -> bool:
     """Behind a target that goes on, all the time."""
-    return _moves(targets[0]) and bool(np.all(_along(targets[0], subject) > 0.0))
+    return moves(targets[0]) and bool(np.all(_along(targets[0], subject) > 0.0))

@@ -51,6 +51,7 @@ from texvent.scenes.staging.claims.positions import (
     is_under,
     measure,
     middle_of,
+    moves,
     overtakes,
     passes,
     size_of,
@@ -117,7 +118,14 @@ def _list_checks(relation: Relation, description: SceneDescription) -> list[_Che
     checks = [CHECKS[relation.kind]]
     if relation.kind == "from" and motion is not None and motion.kind in _LIFTING:
         checks = [_by_copies(lifts_from)]
+    if relation.kind == "past" and not relation.way and motion is not None and motion.is_moving:
+        checks.append(_one_goes)
     return checks + ([WAYS[relation.way]] if relation.way else [])
+
+
+def _one_goes(subject: Body, targets: list[Body]) -> bool:
+    """Whether who goes past something leaves its place, or the thing does."""
+    return moves(subject) or any(moves(one) for one in targets)
 
 
 def _name(description: SceneDescription, index: int) -> str:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from texvent.scenes.description import Effect
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
@@ -15,11 +18,21 @@ _OF_LIGHT_SHOWS = frozenset(
 )  # fmt: skip
 """What light shows and lightning do anyway."""
 
+_OF_THINGS = frozenset({"steam", "smoke", "fire", "sparks", "splash", "drip"})
+"""What comes from things where people have to do with them."""
 
-def add_effect(draft: Draft, one: Referent, scope: Scope) -> bool:
-    """Add smoke, sparks ... to the clause's subjects; whether there is something to add it to."""
+
+def add_effect(draft: Draft, one: Referent, scope: Scope, near: Sequence[int] = ()) -> bool:
+    """Add smoke, sparks ... to the clause's subjects; whether there is something to add it to.
+
+    Steam comes from no person but from what is `near` the word, acted on, or named last.
+    """
     kind = str(one.value)
     source = scope.subjects[0] if scope.subjects and not EFFECTS[kind].is_around else None
+    if source is not None and kind in _OF_THINGS and is_person(draft.noun(source)):
+        named = reversed(range(len(draft.objects))) if kind == "steam" else ()
+        found = (*near, *scope.acted_on, *named)
+        source = next((one for one in found if not is_living(draft.noun(one))), source)
     if source is None and EFFECTS[kind].needs_source:
         return False
     colours = one.attributes.colours

@@ -254,7 +254,8 @@ class CircumstanceReader:
         elif one.kind == "picture":
             word.is_used = self.show_on(one, scope.subjects)
         elif one.kind == "effect":
-            word.is_used = self.add_effect(one, scope)
+            near = self._referents.recall(phrase.near)
+            word.is_used = self.add_effect(one, scope, near.things if near is not None else ())
         elif one.kind == "part":
             self.parts.read_part(word, one, scope)
         elif one.kind == "unknown":
@@ -356,11 +357,11 @@ class CircumstanceReader:
                 return True
         return False
 
-    def add_effect(self, one: Referent, scope: Scope) -> bool:
+    def add_effect(self, one: Referent, scope: Scope, near: Sequence[int] = ()) -> bool:
         """Smoke, sparks ... that the clause's subjects have; "storm" brings rain."""
         if EFFECTS[str(one.value)].is_around and "storm" in one.group.text:
             self._surroundings.read_weather("rain")
-        return add_effect(self._draft, one, scope)
+        return add_effect(self._draft, one, scope, near)
 
     def flash_own(self, one: Referent, word: Word) -> bool:
         """As in "a fire truck leaves with its lights flashing"."""
