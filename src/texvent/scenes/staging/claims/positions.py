@@ -154,7 +154,7 @@ def passes(subject: Body, targets: list[Body]) -> bool:
 def overtakes(subject: Body, targets: list[Body]) -> bool:
     """Behind the target, which goes on too, at the start, before it in the end."""
     ahead = _along(subject, targets[0])
-    return bool(ahead[0] < 0.0 < ahead[-1]) and _moves(targets[0])
+    return bool(ahead[0] < 0.0 < ahead[-1]) and moves(targets[0])
 
 
 def goes_through(subject: Body, targets: list[Body]) -> bool:

@@ -101,7 +101,12 @@ def _is_close(subject: Body, targets: list[Body]) -> bool:
     if subject.copies[0].noun.habitat == "fixed" and not subject.copies[0].is_mover:
         return _lies_against(subject, targets)
     reach = _AT_M + _AT_SHARE * max(_extent(one) for one in (subject, *targets))
-    return all(float(gaps(subject, target).min()) < reach for target in targets)
+    times = [float(t) for t in np.linspace(0.0, subject.duration_s, 5)]
+    return all(
+        any(gap(part_boxes(own, t), part_boxes(one, t)) < reach
+            for own in subject.copies for one in target.copies for t in times)
+        for target in targets
+    )  # fmt: skip
 
 
 def _extent(body: Body) -> float:
