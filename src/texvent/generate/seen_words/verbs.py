@@ -14,7 +14,13 @@ from texvent.generate.seen_words.picture import Picture
 from texvent.generate.seen_words.verb_changes import judge_change
 from texvent.generate.seen_words.verb_senses import judge_sense
 from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
-from texvent.scenes.language.vocabulary.motion import GETTING, PACE_ADJECTIVES, PACES, VERBS
+from texvent.scenes.language.vocabulary.motion import (
+    DIRECTIONS,
+    GETTING,
+    PACE_ADJECTIVES,
+    PACES,
+    VERBS,
+)
 from texvent.scenes.language.words.english import list_verb_forms
 from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED
@@ -69,6 +75,8 @@ _GETTING = re.compile(
 _TAKING_OFF = re.compile(r"(t[ao]k|lift|blast)\w* ?off|launch\w*")
 _LANDING = re.compile(r"land(s|ed|ing)?|touch\w* down|settle\w*")
 _ENDS = re.compile(r"onto|into|off|out of")
+_TO_A_SIDE = frozenset(word for way in ("left", "right", "towards", "away", "across")
+                       for word in DIRECTIONS[way])  # fmt: skip
 _HASTE = 1.4
 _MOVING = MOVED | {"lift", "rock"}
 """Patterns of hand work in which the thing moves."""
@@ -155,6 +163,8 @@ class _Judge:
         for phase in self._phases(index, claim.motion):
             if is_part and phase.motion.kind in _GOING:
                 return f"{noun} {HARDLY}"
+            if phase.motion.kind == "work" and claim.word in _TO_A_SIDE:
+                return f"{noun} stays where it is"
             moves = self._measure(index, phase)
             if not moves:
                 continue

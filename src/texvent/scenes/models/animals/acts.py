@@ -32,6 +32,10 @@ MOUTH_ACTS = frozenset({"graze", "eat", "drink", "sniff", "peck"})
 """Acts in which the mouth is at the ground, or at what is eaten."""
 
 
+_SAY_MORE = frozenset({"dig", "burrow", "beg", "devour", "gnaw"})
+"""Verbs that say more than their act shows."""
+
+
 @dataclass(frozen=True)
 class Stance:
     """How an act changes a standing animal."""
@@ -70,7 +74,8 @@ def shown_as(act: str, verb: str) -> str | None:
     """What is seen of a verb, where that is less than it says: nothing is heard."""
     if act in ("bark", "howl"):
         return "throw up its head"
-    return None if act == verb.split()[0] or verb in ANIMAL_ACTS[act] else act
+    is_same = act == verb.split()[0] or (verb in ANIMAL_ACTS[act] and verb not in _SAY_MORE)
+    return None if is_same else act
 
 
 def _swing(time_s: float, rate_hz: float) -> float:

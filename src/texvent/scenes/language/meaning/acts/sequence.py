@@ -78,7 +78,10 @@ def name_kind(draft: Draft, index: int, motion: ObjectMotion) -> ObjectMotion:
     """What "moves" means for the object: a car drives."""
     if motion.kind != "move":
         return motion
-    usual = draft.noun(index).motion
+    noun = draft.noun(index)
+    usual = noun.motion
+    if noun.is_working and usual == "stand" and motion.direction is None:
+        return replace(motion, kind="work")  # "wipers going"
     if usual == "walk" and motion.pace > _HASTE:
         return replace(motion, kind="run", pace=motion.pace / _HASTE)
     return replace(motion, kind=_WHERE_IT_STAYS.get(usual, usual))
