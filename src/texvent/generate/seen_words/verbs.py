@@ -65,6 +65,8 @@ _GOING = PATH_KINDS | {
     "park",
     "change lane",
 }
+_BY_GRAVITY = frozenset({"bounce", "fall", "throw", "jump", "flip", "topple", "fall over"})
+"""What gravity alone gives its speed."""
 _REACTING = frozenset({"push", "pull", "kick", "hit", "throw", "give"})
 """Relations whose target must move."""
 _SWAYING = frozenset({"sway", "work", "talk", "laugh", "sing", "eat", "chew", "graze", "drink",
@@ -302,13 +304,15 @@ class _Judge:
                     continue
                 if any(_fits(pace, phase.motion, one) for one in moving):
                     return None
+        degree = "fast" if pace > 1.0 else "slow"
         if not claim.things:
-            is_seen = is_any or self.picture.scene.particles.kinds or self._is_camera_moving()
-            return None if is_seen else NOTHING_MOVES
+            if self.picture.scene.particles.kinds or self._is_camera_moving():
+                return None
+            return f"nothing is {degree} in the picture" if is_any else NOTHING_MOVES
         noun = self.description.objects[indices[0]].noun
         if not is_any:
             return f"{noun} {HARDLY}"
-        return f"{noun} is not fast in the picture" if pace > 1.0 else f"{noun} {HARDLY}"
+        return f"{noun} is not {degree} in the picture"
 
     def _phases(self, index: int, number: int | None) -> Sequence[Phase]:
         """When an object makes a motion; without a number, all that it makes."""
@@ -359,7 +363,8 @@ def _is_seen_moving(phase: Phase, found: ImageMotion) -> bool:
 def _fits(pace: float, motion: ObjectMotion, found: ImageMotion) -> bool:
     """Whether what is seen to move is fast, or slow."""
     if motion.kind not in _GOING:
-        return pace < 1.0 or found.change >= ACTING_FAST
+        is_slow = motion.pace < 1.0 and motion.kind not in _BY_GRAVITY
+        return is_slow if pace < 1.0 else found.change >= ACTING_FAST
     speed = found.speed + found.growth
     if pace < 1.0:
         return speed <= SLOW

@@ -48,7 +48,10 @@ def note_near(name: str, words: Sequence[Word]) -> None:
     """Where words that `find_activity` found say more than the activity shows, the verb says so."""
     key = tuple(lemma for word in dict.fromkeys(words) for lemma in _split(word))
     if key in _near_phrases():
-        words[0].shown_as = name
+        for word in words:
+            is_object = word.pos is Pos.NOUN and not word.things
+            if is_object or (word is words[0] and word.lemma != name):
+                word.shown_as = name
 
 
 def _split(word: Word) -> list[str]:

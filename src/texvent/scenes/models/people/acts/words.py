@@ -13,8 +13,8 @@ from texvent.scenes.models.people.acts.activity import (
 )
 
 _HAIRY = "beard|mustache|moustache|face|chin|cheek|cheeks|head|stubble"
-_MAKEUP = ("makeup|make up|make-up|mascara|eyeliner|eyeshadow|eye shadow|foundation|blush|powder"
-           "|face cream|sunscreen|face paint")  # fmt: skip
+_MAKEUP = "makeup|make up|make-up|blush|powder"
+_ON_FACE = "mascara|eyeliner|eyeshadow|eye shadow|foundation|face cream|sunscreen|face paint"
 
 AT_HEAD: dict[str, Activity] = {
     "shave": at_head("shave", *done_to("shave|trim", _HAIRY)),
@@ -22,8 +22,10 @@ AT_HEAD: dict[str, Activity] = {
     "comb hair": at_head(*done_to("comb|brush|detangle", "hair|long hair|beard"),
                          near=done_to("style|straighten|curl|fix", "hair|long hair|beard")),
     "dry hair": at_head(*done_to("dry|blow dry|blow-dry", "hair"), "blow dry"),
-    "put on makeup": at_head(*done_to("put on|apply|wear|do|touch up", _MAKEUP)),
-    "put on lipstick": at_head(*done_to("put on|apply", "lipstick|lip balm|lip gloss")),
+    "put on makeup": at_head(*done_to("put on|apply|wear|do|touch up", _MAKEUP),
+                             near=done_to("put on|apply|wear|do|touch up", _ON_FACE)),
+    "put on lipstick": at_head(*done_to("put on|apply", "lipstick"),
+                               near=done_to("put on|apply", "lip balm|lip gloss")),
     "wash face": at_head(*done_to("wash|rinse|splash|scrub|cleanse|rub", "face|eyes|eye")),
     "wash hair": at_head(*done_to("wash|shampoo|lather|rinse", "hair"),
                          near=("massage scalp", "take a shower")),
@@ -36,7 +38,7 @@ AT_HEAD: dict[str, Activity] = {
     "cry": at_head("cry", "weep", "sob"),
     "laugh": at_head("laugh", "giggle", "chuckle", "burst out laughing"),
     "shout": at_head("shout", "yell", "scream", "call out"),
-    "smoke": at_head("smoke", *done_to("smoke", "cigarette|cigar|pipe"), "vape"),
+    "smoke": at_head("smoke", "smoke cigarette", near=("vape", "smoke cigar", "smoke pipe")),
     "blow bubbles": seen_from_side(*done_to("blow|make", "bubble|bubbles|soap bubble"
                                             "|soap bubbles")),
     "blow whistle": at_head(*done_to("blow|blow into|whistle with", "whistle")),
@@ -94,7 +96,8 @@ EXERCISES: dict[str, Activity] = {
 """Done with the whole body; what it needs comes with it."""
 
 MUSIC: dict[str, Activity] = {
-    "play cello": seen_from_side(*done_to("play", "cello|double bass|contrabass")),
+    "play cello": seen_from_side("play cello",
+                                 near=done_to("play", "double bass|contrabass")),
     "play harp": seen_from_side(*done_to("play", "harp")),
     "play accordion": Activity((*done_to("play", "accordion|concertina"),)),
     "play chess": seen_from_side(*done_to("play", "chess|board game|game of chess"),
