@@ -11,6 +11,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.claims.bodies import Boxes, gap, part_boxes, top_below
+from texvent.scenes.staging.placement.resting import TUBS
 
 _INSTANTS = 7
 _NEAREST = 5
@@ -22,6 +23,8 @@ _SUNK_SHARE = 0.75
 _SEAT_M, _HIPS = 0.1, 0.45
 """How far from its middle a seat reaches under who sits, m; greatest height of hips, as a share of
 the size of who stands."""
+_RIM_M = 0.02
+"""How far the legs of who is in a tub may reach out, m."""
 _LEAST_STAND = 0.2
 """Least size of what a person is on, as a share of the person's."""
 _LOOSE = 1.15
@@ -107,7 +110,14 @@ def is_in(subject: Actor, target: Actor, time_s: float) -> bool:
         and low[2] < top[2] - sunk + _TOUCH_M
         and high[2] > base[2]
     )
-    is_person = subject.noun.name in PERSON_NOUNS
+    is_person = subject.noun.name in PERSON_NOUNS and target.noun.name not in TUBS
+    if target.noun.name in TUBS and subject.noun.name in PERSON_NOUNS:
+        below = own.low[:, 2] < top[2] - _RIM_M
+        is_inside = bool(
+            np.any(below)
+            and np.all(own.low[below, :2] > base[:2] - _RIM_M)
+            and np.all(own.high[below, :2] < top[:2] + _RIM_M)
+        )
     is_below_top = room[2] < _TALL_M or 0.5 * float((low + high)[2]) < top[2] - 0.1 * room[2]
     return is_below_top and (is_inside or (is_person and is_on(subject, target, time_s)))
 

@@ -10,7 +10,7 @@ import numpy as np
 from texvent.scenes.description import Relation, SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
-from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.work.verbs import HOVERING
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
@@ -238,7 +238,7 @@ def _is_with(subject: Body, targets: list[Body]) -> bool:
         # What goes along is near all the time.
         reach = BESIDE * max(size_of(subject), size_of(targets[0])) + BESIDE_M
         return float(gaps(subject, targets[0]).max()) < reach
-    if _is_fitted(own, other):
+    if _is_fitted(own, other) or (own.noun.name in HAND_NOUNS and other.noun.motion == "stand"):
         return holds_for_all(
             touches, targets[0].copies, subject.copies, subject.duration_s, always=True
         )

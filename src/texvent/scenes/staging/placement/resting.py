@@ -29,6 +29,10 @@ from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GATEWAYS = frozenset({"door", "gate", "arch"})
 """In what one stands on the ground."""
+TUBS = frozenset({"bathtub", "box", "barrel", "basket", "bucket", "crate", "laundry basket"})
+"""In what people stand with their legs inside."""
+_TUB_SHARE, _TUB_FLOOR_M = 0.45, 0.05
+"""Share of a person's height below the rim at most; thickness of the floor, m."""
 _SEEN_SHARE = 0.6
 """Share of the height of what is in something that looks out of it."""
 _SWIMMER_SHARE = 0.5
@@ -105,7 +109,7 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     if target.noun.name == "window":
         return _rest_in_window(group, target)
     if is_person or target.noun.habitat == "ground":
-        return rest_on(group, target, neighbours)
+        return _sink(group, target, rest_on(group, target, neighbours))
     if group.noun.habitat == "fixed" and len(target.models) == 1 and not _is_shelf(target):
         own = len(group.offsets)
         first, count = own * neighbours.index(group.index), own * len(neighbours)
@@ -126,6 +130,14 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     low = max(top - (1.0 - seen) * tall, 0.08 * deep)
     base = target.centre[2] + low + _origin_height(group)
     return np.array([place[0], place[1], base])
+
+
+def _sink(group: ObjectGroup, target: ObjectGroup, place: Float64Array) -> Float64Array:
+    """Where a person in a tub stands: on its floor, or deep enough in it; others at their place."""
+    if group.noun.name not in PERSON_NOUNS or target.noun.name not in TUBS:
+        return place
+    sunk = _find_surface(target).height - _TUB_SHARE * group.models[0].height
+    return np.array([place[0], place[1], target.centre[2] + max(sunk, _TUB_FLOOR_M)])
 
 
 def _is_shelf(target: ObjectGroup) -> bool:

@@ -101,7 +101,7 @@ class RelationReader:
         if kind == "from" and self._stays(scope):
             name = self._draft.noun(things[0]).name
             place = "in" if name == "window" else "on" if name in _PERCHES else "beside"
-            return self._relate(place, scope.subjects, things)
+            return self._relate(place, scope.subjects, things, "at" if place == "beside" else "")
         if kind == "from" and lifts_off(self._draft, scope.movers, things[0]):
             return self._relate("on", scope.movers, things, "off")
         if self._is_journey_of_none(kind, scope):
