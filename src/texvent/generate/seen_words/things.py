@@ -62,7 +62,7 @@ def judge_thing(
 ) -> str | None:
     """Why what a word says of an object is not seen, or None."""
     if claim.aspect == "name":
-        fault = _judge_garment(picture, description, index)
+        fault = _judge_garment(picture, description, index) or _judge_tool(description, index)
         return fault or _judge_small(picture, description, index)
     if claim.aspect == "colour":
         return _judge_colour(picture, description, index)
@@ -100,6 +100,16 @@ def _judge_garment(picture: Picture, description: SceneDescription, index: int) 
     wearers = [one for one in picture.scene.actors if one.instance in bearers]
     seen = [sum(_is_from_front(one, view) for view in picture.views) for one in wearers]
     return "seen from the side" if seen and max(seen) < LEAST_FRONT_VIEWS else None
+
+
+def _judge_tool(description: SceneDescription, index: int) -> str | None:
+    """Who types does so on a laptop."""
+    motions = [one.motion.kind for one in description.objects if one.motion is not None]
+    return (
+        "is a laptop's"
+        if description.objects[index].noun == "keyboard" and "type" in motions
+        else None
+    )
 
 
 def _judge_small(picture: Picture, description: SceneDescription, index: int) -> str | None:

@@ -283,8 +283,8 @@ def _rest_in_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     objects = list(description.objects)
     for relation in description.relations:
         subject, target = (objects[each] for each in (relation.subject, relation.targets[0]))
-        if relation.kind in ("in", "on"):
-            if _sits_down(description, subject, target):
+        if relation.kind in ("in", "on", "at"):
+            if _sits_down(description, relation.kind, subject, target):
                 objects[relation.subject] = replace(subject, motion=ObjectMotion("sit"))
             elif subject.motion is None and (relation.kind == "in" or target.motion is None):
                 objects[relation.subject] = replace(subject, motion=STANDING)
@@ -301,8 +301,12 @@ def _rest_in_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     return replace(description, objects=tuple(objects))
 
 
-def _sits_down(description: SceneDescription, subject: SceneObject, target: SceneObject) -> bool:
-    """Whether a person is on a seat and the prompt does not say that it stands there."""
+def _sits_down(
+    description: SceneDescription, kind: str, subject: SceneObject, target: SceneObject
+) -> bool:
+    """Whether a person is on a seat, or at a table, and the prompt does not say that it stands."""
+    if kind == "at":
+        return subject.motion is None
     if subject.noun not in PERSON_NOUNS or target.noun not in SEATS:
         return False
     is_said = any(word.startswith("stand") for word in description.shown)
