@@ -23,6 +23,7 @@ from texvent.scenes.language.vocabulary.motion import (
 )
 from texvent.scenes.language.words.english import list_verb_forms
 from texvent.scenes.models.opening_model import OPENS
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
@@ -215,7 +216,7 @@ class _Judge:
         for index in claim.things:
             for phase in self._phases(index, claim.motion):
                 work = HANDWORK.get(phase.motion.kind)
-                if work is None:
+                if work is None or self.description.objects[index].noun not in PERSON_NOUNS:
                     continue
                 workers = self._actors(index)
                 if workers and all(are_hands_hidden(self.picture, one) for one in workers):

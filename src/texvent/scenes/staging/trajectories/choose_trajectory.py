@@ -48,9 +48,10 @@ from texvent.scenes.staging.trajectories.stunts import (
     build_flip,
     build_leap,
     build_lift,
+    build_round,
+    build_sinking,
 )
 from texvent.scenes.staging.trajectories.trajectory import (
-    Circle,
     Rolling,
     Shuttle,
     Stationary,
@@ -65,20 +66,14 @@ in view and large; a speed stated in numbers is not."""
 MIN_LENGTHS_PER_S = 0.35
 """A usual speed of small things is at least this many lengths per second: a snail gets on."""
 SMALL_M = 2.5
-ROUND_RAD, ROUND_RAD_S = 2.6, 1.3
-"""Least angle of the round that what goes in a circle covers in a clip, and the rate up to which
-it turns for that."""
 RUN_FACTOR = 2.2
 """Running over walking speed."""
-FLAT = 0.62
-"""Objects whose length is below this share of their width show their front to the camera."""
-_WIDE = 0.7
-"""The same of what slides: a board, a mirror."""
+FLAT, _WIDE = 0.62, 0.7
+"""Objects whose length is below this share of their width show their front to the camera; the
+second is for what slides: a board, a mirror."""
 _SIDEWAYS = frozenset({"flag", "crane"})
 """Objects that are known by their side."""
-_DECKS = frozenset({"bridge", "pier"})
-"""Objects along which others go from side to side of the picture."""
-_WEAVING = frozenset({"swim"})
+_WEAVING, _LEANING = frozenset({"swim"}), frozenset({"fly", "orbit"})
 
 
 @dataclass(frozen=True)
@@ -102,6 +97,7 @@ class MotionPlan:
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
     is_vehicle: bool = False  # rolls on wheels, not over and over
+    is_vessel: bool = False
     is_winged: bool = False
     """Whether it takes off and lands along the ground."""
 
@@ -172,6 +168,7 @@ def plan_motion(
             motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing,
             is_wheel=noun.name == "wheel", is_swimmer=noun.habitat == "water",
             is_vehicle=noun.motion == "drive", is_winged=noun.name in WINGED,
+            is_vessel=noun.motion == "sail",
         )  # fmt: skip
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
     return MotionPlan(motion, path.yaw, speed, duration_s, path)
@@ -233,7 +230,7 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
         and ACTIVITIES[motion.kind].is_sideways
     ):
         return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
-    if noun.name in _DECKS:
+    if noun.name in ("bridge", "pier"):  # others go along it, from side to side of the picture
         return 0.0
     if noun.name in _SIDEWAYS or motion.kind == "roll over":
         return 0.3 * tilt
@@ -272,7 +269,9 @@ def choose_trajectory(
     kind, direction = plan.motion.kind, plan.motion.direction
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
     if kind == "orbit" or (kind in PATH_KINDS and direction == "circle"):
-        return _go_round(plan, model, home, phase)
+        pace = 0.0 if plan.motion.speed_m_s is not None else plan.motion.pace / plan.duration_s
+        circle = build_round(model, home, phase, plan.speed_m_s, pace)
+        return replace(circle, activity=_activity(kind), lean_rad=0.35 * (kind in _LEANING))
     if direction in ("to and fro", "up and down") and kind != "sway":
         reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
         is_flat = model.length < 0.3 * min(model.width, model.height)
@@ -284,16 +283,6 @@ def choose_trajectory(
     if kind in PATH_KINDS:
         return _follow_path(plan, model, home, phase)
     return _act_in_place(plan, model, home, phase)
-
-
-def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Circle:
-    """Around its home; at a usual speed fast enough for a good part of the round to be seen."""
-    radius = 1.3 * max(model.length, model.width)
-    rate = plan.speed_m_s / radius
-    if plan.motion.speed_m_s is None:
-        rate = max(rate, plan.motion.pace * min(ROUND_RAD_S, ROUND_RAD / plan.duration_s))
-    lean = 0.35 if plan.motion.kind in ("fly", "orbit") else 0.0
-    return Circle(home, radius, rate, phase, _activity(plan.motion.kind), lean)
 
 
 def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:
@@ -344,6 +333,8 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         return Spin(home, sign * turn, phase)
     if kind in ("bounce", "fall", "throw"):
         return _fly_freely(plan, model, home)
+    if kind == "sink" and plan.is_vessel:
+        return build_sinking(model, home, plan.duration_s)
     if kind in ("rise", "sink"):
         speed = min(max(plan.speed_m_s, 0.3 * span), span)
         return build_lift(home, plan.yaw, speed, plan.duration_s, plan.is_winged, kind == "rise")

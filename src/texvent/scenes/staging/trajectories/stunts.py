@@ -15,6 +15,7 @@ from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2
 from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
+    Circle,
     Trajectory,
     Vector,
     ahead,
@@ -34,6 +35,11 @@ _DRIFT_TURN_RAD = 1.3
 """Change of heading of a car that drifts, over the clip."""
 _SMALL_M = 0.5
 """What is smaller turns over twice."""
+SUNK = 0.8
+"""Share of its height that a vessel sinks."""
+ROUND_RAD, ROUND_RAD_S = 2.6, 1.3
+"""Angle of the round that what goes in a circle covers in a clip at least, and the rate up to which
+it turns for that."""
 _PAUSE_S = 0.35
 """Rest between two flips."""
 
@@ -175,3 +181,25 @@ def build_lift(
     if is_rising:
         return Climb(home, 0.2 * speed_m_s, 0.0, 2.0 * 0.8 * speed_m_s / duration_s)
     return Climb(home, -speed_m_s, 0.85 * duration_s, lowest_m=home[2])
+
+
+def build_sinking(model: Model, home: Vector, duration_s: float) -> Trajectory:
+    """Down from its home, by most of its height."""
+    return Climb(home, -SUNK * model.height / duration_s, 0.0)
+
+
+def build_round(
+    model: Model, home: Vector, phase: float, speed_m_s: float, clips_per_s: float
+) -> Circle:
+    """Around its home; at a usual speed fast enough for a good part of the round to be seen.
+
+    Args:
+        model: its model, for its size.
+        home: middle of the circle, m.
+        phase: where it begins, rad.
+        speed_m_s: its speed.
+        clips_per_s: pace over the length of the clip; 0: the speed is what the prompt says.
+    """
+    radius = 1.3 * max(model.length, model.width)
+    rate = speed_m_s / radius
+    return Circle(home, radius, max(rate, min(ROUND_RAD_S, ROUND_RAD * clips_per_s)), phase)
