@@ -71,8 +71,6 @@ RUN_FACTOR = 2.2
 FLAT, _WIDE = 0.62, 0.7
 """Objects whose length is below this share of their width show their front to the camera; the
 second is for what slides: a board, a mirror."""
-_SIDEWAYS = frozenset({"flag", "crane"})
-"""Objects that are known by their side."""
 _WEAVING, _LEANING = frozenset({"swim"}), frozenset({"fly", "orbit"})
 
 
@@ -232,7 +230,7 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
         return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
     if noun.name in ("bridge", "pier"):  # others go along it, from side to side of the picture
         return 0.0
-    if noun.name in _SIDEWAYS or motion.kind == "roll over":
+    if noun.name in ("flag", "crane") or motion.kind == "roll over":
         return 0.3 * tilt
     if noun.name in FACING:
         return -0.5 * math.pi
