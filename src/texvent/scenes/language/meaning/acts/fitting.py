@@ -228,6 +228,8 @@ def choose_act(verb: Verb, doer: Noun, target: Noun, target_m: float = 0.0) -> s
         return None
     if verb.base == "fly" and target.name in _FLOWN:
         return "ride" if is_living(doer) else None
+    if verb.base == "fly" and target.habitat != "air":
+        return None  # "flies off a branch"
     if act == "ride":
         is_mount = target.motion in _RIDEABLE or is_living(target) or target.name in BOARDS
         return "ride" if is_living(doer) and is_mount else None
