@@ -15,7 +15,7 @@ from texvent.scenes.staging.claims.positions import Body, gaps, is_near
 _INSTANTS = 13
 _TOUCH_M, _TOUCH_SHARE = 0.04, 0.05
 """Gap up to which something is against another: metres, and share of the smaller one."""
-_AT_M, _AT_SHARE = 0.3, 0.2
+_AT_M, _AT_SHARE = 0.4, 0.4
 """Gap up to which something is at another: metres, and share of the larger one."""
 _ACROSS = 0.35
 """Share of the target's extent that who goes across it covers at least."""
