@@ -233,7 +233,7 @@ class Claim:
     """"name" (of objects), "count", "motion", "relation", "colour", "size", "material", "part",
     "side"; "light", "bright", "weather", "clouds", "snow", "sky", "steep", "dust", "flicker",
     "shadow", "effect", "place", "road", "view", "framing", "viewpoint" (what the camera is in
-    or on), "course" (over roofs, across a road, in rows, in the stands); or "quality"
+    or on), "course" (over roofs, across or beside a road, in rows, in the stands); or "quality"
     (whatever else it says)."""
     things: tuple[int, ...]
     """Indices of the objects that show it."""

@@ -160,6 +160,15 @@ def _goes_over_road(picture: Picture, claim: Claim) -> bool:
     return 2 * crossing >= len(actors)
 
 
+def _is_beside_road(picture: Picture, claim: Claim) -> bool:
+    """Whether the things are off the road in the beginning."""
+    actors = [one for one in picture.scene.actors if one.object_index in claim.things]
+    time_s = picture.views[0].time_s
+    spots = np.array([one.middle(time_s)[:2] for one in actors]).reshape(-1, 2)
+    kind, is_there = is_marked(picture.scene.environment(time_s), spots)
+    return kind != ROAD or not is_there.any()
+
+
 def _lies_on_road(picture: Picture, actor: Actor) -> bool:
     """Whether its stripes lie side by side across the road."""
     environment = picture.scene.environment(0.0)
@@ -244,6 +253,7 @@ def _carries(other: Actor, low: Float64Array, high: Float64Array, time_s: float)
 _COURSES: Mapping[str, tuple[str, Callable[[Picture, Claim], bool]]] = {
     "over roofs": ("not above the roofs", _is_over_roofs),
     "across road": ("it does not go across the road", _goes_over_road),
+    "beside road": ("it is on the road", _is_beside_road),
     "in rows": ("they stand in no row", _stands_in_rows),
     "in stands": ("the camera is not up there", _is_seen_from_stands),
 }

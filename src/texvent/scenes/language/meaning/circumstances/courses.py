@@ -22,6 +22,13 @@ _IN_CLOUDS = ("in", "inside", "within", "behind")
 _ASIDE = frozenset({"behind", "in front of", "beyond", "between", "below", "beneath", "under",
                     "underneath"})  # fmt: skip
 """Prepositions that put something beside a place; who is in the place is not there."""
+_WIDE = frozenset({"lake", "sea", "harbour", "mountain"})
+"""Places that nobody is seen to go round."""
+_ATOP = frozenset({"on", "atop", "on top of", "upon"})
+_TOPS = frozenset({"ridge", "cliff", "summit", "peak", "hilltop", "mountaintop", "mountain"})
+"""Mountains stand around; nobody is on them."""
+_BESIDE = frozenset({"beside", "next to", "near", "by", "alongside"})
+_ROAD_WORDS = frozenset({"road", "street", "highway", "lane", "motorway", "roadway"})
 _ALL_ROUND = frozenset({"plain", "underwater", "sky", "space"})
 """Places that are behind and below everything."""
 
@@ -40,8 +47,11 @@ def name_course(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
         word.is_used, word.is_lost = False, True
     elif one.kind != "place":
         return
-    elif word.text in _ASIDE and one.value not in _ALL_ROUND:
+    elif _is_elsewhere(word.text, str(one.value), head, scope):
         word.is_used, word.is_lost = False, True
+    elif word.text in _BESIDE and one.value in _ROADS and head in _ROAD_WORDS and scope.subjects:
+        word.course = "beside road"
+        link([word], scope.subjects)
     elif word.text in _ABOVE and one.value in _TOWNS and head not in _OF_STREETS:
         # Fireworks over a city are in its sky.
         is_effect = scope.has_verb and not scope.subjects
@@ -49,6 +59,15 @@ def name_course(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
     elif word.text == "across" and one.value in _ROADS and scope.movers:
         word.course = "across road"
         link([word], scope.movers)
+
+
+def _is_elsewhere(preposition: str, place: str, head: str, scope: Scope) -> bool:
+    """As in "behind a hill", "runs around a lake", "a goat on a ridge": not amid what is there."""
+    if preposition in _ASIDE:
+        return place not in _ALL_ROUND
+    if preposition == "around":
+        return place in _WIDE and bool(scope.movers)
+    return preposition in _ATOP and place == "mountain" and head in _TOPS and bool(scope.subjects)
 
 
 def place_among(draft: Draft, word: Word, things: Sequence[int]) -> None:
