@@ -16,6 +16,7 @@ def listed(prompt: str) -> tuple[str, ...]:
     [
         ("a wind turbine rotates behind a hill", "behind"),
         ("a curtain at a window", "at the window"),
+        ("a dog runs around a lake", "around"),
         ("a truck with two flags", "truck with the flags"),
         ("a cat jumps from a chair", "from the chair"),
         ("a car turns left while a cyclist waits behind it", "behind the car"),
@@ -32,6 +33,7 @@ def test_what_a_preposition_says_is_reported_where_it_is_not_seen(prompt: str, p
         "a man stands at a window",
         "a tree behind a house",
         "a satellite with solar panels",
+        "a cow stands beside a road",
     ],
 )
 def test_what_is_seen_is_not_reported(prompt: str) -> None:

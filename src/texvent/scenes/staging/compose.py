@@ -50,7 +50,7 @@ from texvent.scenes.staging.surroundings.environment import (
     choose_lighting,
 )
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
-from texvent.scenes.staging.surroundings.road_choice import find_road
+from texvent.scenes.staging.surroundings.road_choice import find_beside, find_road
 from texvent.scenes.staging.surroundings.scatter_rule import is_structure
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
 from texvent.scenes.staging.surroundings.scenery_along import is_placed_by_view, line_route
@@ -297,7 +297,7 @@ def _describe_view(
     else:
         road = find_road(actors, float(path.framing.target[1]), 0.5 * half,
                          description.surroundings.road,
-                         has_pavement=place == "city")  # fmt: skip
+                         beside=find_beside(description, place))  # fmt: skip
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
         for t in times

@@ -6,18 +6,23 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.placement.lanes import FEWEST, find_lanes
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 
+BESIDE_ROAD = "beside road"
+"""Value of a claim that things are beside the road."""
 _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
 
 
 _PAVEMENT_M = 1.4
 """From the edge of the road to who walks beside it."""
+_VERGE_M = 0.5
+"""From the edge of the road to what stands beside it."""
 _ROADSIDE = 1.4
 """Where one walks on a road without pavement, in lanes from its middle."""
 _USUAL_S = 2.0
@@ -30,7 +35,7 @@ def find_road(
     lane_m: float,
     shape: str | None = None,
     *,
-    has_pavement: bool = False,
+    beside: str = "",
 ) -> RoadLine:
     """The road along the path of the first object on the ground that moves.
 
@@ -39,9 +44,9 @@ def find_road(
         usual_y: where it runs if nothing stands on the ground, m.
         lane_m: from its centre line to the middle of a lane.
         shape: "curved", "crossing" (another road crosses it) or None.
-        has_pavement: whether people walk beside it, not on it.
+        beside: who is beside it, not on it: "walkers", "all" or "" (nobody).
     """
-    road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
+    road = _straight_road(actors, usual_y, lane_m, beside)
     if shape == "curved" and not road.crossings:
         return replace(road, curvature=_bend_of(actors, lane_m))
     if shape == "crossing" and not road.crossings:
@@ -50,9 +55,14 @@ def find_road(
     return road
 
 
-def _straight_road(
-    actors: Sequence[Actor], usual_y: float, lane_m: float, *, has_pavement: bool
-) -> RoadLine:
+def find_beside(description: SceneDescription, place: str) -> str:
+    """Who is beside the road: on the pavement of a city, or as the prompt says."""
+    if any(one.value == BESIDE_ROAD for one in description.claims):
+        return "all"
+    return "walkers" if place == "city" else ""
+
+
+def _straight_road(actors: Sequence[Actor], usual_y: float, lane_m: float, beside: str) -> RoadLine:
     grounded = [actor for actor in actors if actor.noun.habitat == "ground"]
     # Ducks cross a road too.
     movers = [one for one in actors if one.is_mover and (one in grounded or one.goes_across)]
@@ -71,7 +81,10 @@ def _straight_road(
         x, y, _ = middle.middle(0.5 * _USUAL_S)
         return RoadLine(movers[0].trajectory.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
     if movers:
-        return _road_of(movers, lane_m, has_pavement=has_pavement)
+        return _road_of(movers, lane_m, has_pavement=bool(beside))
+    if beside == "all" and actors:
+        farthest = max(float(one.corners(0.0)[:, 1].max()) for one in actors)
+        return RoadLine(offset=(0.0, farthest + 2.0 * lane_m + _VERGE_M))
     if grounded:
         return RoadLine(offset=(0.0, grounded[0].trajectory.at(0.0).position[1]))
     return RoadLine(offset=(0.0, usual_y))
