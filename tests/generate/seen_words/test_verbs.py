@@ -66,7 +66,7 @@ def test_a_verb_that_is_not_seen_is_named(prompt: str, word: str, reason: str) -
         ("people crossing the street", {"crossing", "street"}),
         ("a man stands up", {"man", "stands up"}),
         ("a dog lies down", {"dog", "lies down"}),
-        ("hands typing on a keyboard", {"typing", "keyboard"}),
+        ("hands typing on a keyboard", {"typing"}),
         ("a helicopter takes off", {"helicopter", "takes off"}),
         ("a train departs", {"departs"}),
         ("a car arrives and stops", {"arrives", "stops"}),
