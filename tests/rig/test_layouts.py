@@ -29,7 +29,7 @@ from texvent.io.ros.messages import (
     open_event_packet,
 )
 
-PROMPT = "a red ball rolls left past a bush, handheld camera"
+PROMPT = "a red ball rolls left near a bush, handheld camera"
 OPTIONS = {
     "stereo": 0.1,
     "sensor": "64x48",
