@@ -54,12 +54,16 @@ def test_what_is_said_of_an_unseen_thing_is_not_shown_either(
     assert not report.is_faithful
 
 
-def test_of_many_more_than_half_must_be_seen() -> None:
+def test_of_many_four_must_be_seen_and_of_a_count_half() -> None:
     cows = parse_prompt("a herd of cows runs")
     few = report_on(cows, Evidence(faults={0: [None] * 3 + ["too small"] * 6}))
     assert "cows (too small)" in few.not_shown
-    most = report_on(cows, Evidence(faults={0: [None] * 6 + ["too small"] * 3}))
+    most = report_on(cows, Evidence(faults={0: [None] * 4 + ["too small"] * 5}))
     assert most.is_faithful
+    nine = report_on(
+        parse_prompt("nine cows run"), Evidence(faults={0: [None] * 4 + ["too small"] * 5})
+    )
+    assert nine.not_shown == ("nine (not all cows in view)",)
 
 
 def test_a_plural_of_which_one_is_seen_and_adjectives_of_a_lost_noun_are_not_shown() -> None:

@@ -16,6 +16,8 @@ MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 PLURAL = 3
 """Copies of what a plural names, of which more than one must be seen."""
+MANY = 4
+"""Copies that must be seen where there are more than are counted."""
 STILL = "no motion to be seen"
 _AT_REST = frozenset({"stand", "sit", "lie"})
 MOST_REASONS = 2
@@ -158,12 +160,10 @@ def _name_unseen(description: SceneDescription, evidence: Evidence) -> list[str]
 
 
 def _is_unseen(index: int, evidence: Evidence) -> bool:
-    """Whether no copy of it is seen, or of many fewer than half."""
+    """Whether no copy of it is seen, or of many too few."""
     faults = evidence.faults.get(index, ())
-    unseen = sum(fault is not None for fault in faults)
-    return bool(faults) and (
-        unseen == len(faults) or (len(faults) > MOST_COUNTED and 2 * unseen > len(faults))
-    )
+    seen = sum(fault is None for fault in faults)
+    return bool(faults) and seen < (MANY if len(faults) > MOST_COUNTED else 1)
 
 
 def _is_alone(index: int, evidence: Evidence) -> bool:
@@ -218,8 +218,9 @@ def _find_poor_quality(
     for index in claim.things:
         noun = description.objects[index].noun
         faults = evidence.faults.get(index, ())
-        is_counted = claim.aspect == "count" and len(faults) <= MOST_COUNTED
-        if is_counted and any(fault is not None for fault in faults):
+        unseen = sum(fault is not None for fault in faults)
+        is_many = len(faults) > MOST_COUNTED
+        if claim.aspect == "count" and (2 * unseen > len(faults) if is_many else unseen):
             return f"not all {pluralise(noun)} in view"
         if (claim.aspect, index) in evidence.qualities:
             return f"{noun} {evidence.qualities[claim.aspect, index]}"
