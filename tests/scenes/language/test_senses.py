@@ -20,6 +20,10 @@ from texvent.scenes.language.parser import parse_prompt
         ("A swimmer glides down the lane of a pool.", "lane"),
         ("A crane spreads its wings beside a lake.", "crane"),
         ("A train crosses flat farmland.", "flat"),
+        ("A potter pulls up the walls of a vase.", "walls"),
+        ("A neon arrow blinks above a door.", "arrow"),
+        ("A target on a linear stage.", "stage"),
+        ("A pole vaulter sprints down the runway.", "runway"),
     ],
 )
 def test_what_a_word_does_not_mean_here_is_not_shown(prompt, word) -> None:

@@ -313,7 +313,7 @@ def _sits_down(
     return subject.motion is None or (subject.motion == STANDING and not is_said)
 
 
-_AT_REST = frozenset({"bell"})
+_AT_REST = frozenset({"bell", "door"})
 """Nouns with moving parts that rest until a person moves them."""
 
 

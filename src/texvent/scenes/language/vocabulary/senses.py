@@ -67,15 +67,21 @@ SENSES: dict[str, tuple[Sense, ...]] = {
         _sense("boxer boxing fighter referee punch", "boxing ring"),
         _sense("circus phone bell smoke gymnast tree saturn"),
     ),
-    "stage": (_sense("rocket booster race launch"),),
+    "stage": (_sense("rocket booster race launch linear motor translation rotation microscope"
+                     " motorised motorized"),),
     "bar": (
         _sense("iron metal steel gold blacksmith anvil gymnast gymnastics chocolate candy barbell"
                " weight soap pull-up pull pullup chin chin-up hang swing park playground forge"
                " glowing uneven parallel high horizontal"),
     ),
     "bank": (_sense("money robber teller customer cash vault"),),
-    "flat": (_sense("flat"),),
-    "pitch": (_sense("throw pitcher voice"),),
+    "flat": (_sense("flat light lighting cloudy ground stone tyre tire"),),
+    "pitch": (_sense("throw pitcher voice black dark"),),
+    "runway": (_sense("vault vaulter pole sprint jump athlete fashion model catwalk dress"),),
+    "arrow": (_sense("neon sign screen cursor traffic blink painted paint direction button"),),
+    "wall": (_sense("vase pot clay bowl potter cell"),),
+    "web": (_sense("paper printing press newspaper page browser"),),
+    "coat": (_sense("fur shed glossy retriever puppy paint layer"),),
     "plant": (_sense("power nuclear factory chemical assembly"),),
     "tripod": (_sense("camera shot filmed film view recording"),),
     "coach": (_sense(_SPORT),),

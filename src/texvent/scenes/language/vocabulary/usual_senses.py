@@ -24,6 +24,7 @@ _DRINK = "drink water wine juice milk beer whisky table cup bottle waiter toast 
 USUAL_SENSES: dict[str, UsualSense] = {
     noun: UsualSense(said_as, frozenset(cues.split()))
     for noun, said_as, cues in (
+        ("arrow", "archer's arrow", "bow archer archery shoot target quiver hunter bowstring"),
         ("bar", "bar counter", "bartender barman pub beer cocktail wine stool drink whisky"),
         ("basin", "wash basin", "wash tap faucet bathroom water hand face"),
         ("bow", "archer's bow", "arrow archer archery hunter shoot quiver"),
@@ -52,7 +53,7 @@ USUAL_SENSES: dict[str, UsualSense] = {
         ("iron", "clothes iron", "clothes shirt board steam press"),
         ("jet", "jet plane", "fly plane sky airport land pilot runway wing fighter air"),
         ("key", "door key", "door lock keyhole house car open padlock chain"),
-        ("net", "net of a court", "tennis volleyball badminton court ball"),
+        ("net", "net of a court", "tennis volleyball badminton court"),
         ("pipe", "water pipe", "water leak metal plumber factory tube"),
         ("rail", "railway track", "train tram railway locomotive station"),
         ("ring", "ring of a finger", "finger wedding diamond gold jewel jeweller propose hand"),

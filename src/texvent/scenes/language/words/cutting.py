@@ -69,13 +69,14 @@ def cut_tokens(
 def _count_joined(window: Sequence[Token], length: int, known: Lexicon) -> int:
     """Words of an adjective with hyphens that is in no lexicon: "clay-covered", "three-legged".
 
-    None of its words means anything by itself: three-legged dogs are not three dogs. "Slow-moving"
-    is as slow as "slow", and "red-painted" as red.
+    None of its words means anything by itself: three-legged dogs are not three dogs, but a 50-Hz
+    light has a rate. "Slow-moving" is as slow as "slow", and "red-painted" as red.
     """
     count = 1
     while count < len(window) and window[count - 1].is_joined:
         count += 1
-    if count < 2 or length >= count:
+    is_phrase = length >= count and known.find([one.text for one in window[:length]])[0] == length
+    if count < 2 or is_phrase:
         return 0
     last = window[count - 1].text
     is_participle = any(
@@ -84,11 +85,14 @@ def _count_joined(window: Sequence[Token], length: int, known: Lexicon) -> int:
     )
     _, first = known.find([window[0].text])
     if any(one.role is Role.COUNT for one in first) or window[0].is_number:
-        return 0 if known.find([last])[1] else count
+        _, meanings = known.find([last])
+        is_amount = any(one.role in _AMOUNTS for one in meanings) or window[count - 1].is_number
+        return 0 if is_amount else count
     is_said = any(one.role in _KEPT for one in first)
     return count if (is_participle or last in _ENDINGS) and not is_said else 0
 
 
+_AMOUNTS = frozenset({Role.COUNT, Role.UNIT})
 _KEPT = frozenset({Role.COLOUR, Role.SHADE, Role.PACE, Role.SIZE, Role.SNOW, Role.WEATHER})
 _ENDINGS = frozenset({"like", "free", "up", "off", "in", "old", "sized", "shaped", "legged"})
 

@@ -140,6 +140,8 @@ def _choose_noun(
         _forget(word, Pos.ADJECTIVE)
         return
     if word.lemma == "flat":
+        if is_before_noun:
+            _forget(word, Pos.ADJECTIVE)
         return
     if (
         (word.lemma in _SHAPES and is_of)

@@ -13,7 +13,7 @@ from texvent.scenes.language.words.word import Word
 
 _OPENS_NOUN = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE})
 """After these a noun or one more adjective follows."""
-_ONLY_OPENS = frozenset({Pos.DETERMINER, Pos.PRONOUN})
+_ONLY_OPENS = frozenset({Pos.DETERMINER, Pos.PRONOUN, Pos.NUMBER})
 """Before these a noun cannot end: "the headlights of a lorry blind the driver"."""
 _OF_FILM = (Role.CAMERA, Role.CAMERA_MOVE, Role.VIEW, Role.FRAMING)
 """What a verb follows at once: "the camera pans", "an aerial view shows"."""

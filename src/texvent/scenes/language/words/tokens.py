@@ -11,6 +11,10 @@ from texvent.scenes.language.words.literals import find_literals
 
 _TOKEN = re.compile(r"3[dD]\b|\d{1,3}(?:,\d{3})+|\d+(?:[.,]\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
 
+_ONES = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+_TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
+_NUMBER = re.compile(rf"\b({'|'.join(_TENS)})[-\u2010\u2011 ]({'|'.join(_ONES)})\b", re.IGNORECASE)
+"""As in "twenty-five"."""
 _BULLET = re.compile(r"^[ \t]*(?:[-*+•]|#+|\d{1,2}[.)])[ \t]+", re.MULTILINE)
 """What opens a heading or an item of a list."""
 
@@ -62,6 +66,7 @@ def tokenize_prompt(prompt: str) -> list[Token]:
         ['it', '3.5', 'km', '/', 'h', ',', 'close', 'up', '!']
     """
     normal = _BULLET.sub(". ", unicodedata.normalize("NFKC", prompt))
+    normal = _NUMBER.sub(_in_digits, normal)
     tokens: list[Token] = []
     start = 0
     for begin, end, picture in find_literals(normal):
@@ -69,6 +74,11 @@ def tokenize_prompt(prompt: str) -> list[Token]:
         tokens.append(Token(picture.value.casefold(), picture.value, picture))
         start = end
     return [*tokens, *_list_words(normal[start:])]
+
+
+def _in_digits(found: re.Match[str]) -> str:
+    tens, ones = found[1].lower(), found[2].lower()
+    return str(10 * (_TENS.index(tens) + 2) + _ONES.index(ones) + 1)
 
 
 def _list_words(text: str) -> list[Token]:

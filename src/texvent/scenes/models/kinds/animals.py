@@ -143,7 +143,7 @@ ANIMAL_KINDS: dict[str, str] = {
         dungeness crab, rock crab, fiddler crab, king crab, hermit crab, horseshoe crab,
         spider crab, lobster, crayfish, scorpion""",
     "spider": """
-        black and gold garden spider, barn spider, garden spider, black widow, wolf
+        black and gold garden spider, barn spider, jumping spider, garden spider, black widow, wolf
         spider, harvestman, daddy longlegs, tick, mite, arachnid, tarantula""",
     "ant": "fire ant, red ant, termite, worker ant",
     "beetle": """

@@ -219,6 +219,9 @@ def fit_moving(verb: Verb, doer: Noun, target_m: float, word: Word) -> Verb | No
     return verb
 
 
+_DRIVE = ("steer", "drive", "pilot")
+
+
 def choose_act(verb: Verb, doer: Noun, target: Noun, target_m: float = 0.0) -> str | None:
     """What the verb means if this thing does it to that one; None if it cannot."""
     act = verb.act
@@ -232,7 +235,8 @@ def choose_act(verb: Verb, doer: Noun, target: Noun, target_m: float = 0.0) -> s
         return None  # "flies off a branch"
     if act == "ride":
         is_mount = target.motion in _RIDEABLE or is_living(target) or target.name in BOARDS
-        return "ride" if is_living(doer) and is_mount else None
+        is_driven = verb.base in _DRIVE and is_living(target)  # a dog steers sheep
+        return "ride" if is_living(doer) and is_mount and not is_driven else None
     if act == "wear":
         return "wear" if is_living(doer) and target.name in WEARABLE else None
     if is_living(doer) or is_hand(doer):
