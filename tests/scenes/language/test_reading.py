@@ -647,3 +647,13 @@ def test_stars_above_are_those_of_the_night_sky() -> None:
     found = parse_prompt("a man walks under the stars")
     assert [one.noun for one in found.objects] == ["man"]
     assert found.light.kind == "night"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "count"),
+    [("sheep graze", 3), ("a sheep grazes", 1), ("the sheep grazes", 1), ("two sheep graze", 2)],
+)
+def test_a_noun_without_a_plural_form_is_many_where_nothing_stands_before_it(
+    prompt: str, count: int
+) -> None:
+    assert [one.count for one in parse_prompt(prompt).objects] == [count]

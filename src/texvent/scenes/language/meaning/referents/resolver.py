@@ -280,7 +280,9 @@ class Referents(Antecedents):
         if is_ours and self._draft.nouns[noun].motion in ("drive", "sail", "fly"):
             head.is_used, head.shown_as = True, "the camera's view from it"
             return Referent("camera", group, attributes=attributes)
+        is_bare = group.determiner is None and group.owner is None and attributes.number is None
         is_plural = attributes.is_many or meaning.is_plural or is_drinks
+        is_plural = is_plural or (meaning.can_be_both and is_bare)
         said = name_kind(head) if meaning.is_substitute else None
         is_either = meaning.can_be_both and not attributes.is_many
         index = self._recall(group, noun, None if is_either else is_plural, attributes, said)
