@@ -47,5 +47,15 @@ def test_what_is_seen_from_a_bridge_is_seen_from_above_and_without_it() -> None:
     assert [one.shown for one in report.substituted] == ["where the camera stands"]
 
 
+@pytest.mark.parametrize(
+    "prompt",
+    ["people walk, fixed camera from an upstairs window", "steady shot from a window, people walk"],
+)
+def test_the_window_that_the_camera_looks_out_of_is_not_in_the_picture(prompt: str) -> None:
+    report = report_of(prompt)
+    assert not any("window" in line for line in report.scene)
+    assert "place: grass" in report.scene
+
+
 def test_what_lifts_off_from_a_table_is_on_it_first() -> None:
     assert "1 drone, rises, on 1 table" in report_of("a drone takes off from a table").scene

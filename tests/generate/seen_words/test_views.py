@@ -17,6 +17,9 @@ def _report(prompt: str):
     ("prompt", "word"),
     [
         ("A close-up of a red apple on a table.", "close up of"),
+        ("close-up of a man's hands typing on a laptop", "close up of"),
+        ("a macro shot of a dog's eyes", "macro shot of"),
+        ("first-person view: hands type on a laptop", "first person view"),
         ("A dog runs, filmed from the side.", "from the side"),
         ("A dog runs, filmed from the front.", "from the front"),
         ("A dog runs, filmed from behind.", "from behind"),

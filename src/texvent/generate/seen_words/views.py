@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from texvent.generate.seen_words.picture import Picture, View
+from texvent.generate.seen_words.view_objects import find_close_up, find_looker, is_of_head
 from texvent.generate.sights import LEAST_SIZE
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
@@ -42,6 +43,8 @@ LEAST_SHOULDER, LEAST_ASIDE, LEAST_BEYOND = 0.9, 0.12, 0.02
 the middle, in widths of the picture; share of the picture that things beyond cover."""
 LEAST_EXTREME, MOST_SKY = 0.5, 0.02
 """Shares of the picture that a thing in extreme close-up and the sky cover, at least and most."""
+LEAST_PORTRAIT = 4.0
+"""Least height of a person of whom the head fills the picture, in heights of the picture."""
 _BEARINGS = {"side": (-0.6, 0.6), "front": (0.6, 1.0), "back": (-1.0, -0.6),
              "shoulder": (-1.0, -0.5)}  # fmt: skip
 """View → least and most cosine of the angle between its heading and the way to the camera."""
@@ -66,13 +69,32 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
         return "things fill the picture"
     if claim.value == "first person":
         return _judge_own_eyes(picture, description)
-    actors = picture.scene.actors
-    if not actors:
-        return "nothing is there to look at" if claim.value in (*_BEARINGS, *_SIZES) else None
-    main = choose_main(description, actors)
-    if claim.value not in (*_BEARINGS, *_SIZES):
-        return None
+    if claim.value in (*_BEARINGS, *_SIZES):
+        return _judge_of_thing(picture, description, claim)
+    return None
+
+
+def _judge_of_thing(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """A view or a framing of the main thing, or of what a close-up is said to be of."""
+    if not picture.scene.actors:
+        return "nothing is there to look at"
+    if claim.value == "close":
+        return _judge_close(picture, description, claim)
+    main = choose_main(description, picture.scene.actors)
     return _judge_looked_at(picture, main) or _judge_main(picture, main, claim)
+
+
+def _judge_close(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """A close-up shows what it is said to be of: hands, and not whom they belong to."""
+    main, part = find_close_up(picture, description)
+    if part is not None and not (is_of_head(part) and _is_portrait(picture, main)):
+        return f"shows more than {part}"
+    return _judge_looked_at(picture, main) or _judge_main(picture, main, claim)
+
+
+def _is_portrait(picture: Picture, main: Actor) -> bool:
+    heights = [_height_in_picture(picture, main, view) for view in picture.views]
+    return main.noun.name in PERSON_NOUNS and float(np.median(heights)) >= LEAST_PORTRAIT
 
 
 def _judge_main(picture: Picture, main: Actor, claim: Claim) -> str | None:
@@ -132,6 +154,9 @@ def _judge_own_eyes(picture: Picture, description: SceneDescription) -> str | No
     """Whether the camera goes itself, as who looks through it, who is not in the picture."""
     if not any(move.kind == "travel" for move in description.shot.moves):
         return "the camera looks on"
+    looker = find_looker(picture, description)
+    if looker is not None:
+        return f"the {looker} is seen from outside"
     found = _FROM_WHOM.search(description.prompt.casefold())
     names = [one for one in description.claims if one.aspect == "name"]
     for claim in names if found else ():

@@ -26,6 +26,8 @@ from texvent.scenes.language.words.word import Word
 
 _FARTHEST = 6
 """Most words between a preposition and the place that it is about: "past a row of shops"."""
+_LOOKED_OUT_OF = frozenset({"window", "floor"})
+"""Where a camera stands that looks outside: "a camera in a third-floor window"."""
 _BETWEEN = (Pos.DETERMINER, Pos.ADJECTIVE, Pos.NOUN, Pos.NUMBER)
 
 
@@ -97,6 +99,7 @@ def find_cues(words: Sequence[Word], *, is_outside: bool) -> PlaceCues:
     """
     said = {word.lemma for word in words if word.pos in (Pos.NOUN, Pos.ADVERB, Pos.ADJECTIVE)}
     said |= {word.lemma for word in words if word.read_as(Role.NOUN) and word.pos is not Pos.VERB}
+    said -= {word.lemma for word in words if word.role is Role.CAMERA} & _LOOKED_OUT_OF
     is_fair = any(word.role in (Role.WEATHER, Role.SKY, Role.CLOUDS) for word in words)
     is_fair = is_fair or any(
         word.role is Role.LIGHT and word.meaning.value in ("sunny", "moonlight") for word in words

@@ -17,6 +17,9 @@ _SHOT = frozenset({"shot", "taken"})
 """Of the camera only at the begin of a phrase: "an arrow shot from a bow"."""
 _FROM = frozenset({"from", "from behind", "from inside", "from within", "from under"})
 _VIEWS = frozenset({Role.VIEW, Role.FRAMING, Role.CAMERA, Role.CAMERA_MOVE})
+_STAYING = frozenset({"static", "handheld"})
+_FILMS = frozenset({"view", "shot", "footage", "video", "recording", "clip"})
+_NAMES = frozenset({Pos.NOUN, Pos.PRONOUN})
 _ENDS = frozenset({"of", "as", "while", "and", "with", "to", "toward", "towards", "into"})
 _FARTHEST = 7
 _HIGH = frozenset(
@@ -24,7 +27,9 @@ _HIGH = frozenset(
      "flyover", "viaduct", "rooftop", "roof", "tower", "terrace"}
 )  # fmt: skip
 """Standpoints high above what is filmed."""
-_RAISED = frozenset({"high", "upper", "elevated", "tall"})
+_RAISED = frozenset({"high", "upper", "elevated", "tall", "upstairs", "second", "third", "fourth",
+                     "fifth"})  # fmt: skip
+"""As in "an upper window", "a third-floor window"."""
 _EDGES = frozenset({"rail", "railing", "edge", "top", "side", "middle", "end", "parapet", "roof"})
 """Parts of them: "from the rail of a bridge"."""
 
@@ -37,10 +42,12 @@ def mark_standpoints(words: Sequence[Word]) -> None:
         phrase = _take_phrase(words[index + 1 : index + 1 + _FARTHEST])
         nouns = [one for one in phrase if one.pos is Pos.NOUN]
         is_high = any(one.text.split()[-1] in _HIGH for one in nouns)
+        is_high |= any(one.text in _RAISED for one in phrase)
         seen = _find_verb(words, index)
         if not nouns or any(one.is_viewpoint for one in phrase):
             continue
-        if seen is None and not (is_high and _is_view(words[:index])):
+        is_view = (is_high and _is_view(words[:index])) or _is_of_camera(words, index)
+        if seen is None and not is_view:
             continue
         for one in (*(() if seen is None else (seen,)), word, *phrase):
             if one.pos is Pos.NOUN:
@@ -61,6 +68,19 @@ def _find_verb(words: Sequence[Word], index: int) -> Word | None:
     word = words[index - 1]
     is_first = index == 1 or words[index - 2].pos is Pos.SIGN
     return word if word.text in _SEEN or (word.text in _SHOT and is_first) else None
+
+
+def _is_of_camera(words: Sequence[Word], index: int) -> bool:
+    """As in "a fixed camera from a window", unlike "a pan from a window to a door"."""
+    before = words[index - 1] if index else None
+    if before is None or words[index].text != "from":
+        return False
+    rest = [one.text for one in words[index + 1 : index + 1 + _FARTHEST]]
+    if before.text in _FILMS and (index == 1 or words[index - 2].pos not in _NAMES):
+        return "to" not in rest
+    stays = before.role is Role.CAMERA_MOVE and before.meaning.value[0] in _STAYING
+    is_named = before.pos is not Pos.VERB
+    return is_named and "to" not in rest and (stays or before.role in _VIEWS - {Role.CAMERA_MOVE})
 
 
 def _is_view(before: Sequence[Word]) -> bool:
