@@ -625,6 +625,21 @@ def test_what_moves_by_itself_is_an_effect(prompt: str, kinds: list[str]) -> Non
     assert [effect.kind for effect in parse_prompt(prompt).effects] == kinds
 
 
+@pytest.mark.parametrize(
+    ("prompt", "verb"),
+    [
+        ("toddler chasing soap bubbles", "chasing"),
+        ("a girl pops bubbles", "pops"),
+        ("a man throws snow", "throws"),
+    ],
+)
+def test_nothing_that_is_drawn_acts_on_an_effect(prompt: str, verb: str) -> None:
+    found = parse_prompt(prompt)
+    assert verb in found.not_understood
+    assert all(effect.source is None for effect in found.effects)
+    assert found.objects[0].motion is None or found.objects[0].motion.kind == "stand"
+
+
 def test_patterns_are_read_beside_what_they_are_part_of() -> None:
     def nouns(prompt: str) -> list[str]:
         return [one.noun for one in parse_prompt(prompt).objects]

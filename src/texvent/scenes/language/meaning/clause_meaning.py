@@ -19,6 +19,11 @@ from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.circumstances.effects import (
+    GIVES_OFF,
+    comes_from_doer,
+    is_done_to_effect,
+)
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.clause_rewrites import (
     list_brought,
@@ -145,7 +150,7 @@ class ClauseMeaning:
     def _leaves_behind(self, clause: Clause, subjects: Sequence[Referent]) -> bool:
         """As in "a truck drives on a road, leaving dust": the truck leaves it, not the road."""
         is_place = bool(subjects) and all(one.kind == "place" for one in subjects)
-        is_it = clause.verb is not None and clause.verb.lemma in _GIVES_OFF
+        is_it = clause.verb is not None and clause.verb.lemma in GIVES_OFF
         return is_place and is_it and clause.is_participle and bool(self._draft.subjects)
 
     def _read_subjectless(self, clause: Clause) -> None:
@@ -214,7 +219,8 @@ class ClauseMeaning:
         movers: list[int] = []
         is_picture = self._show_pictures(clause, things, objects)
         before = len(self._draft.relations)
-        if clause.verb is not None and things and not is_picture:
+        is_at_effect = is_done_to_effect(self._draft, clause, things, objects)
+        if clause.verb is not None and things and not (is_picture or is_at_effect):
             if clause.is_passive and not (clause.is_participle and is_plain_past(clause.verb)):
                 movers = self._acts.undergo(clause, things, agents)
             else:
@@ -299,14 +305,22 @@ class ClauseMeaning:
             self._draft.objects[index].is_verb_lost = True
 
     def _read_object(self, one: Referent, clause: Clause, scope: Scope) -> None:
+        is_done = is_done_to_effect(self._draft, clause, scope.subjects, [one])
         if one.kind == "unit":
             self._around.quantities.read(one, scope)
         elif one.kind in OF_SCENE and not _is_water(one):
             self._surroundings.read_referent(one, is_negated=False)
-            self._cross(one, clause, scope)
+            if not is_done:
+                self._cross(one, clause, scope)
         elif one.kind == "effect":
-            is_added = self._around.add_effect(one, scope)
-            if is_added and clause.verb is not None and clause.verb.lemma in _GIVES_OFF:
+            is_own = comes_from_doer(self._draft, clause, scope.subjects)
+            is_added = self._around.add_effect(one, scope if is_own else Scope([], []))
+            if (
+                is_added
+                and not is_done
+                and clause.verb is not None
+                and clause.verb.lemma in GIVES_OFF
+            ):
                 clause.verb.is_used = True
         elif one.kind == "part" and scope.is_verb_shown:
             self._around.parts.read_own(one, scope.subjects)
@@ -380,11 +394,6 @@ def _is_water(one: Referent) -> bool:
 
 
 _OF_SURROUNDINGS = (Role.LIGHT, Role.WEATHER, Role.CLOUDS, Role.PLACE)
-_GIVES_OFF = frozenset(
-    {"blow", "make", "release", "leave", "raise", "spray", "send", "emit", "throw", "create",
-     "produce", "shoot", "scatter", "kick"}
-)  # fmt: skip
-"""Verbs of who makes smoke, bubbles, dust."""
 _NOBODY = NounGroup()
 _ASPECTS = ("start", "begin", "keep")
 """Auxiliaries that say something even where no verb follows: "a car starts"."""

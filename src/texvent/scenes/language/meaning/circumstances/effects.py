@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.scenes.description import Effect
+from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
-from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
+from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.word import mark_used
 from texvent.scenes.models.effects import EFFECTS
 
@@ -20,6 +22,42 @@ _OF_LIGHT_SHOWS = frozenset(
 
 _OF_THINGS = frozenset({"steam", "smoke", "fire", "sparks", "splash", "drip"})
 """What comes from things where people have to do with them."""
+
+GIVES_OFF = frozenset(
+    {"blow", "make", "release", "leave", "raise", "spray", "send", "emit", "throw", "create",
+     "produce", "shoot", "scatter", "kick"}
+)  # fmt: skip
+"""Verbs of who makes smoke, bubbles, dust."""
+_MAKING = GIVES_OFF | {"give", "splash", "pour", "drip", "spill", "trail", "spit", "breathe",
+                       "puff", "exhale", "cause", "light", "set", "whip", "churn", "toss",
+                       "sprinkle", "shed", "drop", "shower", "fire", "have"}  # fmt: skip
+"""These, and others after which an effect may come from the one who does it."""
+_WATCHING = frozenset({"watch", "see", "look", "observe", "film", "photograph", "record"})
+
+
+def comes_from_doer(draft: Draft, clause: Clause, doers: Sequence[int]) -> bool:
+    """Whether an effect that a verb acts on comes from who does so: "blows bubbles"."""
+    word = clause.verb
+    if word is None or word.lemma in _MAKING:
+        return True
+    is_chase = isinstance(word.meaning.value, Verb) and word.meaning.value.relation == "follow"
+    return not is_chase and not any(is_living(draft.noun(index)) for index in doers)
+
+
+def is_done_to_effect(
+    draft: Draft, clause: Clause, doers: Sequence[int], objects: Sequence[Referent]
+) -> bool:
+    """As in "chases bubbles", "throws snow": nothing that is drawn does so to an effect."""
+    word = clause.verb
+    if word is None or any(one.is_things for one in objects) or clause.is_passive:
+        return False
+    value = word.meaning.value
+    is_thrown = isinstance(value, Verb) and value.kind == "throw"
+    if is_thrown and any(is_living(draft.noun(index)) for index in doers):
+        return any(one.kind in ("effect", *OF_SCENE) for one in objects)
+    if word.lemma in _WATCHING or not any(one.kind == "effect" for one in objects):
+        return False
+    return not comes_from_doer(draft, clause, doers)
 
 
 def add_effect(draft: Draft, one: Referent, scope: Scope, near: Sequence[int] = ()) -> bool:
