@@ -52,6 +52,8 @@ _EXTRAS = {"conveyor belt": "parcels ride on the conveyor belt"}
 
 _OF_WALLS = ("door", "window")
 """Nouns of what belongs into a wall and stands alone."""
+_OF_CEILINGS = frozenset({"ceiling", "pendant", "hanging", "chandelier", "chandeliers"})
+"""Words in names of what hangs from a ceiling and stands on the ground."""
 
 
 class Findings(NamedTuple):
@@ -161,6 +163,13 @@ def _list_extras(
         f"the {one.noun} stands free, in no wall"
         for index, one in enumerate(description.objects)
         if one.noun in _OF_WALLS and index not in bound
+    ]
+    bound |= {one.subject for one in description.relations if one.kind == "above"}
+    names = [one for one in description.claims if one.aspect == "name"]
+    hung = {i for one in names if _OF_CEILINGS & {*one.word.split()} for i in one.things}
+    found += [
+        f"the {description.objects[index].noun} stands free, under no ceiling"
+        for index in sorted(hung - bound)
     ]
     for actor in scene.actors:
         if actor.noun.name in LAMPS and faults.get(actor.instance) is not None:

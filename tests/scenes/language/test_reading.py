@@ -625,6 +625,16 @@ def test_what_moves_by_itself_is_an_effect(prompt: str, kinds: list[str]) -> Non
     assert [effect.kind for effect in parse_prompt(prompt).effects] == kinds
 
 
+def test_a_colour_that_half_of_the_lamps_have_is_reported() -> None:
+    assert "blue" in parse_prompt("a police car with flashing blue lights").not_understood
+    assert "blue" not in parse_prompt("a fire engine with blue lights").not_understood
+
+
+def test_what_a_hand_moves_without_touching_it_is_told() -> None:
+    found = parse_prompt("a checkerboard tilted by hand").substituted
+    assert [one.shown for one in found] == ["checkerboard untouched"]
+
+
 @pytest.mark.parametrize(
     ("prompt", "verb"),
     [

@@ -145,7 +145,9 @@ def light_up(draft: Draft, one: Referent, things: Sequence[int]) -> bool:
     for index in things:
         item, noun = draft.objects[index], draft.noun(index)
         if noun.name in BEACONED:
-            said = said if colour is None or colour.name.split()[-1] in BEACONED_HUES else []
+            own = BEACONED[noun.name]
+            hues = {named.name.split()[-1] for named, _ in colours}
+            said = [one for _, words in colours for one in words] if hues == own else []
         elif noun.motion == "drive" and flicker is not None:
             draft.effects.append(Effect("beacon", index, colour))
             if one.group.head is not None:
@@ -163,9 +165,9 @@ def light_up(draft: Draft, one: Referent, things: Sequence[int]) -> bool:
     return bool(things)
 
 
-BEACONED = frozenset({"police car", "fire engine", "ambulance"})
-"""Vehicles whose models have flashing lights."""
-BEACONED_HUES = ("blue", "red")
+BEACONED = {"police car": {"blue", "red"}, "fire engine": {"blue"}, "ambulance": {"blue"}}
+"""Vehicles whose models have flashing lights → their colours: a prompt that names one of two
+does not get it."""
 SWITCHED_HZ = 0.8
 """How often a lamp is switched on and off."""
 _ON_AND_OFF = frozenset({"switch", "turn", "flick", "go", "toggle"})

@@ -129,11 +129,9 @@ def fall_over(noun: Noun, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
 def note_untouched(
     draft: Draft, clause: Clause, subjects: Sequence[int], targets: Sequence[int]
 ) -> None:
-    """As in "a crane lifts a box": the box rises beside the crane."""
-    for index in subjects[:1]:
-        doer, target = draft.noun(index), draft.noun(targets[0])
-        if not is_hand(doer):
-            clause.verb_word.shown_as = f"{target.name} untouched"
+    """As in "a crane lifts a box", "a board tilted by hand": the box rises beside the crane."""
+    if subjects:
+        clause.verb_word.shown_as = f"{draft.noun(targets[0]).name} untouched"
 
 
 _STANDING = frozenset(
