@@ -12,10 +12,10 @@ import numpy as np
 from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
 from texvent.generate.seen_words.courses import judge_goals, list_walkers_in_air
 from texvent.generate.seen_words.faces import judge_face
+from texvent.generate.seen_words.motion.verbs import judge_verbs
 from texvent.generate.seen_words.people import is_portrait, judge_head
 from texvent.generate.seen_words.picture import Picture, View
 from texvent.generate.seen_words.things import judge_outline
-from texvent.generate.seen_words.verbs import judge_verbs
 from texvent.generate.seen_words.words import judge_words
 from texvent.generate.sights import Glimpse, Sight
 from texvent.scenes.description import SceneDescription

@@ -11,9 +11,9 @@ import pytest
 from texvent.errors import TexventWarning
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.generate.seen_things import find_evidence, image_points, look_for_things
-from texvent.generate.seen_words.image_motion import measure_motion
+from texvent.generate.seen_words.motion.image_motion import measure_motion
+from texvent.generate.seen_words.motion.verb_senses import judge_sense
 from texvent.generate.seen_words.picture import Picture
-from texvent.generate.seen_words.verb_senses import judge_sense
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.report import PromptReport
 from texvent.scenes.staging.compose import compose_scene

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from texvent.generate.seen_words.camera_moves import judge_move
+from texvent.generate.seen_words.camera.camera_moves import judge_move
+from texvent.generate.seen_words.camera.views import judge_camera
 from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.courses import judge_courses
 from texvent.generate.seen_words.degrees import judge_degree
@@ -12,7 +13,6 @@ from texvent.generate.seen_words.picture import USUAL, Picture
 from texvent.generate.seen_words.places import judge_place
 from texvent.generate.seen_words.positions import judge_position
 from texvent.generate.seen_words.things import judge_thing
-from texvent.generate.seen_words.views import judge_camera
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.raycast.trace import GROUND
 from texvent.scenes.staging.surroundings.environment import is_room

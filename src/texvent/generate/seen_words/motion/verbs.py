@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.generate.seen_words.image_motion import ImageMotion, measure_motion
+from texvent.generate.seen_words.motion.image_motion import ImageMotion, measure_motion
+from texvent.generate.seen_words.motion.verb_changes import judge_change
+from texvent.generate.seen_words.motion.verb_senses import judge_sense
 from texvent.generate.seen_words.people import are_hands_hidden
 from texvent.generate.seen_words.picture import Picture
-from texvent.generate.seen_words.verb_changes import judge_change
-from texvent.generate.seen_words.verb_senses import judge_sense
 from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
 from texvent.scenes.language.vocabulary.motion import (
     DIRECTIONS,

@@ -1,0 +1,1 @@
+"""Whether the camera moves, stands and looks as its words say."""

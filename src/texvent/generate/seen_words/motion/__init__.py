@@ -1,0 +1,1 @@
+"""Whether what moves is seen to do what its verbs say."""
