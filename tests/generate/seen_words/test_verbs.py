@@ -38,7 +38,6 @@ def report_of(prompt: str) -> PromptReport:
         ("a penguin sits down", "sits down", "penguin does so all the time"),
         ("a cat jumps onto a table", "onto", "cat is there from the start"),
         ("a man twirls her", "twirls", "it is not done to her"),
-        ("a shepherd drives his sheep along the lane", "drives", "rides the sheep"),
         ("a toddler falls backwards", "backwards", "falls forwards"),
         ("a man grabs a bottle", "grabs", "holds it from the start"),
         ("a lantern hangs in the forest", "hangs", "lantern stands on the ground"),

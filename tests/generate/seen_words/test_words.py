@@ -45,7 +45,7 @@ def report_of(prompt: str) -> PromptReport:
         ("a man throws darts at a dartboard", "dartboard"),
         ("lorries drive on a motorway", "motorway"),
         ("a wheat field in the sun", "wheat field"),
-        ("sheep graze on hills", "hills"),
+        ("a sheep grazes on hills", "hills"),
         ("view from inside a car driving through a city", "car"),
         ("a woman wears a woollen hat", "woollen"),
         ("cars drive in heavy rain", "heavy rain"),

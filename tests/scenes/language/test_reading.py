@@ -326,6 +326,7 @@ def test_who_does_what_in_everyday_sentences(prompt: str, lines: list[str]) -> N
         ("a four-legged robot dog walks", ["robot dog"], ("four", "legged")),
         ("a six-wheeled rover drives", ["mobile robot"], ("six", "wheeled")),
         ("a dog runs to steer a dozen sheep", ["dog", "sheep"], ("steer",)),
+        ("a shepherd drives his sheep", ["shepherd", "sheep"], ("drives",)),
         ("an elephant walks, a calf follows", ["elephant", "elephant"], ()),
         ("a boy juggles three oranges", ["child"], ()),
         ("the red team's goal stands", ["goal"], ("red", "team")),

@@ -15,7 +15,6 @@ _AFTER_OBJECT = re.compile(
     r"|under|with|to|into|between|by|at|before|across|through)"
 )
 _TURNING = re.compile(r"(twirl|spin|turn|rotat|whirl|swing|roll|flip)\w*")
-_HERDING = re.compile(r"(driv|drove|herd|lead|led|walk|push|pull)\w*")
 
 _HANGING = re.compile(r"(hang|hung)\w*")
 _FALLING = re.compile(r"(fall|fell)\w*")
@@ -62,11 +61,6 @@ def _judge_word(
 ) -> str | None:
     """What the word itself says that bodies here never do."""
     word, nouns = claim.word, _nouns(claim, description)
-    ridden = [one for one in claim.relations if one.kind == "ride"]
-    if ridden and _HERDING.fullmatch(word):
-        mount = description.objects[ridden[0].targets[0]].noun
-        if mount in NOUNS and NOUNS[mount].motion in ("walk", "run"):
-            return f"rides the {mount}"
     is_alive = _is_alive(claim, description)
     is_person = any(noun in PERSON_NOUNS for noun in nouns)
     is_off = any(rest.startswith("off") for rest in rests)
