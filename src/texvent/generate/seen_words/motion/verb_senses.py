@@ -15,7 +15,6 @@ _AFTER_OBJECT = re.compile(
     r"|under|with|to|into|between|by|at|before|across|through)"
 )
 _TURNING = re.compile(r"(twirl|spin|turn|rotat|whirl|swing|roll|flip)\w*")
-
 _HANGING = re.compile(r"(hang|hung)\w*")
 _FALLING = re.compile(r"(fall|fell)\w*")
 _SITTING = re.compile(r"sit|sits|sat|sitting|seated")
