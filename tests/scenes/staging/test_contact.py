@@ -131,7 +131,7 @@ def test_nothing_but_the_hand_stands_in_the_picture() -> None:
     assert len(scene.still.to_world) == 0
 
 
-@pytest.mark.parametrize("prompt", ["goldfish in a bowl", "a dog in a basket"])
+@pytest.mark.parametrize("prompt", ["a goldfish in a bowl", "a dog in a basket"])
 def test_an_animal_fits_into_what_it_is_in(prompt: str) -> None:
     inside, around = stage(prompt).actors
     length = max(inside.model.length, inside.model.width)
