@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from texvent.generate.seen_words.camera.view_objects import find_close_up, find_looker, is_of_head
 from texvent.generate.seen_words.picture import Picture, View
-from texvent.generate.seen_words.view_objects import find_close_up, find_looker, is_of_head
 from texvent.generate.sights import LEAST_SIZE
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
