@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
-from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
 
 from texvent.errors import FileFormatError, one_line
@@ -30,7 +29,9 @@ class ShardFiles:
             paths: of its shards, relative to the folder.
         """
         self._folder, self._paths = folder, tuple(paths)
-        self._open: OrderedDict[int, _OpenFile] = OrderedDict()
+        # No lock of ours: a process forked while a thread holds one would wait for ever. Two
+        # threads may open a file twice, and a file closed here stays open for who reads it.
+        self._file = lru_cache(MAX_OPEN)(_OpenFile)
 
     def __reduce__(self) -> tuple[type[ShardFiles], tuple[Path, tuple[str, ...]]]:
         return ShardFiles, (self._folder, self._paths)
@@ -46,7 +47,7 @@ class ShardFiles:
             FileFormatError: the file is gone, or shorter than its record says.
         """
         try:
-            file = self._file(shard)
+            file = self._file(self.path(shard))
             content = read_at(file.descriptor, size, begin)
             while 0 < len(content) < size:  # a read is at most 2 GiB, or interrupted
                 more = read_at(file.descriptor, size - len(content), begin + len(content))
@@ -60,19 +61,6 @@ class ShardFiles:
                 f"{self.path(shard)} is shorter than its record says; run texvent dataset verify"
             )
         return content
-
-    def _file(self, shard: int) -> _OpenFile:
-        # No lock: a process forked while a thread holds one would wait for ever. Two threads may
-        # open a file twice, and a file that is closed here stays open for who reads it.
-        file = self._open.get(shard)
-        if file is None:
-            file = self._open[shard] = _OpenFile(self.path(shard))
-            if len(self._open) > MAX_OPEN:
-                self._open.popitem(last=False)
-        else:
-            with suppress(KeyError):  # another thread closed it
-                self._open.move_to_end(shard)
-        return file
 
 
 class _OpenFile:
