@@ -8,7 +8,7 @@ from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.language.vocabulary.place_cues import BUILDINGS, ENCLOSED, ROOMS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.placement.tabletop import set_on_table
-from texvent.scenes.staging.surroundings.environment import PLACES, is_room
+from texvent.scenes.staging.surroundings.places import PLACES, is_room
 
 
 def test_enclosed_places_are_those_with_walls() -> None:

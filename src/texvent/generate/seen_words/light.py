@@ -12,7 +12,8 @@ from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.projection import project
 from texvent.scenes.raycast.trace import GROUND
 from texvent.scenes.staging.compose import ComposedScene
-from texvent.scenes.staging.surroundings.environment import LIGHTINGS, choose_lighting, is_room
+from texvent.scenes.staging.surroundings.light.lighting import LIGHTINGS, choose_lighting
+from texvent.scenes.staging.surroundings.places import is_room
 
 BRIGHT = 0.42
 """Mean luma of the picture from which it is bright."""

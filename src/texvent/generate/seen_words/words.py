@@ -15,7 +15,7 @@ from texvent.generate.seen_words.positions import judge_position
 from texvent.generate.seen_words.things import judge_thing
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.raycast.trace import GROUND
-from texvent.scenes.staging.surroundings.environment import is_room
+from texvent.scenes.staging.surroundings.places import is_room
 
 _OF_THINGS = frozenset({"name", "colour", "size", "material", "part", "side", "count"})
 _OF_SCENE = ("light", "weather", "effect", "dust")

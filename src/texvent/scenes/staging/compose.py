@@ -43,13 +43,10 @@ from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlac
 from texvent.scenes.staging.placement.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.crosswalks import lay_crosswalks
-from texvent.scenes.staging.surroundings.environment import (
-    PLACES,
-    AnimatedEnvironment,
-    build_environment,
-    choose_lighting,
-)
-from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
+from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
+from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
+from texvent.scenes.staging.surroundings.light.lighting import choose_lighting
+from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road_choice import find_beside, find_road
 from texvent.scenes.staging.surroundings.scatter_rule import is_structure
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter

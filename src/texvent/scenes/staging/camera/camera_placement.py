@@ -27,7 +27,7 @@ from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_
 from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
 from texvent.scenes.staging.camera.view_angles import choose_angles
-from texvent.scenes.staging.surroundings.environment import is_room
+from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.take import USUAL, Take
 
 SKY_LIFT = 0.2

@@ -11,7 +11,7 @@ import numpy as np
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.camera.camera_path import Journey
-from texvent.scenes.staging.surroundings.environment import PLACES
+from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 

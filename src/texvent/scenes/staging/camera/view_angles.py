@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.surroundings.environment import is_room
+from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
 
 FLAT = 0.3

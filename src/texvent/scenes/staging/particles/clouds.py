@@ -18,7 +18,7 @@ from texvent.scenes.staging.particles.motion import (
     turbulence,
 )
 from texvent.scenes.staging.particles.shapes import PuffEffect, puff_rows
-from texvent.scenes.staging.surroundings.lamps import wave_at
+from texvent.scenes.staging.surroundings.light.lamps import wave_at
 
 _FLAME = Lamp(1.0, wave="flame")
 _FLAME_HZ = 6.0

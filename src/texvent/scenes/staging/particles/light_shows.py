@@ -15,8 +15,8 @@ from texvent.scenes.staging.particles.shapes import (
     along,
     many_shapes,
 )
-from texvent.scenes.staging.surroundings.lamps import haze_rows
-from texvent.scenes.staging.surroundings.lightning import flash_number, lightning_level
+from texvent.scenes.staging.surroundings.light.lamps import haze_rows
+from texvent.scenes.staging.surroundings.light.lightning import flash_number, lightning_level
 
 _HUES: tuple[Colour, ...] = ((1.0, 0.12, 0.10), (0.15, 0.35, 1.0), (0.9, 0.15, 0.9),
                              (0.2, 1.0, 0.3))  # fmt: skip

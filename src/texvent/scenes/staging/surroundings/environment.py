@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import Illumination, SceneDescription, Surroundings
+from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
 from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.scene import (
@@ -19,9 +19,10 @@ from texvent.scenes.scene import (
     Ground,
     Texture,
 )
-from texvent.scenes.staging.surroundings.built_places import BUILT_GROUNDS
-from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance, room
-from texvent.scenes.staging.surroundings.lightning import STROKE_HZ, lightning_level
+from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance
+from texvent.scenes.staging.surroundings.light.lighting import Lighting, choose_lighting
+from texvent.scenes.staging.surroundings.light.lightning import STROKE_HZ, lightning_level
+from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road import RoadLine
 
 FLICKER_DEPTH = 0.8
@@ -43,146 +44,6 @@ _SUN_RAD_S = 2.0 * math.pi / 600.0
 _SNOW: Colour = (0.78, 0.82, 0.88)
 _SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE)
 """Grounds whose grass is white when snow lies on it."""
-_MEADOW: tuple[Colour, Colour] = ((0.055, 0.14, 0.022), (0.13, 0.21, 0.045))
-_WATER: Colour = (0.016, 0.055, 0.065)
-_OAK: tuple[Colour, Colour] = ((0.36, 0.20, 0.10), (0.46, 0.28, 0.15))
-_ASPHALT: Colour = (0.04, 0.04, 0.043)
-
-PLACES: dict[str, GroundAppearance] = {
-    "road": GroundAppearance(Ground.ROAD, _MEADOW[0], _ASPHALT),
-    "dirt road": GroundAppearance(Ground.DIRT_ROAD, (0.07, 0.12, 0.03), (0.34, 0.22, 0.12), 2.4),
-    "city": GroundAppearance(Ground.CITY, (0.3, 0.3, 0.3), _ASPHALT, 4.5),
-    "grass": GroundAppearance(Ground.GRASS, *_MEADOW),
-    "savanna": GroundAppearance(Ground.GRASS, (0.30, 0.22, 0.075), (0.42, 0.33, 0.13)),
-    "forest": GroundAppearance(
-        Ground.GRASS, (0.085, 0.065, 0.028), (0.17, 0.095, 0.03), surface=Texture.LEAVES
-    ),
-    "gravel": GroundAppearance(
-        Ground.PLAIN, (0.26, 0.25, 0.23), (0.36, 0.34, 0.30), surface=Texture.GRAVEL
-    ),
-    "soil": GroundAppearance(
-        Ground.PLAIN, (0.20, 0.125, 0.07), (0.29, 0.20, 0.12), surface=Texture.SOIL
-    ),
-    "river": GroundAppearance(Ground.RIVER, _MEADOW[0], _WATER, 4.5),
-    "lake": GroundAppearance(Ground.LAKE, _MEADOW[0], _WATER),
-    "sea": GroundAppearance(Ground.SEA, (0.012, 0.07, 0.11), (0.03, 0.13, 0.16)),
-    "underwater": GroundAppearance(Ground.UNDERWATER, (0.34, 0.31, 0.22), (0.5, 0.47, 0.36)),
-    "sand": GroundAppearance(Ground.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),
-    "snow": GroundAppearance(Ground.SNOW, (0.66, 0.70, 0.75), (0.76, 0.79, 0.83)),
-    "mountain": GroundAppearance(Ground.GRASS, (0.10, 0.13, 0.05), (0.22, 0.20, 0.12)),
-    "indoor": room(Texture.BOARDS, _OAK, Texture.PLASTER, (0.75, 0.69, 0.61)),
-    "living room": room(Texture.BOARDS, _OAK, Texture.WALLPAPER, (0.62, 0.60, 0.48)),
-    "bedroom": room(
-        Texture.CARPET,
-        ((0.30, 0.27, 0.33), (0.42, 0.38, 0.42)),
-        Texture.WALLPAPER,
-        (0.55, 0.62, 0.70),
-    ),
-    "kitchen": room(
-        Texture.TILES, ((0.62, 0.60, 0.55), (0.30, 0.29, 0.28)), Texture.TILES, (0.74, 0.74, 0.72)
-    ),
-    "office": room(
-        Texture.CARPET,
-        ((0.12, 0.14, 0.18), (0.20, 0.22, 0.26)),
-        Texture.PLASTER,
-        (0.72, 0.72, 0.70),
-    ),
-    "workshop": room(
-        Texture.CONCRETE,
-        ((0.30, 0.29, 0.28), (0.22, 0.21, 0.20)),
-        Texture.BRICK,
-        (0.36, 0.15, 0.10),
-    ),
-    "warehouse": room(
-        Texture.CONCRETE,
-        ((0.36, 0.36, 0.35), (0.27, 0.27, 0.26)),
-        Texture.CONCRETE,
-        (0.46, 0.45, 0.43),
-    ),
-    "gym": room(
-        Texture.BOARDS,
-        ((0.50, 0.33, 0.16), (0.58, 0.40, 0.21)),
-        Texture.BRICK,
-        (0.60, 0.57, 0.50),
-    ),
-    "sky": GroundAppearance(Ground.NONE, (0.3, 0.3, 0.3), (0.3, 0.3, 0.3)),
-    "space": GroundAppearance(Ground.NONE, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
-    "construction site": GroundAppearance(
-        Ground.SAND, (0.36, 0.27, 0.18), (0.44, 0.34, 0.23), surface=Texture.SOIL
-    ),
-    **BUILT_GROUNDS,
-    "plain": GroundAppearance(Ground.PLAIN, (0.42, 0.42, 0.42), (0.48, 0.48, 0.48)),
-}
-"""Ground of every place the grammar knows."""
-
-
-def is_room(place: str) -> bool:
-    """Whether a place has walls and a ceiling."""
-    return PLACES[place].ground is Ground.FLOOR
-
-
-@dataclass(frozen=True)
-class Lighting:
-    """Direct and ambient light, sky, and exposure."""
-
-    sun_direction: tuple[float, float, float]
-    sun: Colour
-    ambient: Colour
-    sky_top: Colour
-    sky_horizon: Colour
-    clouds: float
-    exposure: float = 1.0
-    shadows: bool = True
-    lamps: float = 0.0
-    """Strength of artificial light where a place has lamps, 0..1."""
-
-
-_DAY = Lighting(
-    (-0.45, -0.55, 0.70), (1.0, 0.94, 0.82), (0.30, 0.34, 0.41), (0.10, 0.28, 0.72),
-    (0.55, 0.71, 0.88), 0.22,
-)  # fmt: skip
-LIGHTINGS: dict[str, Lighting] = {
-    "day": _DAY,
-    "sunny": replace(_DAY, sun=(1.18, 1.08, 0.88), clouds=0.08, ambient=(0.27, 0.31, 0.38)),
-    "overcast": Lighting(
-        (-0.3, -0.4, 0.86), (0.22, 0.22, 0.22), (0.56, 0.58, 0.61), (0.42, 0.46, 0.52),
-        (0.60, 0.63, 0.66), 0.85, shadows=False,
-    ),
-    "dusk": Lighting(
-        (0.80, -0.42, 0.26), (1.10, 0.53, 0.22), (0.27, 0.23, 0.30), (0.045, 0.06, 0.20),
-        (0.62, 0.27, 0.105), 0.34, 1.75, lamps=0.5,
-    ),
-    "dawn": Lighting(
-        (-0.80, -0.42, 0.28), (1.0, 0.62, 0.42), (0.26, 0.25, 0.33), (0.20, 0.30, 0.62),
-        (0.98, 0.66, 0.52), 0.30, 1.05,
-    ),
-    "night": Lighting(
-        (-0.45, -0.50, 0.74), (0.055, 0.07, 0.11), (0.030, 0.038, 0.068), (0.004, 0.006, 0.020),
-        (0.016, 0.020, 0.042), 0.0, 2.1, lamps=1.0,
-    ),
-    "moonlight": Lighting(
-        (-0.45, -0.50, 0.74), (0.15, 0.18, 0.25), (0.040, 0.050, 0.085), (0.005, 0.008, 0.026),
-        (0.022, 0.028, 0.060), 0.0, 1.6, lamps=0.4,
-    ),
-    "lamp": Lighting(
-        (-0.45, -0.50, 0.74), (0.03, 0.03, 0.035), (0.05, 0.045, 0.04), (0.004, 0.006, 0.02),
-        (0.016, 0.02, 0.04), 0.0, 1.5, lamps=1.0,
-    ),
-}  # fmt: skip
-"""Lighting of every light the grammar knows."""
-
-_INDOOR_DAY = Lighting(
-    (-0.35, -0.45, 0.82), (0.55, 0.53, 0.48), (0.46, 0.45, 0.43), (0.8, 0.8, 0.8),
-    (0.8, 0.8, 0.8), 0.0,
-)  # fmt: skip
-_UNDERWATER = Lighting(
-    (0.12, -0.30, 0.95), (0.55, 0.78, 0.80), (0.14, 0.30, 0.38), (0.10, 0.42, 0.55),
-    (0.03, 0.19, 0.30), 0.0, 1.1,
-)  # fmt: skip
-_SPACE = Lighting(
-    (-0.75, -0.55, 0.35), (1.3, 1.25, 1.15), (0.05, 0.055, 0.07), (0.0, 0.0, 0.003),
-    (0.0, 0.0, 0.003), 0.0,
-)  # fmt: skip
 _WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
 _UNDERWATER_SIGHT_M = 16.0
 _FOG_SIGHT = 3.0
@@ -247,28 +108,6 @@ def _sun_at(direction: Float64Array, time_s: float) -> Float64Array:
     cosine, sine = math.cos(angle), math.sin(angle)
     x, y, z = direction
     return np.array([cosine * x - sine * y, sine * x + cosine * y, z])
-
-
-def choose_lighting(place: str, light: Illumination) -> Lighting:
-    """The lighting of a place at that time of day."""
-    kind = light.kind or "day"
-    if place == "underwater":
-        chosen = _UNDERWATER
-        if kind in ("night", "moonlight", "dusk"):
-            chosen = replace(chosen, sun=(0.14, 0.22, 0.26), ambient=(0.05, 0.11, 0.16))
-    elif place == "space":
-        chosen = _SPACE
-    elif is_room(place) and kind in ("day", "sunny", "overcast", "dawn", "dusk"):
-        chosen = _INDOOR_DAY
-    elif place == "sky" and kind == "night":
-        chosen = LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
-    else:
-        chosen = LIGHTINGS[kind]
-    if place == "snow":
-        chosen = replace(chosen, lamps=0.3 * chosen.lamps)
-    if light.shadows is not None:
-        chosen = replace(chosen, shadows=light.shadows)
-    return chosen
 
 
 def build_environment(

@@ -1,0 +1,1 @@
+"""Light of the sky, of lamps and of lightning."""
