@@ -39,9 +39,8 @@ def report_of(prompt: str) -> PromptReport:
         ("a cat jumps onto a table", "onto", "cat is there from the start"),
         ("a man twirls her", "twirls", "it is not done to her"),
         ("a toddler falls backwards", "backwards", "falls forwards"),
-        ("a man grabs a bottle", "grabs", "holds it from the start"),
         ("a lantern hangs in the forest", "hangs", "lantern stands on the ground"),
-        ("a woman paints a fence", "paints", "the hands are hidden"),
+        ("a boy draws a house", "draws", "child hardly moves"),
         ("a woman folds a towel and puts it on the shelf", "puts", "towel stays where it is"),
     ],
 )

@@ -14,6 +14,8 @@ FACED = frozenset(
      "calendar", "banner", "flight board", "scoreboard", "photo", "postcard", "envelope"}
 )  # fmt: skip
 """Nouns of flat things that are told by what is on their face."""
+_TWO_SIDED = frozenset({"newspaper"})
+"""Those of them with print on both sides."""
 _HANGING = frozenset({"dartboard"})
 LEAST_HEIGHT_M = 1.0
 """Height at which a dartboard hangs at least, m."""
@@ -38,7 +40,10 @@ def judge_face(picture: Picture, actor: Actor | None) -> str | None:
     axis = int(np.argmin(sides))
     if axis == 1:
         return None  # no front at +x and none at the top
-    shown = [_cosine(actor, view, axis) >= LEAST_COSINE for view in picture.views]
+    cosines = [_cosine(actor, view, axis) for view in picture.views]
+    if actor.noun.name in _TWO_SIDED:
+        cosines = [abs(one) for one in cosines]
+    shown = [one >= LEAST_COSINE for one in cosines]
     return None if np.mean(shown) >= LEAST_VIEWS else "its face is not in view"
 
 

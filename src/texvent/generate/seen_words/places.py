@@ -97,6 +97,8 @@ LEAST_TOWN = 0.03
 """Share of the picture that houses of the scenery cover by which a town is told."""
 _SHORES = ("beach", "shore", "coast", "seaside", "seashore", "shoreline", "coastline", "lakeside",
            "riverbank", "river bank")  # fmt: skip
+_STREAMS = frozenset({"pour", "drip", "fountain", "falling water"})
+"""Effects that are water of themselves."""
 LEAST_LAND = 0.03
 """Share of the picture that is land beside the water, where a shore is."""
 
@@ -118,7 +120,7 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         said = _find_said_of(description, claim.word) if is_overhead else None
         is_seen = _is_anything_aloft(picture, must_fly=is_overhead, said=said)
         return None if is_seen else "nothing is seen there"
-    is_poured = ("pour", None) in picture.scene.particles.kinds
+    is_poured = any(kind in _STREAMS for kind, _ in picture.scene.particles.kinds)
     if claim.word == "water" and is_poured:
         return None
     if claim.word in _WATER_WORDS and place not in (*_WATERS, "underwater"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.vocabulary.place_cues import ENCLOSED
 from texvent.scenes.models.protocol import Noun
@@ -146,11 +146,7 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
             return _PLACE_OF_TRAVEL[move.means]
     if "city" in said.backdrops:
         return "city"
-    of_act = [
-        _PLACE_OF_ACT[one.motion.kind]
-        for one in description.objects
-        if one.motion is not None and one.motion.kind in _PLACE_OF_ACT
-    ]
+    of_act = [place for one in description.objects if (place := _place_of_act(one, nouns))]
     if said.has_snow or of_act:
         return "snow" if said.has_snow else of_act[0]
     rests = all(
@@ -197,8 +193,18 @@ _BEARING = frozenset({"in", "on", "ride", "ride along"})
 _NO_GROUND = ("space", "underwater", "sky")
 
 
+def _place_of_act(one: SceneObject, nouns: Mapping[str, Noun]) -> str | None:
+    """Where a thing does what it does: who skis is in snow, a plane taxis at an airport."""
+    kind = one.motion.kind if one.motion is not None else ""
+    if kind == "slide" and nouns[one.noun].motion == "fly":
+        return "runway"
+    return _PLACE_OF_ACT.get(kind)
+
+
 def _leaps(description: SceneDescription) -> bool:
-    """As in "a dolphin jumps": out of the water."""
+    """As in "a dolphin jumps", "a whale blows": out of the water."""
+    if any(one.kind == "fountain" for one in description.effects):
+        return True
     return all(one.motion is not None and one.motion.kind == "jump" for one in description.objects)
 
 

@@ -17,5 +17,7 @@ STRUCK_SWING_S = 0.9
 """How long it is away from its place after a blow, s."""
 LIFT = "lift load"
 """The forks of a forklift go up."""
-MACHINE_ACTS = frozenset({LIFT, PICK, GRASP, COLLAPSE, STRUCK})
+PULSE = "pulse"
+"""A heart beats."""
+MACHINE_ACTS = frozenset({LIFT, PICK, GRASP, COLLAPSE, STRUCK, PULSE})
 """All of these: names of `Noun.acts` and kinds of `ObjectMotion`."""

@@ -13,6 +13,7 @@ from texvent.scenes.models.articulated_model import STANDING_POSES
 from texvent.scenes.models.materials import Material, shade
 from texvent.scenes.models.people.timing import ease
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
+from texvent.scenes.models.pulsing_model import pulsing
 from texvent.scenes.models.shapes import Affine, Point, box, compose, shift, turn_y, turn_z
 
 OPENING: Mapping[str, str] = MappingProxyType(
@@ -138,7 +139,8 @@ def opens_after(before: str | None, kind: str) -> str:
 
 
 def opening(models: list[Model], noun: str, kinds: set[str]) -> list[Model]:
-    """The models with a leaf that moves, where the prompt says that it does."""
+    """The models with a leaf that moves, or that beat, where the prompt says that they do."""
+    models = pulsing(models, kinds)
     if noun not in OPENING or not kinds & OPENS:
         return models
     return [OpeningModel(one, noun) for one in models]

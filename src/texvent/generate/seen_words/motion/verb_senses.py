@@ -19,6 +19,8 @@ _HANGING = re.compile(r"(hang|hung)\w*")
 _FALLING = re.compile(r"(fall|fell)\w*")
 _SITTING = re.compile(r"sit|sits|sat|sitting|seated")
 _GRASPING = re.compile(r"(grab|seiz|snatch|bring|brought)\w*")
+_ON_FOOT = {"walk", "run"}
+"""How who brings something comes with it; who grabs it has it in hand only then."""
 _BACKWARD = ("backward", "backwards", "back")
 _MOUTH = re.compile(r"(laugh|giggl|chuckl|smil|grin)\w*")
 
@@ -76,7 +78,9 @@ def _judge_word(
         ),
         "it only bobs and turns": word.startswith("danc") and "dance" in kinds and not is_person,
         "falls forwards": word in _BACKWARD and "fall over" in kinds,
-        "holds it from the start": is_held and _GRASPING.fullmatch(word),
+        "holds it from the start": (
+            is_held and _GRASPING.fullmatch(word) and not (kinds & _ON_FOOT and word[0] == "b")
+        ),
         "on nothing": word.startswith("perch") and not is_on_any,
         "falls where it is": is_off and _FALLING.fullmatch(word) and "fall over" in kinds,
     }

@@ -9,7 +9,7 @@ from texvent.scenes.description import SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.devices import take_handled
-from texvent.scenes.language.meaning.acts.doers import add_doings, give_to_owners, mount_riders
+from texvent.scenes.language.meaning.acts.doers import settle_doings, tell_by_doings
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.hand_work import give_bodies
 from texvent.scenes.language.meaning.acts.hosts import take_host
@@ -18,7 +18,7 @@ from texvent.scenes.language.meaning.acts.partners import take_fellows, take_rec
 from texvent.scenes.language.meaning.acts.reader import ActReader
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
-from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.circumstances.effects import (
     GIVES_OFF,
     comes_from_doer,
@@ -28,9 +28,7 @@ from texvent.scenes.language.meaning.circumstances.reader import CircumstanceRea
 from texvent.scenes.language.meaning.clause_rewrites import (
     list_brought,
     list_other_phrases,
-    take_juggled,
-    take_named_act,
-    take_particle,
+    rewrite_objects,
     take_partners,
     take_vessel,
     turn_active,
@@ -92,9 +90,7 @@ class ClauseMeaning:
     def build(self, prompt: str) -> SceneDescription:
         """The description, before defaults are filled in."""
         draft = self._draft
-        mount_riders(draft)
-        give_to_owners(draft)
-        add_doings(draft)
+        settle_doings(draft)
         lose_owners(draft, self._referents.named)
         surroundings, light = self._surroundings.build()
         if surroundings.place == "sky" and any(map(self._is_grounded, draft.objects)):
@@ -198,9 +194,7 @@ class ClauseMeaning:
         things = [index for one in subjects if one.is_things for index in one.things]
         is_lost = bool(subjects) and not things
         give_bodies(self._draft, clause, subjects)
-        take_juggled(clause)
-        take_particle(clause)
-        take_named_act(clause)
+        rewrite_objects(clause)
         take_handled(self._draft, clause, things)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         self._referents.doers = things
@@ -209,7 +203,9 @@ class ClauseMeaning:
         take_fellows(clause)
         take_receivers(clause)
         deny(clause)
-        brought = list_brought(clause) if self._referents.has_body else []
+        by_hand = bool(things) and all(is_hand(self._draft.noun(index)) for index in things)
+        has_own = self._referents.has_body or by_hand
+        brought = list_brought(clause, is_hand=by_hand) if has_own else []
         groups = [one for one in clause.objects if not any(one is group for group in brought)]
         objects = [self._referents.resolve(group) for group in groups]
         if clause.verb is not None:
@@ -227,6 +223,7 @@ class ClauseMeaning:
                 movers = self._acts.read(clause, things, self._find_wholes(clause, objects))
             self._draft.link_motion([clause.verb], movers or things)
             clause.verb.relations = tuple(self._draft.relations[before:])
+            tell_by_doings(self._draft, subjects)
         if clause.verb is None and not clause.complements:
             for word in clause.auxiliaries:
                 word.is_lost = word.text.split()[0].rstrip("s") in _ASPECTS

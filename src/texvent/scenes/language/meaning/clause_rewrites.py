@@ -9,11 +9,13 @@ from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.meaning.acts.looking import LOOKS, LOOKS_TO
+from texvent.scenes.language.vocabulary.acts import LIGHT_VERBS
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.named_acts import DONE, NAMED
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
-from texvent.scenes.models.people.acts.words import AT_HEAD
+from texvent.scenes.language.words.word import mark_used
+from texvent.scenes.models.people.acts.words import AT_HEAD, EVERYDAY
 from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO, WITH_PARTICLE
 
 _JUGGLE = "juggle"
@@ -34,6 +36,14 @@ _DONE_FROM = frozenset(
 _SIDES = frozenset({"from above", "from below", "from behind", "from the side", "from the front",
                     "from the back", "from the rear"})  # fmt: skip
 _FROM = {"from above": "down", "from below": "up"}
+
+
+def rewrite_objects(clause: Clause) -> None:
+    """Put right what the verb and its objects mean together."""
+    take_juggled(clause)
+    take_particle(clause)
+    take_made(clause)
+    take_named_act(clause)
 
 
 def take_named_act(clause: Clause) -> None:
@@ -103,6 +113,25 @@ def _is_activity(clause: Clause) -> bool:
 
 _TAKING = frozenset({"take", "pick", "grab", "remove", "lift"})
 _SOURCES = {"from": "on", "off": "on", "out of": "in"}
+
+
+_MADE = {
+    "drill": frozenset({"hole"}), "bore": frozenset({"hole"}),
+    **dict.fromkeys(("draw", "sketch", "trace", "doodle"), frozenset(
+        {"picture", "drawing", "sketch", "portrait", "line", "cartoon", "image"})),
+}  # fmt: skip
+"""Verb of hand work → what comes of it, which is seen with it: holes in a board."""
+
+
+def take_made(clause: Clause) -> None:
+    """As in "drills a hole", "draws a picture": on the board or the paper that comes with it."""
+    made = _MADE.get(clause.verb.lemma, ()) if clause.verb is not None else ()
+    if clause.is_passive:
+        return
+    for group in list(clause.objects):
+        if group.head is not None and group.head.lemma in made and not group.phrases:
+            mark_used(word for word in group.words if word is group.head)
+            clause.objects.remove(group)
 
 
 def take_particle(clause: Clause) -> None:
@@ -212,18 +241,22 @@ def _lose_sides(clause: Clause, verb: str) -> None:
 
 _OVERTURNED = ("upside down", "inside out", "right side up")
 _COMES_WITH = frozenset(
-    {*AT_HEAD, "play chess", "play video games", "serve", "dunk", "flip pan", "bowl", "tug of war",
-     "skip rope", "hula hoop", "archery", "mow"}
+    {*AT_HEAD, *EVERYDAY, "play drums", "play chess", "play video games", "serve", "dunk",
+     "flip pan", "bowl", "tug of war", "skip rope", "hula hoop", "archery", "mow"}
 )  # fmt: skip
 """Activities that bring the thing that their phrase names."""
 
 
-def list_brought(clause: Clause) -> list[NounGroup]:
-    """As in "dunks a basketball": the one that comes with the activity, and no other."""
+def list_brought(clause: Clause, *, is_hand: bool = False) -> list[NounGroup]:
+    """As in "dunks a basketball": the one that comes with the activity, and no other.
+
+    A hand that "makes a fist" is no second hand.
+    """
     if clause.verb is None or clause.is_passive:
         return []
-    found = find_activity(clause, is_hand=False)
-    if found is None or not found[2] or found[0] not in _COMES_WITH:
+    found = find_activity(clause, is_hand=is_hand)
+    is_named = is_hand or clause.verb.lemma in LIGHT_VERBS
+    if found is None or not found[2] or not (is_named or found[0] in _COMES_WITH):
         return []
     within = [group for phrase in clause.phrases for group in phrase.groups]
     return [

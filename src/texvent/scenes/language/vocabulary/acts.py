@@ -22,7 +22,7 @@ SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "sneeze": ("cough",),
     "swing club": ("putt",),
     "stroke": ("cuddle", "comfort", "tickle", "fondle"),
-    "point": ("signal", "direct", "conduct", "indicate"),
+    "point": ("signal", "direct", "indicate"),
     "eat": ("bite", "chew", "taste", "lick", "swallow", "nibble"),
     "talk": ("whisper", "recite", "interview", "present", "explain"),
     "kneel": ("pray", "propose"),
@@ -66,6 +66,51 @@ NAMED_ACTS: dict[str, tuple[str, ...]] = {
 EXACT_ACTS = frozenset({"archery", "tug of war", "arm wrestling", "fencing", "wrestling",
                         "juggling", "rope skipping", "jump rope", "rope jumping"})  # fmt: skip
 """Those of these nouns that name just what is shown."""
+
+ALL_LIGHT = frozenset({"do", "perform", "execute", "practice", "practise", "demonstrate"})
+"""Verbs that say only that the activity which their object names is done."""
+LIGHT_VERBS = ALL_LIGHT | {"give", "take", "have", "make", "let"}
+"""The same of `TAKEN_ACTS`."""
+TAKEN_ACTS = frozenset(
+    {
+        "walk",
+        "run",
+        "swim",
+        "bow",
+        "nod",
+        "wave",
+        "shrug",
+        "clap",
+        "kick",
+        "jump",
+        "leap",
+        "yawn",
+        "salute",
+        "somersault",
+        "cartwheel",
+        "pirouette",
+        "backflip",
+        "handstand",
+        "laugh",
+        "sneeze",
+        "hop",
+        "squat",
+        "lunge",
+    }
+)
+"""What is given, taken, had or made: "gives a nod", "takes a bow"; not "makes a drink"."""
+GESTURE_VERBS = LIGHT_VERBS | {
+    "show",
+    "form",
+    "sign",
+    "signal",
+    "play",
+    "display",
+    "hold",
+    "hold up",
+    "flash",
+}
+"""The same of gestures of a hand: "shows thumbs up"."""
 
 SIMILAR_GAITS: dict[str, tuple[str, ...]] = {
     "walk": (

@@ -298,7 +298,7 @@ PARTICLES: dict[str, frozenset[str]] = {
     "check": frozenset({"in", "out"}),
     "work": frozenset({"out"}),
     "throw": frozenset({"up"}),
-    "blow": frozenset({"up", "out"}),
+    "blow": frozenset({"up"}),
     "keep": frozenset({"up"}),
 }  # fmt: skip
 """Verb → particles with which it is none of what the word shows alone."""

@@ -19,7 +19,8 @@ class UsualSense(NamedTuple):
 
 
 _PLAY = "playground park child kid girl boy toddler play climb push"
-_DRINK = "drink water wine juice milk beer whisky table cup bottle waiter toast lemonade tea straw"
+_DRINK = """drink water wine juice milk beer whisky table cup bottle waiter toast lemonade tea straw
+    drop break fall shatter pour fill empty clink smash hold wash tip spill"""
 
 USUAL_SENSES: dict[str, UsualSense] = {
     noun: UsualSense(said_as, frozenset(cues.split()))
@@ -49,7 +50,7 @@ USUAL_SENSES: dict[str, UsualSense] = {
         ("gear", "cog wheel", "cog wheel machine clock motor mesh turn rotate spin tooth"),
         ("glass", "drinking glass", _DRINK),
         ("gun", "pistol", "shoot fire bullet robber police pistol"),
-        ("heart", "heart of plastic", "red plastic toy shape model"),
+        ("heart", "heart of plastic", "red plastic toy shape model beat pulse throb pulsate"),
         ("iron", "clothes iron", "clothes shirt board steam press"),
         ("jet", "jet plane", "fly plane sky airport land pilot runway wing fighter air"),
         ("key", "door key", "door lock keyhole house car open padlock chain"),

@@ -95,6 +95,11 @@ def _thumb(up: float) -> Gesture:
     return move
 
 
+def _shown(bent: tuple[float, float, float, float, float]) -> Gesture:
+    """Fingers held up."""
+    return lambda t: HandShape(bent, 0.8, roll=0.12 * swing(t, 0.7))
+
+
 def _rotate(t: float) -> HandShape:
     return replace(OPEN, yaw=1.6 * swing(t, 0.6), spread=0.5)
 
@@ -160,6 +165,12 @@ HAND_MOVEMENTS: Mapping[str, Gesture] = MappingProxyType(
         "thumbs up": _thumb(1.0),
         "thumbs down": _thumb(-1.0),
         "victory": lambda t: replace(SCISSORS, roll=0.15 * swing(t, 0.7)),
+        "one": _shown((0.9, 0.0, 1.0, 1.0, 1.0)),
+        "three": _shown((0.9, 0.0, 0.0, 0.0, 1.0)),
+        "four": _shown((0.9, 0.0, 0.0, 0.0, 0.0)),
+        "five": _shown((0.0, 0.0, 0.0, 0.0, 0.0)),
+        "horns": _shown((0.9, 0.0, 1.0, 1.0, 0.0)),
+        "shaka": _shown((0.0, 1.0, 1.0, 1.0, 0.0)),
         "ok": lambda t: HandShape((0.62, 0.60, 0.12, 0.06, 0.0), 0.8, roll=0.12 * swing(t, 0.7)),
         "rotate": _rotate,
         "swipe left": _swipe(-1.0, 0.0),

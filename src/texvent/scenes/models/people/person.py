@@ -13,6 +13,7 @@ from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import SEATED
 from texvent.scenes.models.people.acts.at_head import AT_HEAD_MOVEMENTS
 from texvent.scenes.models.people.acts.chores import CHORE_MOVEMENTS
+from texvent.scenes.models.people.acts.everyday import EVERYDAY_MOVEMENTS
 from texvent.scenes.models.people.acts.exercises import EXERCISE_MOVEMENTS
 from texvent.scenes.models.people.acts.getting import GETTING_MOVEMENTS
 from texvent.scenes.models.people.acts.music import MUSIC_MOVEMENTS
@@ -73,6 +74,7 @@ MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         **PLAY_MOVEMENTS,
         **MUSIC_MOVEMENTS,
         **PAIR_MOVEMENTS,
+        **EVERYDAY_MOVEMENTS,
     }
 )
 """Activity → posture over time; what is not here walks or runs."""

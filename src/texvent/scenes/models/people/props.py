@@ -23,6 +23,7 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.people.acts.at_head import AT_HEAD_PROPS
 from texvent.scenes.models.people.acts.chores import CHORE_PROPS
+from texvent.scenes.models.people.acts.everyday import EVERYDAY_PROPS
 from texvent.scenes.models.people.acts.exercises import EXERCISE_PROPS
 from texvent.scenes.models.people.acts.music import MUSIC_PROPS
 from texvent.scenes.models.people.acts.pairs import PAIR_PROPS
@@ -225,6 +226,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         **MUSIC_PROPS,
         **PAIR_PROPS,
         **CHORE_PROPS,
+        **EVERYDAY_PROPS,
         "punch": (),
         "swing bat": (Prop("right hand", BAT, ("baseball bat", "cricket bat")),),
         "swing racket": (
@@ -304,7 +306,9 @@ def list_props(kind: str, size: float = 1.0) -> tuple[Prop, ...]:
         return tool
     ahead = usual_bench(work).spot[0]
     if work.side == "front":
-        return (*tool, _panel(ahead, size))
+        return (*tool, _panel(ahead, size, has_holes=work.pattern == "drill"))
+    if work.pattern == "scribble":
+        return (*tool, table(size * (ahead - _INSET_M), size * TABLE_M), _paper(ahead, size))
     return (*tool, table(size * (ahead - _INSET_M), size * TABLE_M))
 
 
@@ -324,12 +328,32 @@ def hand_tool(name: str) -> Prop:
     return Prop("right hand", still(*TOOLS[name].parts))
 
 
-def _panel(ahead: float, size: float) -> Prop:
+def _paper(ahead: float, size: float) -> Prop:
+    """A drawing on the table: a sheet with a house, a sun and a line of ground."""
+    x, z = size * ahead, size * TABLE_M
+    sheet = box(Material(WHITE), (x + 0.02, 0.0, z + 0.004), (0.34, 0.46, 0.008))
+    ends = (
+        ((-0.08, 0.18), (-0.08, -0.18)), ((-0.08, 0.10), (0.03, 0.10)), ((-0.08, -0.04),
+        (0.03, -0.04)), ((0.03, 0.10), (0.11, 0.03)), ((0.11, 0.03), (0.03, -0.04)),
+        ((0.03, 0.10), (0.03, -0.04)),
+    )  # fmt: skip
+    lines = [
+        rod(DARK, (x + a, b, z + 0.009), (x + c, d, z + 0.009), 0.005) for (a, b), (c, d) in ends
+    ]
+    sun = post(Material(YELLOW), (x + 0.12, -0.15, z + 0.009), (0.07, 0.07, 0.006))
+    return Prop("ground", still(sheet, *lines, sun), furniture="paper")
+
+
+def _panel(ahead: float, size: float, *, has_holes: bool = False) -> Prop:
     """An upright board before the body: how far its face is for an adult, m."""
     x, high = size * ahead, size * 1.15
     board = box(Material((0.62, 0.60, 0.55)), (x + 0.02, 0.0, high), (0.03, 1.1, 0.9))
     legs = (rod(WOOD, (x + 0.06, y, 0.0), (x + 0.06, y, 1.3 * high), 0.025) for y in (0.5, -0.5))
-    return Prop("ground", still(board, *legs), furniture="board")
+    holes = (
+        rod(DARK, (x - 0.001, y, high + up), (x + 0.01, y, high + up), 0.032)
+        for y, up in ((0.22, 0.14), (0.24, -0.16), (-0.24, 0.16), (-0.22, -0.14), (0.0, 0.26))
+    )
+    return Prop("ground", still(board, *legs, *(holes if has_holes else ())), furniture="board")
 
 
 _INSET_M = 0.28

@@ -65,7 +65,7 @@ OVERTAKEN = 0.4
 _POOL_RAD_S = 1.8
 BELT_M_S = 0.22
 """Speed of what lies on a conveyor belt."""
-_RESTING = frozenset({"stand", "sit", "lie"})
+_RESTING = frozenset({"stand", "sit", "lie", "slide"})
 SCENIC = frozenset({"surround", "among"})
 """Relations whose targets stand around as scenery; `scenery` places them."""
 

@@ -211,10 +211,14 @@ class Sway:
     amplitude_rad: float
     rate_hz: float
     yaw: float = 0.0
+    is_turning: bool = False
+    """Whether it turns to and fro instead, as what lies flat."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         angle = self.amplitude_rad * math.sin(2.0 * math.pi * self.rate_hz * time_s)
+        if self.is_turning:
+            return BodyState(self.home, self.yaw + angle, activity="stand")
         return BodyState(self.home, self.yaw, roll=angle, activity="stand")
 
 

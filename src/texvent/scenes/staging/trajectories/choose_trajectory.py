@@ -29,7 +29,6 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     RollOver,
     Spin,
     SpinOnAxle,
-    Sway,
     Swing,
     Wheelie,
 )
@@ -50,6 +49,7 @@ from texvent.scenes.staging.trajectories.stunts import (
     build_lift,
     build_round,
     build_sinking,
+    build_sway,
 )
 from texvent.scenes.staging.trajectories.trajectory import (
     Rolling,
@@ -359,8 +359,7 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     if kind in ("hover", "float"):
         return Hover(home, 0.12 * span * pace, plan.yaw, phase)
     if kind == "sway":
-        is_flat = model.length < FLAT * model.width or model.height < FLAT * model.length
-        return Sway(home, 0.22 if is_flat else 0.14, 0.5 * pace, plan.yaw)
+        return build_sway(model, home, plan.yaw, pace)
     if kind == "roll over":
         lying = model.parts(Pose(0.0, 0.0, 0.0, "lie"))
         return RollOver(home, plan.yaw, 0.5 * float(bounds(lying)[1][2]), pace)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from texvent.scenes.models.machine_acts import MACHINE_ACTS
 from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.protocol import Model
-from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Climb, Hop
+from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Climb, Hop, Sway
 from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
@@ -40,8 +40,22 @@ SUNK = 0.8
 ROUND_RAD, ROUND_RAD_S = 2.6, 1.3
 """Angle of the round that what goes in a circle covers in a clip at least, and the rate up to which
 it turns for that."""
+_FLAT = 0.62
+"""Share of its length below which what is wide or high is flat."""
+_TREMBLING = 4.0
+"""Pace above which what sways trembles."""
 _PAUSE_S = 0.35
 """Rest between two flips."""
+
+
+def build_sway(model: Model, home: Vector, yaw: float, pace: float) -> Sway:
+    """Leans to and fro about its foot; what trembles leans less, and turns where it lies flat."""
+    least = min(model.length, model.width)
+    is_flat = model.length < _FLAT * model.width or model.height < _FLAT * model.length
+    lean = 0.22 if is_flat else 0.14
+    if pace < _TREMBLING:
+        return Sway(home, lean, 0.5 * pace, yaw)
+    return Sway(home, 0.6 * lean, 0.5 * pace, yaw, model.height < _FLAT * least)
 
 
 def _ease(share: float) -> float:

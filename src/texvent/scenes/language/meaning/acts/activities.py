@@ -6,7 +6,14 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
-from texvent.scenes.language.vocabulary.acts import EXACT_ACTS, NAMED_ACTS
+from texvent.scenes.language.vocabulary.acts import (
+    ALL_LIGHT,
+    EXACT_ACTS,
+    GESTURE_VERBS,
+    LIGHT_VERBS,
+    NAMED_ACTS,
+    TAKEN_ACTS,
+)
 from texvent.scenes.language.vocabulary.function import DETERMINERS
 from texvent.scenes.language.vocabulary.motion import VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm, list_readings, list_verb_forms
@@ -37,11 +44,33 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
         name = table.get(lemmas[:length])
         if name is not None:
             return name, [word for _, word in said[:length]], True
+    light = _find_named(lemmas, verb, table, is_hand=is_hand)
+    if light is not None:
+        name, length = light
+        return name, [word for _, word in said[:length]], True
     name = table.get((*lemmas[:verb], lemmas[-1])) if len(said) > verb else None
     if name is not None:
         return name, [said[0][1], said[-1][1]], True
     name = table.get(lemmas[:verb])
     return None if name is None else (name, [clause.verb_word], False)
+
+
+def _find_named(
+    lemmas: Key, verb: int, table: Mapping[Key, str], *, is_hand: bool
+) -> tuple[str, int] | None:
+    """As in "does a hula hoop", "shows thumbs up": the activity that follows a light verb.
+
+    Returns:
+        Its name and the number of words up to its end; None if none follows.
+    """
+    light = GESTURE_VERBS if is_hand else LIGHT_VERBS
+    if verb != 1 or lemmas[0] not in light:
+        return None
+    for length in range(len(lemmas), verb, -1):
+        key = lemmas[verb:length]
+        if key in table and (is_hand or lemmas[0] in ALL_LIGHT or key[0] in TAKEN_ACTS):
+            return table[key], length
+    return None
 
 
 def note_near(name: str, words: Sequence[Word]) -> None:
@@ -154,7 +183,7 @@ def _phrases(is_hand: bool) -> Mapping[Key, str]:
     plain = {verb.base for verb in VERBS if verb.act or verb.kind == "move" or verb.relation}
     found: dict[Key, str] = {}
     for name, activity in table.items():
-        for text in (*activity.words, *activity.near):
+        for text in (*activity.words, *activity.near, *activity.named):
             key = _key_of(text)
             if len(key) > 1 or key[0] not in plain:
                 found.setdefault(key, name)

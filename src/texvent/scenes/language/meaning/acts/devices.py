@@ -25,6 +25,8 @@ _SIGNALS = ("red", "yellow", "amber", "green")
 def give_effect(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     """As in "a balloon bursts", "a chimney smokes"."""
     kind = EFFECT_BY_VERB.get(clause.verb_word.lemma)
+    if clause.verb_word.lemma == "blow" and _are_whales(draft, subjects):
+        kind = "fountain"
     by_people = any(is_person(draft.noun(index)) for index in subjects)
     is_own = any(COLLAPSE in draft.noun(index).acts for index in subjects)
     if kind is None or not subjects or by_people or clause.objects or is_own:
@@ -33,6 +35,10 @@ def give_effect(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     for index in subjects:
         draft.effects.append(Effect(kind, source=index))
     return True
+
+
+def _are_whales(draft: Draft, subjects: list[int]) -> bool:
+    return bool(subjects) and all(draft.objects[index].noun == "whale" for index in subjects)
 
 
 def switch(draft: Draft, clause: Clause, subjects: list[int]) -> bool:

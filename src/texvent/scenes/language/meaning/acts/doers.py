@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from functools import lru_cache
 
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.motion import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
@@ -16,6 +18,13 @@ from texvent.scenes.models.people.activities import ACTIVITIES
 _ENDINGS = ("er", "or")
 _RIDES = ("ride", "ride along")
 _RIDERS = ("rider", "jockey")
+
+
+def settle_doings(draft: Draft) -> None:
+    """What people do of themselves: they ride, hold what is theirs, do what their name says."""
+    mount_riders(draft)
+    give_to_owners(draft)
+    add_doings(draft)
 
 
 def mount_riders(draft: Draft) -> None:
@@ -79,6 +88,18 @@ def add_doings(draft: Draft) -> None:
         if doing is not None and is_idle and is_person(draft.noun(index)):
             item.motions.append(ObjectMotion(doing))
             draft.note(f"the {item.said} does what the word says: {doing}")
+
+
+def tell_by_doings(draft: Draft, subjects: Sequence[Referent]) -> None:
+    """As in "a drummer plays the drums": who does what the word says is told by it."""
+    for one in subjects:
+        head = one.group.head
+        for index in one.things if head is not None else ():
+            item = draft.objects[index]
+            doing = find_doing(item.said or "")
+            if head is not None and doing is not None and item.motions[-1:]:
+                does = item.motions[-1].kind == doing and is_person(draft.noun(index))
+                head.shown_as = None if does else head.shown_as
 
 
 @lru_cache(maxsize=512)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import ObjectMotion
+from texvent.scenes.description import Effect, ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
@@ -13,9 +13,13 @@ from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.machine_acts import COLLAPSE
+from texvent.scenes.models.machine_acts import COLLAPSE, PULSE
 from texvent.scenes.models.protocol import Noun
 
+_PULSING = frozenset({"beat", "pulse", "throb", "pulsate"})
+_PAW = "paw"
+SEEN_AS_SAID = frozenset({*_PULSING, "flap", "taxi", "dig"})
+"""Verbs whose fitting motion is just what they say: what flaps its wings stays where it is."""
 _ON_GROUND = ("drive", "walk", "run", "jump")
 _STEPS = ("climb", "ascend", "descend")
 _HELD_ON_TO = frozenset({"ladder", "wall", "tree", "rope", "pole", "fence", "cliff", "mast"})
@@ -35,9 +39,10 @@ def fit_verb(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
 
     A climber of a ladder climbs and a toy robot that walks slides; a rover that climbs a slope
     drives; a man who rises does not take off, a keeper who dives does not swim, a batter who swings
-    at a ball hangs on no rope, and a plane that taxis does not fly.
+    at a ball hangs on no rope, and a plane that taxis stays on the ground.
     """
-    other = _choose_manoeuvre(verb, noun, clause) or _choose_kind(verb, noun, clause)
+    other = _choose_manoeuvre(verb, noun, clause) or _choose_own(verb, noun)
+    other = other or _choose_kind(verb, noun, clause)
     other = other or _choose_other(verb, noun)
     if other is not None:
         return other
@@ -51,9 +56,27 @@ def fit_verb(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
         return None
     if is_person(noun) and verb.base == "slip":
         return None
-    if noun.motion == "fly" and verb.base == "taxi":
-        return None
     return verb
+
+
+def _choose_own(verb: Verb, noun: Noun) -> Verb | None:
+    """As in "a bird flaps", "a heart beats", "a dog digs", "a plane taxis": just what is said."""
+    if verb.base in ("flap", "beat") and noun.motion == "fly" and is_living(noun):
+        return replace(verb, kind="hover")
+    if verb.base in _PULSING and not noun.is_working:
+        kind = "hover" if noun.motion == "swim" and is_living(noun) else PULSE
+        return None if is_living(noun) and kind == PULSE else replace(verb, kind=kind)
+    if verb.base == "dig" and _PAW in noun.acts:
+        return replace(verb, kind=_PAW)
+    if verb.base == "taxi" and noun.motion == "fly":
+        return replace(verb, kind="slide")
+    return None
+
+
+def throw_up_earth(draft: Draft, kind: str, verb: Verb, index: int) -> None:
+    """What digs with its paws throws up earth."""
+    if kind == _PAW and verb.base == "dig":
+        draft.effects.append(Effect("dust", index))
 
 
 def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
@@ -70,8 +93,6 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
         return replace(verb, kind="move")
     if verb.base in ("chase", "pursue") and not is_living(noun):
         return replace(verb, kind="move")
-    if verb.base in ("flap", "beat") and noun.motion == "fly" and is_living(noun):
-        return replace(verb, kind="hover")
     if (
         verb.base == "roll"
         and is_living(noun)

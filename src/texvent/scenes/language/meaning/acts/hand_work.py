@@ -69,7 +69,7 @@ def give_bodies(draft: Draft, clause: Clause, subjects: Sequence[Referent]) -> N
 
 _STRUCK = ("hit", "strike")
 _WEIGHTS = frozenset({"barbell", "dumbbell", "kettlebell"})
-_BY_HAND = frozenset({*_STRUCK, "lift", "shake", "drop"})
+_BY_HAND = frozenset({*_STRUCK, "lift", "shake", "drop", "grab"})
 _FLYING = frozenset({"shuttlecock", "frisbee", "puck"})
 
 
@@ -109,14 +109,19 @@ def is_by_hand(draft: Draft, verb: Verb, subjects: Sequence[int], targets: Seque
     return is_person(doer) and is_hand_work(verb, target)
 
 
+_DRAWING = frozenset({"draw", "sketch", "doodle"})
+"""Verbs whose object is before who draws it, not under the pen."""
+
+
 def work_on(draft: Draft, word: Word, people: Sequence[int], objects: Sequence[Referent]) -> None:
     """Relate people to what they work on; the word says less where that is not shown."""
     targets = [index for one in objects if one.is_things for index in one.things]
     work = HANDWORK.get(word.lemma)
     is_onto = work is not None and work.pattern in ONTO
-    if work is not None and work.pattern == "scribble":
+    is_drawn = word.lemma in _DRAWING
+    if is_drawn or (work is not None and work.pattern == "scribble"):
         # Who draws a cat has a pen on paper, not on the cat.
-        targets = [index for index in targets if not is_living(draft.noun(index))]
+        targets = [n for n in targets if not (is_drawn or is_living(draft.noun(n)))]
     draft.relate("work on", people, targets[-1:] if is_onto else targets[:1])
     if is_onto and len(targets) > 1:
         draft.relate("hold", people, targets[:1])
@@ -134,5 +139,5 @@ def work_on(draft: Draft, word: Word, people: Sequence[int], objects: Sequence[R
         seen = ""
     if seen:
         word.shown_as = seen
-    if objects and not targets:
+    if objects and not targets and not is_drawn:
         word.shown_as = f"{seen or word.lemma} nothing"

@@ -19,6 +19,7 @@ from texvent.scenes.language.meaning.acts.devices import (
 )
 from texvent.scenes.language.meaning.acts.fitting import (
     MANOEUVRES,
+    SEEN_AS_SAID,
     choose_act,
     fall_over,
     fit_moving,
@@ -26,6 +27,7 @@ from texvent.scenes.language.meaning.acts.fitting import (
     is_played,
     line_up,
     note_untouched,
+    throw_up_earth,
 )
 from texvent.scenes.language.meaning.acts.hand_work import (
     is_by_hand,
@@ -34,6 +36,7 @@ from texvent.scenes.language.meaning.acts.hand_work import (
     work_on,
 )
 from texvent.scenes.language.meaning.acts.looking import look_at
+from texvent.scenes.language.meaning.acts.mounting import ride, ride_unnamed
 from texvent.scenes.language.meaning.acts.partners import (
     PAIRED,
     collide,
@@ -139,6 +142,9 @@ class ActReader:
         is_own = verb.kind in _TAKES_ANY_OBJECT or verb.base in STOPS
         if not verb.kind or (acts_on_unshown and not is_own):
             return []
+        ridden = ride_unnamed(self._draft, clause, subjects)
+        if ridden:
+            return ridden
         moved = self._give(clause, verb, subjects)
         if moved and verb.relation == "overtake":
             word.shown_as = "drive fast past nothing"
@@ -323,11 +329,12 @@ class ActReader:
             return subjects
         clause.verb_word.is_used = self._draft.relate(act, subjects, targets)
         if act == "ride":
-            return self._ride(clause, verb, subjects, targets)
+            return ride(self._draft, clause, verb, subjects, targets)
         goes = {phrase.preposition.text for phrase in clause.phrases} & _GOING
-        if act in ("push", "pull") or (act == "carry" and (goes or verb.base == "move")):
+        if act in ("push", "pull") or (act == "carry" and (goes or verb.base in _COMING)):
+            way = "towards" if verb.base == "bring" and not goes else None
             for index in subjects:
-                add_motion(self._draft, index, ObjectMotion("move", pace=verb.pace), clause)
+                add_motion(self._draft, index, ObjectMotion("move", way, verb.pace), clause)
         return subjects
 
     def _pull_in_place(self, clause: Clause, subjects: list[int], targets: list[int]) -> bool:
@@ -339,23 +346,6 @@ class ActReader:
             add_motion(self._draft, index, ObjectMotion("pull"), clause)
         clause.verb_word.is_used = True
         return True
-
-    def _ride(
-        self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
-    ) -> list[int]:
-        if verb.base == "row" and self._draft.noun(targets[0]).name == "boat":
-            self._draft.objects[targets[0]].noun = "rowing boat"
-        noun = self._draft.noun(targets[0])
-        kind = "fly" if noun.motion == "fly" else "move"
-        if verb.kind == "work" and can_do(noun, "work"):
-            kind = "work"
-        motion = ObjectMotion(kind, verb.direction, verb.pace)
-        for index in targets:
-            add_motion(self._draft, index, motion, clause)
-        for index in subjects:
-            if not self._draft.objects[index].motions:
-                self._draft.objects[index].motions.append(ObjectMotion("sit"))
-        return targets
 
     def _give(self, clause: Clause, verb: Verb, things: list[int]) -> list[int]:
         """Give a motion to the objects that can do it; the others are left as they are."""
@@ -386,6 +376,8 @@ class ActReader:
             if add_motion(self._draft, index, fall_over(noun, motion, clause), clause):
                 added.append(index)
                 is_same = verb.relation == "follow" or fitting.kind in MANOEUVRES
+                is_same |= verb.base in SEEN_AS_SAID
+                throw_up_earth(self._draft, fitting.kind, verb, index)
                 if fitting is not verb and not is_same:
                     word.shown_as = noun.motion if fitting.kind == "move" else fitting.kind
         word.is_used = word.is_used or bool(added)
@@ -394,6 +386,7 @@ class ActReader:
 
 _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})
 """Prepositions of who goes somewhere with what it carries."""
+_COMING = frozenset({"move", "bring"})
 _LINES = frozenset({"rope", "chain", "hose"})
 """What is pulled at, not along."""
 _UNSTEADY = ("wobble", "rock", "tilt")

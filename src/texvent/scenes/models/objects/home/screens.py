@@ -208,10 +208,12 @@ _INDOOR = placed("indoor", (
         plurals=("sheets of paper",)),
     thing("newspaper", (PAPER.colour,), lambda p: lying([
         box(p, (0.0, 0.0, 0.20), (0.02, 0.30, 0.40)),
-        bar(INK, (-0.12, 0.37), (0.12, 0.37), 0.03, 0.006, 0.01),
-        box(GREY_PLASTIC, (0.01, 0.07, 0.26), (0.006, 0.12, 0.12)),
-        *(bar(INK, (y, 0.31 - 0.018 * i), (y + 0.11, 0.31 - 0.018 * i), 0.007, 0.006, 0.009)
-            for i in range(16) for y in ((-0.13, 0.01) if i > 7 else (-0.13,)))])),
+        *(part for s in (1.0, -1.0) for part in (
+            bar(INK, (-0.12, 0.37), (0.12, 0.37), 0.03, 0.006, 0.01 * s),
+            box(GREY_PLASTIC, (0.01 * s, 0.07 * s, 0.26), (0.006, 0.12, 0.12)),
+            *(bar(INK, (min(y * s, (y + 0.11) * s), 0.31 - 0.018 * i),
+                (max(y * s, (y + 0.11) * s), 0.31 - 0.018 * i), 0.007, 0.006, 0.009 * s)
+                for i in range(16) for y in ((-0.13, 0.01) if i > 7 else (-0.13,)))))])),
     thing("map", (PAPER.colour,), lambda p: lying([
         box(p, (0.0, 0.0, 0.20), (0.006, 0.60, 0.40)),
         *(ball(Material((0.20, 0.42, 0.14)), (0.002, y, z), (0.006, w, h)) for y, z, w,

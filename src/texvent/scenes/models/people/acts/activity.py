@@ -21,6 +21,13 @@ class Activity:
     """Whether the body keeps still apart from breathing."""
     is_close: bool = False
     """Whether it is done at the head, so that the image may end at the waist."""
+    named: tuple[str, ...] = ()
+    """Phrases that name it and do not begin with a verb: "peace sign"."""
+
+
+def sign(*named: str, words: tuple[str, ...] = ()) -> Activity:
+    """A sign that a hand shows."""
+    return Activity(words, named=named)
 
 
 def seen_from_side(*words: str, near: tuple[str, ...] = ()) -> Activity:
@@ -31,6 +38,11 @@ def seen_from_side(*words: str, near: tuple[str, ...] = ()) -> Activity:
 def at_head(*words: str, near: tuple[str, ...] = ()) -> Activity:
     """An activity of hands at the own head, or of the head."""
     return Activity(words, near, is_close=True)
+
+
+def sideways_at_head(*words: str) -> Activity:
+    """An activity at the own head that is best seen from the side."""
+    return Activity(words, is_sideways=True, is_close=True)
 
 
 def done_to(verbs: str, things: str) -> tuple[str, ...]:

@@ -203,6 +203,11 @@ def _basket() -> tuple[ModelPart, ...]:
     )  # fmt: skip
 
 
+def build_basket() -> tuple[Point, tuple[ModelPart, ...]]:
+    """Where the rim of a basket is, and the basket."""
+    return _RIM, _basket()
+
+
 def _flip_pan(t: float) -> Posture:
     """A jerk of the pan, and it comes down to meet the pancake."""
     u = t % FLIP_S

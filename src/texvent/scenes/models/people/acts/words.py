@@ -10,6 +10,7 @@ from texvent.scenes.models.people.acts.activity import (
     at_head,
     done_to,
     seen_from_side,
+    sideways_at_head,
 )
 
 _HAIRY = "beard|mustache|moustache|face|chin|cheek|cheeks|head|stubble"
@@ -130,8 +131,52 @@ PAIRED: dict[str, Activity] = {
 }  # fmt: skip
 """Done by two who stand before each other."""
 
+EVERYDAY: dict[str, Activity] = {
+    "conduct": Activity(
+        (
+            "conduct",
+            *done_to("wave|swing|move|raise", "baton|conductor baton"),
+            *done_to("conduct|lead", "orchestra|choir|band"),
+        )
+    ),
+    "look through binoculars": at_head(
+        *done_to(
+            "look through|peer through|gaze through|watch through|use|hold up",
+            "binoculars|pair of binoculars|field glasses",
+        )
+    ),
+    "open umbrella": Activity(
+        (*done_to("open|put up|unfold|unfurl", "umbrella|parasol"), "open up umbrella")
+    ),
+    "blow out": sideways_at_head(
+        *done_to("blow out|extinguish|puff out|snuff out", "candle|match|flame|birthday candle"),
+        *done_to("blow", "candle out|match out"),
+        "blow at candle",
+        "blow on candle",
+    ),
+    "turn steering wheel": seen_from_side(
+        *done_to(
+            "turn|rotate|spin|hold|grip|steer|move|hold on to|grab",
+            "steering wheel|car steering wheel",
+        )
+    ),
+    "type on keyboard": seen_from_side(
+        *done_to("type on|type at|use|work on|press keys on|hit", "keyboard|computer keyboard")
+    ),
+    "shoot basket": seen_from_side(
+        *done_to("shoot|throw", "basketball|hoop|hoops|basket|baskets|free throw|three pointer"),
+        "shoot ball into basket",
+        "throw ball into basket",
+        "shoot basketball into hoop",
+        "throw basketball into hoop",
+        "shoot ball into hoop",
+        "throw ball into hoop",
+    ),
+}
+"""Done with one thing that comes along."""
+
 MORE_ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
-    {**AT_HEAD, **EXERCISES, **MUSIC, **PAIRED}
+    {**AT_HEAD, **EXERCISES, **MUSIC, **PAIRED, **EVERYDAY}
 )
 """All of these."""
 
@@ -147,6 +192,6 @@ ACTIVITY_NOUNS = (
     "lip gloss", "face cream", "face paint", "eye shadow", "slam dunk", "high five",
     "high knee", "handstand", "headstand", "backflip", "deadlift", "cartwheel", "pushup", "pullup",
     "somersault", "pirouette", "pneumatic drill", "double bass", "bow and arrow", "sun screen",
-    "rock paper scissors",
+    "rock paper scissors", "ok sign", "okay sign",
 )  # fmt: skip
 """Nouns of several words that name what is done, or with what."""

@@ -17,6 +17,8 @@ TABLE_M = 0.84
 """Height of the table that small things are put on, m."""
 _LOW = 0.60
 """Height of a spot, for an adult, below which one kneels, m."""
+_POINTS_DOWN = 1.05
+"""Height of a spot on an upright face, for an adult, below which the tool points down, m."""
 _ARM_M = 0.61
 """From the shoulder to the palm of an arm that is nearly straight, m."""
 _NEAREST_M, _FARTHEST_M, _STEP_M = 0.24, 1.15, 0.03
@@ -81,7 +83,10 @@ def list_grips(work: HandWork, bench: Bench, time_s: float) -> Grips:
     """Where hands, hips, the base of the neck, the tool and the look go: see `Pose.grips`."""
     stroke = stroke_at(work, bench, time_s)
     tip = _add(bench.spot, in_body(bench, stroke.right))
-    x, y, z = in_body(replace(bench, size=1.0), stroke.tool)
+    along, left, out = stroke.tool
+    if bench.is_upright and bench.spot[2] < _POINTS_DOWN * bench.size:
+        along = -abs(along)
+    x, y, z = in_body(replace(bench, size=1.0), (along, left, out))
     norm = math.sqrt(x * x + y * y + z * z)
     way = (x / norm, y / norm, z / norm)
     right = _add(tip, way, -bench.reach_m)

@@ -96,7 +96,7 @@ def _stroke(t: float, half: float) -> Stroke:
 
 def _scribble(t: float, half: float) -> Stroke:
     return Stroke(
-        (0.05 * swing(t, 1.7), 0.09 * swing(t, 0.45), 0.0), (-0.05, 0.16, 0.01), (0.35, 0.25, -0.9)
+        (0.07 * swing(t, 1.2), 0.12 * swing(t, 0.45), 0.0), (-0.05, 0.20, 0.01), (0.35, 0.25, -0.9)
     )
 
 
@@ -126,12 +126,44 @@ def _twist(t: float, half: float) -> Stroke:
     return Stroke((0.0, -0.03, 0.02), (0.02, 0.10, 0.01), (math.cos(angle), math.sin(angle), -0.2))
 
 
+def _squeeze(t: float, half: float) -> Stroke:
+    """Both hands press from the sides, lift it a little and wring it."""
+    press, turn = pulse(t, RATE_HZ), 0.05 * swing(t, RATE_HZ)
+    side, up = min(half, 0.12) + 0.07 - 0.06 * press, 0.03 + 0.10 * press
+    thing = (0.0, 0.0, 0.10 * press)
+    return Stroke((turn, -side, up), (-turn, side, up), thing=thing, bow=-0.04 * press)
+
+
+def _reel(t: float, half: float) -> Stroke:
+    """The hands go round each other."""
+    angle = 2.0 * math.pi * 0.9 * t
+    x, z = 0.08 * math.cos(angle), 0.08 * math.sin(angle)
+    return Stroke((x, -0.09, 0.10 + z), (-x, 0.09, 0.10 - z))
+
+
+def _uncork(t: float, half: float) -> Stroke:
+    """Turns the screw, then pulls the cork up, again and again; the left hand is at the neck."""
+    share = (t * 0.55) % 1.0
+    up = 0.17 * (ease(share, 0.45, 0.75) - ease(share, 0.9, 1.0))
+    turn = 0.03 * math.sin(2.0 * math.pi * 5.0 * min(share, 0.4) / 0.4)
+    return Stroke((0.0, turn, up), (-0.02, 0.05, -0.10), (0.0, 0.0, -1.0), bow=-0.3 * up)
+
+
+def _unlock(t: float, half: float) -> Stroke:
+    """The key comes to the lock and turns to and fro in it."""
+    away = 0.16 * (1.0 - ease(t, 0.1, 0.5))
+    angle = 0.9 * swing(max(t - 0.5, 0.0), 1.1)
+    return Stroke(
+        (0.05 * math.sin(angle), 0.05 * (1.0 - math.cos(angle)), away), None, (0.0, 0.12, -1.0)
+    )
+
+
 def _drill(t: float, half: float) -> Stroke:
     return Stroke(
-        (0.0, -0.03, 0.06 * pulse(t, RATE_HZ)),
+        (0.0, -0.03, 0.13 * pulse(t, RATE_HZ)),
         (0.02, 0.05, 0.20),
         (0.05, 0.0, -1.0),
-        bow=-0.06 * pulse(t, RATE_HZ),
+        bow=-0.12 * pulse(t, RATE_HZ),
     )
 
 
@@ -322,6 +354,10 @@ PATTERNS: Mapping[str, Pattern] = MappingProxyType(
         "knit": _knit,
         "tie": _tie,
         "twist": _twist,
+        "squeeze": _squeeze,
+        "reel": _reel,
+        "uncork": _uncork,
+        "unlock": _unlock,
         "drill": _drill,
         "hold": _hold,
         "dab": _dab,

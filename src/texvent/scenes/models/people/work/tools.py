@@ -97,6 +97,22 @@ TOOLS: Mapping[str, Tool] = MappingProxyType(
             ),
             0.26,
         ),
+        "corkscrew": Tool(
+            (
+                rod(WOOD, (0.0, -0.07, 0.0), (0.0, 0.07, 0.0), 0.016),
+                rod(STEEL, (0.0, 0.0, 0.0), (0.0, 0.0, 0.10), 0.007),
+                rod(Material((0.62, 0.42, 0.22)), (0.0, 0.0, 0.09), (0.0, 0.0, 0.14), 0.016),
+            ),
+            0.12,
+        ),
+        "key": Tool(
+            (
+                ball(Material(YELLOW), (0.0, 0.0, 0.02), (0.02, 0.07, 0.06)),
+                rod(Material(YELLOW), (0.0, 0.0, 0.04), (0.0, 0.0, 0.15), 0.009),
+                box(Material(YELLOW), (0.0, 0.02, 0.13), (0.01, 0.03, 0.03)),
+            ),
+            0.15,
+        ),
         "drill": Tool(
             (
                 box(Material(YELLOW), (0.02, 0.0, 0.06), (0.08, 0.07, 0.20)),

@@ -45,8 +45,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("chop", "axe", "there"), "hew"),
     (HandWork("chop", "axe", "there", shown_as="chop"), "fell"),
     # Along a surface, to and fro.
-    (HandWork("rub", "cloth"), "wipe polish rub dry dust buff towel clean"),
-    (HandWork("rub", "cloth", shown_as="wipe"), "wax"),
+    (HandWork("rub", "cloth"), "wipe polish rub dry dust buff towel clean wax"),
     (HandWork("rub", "sponge", "there"), "wash scrub scour"),
     (HandWork("rub", "sponge", "there", shown_as="scrub"), "rinse soap shampoo bathe lather"),
     (HandWork("rub", "block"), "sand sandpaper"),
@@ -73,7 +72,11 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
      "adjust tinker"),
     (HandWork("twist", "wrench", shown_as="work on"), "change replace maintain assemble "
      "disassemble install"),
-    (HandWork("twist", shown_as="twist"), "uncork unlock wring squeeze juice unwind"),
+    (HandWork("squeeze"), "squeeze wring"),
+    (HandWork("squeeze", shown_as="squeeze"), "juice"),
+    (HandWork("reel", shown_as="reel"), "unwind wind coil uncoil unroll"),
+    (HandWork("uncork", "corkscrew"), "uncork"),
+    (HandWork("unlock", "key", "there", "front"), "unlock lock"),
     (HandWork("drill", "drill", "there", "front"), "drill bore"),
     (HandWork("hold", "torch"), "weld solder braze"),
     (HandWork("hold", "magnifier"), "inspect examine study"),
@@ -101,6 +104,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("lift", "", "there"), "lift heave"),
     (HandWork("put", "", "there"), "put place put_down set_down lay_down"),
     (HandWork("take", "", "there"), "pick_up take_out pull_out lift_up"),
+    (HandWork("take"), "grab snatch seize grasp"),
     (HandWork("drop", "", "there"), "drop"),
     (HandWork("punch", "", "there", "front"), "punch"),
     (HandWork("tug", "", "there"), "tug yank"),
@@ -129,5 +133,5 @@ MOVED = frozenset({"put", "take", "drop"})
 ONTO = frozenset({"pour", "sprinkle", "dab", "offer"})
 """Patterns of what is done with one thing to another: the last one named is worked on."""
 
-HOVERING = frozenset({"pour", "water", "sprinkle", "spray", "hold", "pluck", "knit"})
+HOVERING = frozenset({"reel", "pour", "water", "sprinkle", "spray", "hold", "pluck", "knit"})
 """Patterns in which the tool stays above the thing, or goes out of it and comes back."""

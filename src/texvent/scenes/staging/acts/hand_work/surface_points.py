@@ -15,12 +15,16 @@ from texvent.scenes.staging.claims.bodies import own_parts
 _BAND_M = 0.14
 """Half of the width of the strip before the worker in which a spot is looked for."""
 _BIN_M = 0.04
+_GAP_BINS = 2
+"""Bins to either side between which points of a large face may lie."""
 _INSET_M = 0.16
 """How far from its near edge a level surface is worked on."""
 _DEEPEST_M = 0.24
 """How far beyond what is nearest the spot lies: a muzzle keeps the worker off."""
 _EDGE_SHARE = 0.6
 """Share of a thing's height that its top has at least."""
+_BELOW_TOP_M = 0.14
+"""How far below its top a low upright thing is worked on, m."""
 _CHEST_M = 1.22
 """Height at which an upright surface is worked on, for an adult."""
 _OVERHEAD_M = 1.32
@@ -83,6 +87,7 @@ class Surface:
         bins = np.floor((ahead - ahead.min()) / _BIN_M).astype(int)
         heights = np.full(bins.max() + 1, -np.inf)
         np.maximum.at(heights, bins, points[:, 2])
+        heights = _without_gaps(heights)
         low_top = min(top, _OVERHEAD_M * size)
         edge = int(np.argmax(heights >= _EDGE_SHARE * low_top))
         later = heights[edge : edge + max(int(_INSET_M / _BIN_M), 1)]
@@ -94,7 +99,7 @@ class Surface:
             number = min(edge + int(inset / _BIN_M), len(heights) - 1)
             height = heights[number] if np.isfinite(heights[number]) else height
             return self._at(along, heading, across, middle, float(height)), False
-        chest = min(_CHEST_M * size, 0.75 * top)
+        chest = min(_CHEST_M * size, max(0.75 * top, top - _BELOW_TOP_M))
         level = points[np.abs(points[:, 2] - chest) < 0.10]
         near = level if len(level) else points
         along = float((near[:, :2] @ heading).min())
@@ -107,6 +112,15 @@ class Surface:
     ) -> Float64Array:  # fmt: skip
         ground = along * heading + float(np.array(middle) @ across) * across
         return np.array([ground[0], ground[1], height])
+
+
+def _without_gaps(heights: Float64Array) -> Float64Array:
+    """Heights over bins; what lies between two higher ones nearby lacks points of the top."""
+    reach = 2 * _GAP_BINS + 1
+    padded = np.pad(heights, _GAP_BINS, constant_values=-np.inf)
+    most = np.lib.stride_tricks.sliding_window_view(padded, reach).max(axis=1)
+    padded = np.pad(most, _GAP_BINS, constant_values=np.inf)
+    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, reach).min(axis=1))
 
 
 def sample_surface(actor: Actor, time_s: float) -> Surface:

@@ -68,6 +68,8 @@ _LONG = 1.25
 """What is that much longer than wide turns its front to who works on it."""
 _BLOWS = frozenset({"strike", "punch"})
 """Patterns of blows."""
+_BAR_M, _LONG_BAR_M = 0.4, 3.0
+"""Greatest width and length of a plank or a pole that is worked on at a table, m."""
 _EDGE_M = 0.26
 """From the near edge of a table to the middle of what is worked on."""
 
@@ -141,7 +143,7 @@ def work_at(
     lies_free = support is None and target.trajectory.home[2] < 0.4
     is_low = target.model.height < _LOW_M * size and target.size_m < 2.0 * SMALL_M * size
     is_small = target.size_m < SMALL_M * size and target.model.height < _LOW_M * size
-    is_small |= is_low and work.place == "table"
+    is_small |= (is_low or _is_bar(target)) and work.place == "table"
     if is_small and not living and lies_free and work.place != "there":
         return _at_own_table(subject, target, (work, reach, tempo), size)
     if support is not None:
@@ -150,6 +152,12 @@ def work_at(
         target = _face_worker(target, is_living=living, is_front=work.side == "front")
     stand = _stand_at(subject, target, support, (work, reach, tempo), (place, crew))
     return stand
+
+
+def _is_bar(target: Actor) -> bool:
+    """Whether it is a plank or a pole, which two trestles or a table carry."""
+    _, across, along = sorted((target.model.length, target.model.width, target.model.height))
+    return across < _BAR_M and along < _LONG_BAR_M
 
 
 def _strike_hanging(
