@@ -138,13 +138,13 @@ def _offset(index: int, runs: bool) -> float:
 def _torso(build: Build, coat: Coat, sit: float) -> list[ModelPart]:
     length, width, height = build.body
     z = build.shoulder - 0.5 * height
+    tall, wide, slim = 0.5 * height, 0.5 * width, build.waist
     chest: Point = (0.24 * length, 0.0, z)
-    croup: Point = (-0.24 * length, 0.0, z - sit)
-    tall, wide = 0.5 * height, 0.5 * width
+    croup: Point = (-0.24 * length, 0.0, z + (1.0 - slim) * tall - sit)
     parts = [
-        rod(coat.trunk, croup, chest, 0.96 * tall, side_radius=0.96 * wide),
+        rod(coat.trunk, croup, chest, 0.96 * slim * tall, side_radius=0.96 * slim * wide),
         _rounded(coat.trunk, chest, (0.52 * length, width, 1.04 * height)),
-        _rounded(coat.trunk, croup, (0.52 * length, width, height)),
+        _rounded(coat.trunk, croup, (0.52 * length, slim * width, slim * height)),
     ]
     if build.fleece:
         for x in (-0.3, 0.0, 0.3):
@@ -232,7 +232,8 @@ def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> Mo
     if kind == "round":
         return ball(material, (root[0], root[1], root[2] + 0.05 * skull), (0.5 * long, long, long))
     if kind == "flop":
-        return limb(material, root, (root[0], root[1] + side * 0.06, root[2] - long), 0.22 * long)
+        tip = (root[0] - 0.1 * long, root[1] + side * 0.3 * skull, root[2] - long)
+        return limb(material, root, tip, 0.34 * long, side_radius=0.15 * long)
     if kind == "long":
         tip = (root[0] - 0.3 * long, root[1] + side * 0.1 * long, root[2] + long)
         return limb(material, (root[0], 0.6 * root[1], root[2]), tip, 0.15 * long)

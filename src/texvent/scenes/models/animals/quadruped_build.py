@@ -41,6 +41,8 @@ class Build:
     patches: bool = False
     """Large dark patches, as on a cow."""
     bushy_tail: bool = False
+    waist: float = 1.0
+    """Height of the hind trunk relative to the chest."""
 
 
 @dataclass(frozen=True)
