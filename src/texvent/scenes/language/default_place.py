@@ -25,6 +25,16 @@ SHORE, BEACH = "lake", "beach"
 _PLACE_OF_ACT = {"ski": "snow", "snowboard": "snow", "fish": SHORE,
                  "park": "parking lot"}  # fmt: skip
 """What people do in one place only → where."""
+_USUAL_PLACES_OF_ACTS: dict[str, tuple[str, ...]] = {
+    "indoor": ("mop", "vacuum", "sweep", "iron", "type", "play piano", "play cello", "play harp",
+               "play video games", "play chess", "bowl", "tango"),
+    "kitchen": ("cook", "flip pan", "wash dishes"),
+    "bathroom": ("shave", "brush teeth", "wash face", "wash hair", "dry hair", "comb hair",
+                 "put on makeup", "put on lipstick"),
+    "gym": ("deadlift", "box", "pull-up", "plank", "push-up", "sit-up", "dunk"),
+    "square": ("skate",),
+}  # fmt: skip
+"""Place → what people usually do there, where nothing else tells of a place."""
 _PLACE_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 """How a camera travels → where it does so."""
 _USUAL_PLACES: dict[str, tuple[str, ...]] = {
@@ -84,6 +94,8 @@ def choose_place(
     is_open = usual in _NEUTRAL or (usual == SHORE and cues.outdoor == "sea")
     if usual in _NEUTRAL and _floats_in_space(description):
         return "space"
+    if usual in _NEUTRAL and not (cues.is_outdoors or cues.is_indoors):
+        usual = _choose_by_acts(description) or usual
     if cues.is_outdoors and cues.outdoor in _FIELDS and usual == "road":
         return cues.outdoor if _is_of_farms(description) else usual
     if cues.outdoor == "space" and usual not in _NEUTRAL:
@@ -94,6 +106,15 @@ def choose_place(
     if cues.is_indoors and cues.indoor and (usual not in ENCLOSED or usual == "indoor"):
         return cues.indoor
     return usual
+
+
+def _choose_by_acts(description: SceneDescription) -> str | None:
+    """Where what its people do is usually done; None = anywhere, or outdoors among its things."""
+    kinds = {one.motion.kind for one in description.objects if one.motion is not None}
+    if _OUTDOORS.intersection(one.noun for one in description.objects):
+        return None
+    found = (place for place, acts in _USUAL_PLACES_OF_ACTS.items() if kinds.intersection(acts))
+    return next(found, None)
 
 
 def _is_of_farms(description: SceneDescription) -> bool:
