@@ -21,7 +21,7 @@ from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
 from texvent.scenes.models.protocol import Noun
 
-SWAY = CameraMove("handheld")
+SWAY = CameraMove("handheld", pace=0.4)
 """What the camera does where nothing else moves: a still image has no events."""
 
 
@@ -338,7 +338,7 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     """Let the first object that can move do so, or else the camera."""
     riders = {relation.subject for relation in description.relations if relation.kind in _RIDES}
     for index, scene_object in enumerate(description.objects):
-        usual = nouns[scene_object.noun].motion
+        usual = _usual_motion(description, nouns[scene_object.noun])
         if scene_object.motion is None and usual != "stand" and index not in riders:
             moved = replace(scene_object, motion=ObjectMotion(usual))
             objects = (*description.objects[:index], moved, *description.objects[index + 1 :])
@@ -355,6 +355,15 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     shot = replace(description.shot, moves=(SWAY,))
     note = "nothing moves in the prompt, so the camera sways a little, as in a hand"
     return replace(description, shot=shot, notes=(*description.notes, note))
+
+
+def _usual_motion(description: SceneDescription, noun: Noun) -> str:
+    """What it does if nothing else moves: people stay in a close shot, astronauts float."""
+    if noun.name in PERSON_NOUNS and description.surroundings.place == "space":
+        return "hover"
+    if noun.name in PERSON_NOUNS and description.shot.framing in ("close", "medium"):
+        return "stand"
+    return noun.motion
 
 
 def _rest_the_others(description: SceneDescription) -> SceneDescription:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import importlib
 import os
 import signal
@@ -156,6 +157,8 @@ class RayEngine:
         if references:
             self._ray.wait(references, num_returns=len(references), timeout=PATIENCE_S)
         self._running.clear()
+        # Where another thread frees a reference while Ray shuts down, Ray ends the process.
+        gc.collect()
         self._ray.shutdown()
 
     def _count(self, resource: str) -> int:

@@ -42,6 +42,7 @@ _WITH: dict[str, str | None] = {
 """Preposition of a camera that goes with something → from where it follows."""
 _TURNED = ("pan", "tilt")
 """Moves of a camera that stays where it is, along whatever it looks."""
+_UPRIGHT = frozenset({"tilt", "crane", "pedestal"})
 _FREE = frozenset({"travel", "truck", "pan", "dolly", "pedestal"})
 _OUT_OF_WINDOW = CameraMove("truck", "right", 2.0)
 _HIGH = ("aerial", "top")
@@ -311,6 +312,9 @@ class CameraReader:
         word = phrase.preposition
         if word.text in ("toward", "towards", "to") and self._moves:
             self._tilt_towards(referent)
+        if word.text in ("up", "down") and self._moves and self._moves[-1].kind in _UPRIGHT:
+            # As in "tilts down a tree".
+            self._moves[-1] = replace(self._moves[-1], direction=word.text)
         if referent.is_things:
             if self.stand_by(word, referent) or not self._moves:
                 return

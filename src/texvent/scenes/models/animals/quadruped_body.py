@@ -66,9 +66,9 @@ def draw_animal(
         tail = wag if stance is STANDING else stance.wag
         parts = [
             *_torso(build, coat, sit),
-            *_neck_and_head(build, coat, beat, wag, stance.head_down),
+            *_neck_and_head(build, coat, beat, wag, stance.head_down + _DROOP * lies),
         ]
-        lift = 0.0 if stance is STANDING else 0.4 * stance.wag
+        lift = (0.0 if stance is STANDING else 0.4 * stance.wag) - 0.9 * lies
         parts += [*_tail(build, coat, sit, tail, lift), *extras]
         body = _tip(build, stance)
         parts = moved(moved(parts, body), shift(z=rise))
@@ -112,6 +112,8 @@ def _lowest_nose(build: Build) -> float:
 
 _LOWEST = -1.15
 """Angle of a neck that is let down, rad."""
+_DROOP = 0.4
+"""How far the head of a lying animal is let down."""
 _NOSE = 4
 """Which of the parts of neck and head the nose is."""
 

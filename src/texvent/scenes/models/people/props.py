@@ -253,7 +253,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("left hand", _STICK),
         ),
         "play piano": (Prop("ground", _PIANO, ("piano", "grand piano", "music keyboard")),),
-        "play violin": (Prop("torso", _VIOLIN, ("violin",)), Prop("right hand", _BOW)),
+        "play violin": (Prop("torso", _VIOLIN, ("violin",), is_own=True), Prop("right hand", _BOW)),
         "play flute": (Prop("mouth", _FLUTE, ("flute",), is_own=True),),
         "play trumpet": (
             Prop("mouth", _TRUMPET, ("trumpet", "saxophone", "clarinet", "trombone"), is_own=True),

@@ -31,7 +31,7 @@ DOLLY = 1.6
 """Distance at the far end over the near end."""
 DOLLY_ZOOM = 2.2
 """The same for a dolly zoom."""
-SHAKE_RAD = 0.006
+SHAKE_RAD = 0.015
 STEP_M = 0.02
 """Amplitude of the bob of a camera that walks."""
 LOWEST_M = 0.25

@@ -26,6 +26,8 @@ _NEARER = 0.95
 """The camera moves only for less than this share of its distance."""
 _STILL = 0.05
 """What moves by less than this share of a person's height rests."""
+_POSTURES = ("sit", "kneel", "crouch", "squat")
+"""Told by the legs."""
 _FEET = ("left foot", "right foot", "seat")
 
 
@@ -76,11 +78,13 @@ def come_near_arms(
 
 
 def _needs_whole_body(description: SceneDescription, main: Actor) -> bool:
-    """Whether the prompt says that the subject stands, or what it wears: shoes perhaps."""
+    """Whether the prompt says how its body is held, or what it wears: shoes perhaps."""
     wears = any(
         one.kind == "wear" and one.subject == main.object_index for one in description.relations
     )
-    return wears or any(word.startswith("stand") for word in description.shown)
+    motion = description.objects[main.object_index].motion
+    is_posture = motion is not None and motion.kind in _POSTURES
+    return wears or is_posture or any(word.startswith("stand") for word in description.shown)
 
 
 def _stays_on_the_spot(actor: Actor, times: Float64Array) -> bool:

@@ -62,6 +62,8 @@ _LARGER = 1.8
 """Most by which a small thing is enlarged; see docs/prompts.md."""
 _LARGER_WORN = 1.3
 """The same of what is worn."""
+_LARGER_BALL = 1.3
+"""The same of balls and what else is thrown by hand."""
 _LARGER_BIRD = 1.5
 """The same of what flies."""
 _SMALL_M, _SMALL_BIRD_M = 0.35, 1.2
@@ -85,7 +87,8 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
             continue
         if max(sizes) < _MUCH_SMALLER * size:
             continue
-        most = _LARGER_WORN if index in worn else _LARGER_BIRD if is_bird else _LARGER
+        most = _LARGER_BALL if noun.name in _BY_HAND else _LARGER
+        most = _LARGER_WORN if index in worn else _LARGER_BIRD if is_bird else most
         factor = min(max((_SMALL_BIRD_M if is_bird else _SMALL_M) / size, 1.0), most)
         objects[index] = replace(one, scale=one.scale * factor)
     return replace(description, objects=tuple(objects))
