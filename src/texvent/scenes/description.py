@@ -45,8 +45,8 @@ class ObjectMotion:
     start_s: float | None = None
     """When it begins, s; None = at once, or when the motion before it ends."""
     shore: str | None = None
-    """Where it goes with respect to the water of the place: "into", "out of", "towards" or
-    "away from"; None = not stated."""
+    """Where it goes with respect to the water of the place: "into", "out of", "towards",
+    "away from" or "in"; None = not stated."""
 
     @property
     def is_moving(self) -> bool:

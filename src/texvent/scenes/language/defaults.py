@@ -352,6 +352,10 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
             return description
         note = "nothing moves in the prompt and the camera is static: there will be no events"
         return replace(description, notes=(*description.notes, note))
+    if not description.objects and description.shot.view == "aerial":
+        shot = replace(description.shot, moves=(CameraMove("travel"),))
+        note = "nothing moves in the prompt, so the camera flies on"
+        return replace(description, shot=shot, notes=(*description.notes, note))
     shot = replace(description.shot, moves=(SWAY,))
     note = "nothing moves in the prompt, so the camera sways a little, as in a hand"
     return replace(description, shot=shot, notes=(*description.notes, note))

@@ -52,7 +52,7 @@ from texvent.scenes.staging.surroundings.scatter_rule import is_structure
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
 from texvent.scenes.staging.surroundings.scenery_along import is_placed_by_view, line_route
 from texvent.scenes.staging.surroundings.scenery_tables import BACKDROPS, SCENERY, ScatterRule
-from texvent.scenes.staging.surroundings.wading import goes_over_shore, wade
+from texvent.scenes.staging.surroundings.wading import goes_over_shore, list_waders, wade
 from texvent.scenes.staging.surroundings.waterside import STRIPS, WATERSIDE, water_line
 from texvent.scenes.staging.take import USUAL, Take
 from texvent.sensor import SensorSize
@@ -290,7 +290,8 @@ def _describe_view(
     half = PLACES[place].road_half_width
     has_road = PLACES[place].ground in STRIPS
     if place in WATERSIDE:
-        road = water_line(place, actors, path, half, goes_over_shore=goes_over_shore(description))
+        road = water_line(place, actors, path, half, waders=list_waders(description),
+                          goes_over_shore=goes_over_shore(description))  # fmt: skip
     else:
         road = find_road(actors, float(path.framing.target[1]), 0.5 * half,
                          description.surroundings.road,

@@ -26,7 +26,7 @@ from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
 from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
-from texvent.scenes.staging.camera.view_angles import choose_angles
+from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.take import USUAL, Take
 
@@ -322,8 +322,9 @@ def _runs_into(path: CameraPath, actors: Sequence[Actor]) -> bool:
 
 def _look_around(description: SceneDescription, place: str, duration_s: float) -> CameraPath:
     """A camera in a place where the prompt names no object."""
-    target = np.array([0.0, 0.0, 2.0])
-    empty = Framing(target, 0.0, 0.06, 16.0, 1.0)
+    elevation = ELEVATIONS.get(description.shot.view or "", 0.06)
+    distance = 16.0 if elevation < 0.5 else 24.0
+    empty = Framing(np.array([0.0, 0.0, 2.0]), 0.0, elevation, distance, 1.0)
     if is_room(place):
         empty = Framing(np.array([0.0, 0.6, 1.1]), 0.0, 0.12, 3.4, 0.9)
     moves = _plan_moves(description, None, duration_s)

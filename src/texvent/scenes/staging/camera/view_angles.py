@@ -14,8 +14,9 @@ from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
 
 FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""
-_ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05, "level": 0.03,
+ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05, "level": 0.03,
                "shoulder": 0.16, "rising": 0.5, "high": 0.5}  # fmt: skip
+"""View → elevation of the camera, rad."""
 _IN_SKY = frozenset({"fireworks", "lightning"})
 """Effects that are looked up at, from a bridge too."""
 _BEARINGS = {"side": 0.0, "front": 0.5 * math.pi, "back": -0.5 * math.pi, "shoulder": -1.25}
@@ -59,7 +60,7 @@ def choose_angles(
     view = description.shot.view
     if view in _BEARINGS:
         azimuth = _face(view, state.yaw)
-    elevation = _ELEVATIONS.get(view or "")
+    elevation = ELEVATIONS.get(view or "")
     is_in_sky = view == "high" and any(one.kind in _IN_SKY for one in description.effects)
     if elevation is None or is_in_sky:
         elevation = _choose_elevation(main, follow, place, goes_in_depth)

@@ -221,6 +221,8 @@ def _goes_to_water(stage: Stage, actor: Actor, motion: ObjectMotion) -> bool:
     way = motion.shore
     if way in ("out of", "away from"):
         start, end = end, start
+    if way == "in":
+        return start > 0.0 and end > 0.0
     if way in ("into", "out of"):
         return start < 0.0 < end
     return end - start > 0.2 * actor.size_m

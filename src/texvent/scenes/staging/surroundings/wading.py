@@ -51,6 +51,15 @@ def goes_over_shore(description: SceneDescription) -> bool:
     )
 
 
+def list_waders(description: SceneDescription) -> frozenset[int]:
+    """Indices of the objects that stand or go about in the water of the place."""
+    return frozenset(
+        index
+        for index, one in enumerate(description.objects)
+        if one.motion is not None and one.motion.shore == "in"
+    )
+
+
 def find_water(place: str, half_width_m: float) -> float:
     """Where the water begins, from the line of `water_line` to its left, m."""
     return -half_width_m if place == "river" else 0.0
@@ -79,7 +88,7 @@ def wade(
     for actor in actors:
         one = description.objects[actor.object_index]
         ways = {motion.shore for motion in (one.motion, *one.then) if motion is not None}
-        if ways & set(_OVER_SHORE):
+        if ways & {*_OVER_SHORE, "in"}:
             depth, reach = _DEPTH_SHARE * actor.model.height, 0.5 * actor.size_m
             path = Wading(actor.trajectory, line, start_m, depth, reach)
             actor = replace(actor, trajectory=path)

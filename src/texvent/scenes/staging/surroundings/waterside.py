@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from texvent.scenes.scene import Ground
 from texvent.scenes.staging.actors import Actor
@@ -26,6 +26,7 @@ def water_line(
     half_width: float,
     *,
     goes_over_shore: bool = False,
+    waders: Collection[int] = (),
 ) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
@@ -35,6 +36,7 @@ def water_line(
         path: the camera's.
         half_width: of the river, m.
         goes_over_shore: whether anyone goes into the water or comes out of it.
+        waders: indices of objects that are in the water though they live on land.
     """
     forward = path.at(0.0).rotation[2, :2]
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
@@ -42,7 +44,9 @@ def water_line(
     swimmers = [
         actor
         for actor in actors
-        if actor.noun.habitat == "water" or actor.trajectory.at(0.0).activity in _IN_WATER
+        if actor.noun.habitat == "water"
+        or actor.trajectory.at(0.0).activity in _IN_WATER
+        or actor.object_index in waders
     ]
     distance = path.framing.distance_m
     if goes_over_shore:

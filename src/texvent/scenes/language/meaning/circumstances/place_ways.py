@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -17,6 +18,10 @@ _OPEN = frozenset({"sky", "space", "underwater"})
 _ON_LAND = frozenset({"walk", "run", "move", "jump", "crawl", "roll", "slide", "drive"})
 
 
+_WITHIN = ("in", "through")
+_BATHED_IN = SHORES - {"harbour"}
+"""Places in whose water one stands or walks."""
+_WADING = _ON_LAND | {"stand", "sit"}
 _OPENINGS = frozenset({"window", "door", "gate", "tunnel", "arch", "box", "basket", "bucket"})
 """Out of what one comes."""
 
@@ -34,6 +39,18 @@ def _rise(draft: Draft, movers: Sequence[int]) -> bool:
     return bool(motions) and all(one and one[-1].kind == "rise" for one in motions)
 
 
+def _wade(draft: Draft, members: Sequence[int]) -> None:
+    """As in "stands in a lake": in the water, not on its shore."""
+    for index in members:
+        motions, noun = draft.objects[index].motions, draft.noun(index)
+        if noun.habitat != "ground" or noun.motion not in ("walk", "run"):
+            continue
+        if not motions:
+            motions.append(ObjectMotion("stand", shore="in"))
+        elif motions[-1].kind in _WADING and motions[-1].shore is None:
+            motions[-1] = replace(motions[-1], shore="in")
+
+
 def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     """Let those who move go to the water of a place, or come from it.
 
@@ -49,6 +66,8 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     place = str(one.value)
     if word.text in ("up", "down"):
         return place not in SLOPES or not scope.movers
+    if word.text in _WITHIN and place in _BATHED_IN:
+        _wade(draft, scope.movers or scope.subjects)
     if word.text not in NO_WAYS or place in _OPEN or not (scope.movers or scope.subjects):
         return True
     if word.text in ("from", "off") and _rise(draft, scope.movers):

@@ -89,7 +89,10 @@ MUSIC_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
 """Activity → posture over time."""
 MUSIC_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
     {
-        "play cello": (Prop("ground", _CELLO, ("cello",), is_own=True), Prop("right hand", _CELLO_BOW)),
+        "play cello": (
+            Prop("ground", _CELLO, ("cello",), is_own=True),
+            Prop("right hand", _CELLO_BOW),
+        ),
         "play harp": (Prop("ground", _HARP, ("harp",), is_own=True),),
         "play accordion": (Prop("torso", _bellows, ("accordion",), is_own=True),),
     }
