@@ -310,11 +310,8 @@ class CameraReader:
 
     def _read_phrase(self, phrase: PrepPhrase, referent: Referent) -> None:
         word = phrase.preposition
-        if word.text in ("toward", "towards", "to") and self._moves:
-            self._tilt_towards(referent)
-        if word.text in ("up", "down") and self._moves and self._moves[-1].kind in _UPRIGHT:
-            # As in "tilts down a tree".
-            self._moves[-1] = replace(self._moves[-1], direction=word.text)
+        if self._moves:
+            self._go_upright(word, referent)
         if referent.is_things:
             if self.stand_by(word, referent) or not self._moves:
                 return
@@ -345,10 +342,13 @@ class CameraReader:
             if self._claimed is not None:
                 self._claim(self._claimed)
 
-    def _tilt_towards(self, referent: Referent) -> None:
-        """As in "tilts toward the street": down."""
+    def _go_upright(self, word: Word, referent: Referent) -> None:
+        """As in "tilts down a tree", "tilts toward the street": down."""
         last = self._moves[-1]
-        if last.kind == "tilt" and last.direction is None and referent.kind in ("place", "sky"):
+        is_goal = word.text in ("toward", "towards", "to") and referent.kind in ("place", "sky")
+        if word.text in ("up", "down") and last.kind in _UPRIGHT:
+            self._moves[-1] = replace(last, direction=word.text)
+        elif is_goal and last.kind == "tilt" and last.direction is None:
             self._moves[-1] = replace(last, direction="up" if referent.kind == "sky" else "down")
 
     def _rise_to_view(self) -> None:

@@ -142,9 +142,11 @@ def _torso(build: Build, coat: Coat, sit: float) -> list[ModelPart]:
     z = build.shoulder - 0.5 * height
     tall, wide, slim = 0.5 * height, 0.5 * width, build.waist
     chest: Point = (0.24 * length, 0.0, z)
-    croup: Point = (-0.24 * length, 0.0, z + (1.0 - slim) * tall - sit)
+    level = z + (1.0 - slim) * tall  # the back is level, the belly tucked up
+    croup: Point = (-0.24 * length, 0.0, level - sit)
+    front: Point = (0.24 * length, 0.0, level)
     parts = [
-        rod(coat.trunk, croup, chest, 0.96 * slim * tall, side_radius=0.96 * slim * wide),
+        rod(coat.trunk, croup, front, 0.96 * slim * tall, side_radius=0.96 * slim * wide),
         _rounded(coat.trunk, chest, (0.52 * length, width, 1.04 * height)),
         _rounded(coat.trunk, croup, (0.52 * length, slim * width, slim * height)),
     ]
