@@ -9,7 +9,8 @@ level of an image pyramid, from the coarsest to half size:
    On the coarsest level it first tries the whole pixels around.
    Where the motion of the whole frame is known (`shifts.find_shift`, `frame_motion.find_motion`),
    every patch then tries it. A patch that it takes out of the view follows it if it was not found
-   elsewhere.
+   elsewhere. Where it is not known, texture that repeats takes the nearest place that it fits:
+   coarser levels cannot resolve it.
 2. *Join.* The flow of a pixel is the weighted mean over the patches that contain it; those that
    fit the pixel better count more.
 3. *Refine.* One linearisation of brightness constancy with an edge-preserving smoothness term,
@@ -28,6 +29,8 @@ before y, px):
 * `try_vectors(start, stop, patches, vectors)`: the patches, each with its vector if that fits no
   worse, within `NOISE_COST`: texture that repeats goes with the frame; vectors are [rows, columns,
   2], px.
+* `take_nearest(start, stop, patches)`: the patches, each where texture repeats with the shortest of
+  the flows that fit alike; a region whose surroundings have its flow keeps it.
 * `join(start, stop, patches)`: the flow of each pixel.
 * `refine(start, stop, flow)`: the refined flow.
 * `change_along(start, stop, flow)`: what brightness changes by along a flow, [H, W], levels.
@@ -82,6 +85,23 @@ SAME_RELATIVE, SAME_PX2 = 0.02, 0.5
 squared."""
 UNEXPLAINED, NOISE_COST = 0.25, 64.0
 """A patch whose cost exceeds this share of its spread, plus this, was not found, squared levels."""
+
+SPARSE = 4
+"""Every fourth patch, across and down, is asked whether its texture repeats."""
+REPEATED, LEAST_SPREAD = 0.2, 4096.0
+"""Texture repeats where a patch fits two places: each costs at most this share of its spread, which
+is at least this (squared levels, summed: 8 levels per pixel),"""
+BETWEEN = 1.0
+"""what lies between them costs more than this share: else the patch slides along an edge,"""
+ALIKE = 0.1
+"""and the nearer place costs at most this share of that more, plus `NOISE_COST`."""
+LEAST_FLOW2, SHORTER2 = 2.0, 0.8
+"""Flow of less squared length, px², is the nearest; a nearer place has at most this share of it."""
+SAME_FLOW2 = 0.25
+"""Patches whose flows differ by less, px², squared, go together."""
+AGAINST = 0.03
+"""Texture keeps its flow if this many patches around it, per patch, do not repeat and have it too:
+they belong to the same thing."""
 
 SWEEPS = 3
 RELAXATION = 1.6
@@ -163,6 +183,8 @@ def match_level(
     if motion is not None:
         vectors = patch_vectors(motion, size_of(start))
         patches = kernels.try_vectors(start, stop, patches, vectors)
+    elif not is_coarsest:
+        patches = kernels.take_nearest(start, stop, patches)
     joined = kernels.join(start, stop, patches)
     refined: Floats = kernels.refine(start, stop, joined)
     if motion is None:

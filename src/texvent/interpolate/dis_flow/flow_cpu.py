@@ -9,6 +9,7 @@ import numpy as np
 from texvent.interpolate.dis_flow.confirmation_cpu import unconfirmed
 from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, coarse_to_fine, make_pyramid
 from texvent.interpolate.dis_flow.refine_cpu import change_along, refine
+from texvent.interpolate.dis_flow.repeats_cpu import take_nearest
 from texvent.interpolate.dis_flow.search_cpu import join, search
 from texvent.interpolate.dis_flow.shifts_cpu import try_vectors
 from texvent.runtime.jit import jit
@@ -21,6 +22,7 @@ __all__ = [
     "make_level",
     "refine",
     "search",
+    "take_nearest",
     "try_vectors",
     "unconfirmed",
     "warm_up",
@@ -37,7 +39,8 @@ def warm_up() -> None:
     """Compile, or load what was compiled before."""
     image, kernels = np.zeros((64, 64), np.float32), sys.modules[__name__]
     pyramid, rest = make_pyramid(image, 1, 2, kernels), np.zeros((2, 3), np.float32)
-    flow = coarse_to_fine(pyramid, pyramid, rest, kernels=kernels)
+    coarse_to_fine(pyramid, pyramid, rest, kernels=kernels)
+    flow = coarse_to_fine(pyramid, pyramid, kernels=kernels)
     unconfirmed(pyramid[0], pyramid[0], flow, flow)
     change_along(pyramid[0], pyramid[0], flow)
     double(flow, image.shape)

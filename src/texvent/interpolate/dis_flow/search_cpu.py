@@ -54,7 +54,7 @@ def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floa
                 flow[1, here[0] + PATCH // 2, here[1] + PATCH // 2],
             )
             if is_coarsest:
-                own = _search_integer(level, target, shape, here)
+                own = search_integer(level, target, shape, here)
             sum_slopes(level, target, shape, here, slopes[row, column])
             found[row, column, 0], found[row, column, 1] = own
             _, found[row, column, 2], _, _ = compare(level, target, shape, here, own)
@@ -114,7 +114,16 @@ def sum_slopes(
 
 
 @jit(error_model="numpy", inner=True)
-def _search_integer(
+def spread_of(level: Floats, shape: tuple[int, int], here: tuple[int, int]) -> np.float32:
+    """Mean-free squares of a patch, summed."""
+    place = (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
+    layout = shape[0] * shape[1], place, place, shape[1]
+    total, squares, _, _ = compare_patch(level, level, layout, (_0, _0, _0, _0))
+    return np.float32(squares - total * total / _AREA)
+
+
+@jit(error_model="numpy", inner=True)
+def search_integer(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int]
 ) -> Vector:
     """The best displacement by whole pixels."""

@@ -13,13 +13,11 @@ from texvent.interpolate.dis_flow.definitions import (
     UNEXPLAINED,
     Floats,
 )
-from texvent.interpolate.dis_flow.patches_cpu import compare_patch
-from texvent.interpolate.dis_flow.search_cpu import compare, gauss_newton, sum_slopes
+from texvent.interpolate.dis_flow.search_cpu import compare, gauss_newton, spread_of, sum_slopes
 from texvent.runtime.jit import jit
 
 # As float32: Numba computes with float64 where a constant is one.
 _0 = np.float32(0.0)
-_AREA = np.float32(PATCH * PATCH)
 _SIDE = np.float32(PATCH)
 _SAME_FLOW = np.float32(SAME_FLOW)
 _UNEXPLAINED, _NOISE_COST = np.float32(UNEXPLAINED), np.float32(NOISE_COST)
@@ -40,7 +38,7 @@ def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -
                 continue
             x, y = np.float32(here[1]) + u, np.float32(here[0]) + v
             if x < _0 or y < _0 or x > width - _SIDE or y > height - _SIDE:
-                if own[2] > _UNEXPLAINED * _spread(level, shape, here) + _NOISE_COST:
+                if own[2] > _UNEXPLAINED * spread_of(level, shape, here) + _NOISE_COST:
                     own[0], own[1], own[2] = u, v, _0
                 continue
             _, cost, _, _ = compare(level, target, shape, here, (u, v))
@@ -49,12 +47,3 @@ def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -
                 sum_slopes(level, target, shape, here, slopes[row, column])
                 gauss_newton(level, target, shape, (u, v), slopes, found, (row, column))
     return found
-
-
-@jit(error_model="numpy", inner=True)
-def _spread(level: Floats, shape: tuple[int, int], here: tuple[int, int]) -> np.float32:
-    """Mean-free squares of a patch, summed."""
-    place = (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
-    layout = shape[0] * shape[1], place, place, shape[1]
-    total, squares, _, _ = compare_patch(level, level, layout, (_0, _0, _0, _0))
-    return np.float32(squares - total * total / _AREA)
