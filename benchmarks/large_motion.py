@@ -80,10 +80,36 @@ def spokes(x: FloatArray, y: FloatArray, t: float, seed: int, degrees: float) ->
     return np.where(spoke, 230.0, ground)
 
 
-def stripes(x: FloatArray, y: FloatArray, t: float, seed: int, step: float) -> FloatArray:
-    """Stripes of 16 px that move by more than half of that: nothing tells which way."""
-    del y, seed
-    return 127.5 + 100.0 * np.sin(2 * np.pi * (x - step * t) / 16.0)
+def stripes(
+    x: FloatArray,
+    y: FloatArray,
+    t: float,
+    seed: int,
+    period: float,
+    step: float,
+    degrees: float = 0.0,
+) -> FloatArray:
+    """Stripes that repeat after `period` px and move across themselves by `step` px per frame."""
+    del seed
+    along = x * math.cos(math.radians(degrees)) + y * math.sin(math.radians(degrees))
+    return 127.5 + 100.0 * np.sin(2 * np.pi * (along - step * t) / period)
+
+
+def fence(
+    x: FloatArray, y: FloatArray, t: float, seed: int, period: float, step: float
+) -> FloatArray:
+    """Bars that move before a texture at rest."""
+    is_bar = ((x - step * t) / period) % 1 < 0.3
+    return np.where(is_bar, 220.0, 0.6 * value_noise(x, y, seed, "sharp"))
+
+
+def shirt(
+    x: FloatArray, y: FloatArray, t: float, seed: int, period: float, step: float
+) -> FloatArray:
+    """A striped disc, whose outline tells how it moves, before a texture at rest."""
+    along = x - step * (t - 1.5)
+    disc = stripes(along, y, 0.0, seed, period, 0.0, 37.0)
+    return np.where(np.hypot(along, y) < 45, disc, 0.6 * value_noise(x, y, seed, "sharp"))
 
 
 SCENES: Mapping[str, Scene] = {
@@ -101,8 +127,16 @@ SCENES: Mapping[str, Scene] = {
     "ball, 14 px, 25 px": partial(ball, size=14.0, step=25.0),
     "spokes, 6°": partial(spokes, degrees=6.0),
     "spokes, 12°": partial(spokes, degrees=12.0),
-    "stripes of 16 px, 12 px": partial(stripes, step=12.0),
-    "stripes of 16 px, 40 px": partial(stripes, step=40.0),
+    "stripes of 10 px, 2 px": partial(stripes, period=10.0, step=2.0),
+    "stripes of 10 px, 3 px": partial(stripes, period=10.0, step=3.0),
+    "slanted stripes of 24 px, 2 px": partial(stripes, period=24.0, step=2.0, degrees=30.0),
+    "slanted stripes of 12 px, 2 px": partial(stripes, period=12.0, step=2.0, degrees=30.0),
+    "stripes of 16 px, 7 px": partial(stripes, period=16.0, step=7.0),
+    "stripes of 16 px, 12 px": partial(stripes, period=16.0, step=12.0),
+    "stripes of 16 px, 40 px": partial(stripes, period=16.0, step=40.0),
+    "fence of 12 px, 2 px": partial(fence, period=12.0, step=2.0),
+    "fence of 24 px, 9 px": partial(fence, period=24.0, step=9.0),
+    "shirt of 8 px, 6 px": partial(shirt, period=8.0, step=6.0),
 }
 
 
