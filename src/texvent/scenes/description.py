@@ -194,6 +194,17 @@ class Illumination:
     off)."""
     shadows: bool | None = None
     """Whether shadows are stated; None = the light's default."""
+    tint: NamedColour | None = None
+    """Its colour: "warm", "golden", "cold" or a named one; None = the light's default."""
+    hardness: str | None = None
+    """"soft" (no shadow has an edge) or "hard" (dark shadows); None = the light's default."""
+    brightness: str | None = None
+    """"bright", "gloomy" or "dim"; None = the light's default."""
+    direction: str | None = None
+    """Where it comes from, seen by the camera: "left", "right", "back", "front" or "above"; None =
+    the light's default."""
+    is_low: bool = False
+    """Whether it comes from near the horizon."""
 
 
 @dataclass(frozen=True)
@@ -231,10 +242,10 @@ class Claim:
     word: str
     aspect: str
     """"name" (of objects), "count", "motion", "relation", "colour", "size", "material", "part",
-    "side"; "light", "bright", "weather", "clouds", "snow", "sky", "steep", "dust", "flicker",
-    "shadow", "effect", "place", "road", "view", "framing", "viewpoint" (what the camera is in
-    or on), "course" (over roofs, across or beside a road, in rows, in the stands); or "quality"
-    (whatever else it says)."""
+    "side"; "light", "bright", "lighting" (how the light is), "weather", "clouds", "snow", "sky",
+    "steep", "dust", "flicker", "shadow", "effect", "place", "road", "view", "framing", "viewpoint"
+    (what the camera is in or on), "course" (over roofs, across or beside a road, in rows, in the
+    stands); or "quality" (whatever else it says)."""
     things: tuple[int, ...]
     """Indices of the objects that show it."""
     relations: tuple[Relation, ...] = ()

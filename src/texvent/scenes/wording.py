@@ -174,8 +174,21 @@ def _describe_surroundings(surroundings: Surroundings) -> str:
     return ", ".join(words)
 
 
+_LIT_FROM = {
+    "left": "from the left", "right": "from the right", "back": "from behind",
+    "front": "from the front", "above": "from above",
+}  # fmt: skip
+"""Direction of light → its words."""
+
+
 def _describe_light(light: Illumination) -> str:
     words = [light.kind or "day"]
+    said = (light.tint.name if light.tint else None, light.hardness, light.brightness)
+    words.extend(one for one in said if one is not None)
+    if light.direction is not None:
+        words.append(_LIT_FROM[light.direction])
+    if light.is_low:
+        words.append("low")
     if light.flicker_hz is not None:
         words.append(f"flickering at {light.flicker_hz:g} Hz")
     if light.shadows is not None:

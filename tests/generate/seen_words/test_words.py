@@ -52,6 +52,8 @@ def report_of(prompt: str) -> PromptReport:
         ("snowflakes drift past a street lamp on an empty road", "road"),
         ("a flickering candle on a table", "flickering"),
         ("a motorboat with white sails on the sea", "sails"),
+        ("a cup on a table in a kitchen, backlit", "backlit"),
+        ("a boat on a lake, soft light from the left", "from the left"),
     ],
 )  # fmt: skip
 def test_what_the_picture_does_not_show_is_named(prompt: str, word: str) -> None:
@@ -71,6 +73,8 @@ def test_what_the_picture_does_not_show_is_named(prompt: str, word: str) -> None
         ("a man stands in thick fog", {"man", "fog"}),
         ("a small ball lies beside a big box", {"small", "ball", "big", "box"}),
         ("snow falls on a house", {"snow", "house"}),
+        ("a white dog runs on a beach in warm light", {"warm", "dog"}),
+        ("a man sits in a dim living room, blue light from the left", {"dim", "blue"}),
     ],
 )  # fmt: skip
 def test_what_is_plainly_seen_is_shown(prompt: str, words: set[str]) -> None:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from texvent.generate.seen_words.light import HARD, LEAST_SKY, sky_share, without
+from texvent.generate.seen_words.light import LEAST_SKY, without
+from texvent.generate.seen_words.lighting import sky_share
 from texvent.generate.seen_words.picture import USUAL, VISIBLE, Picture
 from texvent.generate.seen_words.things import copies_of, extent_of
 from texvent.scenes.description import Claim, SceneDescription
@@ -182,9 +183,10 @@ MEASURED_ELSEWHERE: Mapping[str, tuple[str, ...]] = {
               "leisurely", "calmly", "quickly", "quick", "swiftly", "fast", "faster", "rapidly",
               "rapid", "very fast", "at top speed", "at high speed", "at full speed", "wildly",
               "speeding", "steadily"),
-    "light": (*sorted(HARD), "bright", "dark", "dim", "dimly lit", "unlit", "low light",
-              "well lit", "brightly lit", "bright day", "clear day", "bright sun",
-              "bright sunlight", "long shadows", "hazy", "low sun", "full moon", "full of stars"),
+    "light": ("bright", "dark", "unlit", "well lit", "brightly lit", "bright day", "clear day",
+              "bright sun", "bright sunlight", "long shadows", "hazy", "low sun", "full moon",
+              "full of stars"),
+    "lighting": ("harsh", "strong", "brilliant", "dim", "dimly lit", "low light"),
     "places": ("steep", "uphill", "downhill", "sloping", "hilly"),
     "views": ("low", "high", "close", "tight", "wide", "medium", "full", "mid", "panoramic"),
 }  # fmt: skip

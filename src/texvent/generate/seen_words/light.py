@@ -7,22 +7,27 @@ from dataclasses import replace
 
 import numpy as np
 
+from texvent.generate.seen_words.lighting import (
+    BRIGHT,
+    CLEAR_SKY,
+    DEEP,
+    LEAST_SHADOW,
+    SUNNY,
+    judge_lighting,
+    shadow_share,
+    sky_share,
+)
 from texvent.generate.seen_words.picture import DENSE, USUAL, VISIBLE, Picture
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.projection import project
 from texvent.scenes.raycast.trace import GROUND
 from texvent.scenes.staging.compose import ComposedScene
-from texvent.scenes.staging.surroundings.light.lighting import LIGHTINGS, choose_lighting
+from texvent.scenes.staging.surroundings.light.lighting import LIGHTINGS
+from texvent.scenes.staging.surroundings.light.said_light import choose_lighting
 from texvent.scenes.staging.surroundings.places import is_room
 
-BRIGHT = 0.42
-"""Mean luma of the picture from which it is bright."""
-SUNNY, CLEAR_SKY = 0.32, 0.08
-"""The same of sunshine where so much of the picture is sky."""
 MOST_LIT = 0.36
 """Mean luma of the picture up to which it is night where no sky is seen."""
-LEAST_SHADOW, DEEP = 0.02, 0.12
-"""Share of the picture that shadows darken visibly; by how much, where a word names them."""
 LOW_SUN = 0.45
 """Sine of the sun's height below which it is low and shadows are long."""
 LEAST_FOG = 0.10
@@ -40,17 +45,17 @@ _LAMP_OF = {
     "street lamp": ("gaslit", "gaslight", "street light glow", "street lighting", "streetlight"),
 }
 _NO_LAMP = frozenset({"neon", "fluorescent", "fluorescent light", "neon light"})
-HARD = frozenset({"harsh", "strong", "brilliant"})
-"""Adjectives of light that casts deep shadows."""
 
 
 def judge_light(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """Why a word of light is not seen, or None."""
     if claim.aspect == "light":
         return _judge_kind(picture, description, claim)
+    if claim.aspect == "lighting":
+        return judge_lighting(picture, description, claim)
     if claim.aspect == "shadow":
         return _judge_shadows(picture, claim.word)
-    if claim.aspect == "bright" or claim.word in HARD:
+    if claim.aspect == "bright":
         return _judge_brightness(picture, claim.word)
     return None
 
@@ -96,22 +101,16 @@ def _judge_lamp(picture: Picture, word: str) -> str | None:
 
 def _judge_shadows(picture: Picture, word: str) -> str | None:
     least = DEEP if "shadow" in word else VISIBLE
-    shares = [
-        float(np.mean(picture.difference(None, number, shadows=False) > least))
-        for number in USUAL[1:]
-    ]
-    if max(shares) < LEAST_SHADOW:
+    if shadow_share(picture, least) < LEAST_SHADOW:
         return "no shadow to be seen"
     height = picture.scene.environment(0.0).sun_direction[2]
     return "the sun is high" if "long" in word and height > LOW_SUN else None
 
 
 def _judge_brightness(picture: Picture, word: str) -> str | None:
-    if word in ("dark", "dim"):
-        return "the picture is bright" if not picture.is_dark() else None
-    if picture.brightness() < BRIGHT:
-        return "the picture is dull"
-    return _judge_shadows(picture, word) if word in HARD else None
+    if word == "dark":
+        return None if picture.is_dark() else "the picture is bright"
+    return None if picture.brightness() >= BRIGHT else "the picture is dull"
 
 
 def _is_sun_seen(picture: Picture) -> bool:
@@ -127,11 +126,6 @@ def _is_sun_seen(picture: Picture) -> bool:
         if view.is_sky[nearest]:
             return True
     return False
-
-
-def sky_share(picture: Picture) -> float:
-    """Share of the picture that is sky, at the instant that shows most of it."""
-    return max(float(np.mean(picture.views[number].is_sky)) for number in USUAL)
 
 
 def judge_weather(picture: Picture, claim: Claim) -> str | None:

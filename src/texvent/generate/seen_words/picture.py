@@ -127,9 +127,19 @@ class Picture:
             number: of the view.
             shadows: False: the other scene is without any shadows.
         """
-        other = self.scene if change is None else change(self.scene)
-        changed = self._render(other, number, shadows=shadows)
+        changed = self.changed(change, number, shadows=shadows)
         return np.asarray(np.abs(self.colours(number) - changed).max(axis=1))
+
+    def changed(
+        self,
+        change: Callable[[ComposedScene], ComposedScene] | None,
+        number: int,
+        *,
+        shadows: bool = True,
+    ) -> Float64Array:
+        """[k, 3] as `colours`, of a changed scene; arguments as for `difference`."""
+        other = self.scene if change is None else change(self.scene)
+        return self._render(other, number, shadows=shadows)
 
     def luma(self) -> Float64Array:
         """Luma (BT.601) of all image points of the views that light is judged by, 0..1."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from texvent.generate.seen_words.light import sky_share
+from texvent.generate.seen_words.lighting import sky_share
 from texvent.generate.seen_words.picture import USUAL, Picture, View
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.scene import Float64Array

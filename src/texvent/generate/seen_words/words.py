@@ -8,7 +8,7 @@ from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.courses import judge_courses
 from texvent.generate.seen_words.degrees import judge_degree
 from texvent.generate.seen_words.effects import FILLING, judge_effects, judge_filling
-from texvent.generate.seen_words.light import HARD, judge_light, judge_snow, judge_weather
+from texvent.generate.seen_words.light import judge_light, judge_snow, judge_weather
 from texvent.generate.seen_words.picture import USUAL, Picture
 from texvent.generate.seen_words.places import judge_place
 from texvent.generate.seen_words.positions import judge_position
@@ -84,7 +84,7 @@ def _judge_scene_word(
     picture: Picture, description: SceneDescription, claim: Claim, effects: dict[str, str]
 ) -> str | None:
     """Why a word of the scene itself is not seen, or None."""
-    if claim.aspect in ("light", "shadow", "bright") or claim.word in HARD:
+    if claim.aspect in ("light", "lighting", "shadow", "bright"):
         return judge_light(picture, description, claim)
     if claim.aspect == "weather":
         is_said = description.surroundings.weather == claim.value

@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from texvent.errors import InputError
-from texvent.scenes.description import SceneDescription, Substitution
+from texvent.scenes.description import Illumination, SceneDescription, Substitution
 from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.grammar.companions import link_companions
@@ -30,6 +30,7 @@ from texvent.scenes.language.word_claims import (
 from texvent.scenes.language.words.english import is_of_other_grammar, list_readings
 from texvent.scenes.language.words.film import read_film_words
 from texvent.scenes.language.words.lexicon import Lexicon, Role
+from texvent.scenes.language.words.light_words import read_light_words
 from texvent.scenes.language.words.neighbours import read_neighbours
 from texvent.scenes.language.words.sense_cues import choose_senses
 from texvent.scenes.language.words.standpoint import mark_standpoints
@@ -70,7 +71,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         raise InputError(
             "the prompt is empty; describe a scene, such as 'a red car drives left past two trees'"
         )
-    words, notes = _read_words(prompt, _known_words() if nouns is NOUNS else Lexicon(nouns))
+    words, light, notes = _read_words(prompt, _known_words() if nouns is NOUNS else Lexicon(nouns))
     is_carried = mark_viewpoints(words)
     mark_standpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))
@@ -94,6 +95,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         notes.append("a time lapse: clouds and the sun go fast, things move as usual")
     description = replace(
         description,
+        light=_join(description.light, light),
         is_timelapse=is_timelapse,
         shown=shown,
         substituted=substituted,
@@ -104,19 +106,33 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     return complete_description(description, nouns, cues)
 
 
-def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], list[str]]:
-    """Words of a prompt with their senses, and notes on them."""
+def _join(light: Illumination, said: Illumination) -> Illumination:
+    """Kind and course of the light, and how it is said to be."""
+    return replace(
+        light,
+        kind=light.kind or said.kind,
+        tint=said.tint,
+        hardness=said.hardness,
+        brightness=said.brightness,
+        direction=said.direction,
+        is_low=said.is_low,
+    )
+
+
+def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], Illumination, list[str]]:
+    """Words of a prompt with their senses, what they say of the light, and notes on them."""
     words, notes = tag_words(tokenize_prompt(prompt), known)
     if _is_foreign(words) or is_of_other_grammar(prompt):
         raise InputError(
             f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
             "write it in English, or use a model that takes any text (texvent generators)"
         )
+    light = read_light_words(words)
     notes += read_film_words(words)
     words = read_telegrams(words, known)
     choose_senses(words, known)
     read_neighbours(words)
-    return words, notes
+    return words, light, notes
 
 
 def _is_foreign(words: Sequence[Word]) -> bool:

@@ -37,8 +37,9 @@ _OF_OBJECTS = {
 }  # fmt: skip
 """Role of a word that says something of objects → what."""
 _OF_SCENE = {
-    Role.LIGHT: "light", Role.SHADE: "bright", Role.WEATHER: "weather", Role.CLOUDS: "clouds",
-    Role.SNOW: "snow", Role.SKY: "sky", Role.STEEP: "steep", Role.DUST: "dust",
+    Role.LIGHT: "light", Role.LIGHTING: "lighting", Role.SHADE: "bright",
+    Role.WEATHER: "weather", Role.CLOUDS: "clouds", Role.SNOW: "snow", Role.SKY: "sky",
+    Role.STEEP: "steep", Role.DUST: "dust",
     Role.FLICKER: "flicker", Role.SHADOW: "shadow", Role.EFFECT: "effect", Role.PLACE: "place",
     Role.ROAD: "road", Role.VIEW: "view", Role.FRAMING: "framing", Role.COLOUR: "colour",
     Role.STYLE: "style",

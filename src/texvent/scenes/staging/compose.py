@@ -45,7 +45,7 @@ from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.crosswalks import lay_crosswalks
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
-from texvent.scenes.staging.surroundings.light.lighting import choose_lighting
+from texvent.scenes.staging.surroundings.light.said_light import choose_lighting
 from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road_choice import find_beside, find_road
 from texvent.scenes.staging.surroundings.scatter_rule import is_structure
@@ -190,16 +190,17 @@ def compose_scene(
     items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
     placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
     names, object_of = _name_bodies(actors, surrounding, len(said.objects))
+    looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
         description, place=place, road=view.road, distance_m=camera_path.framing.distance_m,
-        room_m=camera_path.room_m if PLACES[place].ground is Ground.FLOOR else 9.0,
+        room_m=camera_path.room_m if PLACES[place].ground is Ground.FLOOR else 9.0, looking=looking,
     )  # fmt: skip
     staged = replace(said, objects=description.objects)
     stage = Stage(staged, actors, camera_path, animated_environment.at(0.0), place, duration_s)
     missing += _list_missing(said, description, surrounding, stage)
     lamps = plan_lamps(
         description, actors, strength=choose_lighting(place, description.light).lamps,
-        instant_s=0.5 * duration_s, framing=camera_path.framing, items=items,
+        instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
     particles = stage_effects(
         description, Setting(actors, camera_path.framing, place, duration_s, seed)

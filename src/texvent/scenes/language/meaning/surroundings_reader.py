@@ -11,8 +11,10 @@ from texvent.scenes.language.vocabulary import scene as vocabulary_scene
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 
-_BRIGHT = ("bright", "harsh", "brilliant", "strong", "clear")
+_CLEAR = ("clear",)
 """What the light of the day is anyway."""
+_ALIKE = ({"day", "sunny"}, {"day", "overcast"})
+"""Lights that go together."""
 _WATER = ("water", "waters")
 _WATERY = ("lake", "river", "beach", "underwater")
 """Places that have the water that is named after them."""
@@ -79,12 +81,12 @@ class SurroundingsReader:
             is_used = self._read_place_referent(one)
         elif one.kind == "glow":
             self._glows.append(head)
-            is_used = False
+            is_used = head.is_used
         else:
             is_used = self.read(head, is_negated=is_negated, value=one.value)
         head.is_used = head.is_used or is_used
         if is_used and one.kind == "light" and self._light in ("day", "sunny"):
-            mark_used(word for word in one.attributes.words if word.text in _BRIGHT)
+            mark_used(word for word in one.attributes.words if word.text in _CLEAR)
         head.is_absent = is_used and is_negated
         if is_used and is_negated and one.group.negation is not None:
             one.group.negation.is_used = True
@@ -157,7 +159,7 @@ class SurroundingsReader:
             self._light = light
             return True
         pair = {self._light, light}
-        return self._light == light or "lamp" in pair or pair <= {"day", "sunny"}
+        return self._light == light or "lamp" in pair or pair in _ALIKE
 
     def read(self, word: Word, *, is_negated: bool, value: object = None) -> bool:
         """Take a word about place, weather, light, flicker or shadows."""

@@ -55,6 +55,7 @@ class Role(Enum):
     PART = auto()
     PLACE = auto()
     LIGHT = auto()
+    LIGHTING = auto()
     WEATHER = auto()
     CLOUDS = auto()
     SNOW = auto()

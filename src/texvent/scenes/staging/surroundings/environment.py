@@ -20,8 +20,9 @@ from texvent.scenes.scene import (
     Texture,
 )
 from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance
-from texvent.scenes.staging.surroundings.light.lighting import Lighting, choose_lighting
+from texvent.scenes.staging.surroundings.light.lighting import Lighting
 from texvent.scenes.staging.surroundings.light.lightning import STROKE_HZ, lightning_level
+from texvent.scenes.staging.surroundings.light.said_light import choose_lighting, towards_light
 from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road import RoadLine
 
@@ -37,6 +38,8 @@ STROBE = 1.2
 """Light of a strobe's flash, as a share of that."""
 TIMELAPSE = 60.0
 """How much faster the sky goes in a time lapse."""
+LOOKING = np.array((0.0, 1.0, 0.0))
+"""Where a camera looks that nothing turns."""
 _SUN_RAD_S = 2.0 * math.pi / 600.0
 """How fast the sun goes in a time lapse, per second of sky time."""
 
@@ -117,6 +120,7 @@ def build_environment(
     road: RoadLine,
     distance_m: float,
     room_m: float,
+    looking: Float64Array = LOOKING,
 ) -> AnimatedEnvironment:
     """The surroundings of a scene.
 
@@ -126,6 +130,7 @@ def build_environment(
         road: centre lines of the roads.
         distance_m: from the camera to what it looks at: fog is scaled to it.
         room_m: half the side of a room, m.
+        looking: [3] unit vector that the camera looks along.
     """
     ground = PLACES[place]
     lighting, said = choose_lighting(place, description.light), description.surroundings
@@ -152,7 +157,7 @@ def build_environment(
         sky_top=_array(sky_top),
         sky_horizon=_array(horizon),
         clouds=clouds,
-        sun_direction=_unit(lighting.sun_direction),
+        sun_direction=towards_light(_unit(lighting.sun_direction), looking, description.light),
         sun_colour=_array(sun_colour),
         ambient=_array(lighting.ambient),
         shadows=lighting.shadows,

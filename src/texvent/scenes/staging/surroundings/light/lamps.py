@@ -17,9 +17,10 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.shapes import along
+from texvent.scenes.staging.surroundings.light.hidden_lamp import hidden_lamp
+from texvent.scenes.staging.surroundings.light.said_light import tint_of
 from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
-WARM = (1.0, 0.72, 0.40)
 MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""
 FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
@@ -276,6 +277,7 @@ def plan_lamps(
     strength: float,
     instant_s: float,
     framing: Framing,
+    looking: Float64Array,
     items: Sequence[SceneryItem],
 ) -> LampPlan:
     """Which lamps are on, and which of them cast shadows.
@@ -287,6 +289,7 @@ def plan_lamps(
         instant_s: when the lamps that cast shadows are chosen, s.
         framing: what the camera looks at: the lamps that light it most cast shadows, and where
             none lights it, one does that is out of sight.
+        looking: [3] unit vector that the camera looks along.
         items: the scenery, whose lamps are on at night.
     """
     lit = []
@@ -305,11 +308,14 @@ def plan_lamps(
         if is_on or said.is_lit is False:
             lit.append(LitActor(actor, switch, brightest, casts=False))
     rows = _still_lamps(items, strength)
+    tint = np.array(tint_of(description.light) or 1.0)
+    for row in rows:
+        row[3:6] *= tint
     place = description.surroundings.place
     if strength > 0.0 and place not in _UNLIT and not rows and not any(map(_lights_around, lit)):
-        rows.append(_hidden_lamp(framing, strength))
+        rows.append(hidden_lamp(framing, strength, description.light, looking))
     still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
-    if description.light.shadows is not False:
+    if description.light.shadows is not False and description.light.hardness != "soft":
         focus = np.asarray(framing.target, dtype=np.float64)
         lit, still = _choose_casters(lit, still, instant_s, focus)
     return LampPlan(tuple(lit), still)
@@ -378,13 +384,3 @@ def _choose_casters(
         else:
             still[index - len(lit), 13] = 1.0
     return lit, still
-
-
-def _hidden_lamp(framing: Framing, strength: float) -> Float64Array:
-    """[15] warm light from a lamp out of sight, bright enough for the ground below it."""
-    reach, row = framing.distance_m, np.zeros(LAMP_COLUMNS)
-    row[:3] = np.asarray(framing.target) + reach * np.array([-0.25, -0.25, 0.55])
-    height = max(float(row[2]), 0.7)
-    row[3:6] = 1.1 * strength * height**2 * np.array(WARM)
-    row[6], row[10], row[11], row[12] = 5.0 * height, -2.0, -2.0, 0.3
-    return row

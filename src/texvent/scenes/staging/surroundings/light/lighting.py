@@ -1,10 +1,9 @@
-"""Light of each place and time of day."""
+"""Usual light of each place and time of day."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from texvent.scenes.description import Illumination
 from texvent.scenes.scene import Colour
 from texvent.scenes.staging.surroundings.places import is_room
 
@@ -73,9 +72,8 @@ _SPACE = Lighting(
 )  # fmt: skip
 
 
-def choose_lighting(place: str, light: Illumination) -> Lighting:
-    """The lighting of a place at that time of day."""
-    kind = light.kind or "day"
+def usual_lighting(place: str, kind: str) -> Lighting:
+    """The lighting of a place at a time of day, or under another light of `LIGHTINGS`."""
     if place == "underwater":
         chosen = _UNDERWATER
         if kind in ("night", "moonlight", "dusk"):
@@ -90,6 +88,4 @@ def choose_lighting(place: str, light: Illumination) -> Lighting:
         chosen = LIGHTINGS[kind]
     if place == "snow":
         chosen = replace(chosen, lamps=0.3 * chosen.lamps)
-    if light.shadows is not None:
-        chosen = replace(chosen, shadows=light.shadows)
     return chosen
