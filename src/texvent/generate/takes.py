@@ -81,7 +81,10 @@ def film(
     best = usual = judge(scene, look(scene))
     is_named = _is_subject_named(description, usual.scene)
     larger = _list_larger(description, usual)
-    takes = list_takes(description, usual.evidence, larger, is_subject_named=is_named)
+    takes = list_takes(
+        description, usual.evidence, larger,
+        is_subject_named=is_named, is_place_lost=bool(usual.found.places),
+    )  # fmt: skip
     for take in takes[: min(MOST, max(1, MOST_BODIES // max(1, len(scene.actors))))]:
         scene = stage(take)
         found = look(scene)
@@ -91,7 +94,7 @@ def film(
         is_whole = not is_named or _keeps_subject(description, usual.scene, scene, size)
         if is_whole and shows_more(other, best):
             best = other
-        if not any(_list_reasons(best.evidence)):
+        if not any(_list_reasons(best.evidence)) and not best.found.places:
             break
     return best
 
@@ -102,6 +105,7 @@ def list_takes(
     larger: frozenset[int] = frozenset(),
     *,
     is_subject_named: bool = True,
+    is_place_lost: bool = False,
 ) -> list[Take]:
     """What may show more of the things that a scene loses, the likeliest first.
 
@@ -111,21 +115,23 @@ def list_takes(
         larger: objects that may be drawn larger.
         is_subject_named: whether the prompt names what the camera is about; it does not name who
             shuffles cards in "shuffling cards".
+        is_place_lost: whether a place is named that the picture does not tell.
     """
     shot = description.shot
     if any(move.kind == "travel" for move in shot.moves):
         return []
     reasons = set(_list_reasons(evidence))
     is_small, is_hidden = bool(reasons & _SMALL), bool(reasons & _HIDDEN)
-    is_outside = bool(reasons & _OUTSIDE) and shot.framing is None
-    may_come = is_small and shot.framing is None
+    is_open = shot.framing is None
+    is_outside = bool(reasons & _OUTSIDE) and is_open
+    may_come = is_small and is_open
     choices = [
         (is_small and bool(larger), Take()),
         (is_outside, Take(distance=FURTHER)),
-        (is_hidden and shot.view is None, Take(rise_rad=RISE_RAD)),
+        ((is_hidden or is_place_lost) and shot.view is None, Take(rise_rad=RISE_RAD)),
         (may_come, Take(distance=NEARER)),
         (may_come and not is_subject_named, Take(distance=NEAREST, aim=_list_small(evidence))),
-        (is_outside, Take(distance=FURTHEST)),
+        (is_outside or (is_place_lost and is_open), Take(distance=FURTHEST)),
     ]
     return [take._replace(larger=larger) for may, take in choices if may]
 

@@ -128,7 +128,7 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     if claim.value in _WATERS and place in _WATERS:
         is_ashore = _is_one_of(claim.word, _SHORES) or claim.word.startswith("beach")
         return _judge_water(picture) or (_judge_land(picture) if is_ashore else None)
-    if claim.value in _ROADS and place in _ROADS:
+    if claim.value in _ROADS and place in _ROADS and claim.word not in _TOWNS:
         return _judge_road(picture, is_trodden=place == "dirt road")
     is_ground = claim.value == place and place in _GROUNDS
     return "out of view" if is_ground and picture.ground_share() < LEAST_GROUND else None

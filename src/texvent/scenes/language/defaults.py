@@ -361,11 +361,17 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     return replace(description, shot=shot, notes=(*description.notes, note))
 
 
+_PARKED_IN = frozenset({"garage", "warehouse", "workshop", "museum", "driveway", "parking lot"})
+"""Places in which vehicles stand."""
+
+
 def _usual_motion(description: SceneDescription, noun: Noun) -> str:
-    """What it does if nothing else moves: people stay in a close shot, astronauts float."""
+    """What it does if nothing else moves: people stay in a close shot, cars in a garage."""
     if noun.name in PERSON_NOUNS and description.surroundings.place == "space":
         return "hover"
     if noun.name in PERSON_NOUNS and description.shot.framing in ("close", "medium"):
+        return "stand"
+    if noun.motion == "drive" and description.surroundings.place in _PARKED_IN:
         return "stand"
     return noun.motion
 

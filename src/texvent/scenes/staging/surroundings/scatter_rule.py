@@ -24,6 +24,8 @@ class ScatterRule:
     """Whether `near` and `far` are metres from the camera instead."""
     is_at_wall: bool = False
     """Whether it stands against a wall of the room; `near` and `far` do not count."""
+    is_telling: bool = False
+    """Whether the place is known by it, so that it stands in view if it can."""
     is_under: bool = False
     """Whether it lies flat under what the camera looks at: the lines of a court."""
     is_afloat: bool = False
@@ -42,8 +44,8 @@ def is_structure(rule: ScatterRule) -> bool:
 
 
 def along_walls(*furniture: tuple[str, int]) -> tuple[ScatterRule, ...]:
-    """Furniture against the walls; nouns that there is no model of are left out."""
+    """Furniture against the walls, what the room is known by first."""
     return tuple(
-        ScatterRule(noun, count, 0.0, 0.0, (0.95, 1.1), is_at_wall=True)
-        for noun, count in furniture
+        ScatterRule(noun, count, 0.0, 0.0, (0.95, 1.1), is_at_wall=True, is_telling=number == 0)
+        for number, (noun, count) in enumerate(furniture)
     )

@@ -45,6 +45,8 @@ class ViewClearance:
 _BANK_M = 1.0
 """Land that scenery leaves free beside water, m."""
 _USUAL_DISTANCE_M = 16.0
+_IN_VIEW = 0.42
+"""Half of what the image shows, but for its edges, as a multiple of the distance at focal 1."""
 ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 
@@ -147,11 +149,12 @@ def _find_place(
         return SceneryItem(rule.noun, model, place, view.road.angle, is_flat=True)
     if rule.encloses or rule.is_beyond:
         return _close_off(rule, model, view, bodies, items)
-    for _ in range(ATTEMPTS):
+    for attempt in range(ATTEMPTS):
         camera = view.cameras[int(rng.integers(len(view.cameras)))]
         if rule.is_at_wall:
             item = _stand_at_wall(rule, model, camera, view.room_m, rng)
-            if _is_free(item, view, bodies, items):
+            may_hide = not rule.is_telling or 2 * attempt >= ATTEMPTS
+            if (may_hide or _is_in_view(item, camera)) and _is_free(item, view, bodies, items):
                 return item
             continue
         share = float(rng.uniform(-0.62, 0.62))
@@ -166,6 +169,15 @@ def _find_place(
         if _is_free(item, view, bodies, items, is_afloat=rule.is_afloat):
             return item
     return None
+
+
+def _is_in_view(item: SceneryItem, camera: Camera) -> bool:
+    """Whether its middle is between the left and the right edge of the image, and ahead."""
+    offset = np.array(item.position) - camera.position[:2]
+    forward = camera.rotation[2, :2] / max(float(np.hypot(*camera.rotation[2, :2])), 1e-9)
+    ahead = float(offset @ forward)
+    aside = abs(float(offset @ np.array([forward[1], -forward[0]])))
+    return ahead > 0.0 and aside * camera.focal < _IN_VIEW * ahead
 
 
 def _close_off(

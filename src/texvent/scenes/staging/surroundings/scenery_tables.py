@@ -94,7 +94,7 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
         ScatterRule("shelf", 3, 0.3, 0.9, (1.2, 1.4), faces_camera=True),
         ScatterRule("pallet", 2, 0.2, 0.8), ScatterRule("crate", 2, 0.3, 0.9),
     ),
-    "gym": _along_walls(("bench", 3), ("treadmill", 2), ("dumbbell", 2), ("basketball", 2)),
+    "gym": _along_walls(("treadmill", 2), ("bench", 3), ("dumbbell", 2), ("basketball", 2)),
     "construction site": (
         ScatterRule("barrier", 3, 0.25, 0.8, (1.0, 1.0)),
         ScatterRule("scaffold", 2, 0.6, 1.6, (1.2, 1.6), faces_camera=True),
