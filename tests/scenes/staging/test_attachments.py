@@ -50,6 +50,12 @@ def test_all_of_a_crew_are_aboard(prompt: str, mount: str, rider: str, count: in
     assert not scene.not_shown
 
 
+def test_who_is_said_to_ride_two_things_sits_on_one() -> None:
+    scene = stage("a performer rides a unicycle around a square, then pedals off")
+    assert named(scene, "bicycle")
+    assert not named(scene, "performer")
+
+
 def test_more_riders_than_seats_are_reported() -> None:
     assert "people riding the motorcycle" in stage("five people ride a motorcycle").not_shown
 

@@ -27,6 +27,7 @@ def board(cast: Cast, relations: Sequence[Relation]) -> None:
     """Seat everybody who rides something.
 
     Several riders are shared out among several mounts; on one of them they sit behind each other.
+    Each sits on one, the first that is named.
     The first person on a bicycle or a motorcycle is the one that its model brings.
     """
     crews: dict[int, list[int | None]] = {}
@@ -41,9 +42,11 @@ def board(cast: Cast, relations: Sequence[Relation]) -> None:
                 crew.append(None)
             if rider != at and rider not in crew:
                 crew.append(rider)
+    seated: set[int] = set()
     for at, seats in crews.items():
         for seat, one in enumerate(seats):
-            if one is not None:
+            if one is not None and one not in seated:
+                seated.add(one)
                 _seat(cast, one, at, seat, len(seats))
 
 
