@@ -21,6 +21,7 @@ from texvent.generate.sights import Glimpse, Sight
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Evidence
 from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.machine_acts import HANG
 from texvent.scenes.projection import place_in_image, project, ray_directions
 from texvent.scenes.raycast.render import world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
@@ -165,6 +166,11 @@ def _list_extras(
         if one.noun in _OF_WALLS and index not in bound
     ]
     bound |= {one.subject for one in description.relations if one.kind == "above"}
+    bound |= {
+        index
+        for index, one in enumerate(description.objects)
+        if one.noun == "ceiling fan" or (one.motion is not None and one.motion.kind == HANG)
+    }
     names = [one for one in description.claims if one.aspect == "name"]
     hung = {i for one in names if _OF_CEILINGS & {*one.word.split()} for i in one.things}
     found += [

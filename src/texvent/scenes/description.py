@@ -51,7 +51,7 @@ class ObjectMotion:
     @property
     def is_moving(self) -> bool:
         """Whether the object leaves its place or turns."""
-        return self.kind != "stand"
+        return self.kind not in ("stand", "hang")
 
 
 SPIN_RATE_HZ = 0.5

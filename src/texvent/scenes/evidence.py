@@ -19,7 +19,7 @@ PLURAL = 3
 MANY = 4
 """Copies that must be seen where there are more than are counted."""
 STILL = "no motion to be seen"
-_AT_REST = frozenset({"stand", "sit", "lie"})
+_AT_REST = frozenset({"hang", "stand", "sit", "lie"})
 MOST_REASONS = 2
 """Lost words that are named for a word in doubt."""
 _OF_NOUN = frozenset({"quality", "bright", "colour"})

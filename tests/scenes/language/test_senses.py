@@ -183,7 +183,7 @@ def test_a_pronoun_means_who_it_can(prompt: str, kind: str) -> None:
         ("a volleyball team celebrates", ["person"]),
         ("a girl plays the violin while her sister listens", ["girl", "violin", "girl"]),
         ("a bicycle stands upside down with a spinning wheel", ["parked bicycle"]),
-        ("a laser dot moves across a wall", ["wall"]),
+        ("a laser dot moves across a wall", ["laser dot", "wall"]),
     ],
 )
 def test_no_parts_or_senses_stand_as_things(prompt: str, nouns: list[str]) -> None:

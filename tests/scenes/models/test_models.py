@@ -39,7 +39,7 @@ POSES = [
 
 MOUNDS = {"hangar", "dune mound", "green hill", "rock waterfall", "lava flow"}
 """Scenery whose lower half is in the ground."""
-HUNG = {"dripping icicle", "fern", "filament printer", "pinata", "wall blackboard",
+HUNG = {"ceiling fan", "dripping icicle", "fern", "filament printer", "pinata", "wall blackboard",
         "large painting", "train window", "stained glass", "hall mirror"}  # fmt: skip
 """What hangs from above or on a wall."""
 LINES = {"runway markings", "tennis court lines", "basketball court lines", "pitch lines",

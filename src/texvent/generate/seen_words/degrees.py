@@ -82,19 +82,22 @@ def _judge_rain(picture: Picture, description: SceneDescription, claim: Claim) -
 
 
 def _judge_flicker(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
-    """The light, or the lamp that is named, is brighter and darker from still to still."""
+    """The light, the lamp that is named, or what it lights, is brighter from still to still."""
     lamps = {description.objects[index].noun for index in claim.things}
     if lamps and not lamps & set(LAMPS):
         return None  # an eye that blinks
     levels: list[float] = []
+    whole: list[float] = []
     for number in _ALL_VIEWS:
         colours = picture.colours(number)
+        whole.append(float(colours.mean()))
         where = np.ones(len(colours), dtype=np.bool_)
         if claim.things:
             own = [one for index in claim.things for one in copies_of(picture, index)]
             where = np.isin(picture.views[number].instance, own)
         levels += [float(colours[where].mean())] if where.any() else []
-    return None if levels and np.ptp(levels) >= VISIBLE else "no change of light to be seen"
+    change = max(np.ptp(levels), np.ptp(whole)) if levels else 0.0
+    return None if change >= VISIBLE else "no change of light to be seen"
 
 
 def _judge_glow(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:

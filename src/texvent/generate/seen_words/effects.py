@@ -18,7 +18,7 @@ FILLING = frozenset({"smoke", "steam", "mist", "dust", "fog"})
 """Effects that are said to fill a room, or the frame."""
 FLAMES = frozenset({("smoke", "rocket")})
 """Effect and its thing, of which only the flame before it is told."""
-FLOWING = frozenset({"drip", "pour", "spray", "splash", "sparks"})
+FLOWING = frozenset({"drip", "pour", "pour into", "spray", "splash", "sparks"})
 """Effects that come from something."""
 
 

@@ -97,7 +97,7 @@ LEAST_TOWN = 0.03
 """Share of the picture that houses of the scenery cover by which a town is told."""
 _SHORES = ("beach", "shore", "coast", "seaside", "seashore", "shoreline", "coastline", "lakeside",
            "riverbank", "river bank")  # fmt: skip
-_STREAMS = frozenset({"pour", "drip", "fountain", "falling water"})
+_STREAMS = frozenset({"pour", "pour into", "drip", "fountain", "falling water"})
 """Effects that are water of themselves."""
 LEAST_LAND = 0.03
 """Share of the picture that is land beside the water, where a shore is."""

@@ -114,6 +114,8 @@ def _judge_effect(
     kind = str(claim.value) if claim.aspect == "effect" else "dust"
     if kind == "string lights" and kind not in staged:
         kind = "blinking lights"
+    if f"{kind} into" in staged:
+        kind = f"{kind} into"
     if kind not in staged:
         return "nothing raises it"
     if claim.aspect == "dust" and is_room(description.surroundings.place or "grass"):

@@ -58,7 +58,7 @@ def complete_description(
     return _park(_rest_the_others(_set_in_motion(description, nouns)), nouns)
 
 
-_IN_THE_DARK = frozenset({"lightning", "stage lights", "lasers", "blinking lights"})
+_IN_THE_DARK = frozenset({"lightning", "stage lights", "lasers", "blinking lights", "fireworks"})
 """Effects that are seen in the dark."""
 _FIREWORK = "firework"
 

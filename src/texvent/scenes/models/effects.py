@@ -30,6 +30,15 @@ class EffectWords:
     """Whether the object it comes from is gone afterwards."""
 
 
+LIQUID_COLOURS: Mapping[str, tuple[float, float, float]] = MappingProxyType({
+    "milk": (0.9, 0.88, 0.82), "cream": (0.9, 0.86, 0.75), "coffee": (0.14, 0.06, 0.03),
+    "tea": (0.35, 0.14, 0.04), "wine": (0.30, 0.01, 0.04), "juice": (0.9, 0.42, 0.05),
+    "oil": (0.75, 0.55, 0.08), "honey": (0.75, 0.38, 0.04), "beer": (0.75, 0.42, 0.06),
+    "sauce": (0.45, 0.06, 0.02), "chocolate": (0.18, 0.07, 0.03), "syrup": (0.4, 0.15, 0.03),
+    "batter": (0.85, 0.72, 0.45), "whiskey": (0.55, 0.25, 0.05),
+})  # fmt: skip
+"""Word of a prompt → colour of what is poured."""
+
 EFFECTS: Mapping[str, EffectWords] = MappingProxyType({
     "lightning": EffectWords(
         ("lightning", "lightening", "lightning bolt", "lightning flash", "thunder", "thunderstorm",
@@ -92,6 +101,8 @@ EFFECTS: Mapping[str, EffectWords] = MappingProxyType({
         ("stream of water", "jet of water", "water jet", "running water"),
         ("pour", "pour out", "run with water", "spill"), ("pouring",),
     ),
+    "pour into": EffectWords(),
+    "popcorn": EffectWords((), needs_source=False),
     "fountain": EffectWords(
         ("fountain", "water fountain", "geyser"), ("spout",), needs_source=False
     ),

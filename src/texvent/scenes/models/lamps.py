@@ -87,6 +87,7 @@ LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
     "lamp": (Lamp(1.7, is_single=True, always_on=False, boost=2.0, wave="sine"),),
     "desk lamp": (Lamp(0.45, (0.0, 0.25, -1.0), 60.0, 0.6, boost=3.0, wave="sine"),),
     "light bulb": (_BULB,),
+    "pendant lamp": (Lamp(0.9, is_single=True, boost=2.0, wave="sine"),),
     "chandelier": (Lamp(0.5, boost=2.0, wave="sine"),),
     "paper lantern": (Lamp(0.6, boost=1.5, wave="sine"),),
     "lava lamp": (Lamp(0.1, is_single=True, boost=1.5, wave="sine"),),

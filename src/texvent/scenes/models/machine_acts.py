@@ -19,5 +19,7 @@ LIFT = "lift load"
 """The forks of a forklift go up."""
 PULSE = "pulse"
 """A heart beats."""
-MACHINE_ACTS = frozenset({LIFT, PICK, GRASP, COLLAPSE, STRUCK, PULSE})
+HANG = "hang"
+"""On a cord from a ceiling."""
+MACHINE_ACTS = frozenset({LIFT, PICK, GRASP, COLLAPSE, STRUCK, PULSE, HANG})
 """All of these: names of `Noun.acts` and kinds of `ObjectMotion`."""

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from texvent.scenes.models.articulated_model import STANDING_POSES
+from texvent.scenes.models.hanging_model import hanging
 from texvent.scenes.models.materials import Material, shade
 from texvent.scenes.models.people.timing import ease
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
@@ -139,8 +140,8 @@ def opens_after(before: str | None, kind: str) -> str:
 
 
 def opening(models: list[Model], noun: str, kinds: set[str]) -> list[Model]:
-    """The models with a leaf that moves, or that beat, where the prompt says that they do."""
-    models = pulsing(models, kinds)
+    """The models with a leaf that moves, that beat, or hang, where the prompt says that they do."""
+    models = hanging(pulsing(models, kinds), kinds)
     if noun not in OPENING or not kinds & OPENS:
         return models
     return [OpeningModel(one, noun) for one in models]

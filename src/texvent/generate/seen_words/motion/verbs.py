@@ -53,7 +53,7 @@ HARDLY = "hardly moves"
 _STILL = frozenset(
     {"stand", "sit", "lie", "hover", "kneel", "crouch", "lean", "hold", "point", "look", "read",
      "phone", "watch", "rest", "pose", "ride", "carry", "float", "thumbs up", "thumbs down",
-     "victory", "ok", "fist", "one", "three", "four", "five", "horns", "shaka", "sleep",
+     "victory", "ok", "fist", "one", "three", "four", "five", "horns", "shaka", "sleep", "hang",
      "plank", "handstand"}
 )  # fmt: skip
 """What is shown without a motion."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from texvent.scenes.models.machine_acts import PULSE
+from texvent.scenes.models.machine_acts import HANG, PULSE
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -17,7 +17,7 @@ from texvent.scenes.models.protocol import Noun
 ANYTHING = frozenset(
     {"move", "stand", "fall", "rise", "sink", "spin", "slide", "roll", "bounce", "swing", "sway",
      "throw", "topple", "orbit", "hover", "enter", "leave", "appear", "jump", "fly", "lie", "flip",
-     PULSE}
+     PULSE, HANG}
 )  # fmt: skip
 """What every object can do: a path through the air or over the ground."""
 _ROOTED = frozenset(

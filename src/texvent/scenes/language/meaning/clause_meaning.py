@@ -32,6 +32,7 @@ from texvent.scenes.language.meaning.clause_rewrites import (
     take_partners,
     take_vessel,
     turn_active,
+    turn_effects,
     turn_views,
 )
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
@@ -117,6 +118,7 @@ class ClauseMeaning:
         take_host(clause, self._draft.nouns)
         take_wholes(clause, self._draft.nouns)
         turn_views(clause)
+        turn_effects(clause)
         turn_active(clause)
         self._camera.read_phrases(clause.adverbs)
         if clause.opener is not None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
-from texvent.scenes.language.meaning.acts.activities import find_activity
+from texvent.scenes.language.meaning.acts.activities import base_form, find_activity
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.meaning.acts.looking import LOOKS, LOOKS_TO
 from texvent.scenes.language.vocabulary.acts import LIGHT_VERBS
@@ -15,6 +15,7 @@ from texvent.scenes.language.vocabulary.named_acts import DONE, NAMED
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import mark_used
+from texvent.scenes.models.effects import LIQUID_COLOURS
 from texvent.scenes.models.people.acts.words import AT_HEAD, EVERYDAY
 from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO, WITH_PARTICLE
 
@@ -115,7 +116,31 @@ _TAKING = frozenset({"take", "pick", "grab", "remove", "lift"})
 _SOURCES = {"from": "on", "off": "on", "out of": "in"}
 
 
+BURSTS = frozenset({"explode", "burst", "bloom", "sparkle", "crackle", "erupt"})
+"""What fireworks do."""
+POPS = frozenset({"pop", "jump", "bounce", "cook"})
+"""What popcorn does in a pan."""
+_POURS = {**dict.fromkeys(("pour", "flow", "run", "spill", "stream", "trickle", "gush"), "pour"),
+          **dict.fromkeys(("drip", "leak"), "drip")}  # fmt: skip
+
+
+def turn_effects(clause: Clause) -> None:
+    """As in "milk pours into a bowl", "a firework explodes", "popcorn pops": no thing does so."""
+    if clause.verb is None or clause.is_passive or clause.objects:
+        return
+    lemma = clause.verb.lemma
+    for group in clause.subjects:
+        head = group.head
+        name = head.lemma.split()[-1] if head is not None else ""
+        kind = _POURS.get(lemma) if name in LIQUID_COLOURS else None
+        kind = "fireworks" if name.startswith("firework") and lemma in BURSTS else kind
+        kind = "popcorn" if name == "popcorn" and lemma in POPS and clause.phrases else kind
+        if head is not None and kind is not None:
+            head.meaning, head.others = Meaning(Role.EFFECT, Pos.NOUN, kind), ()
+
+
 _MADE = {
+    "shake off": frozenset({"water", "rain", "snow", "drop"}),
     "drill": frozenset({"hole"}), "bore": frozenset({"hole"}),
     **dict.fromkeys(("draw", "sketch", "trace", "doodle"), frozenset(
         {"picture", "drawing", "sketch", "portrait", "line", "cartoon", "image"})),
@@ -125,7 +150,7 @@ _MADE = {
 
 def take_made(clause: Clause) -> None:
     """As in "drills a hole", "draws a picture": on the board or the paper that comes with it."""
-    made = _MADE.get(clause.verb.lemma, ()) if clause.verb is not None else ()
+    made = _MADE.get(base_form(clause.verb.lemma), ()) if clause.verb is not None else ()
     if clause.is_passive:
         return
     for group in list(clause.objects):

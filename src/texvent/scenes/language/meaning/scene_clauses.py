@@ -6,6 +6,7 @@ from collections.abc import Sequence, Set
 
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.circumstances.reader import WINDS, CircumstanceReader
+from texvent.scenes.language.meaning.clause_rewrites import BURSTS, POPS
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
@@ -19,6 +20,7 @@ _SUN = {"set": "dusk", "rise": "dawn"}
 _OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
 _SWITCHES = ("switch", "turn", "go", "flick", "click", "toggle")
 _FLOWS = frozenset({"run", "flow", "gush", "trickle", "stream", "come", "shoot"})
+_SPILLS = frozenset({"pour", "drip", "leak", "spill", "splash"})
 _OUT_OF = ("from", "out of")
 _IN_THE_WIND = frozenset({"leaves", "petals", "confetti", "feathers", "smoke", "sand", "dust"})
 _BENDS = ("curve", "wind", "bend", "twist")
@@ -36,6 +38,19 @@ _PLAIN_VERBS: dict[str, frozenset[str]] = {
     "light": frozenset({"shine", "rise", "set", "come"}),
 }
 """Kind of what a clause is about → verbs that say nothing new of it: "rain falls"."""
+
+
+_OF_EFFECTS = _PLAIN_VERBS["effect"] | _FLOWS | BURSTS | POPS | _SPILLS
+
+
+def _turn_into(clause: Clause, subjects: Sequence[Referent], sources: list[int]) -> list[int]:
+    """As in "water pours into a glass": from above, not out of it; drops come from nothing."""
+    found = {phrase.preposition.text for phrase in clause.phrases}
+    if not found & {"into", "onto", "over", "in", "on"} or found & {"from", "out of"}:
+        return sources
+    for one in subjects:
+        one.value = "pour into" if one.value == "pour" else one.value
+    return [] if any(one.value == "drip" for one in subjects) else sources
 
 
 _FROM_THE_SKY = frozenset({"day", "sunny", "overcast", "dawn", "dusk", "moonlight"})
@@ -146,6 +161,7 @@ class SceneClauses:
                     sources.extend(self._around.parts.find_whose(found))
                     self._around.read_phrase(phrase, Scope([], []))
                 self._around.read_group_phrases(found, Scope(found.things, []))
+        sources = _turn_into(clause, subjects, sources)
         added = [self._around.add_effect(one, Scope(sources[:1], [])) for one in subjects]
         kinds = {str(one.value) for one in subjects}
         for phrase in clause.phrases if kinds & _IN_THE_WIND else ():
@@ -156,7 +172,7 @@ class SceneClauses:
         if (
             word is not None
             and any(added)
-            and (word.lemma in _PLAIN_VERBS["effect"] or isinstance(word.meaning.value, Verb))
+            and (word.lemma in _OF_EFFECTS or isinstance(word.meaning.value, Verb))
         ):
             word.is_used = True
             for adverb in clause.adverbs:

@@ -150,7 +150,7 @@ MATERIALS: dict[str, tuple[str, ...]] = {
 """Material → words for it, before a noun."""
 
 COMPOUNDS: dict[str, tuple[str, ...]] = {
-    "candle": ("candle flame", "candle light", "burning candle"),
+    "candle": ("candle light",),
     "led": ("led matrix", "led array", "led light", "led lamp", "led strip light"),
     "checkerboard": ("checkerboard calibration pattern", "checkerboard pattern",
                      "calibration pattern", "calibration target", "chessboard pattern"),

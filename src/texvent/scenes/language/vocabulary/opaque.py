@@ -6,7 +6,6 @@ None of them can be shown, and none is to be shown as its last word.
 from __future__ import annotations
 
 _TEXT = """
-    laser dot, laser point, laser spot,
     waves breaking, waves crashing, waves lapping, waves rolling, waves washing, sea horse, sea
     cucumber, sea urchin, sea cow, sea pen, ant lion, antlion, star fish, jelly bean, cuttle fish,
     silver fish, butter cup, water bear, gummy bear, horse shoe, horseshoe, sea dragon, bearded

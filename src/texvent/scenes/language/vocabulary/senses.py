@@ -161,6 +161,8 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "temple": (_sense("finger forehead gun headache massage"),),
     "seal": (_sense("envelope wax jar letter stamp airlock hatch"),),
     "bolt": (_sense("door gate lightning cloth crossbow"),),
+    "platform": (_sense("tilt wobble rock tip sway", "tilting platform"),),
+    "laser pointer": (_sense("move wall floor dot ceiling slide", "laser dot"),),
     "vessel": (_sense("blood vein artery"),),
     "bridge": (_sense("nose violin guitar gymnast dental"),),
     "bark": (_sense("dog seal"),),
@@ -243,6 +245,7 @@ SENSES: dict[str, tuple[Sense, ...]] = {
 }  # fmt: skip
 """Noun → its senses other than the usual one; the first whose cue is said counts."""
 ONLY_WITH: dict[str, frozenset[str]] = {
+    "top": _words("spin toy whirl wobble twirl wooden"),
     "chip": _words("circuit computer silicon tweezers board solder robot microscope wafer cpu"
                    " electronic electronics"),
     "spring": _words("metal coil bounce compress steel mattress stretch wire jump hang weight"

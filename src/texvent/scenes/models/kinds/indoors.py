@@ -9,7 +9,6 @@ INDOOR_KINDS: dict[str, str] = {
     "stairs": "staircase steps, doorstep, stairwell, steps",
     "desk lamp": "night light, bedside light, clip lamp",
     "lamp": "night lamp",
-    "chandelier": "pendant lamp, pendant light, hanging lamp, ceiling lamp, ceiling light",
     "heater": "air conditioner, air conditioning unit, humidifier, dehumidifier",
     "plug": "socket, power outlet, outlet, wall socket, extension cord, light switch",
     "scale": "thermostat",

@@ -96,7 +96,7 @@ THING_KINDS: dict[str, str] = {
     "flashlight": "headlamp, penlight",
     "clock": "analog clock, digital clock, timepiece, cuckoo clock, alarm clock",
     "watch": "stopwatch, smartwatch, pocket watch, digital watch",
-    "fan": "ceiling fan, ventilator",
+    "fan": "ventilator",
     "radio": "cassette player, tape player, boombox, cd player, walkie talkie",
     "monitor": "computer, desktop computer, pc, crt screen, imac, oscilloscope",
     "tv": "home theater, plasma tv, entertainment center",
@@ -154,7 +154,7 @@ THING_KINDS: dict[str, str] = {
         toy, sports ball, sport ball, croquet ball, bouncy ball, rubber ball, exercise
         ball, gym ball""",
     "baseball": "softball, cricket ball",
-    "tennis racket": "squash racket, racket",
+    "tennis racket": "squash racket",
     "baseball bat": "softball bat, club",
     "sled": "bobsled, dogsled, sleigh",
     "barbell": "weight, weights",

@@ -27,7 +27,7 @@ WORK_KINDS: dict[str, str] = {
         paint can, paint bucket, ice bucket, can of paint, paint pot, sand bucket, toy
         bucket, champagne bucket, washtub, wash tub""",
     "paintbrush": "paint roller, artist brush, house painting brush",
-    "screw": "bolt, nut and bolt, hex bolt, wing nut, threaded rod",
+    "screw": "nut and bolt, hex bolt, wing nut, threaded rod",
     "nail": """
         needle, sewing needle, thumbtack, tack, pin, push pin, paper clip, paperclip,
         hairpin, safety pin, toothpick, rivet, spike nail, fish hook, fishhook, hook""",

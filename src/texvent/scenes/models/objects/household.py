@@ -208,7 +208,7 @@ NOUNS = (
     fixed_noun("bottle", build_bottle, ("wine bottle",)),
     working_noun("clock", build_clock, ("wall clock",)),
     fixed_noun("lamp", build_lamp, ("floor lamp", "standing lamp")),
-    fixed_noun("candle", build_candle),
+    fixed_noun("candle", build_candle, ("candle flame", "burning candle", "lit candle")),
     working_noun("fan", build_fan, ("electric fan", "table fan")),
     working_noun("pendulum", build_pendulum, (), ("pendula",)),
     fixed_noun("umbrella", build_umbrella, ("parasol",)),

@@ -27,7 +27,7 @@ from texvent.scenes.staging.particles.flakes import FLAKES, Falling
 from texvent.scenes.staging.particles.jets import BLOWN, BREATHED, JETS, WATER, Dripping, Jet
 from texvent.scenes.staging.particles.light_shows import Lasers, Lightning, StageLights
 from texvent.scenes.staging.particles.motion import Source
-from texvent.scenes.staging.particles.pouring import make_streams
+from texvent.scenes.staging.particles.pouring import make_streams, pour_into
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.particles.window_drops import WindowDrops
 from texvent.scenes.staging.surroundings.weather import WEATHERS
@@ -83,19 +83,21 @@ _USUAL_ANCHOR: dict[str, tuple[float, float, float]] = {
     "dust": (-0.7, 0.0, 0.0),
     "fire": (0.0, 0.0, 0.25),
     "splash": (0.0, 0.0, 0.0),
+    "popcorn": (0.0, 0.0, 0.5),
     "confetti": (0.0, 0.0, 1.0),
 }
-_SIZES: dict[str, float] = {"fire": 0.75, "smoke": 0.32, "steam": 0.7, "dust": 0.55, "drip": 0.35,
+_SIZES: dict[str, float] = {"popcorn": 0.6, "fire": 0.75, "smoke": 0.32, "steam": 0.7, "dust": 0.55,
+                            "drip": 0.55,
                             "pour": 0.6, "fountain": 0.9, "sparks": 0.6}  # fmt: skip
 """Size of an effect by that of the object it comes from."""
 _NOUN_SIZES = {("fire", "fireplace"): 0.3, ("fire", "torch"): 0.9, ("spray", "sprinkler"): 2.5}
 """The same for some objects of their own."""
 _ALONE: dict[str, float] = {"smoke": 0.15, "steam": 0.12, "fire": 0.2, "dust": 0.2, "drip": 0.16,
                             "pour": 0.3, "fountain": 0.42, "sparks": 0.3, "embers": 0.25,
-                            "spray": 0.3, "bubbles": 0.25}  # fmt: skip
+                            "spray": 0.3, "bubbles": 0.25, "popcorn": 0.3}  # fmt: skip
 """Size of an effect that comes from no object, by the distance of the camera."""
-_HEADROOM = {"smoke": 3.0, "steam": 1.8, "fire": 1.5, "fountain": 1.1, "embers": 1.5, "sparks": 0.4,
-             "bubbles": 1.0, "spray": 0.5}  # fmt: skip
+_HEADROOM = {"pour into": 1.4, "smoke": 3.0, "steam": 1.8, "fire": 1.5, "fountain": 1.1,
+             "embers": 1.5, "sparks": 0.4, "bubbles": 1.0, "spray": 0.5}  # fmt: skip
 """Room that an effect needs above its object, by its size."""
 
 
@@ -233,6 +235,8 @@ def _make_stream(
     source = _source(kind, actor, setting)
     if kind == "falling water" and actor is not None:
         return [FallingWater.of(actor, rng)]
+    if kind == "pour into" and actor is not None:
+        return [pour_into(actor, colour, rng)]
     if kind == "drip" and actor is not None and actor.noun.name == "window":
         return [WindowDrops.of(actor, rng)]
     if kind == "drip":
@@ -262,6 +266,10 @@ _LIGHTS = frozenset(
     {"lightning", "stage lights", "lasers", "string lights", "blinking lights", "beacon",
      "turn signal", "hazard lights"}
 )  # fmt: skip
+_BUILT_UP = frozenset({"city", "street", "village", "downtown", "forest"})
+"""Places whose houses or trees would hide what is behind them."""
+_NEAR = 0.3
+"""How near the bolts are there, as a share of their usual distance."""
 _BLINK_HZ = {"string lights": 0.0, "blinking lights": 1.1}
 
 
@@ -276,7 +284,8 @@ def _light_up(
     side = np.cross(away, [0.0, 0.0, 1.0])
     reach = setting.framing.distance_m
     if kind == "lightning":
-        return [Lightning.of(target * [1.0, 1.0, 0.0], away, reach, rng)]
+        behind = _NEAR if setting.place in _BUILT_UP else 1.0
+        return [Lightning.of(target * [1.0, 1.0, 0.0], away, reach, rng, behind)]
     if kind == "stage lights":
         return [StageLights(target * [1.0, 1.0, 0.0], side, reach, colour)]
     if kind == "lasers":

@@ -35,7 +35,12 @@ class Lightning(SolidEffect):
 
     @classmethod
     def of(
-        cls, middle: Float64Array, away: Float64Array, reach_m: float, rng: np.random.Generator
+        cls,
+        middle: Float64Array,
+        away: Float64Array,
+        reach_m: float,
+        rng: np.random.Generator,
+        behind: float = 1.0,
     ) -> Lightning:
         """Four bolts behind what the camera looks at.
 
@@ -44,12 +49,13 @@ class Lightning(SolidEffect):
             away: [3] horizontal unit vector away from the camera.
             reach_m: distance of the camera to what it looks at.
             rng: shapes them.
+            behind: how far behind it they are, relative to the usual.
         """
         side = np.cross(away, _UP)
-        bolts = []
+        bolts, spread = [], (1.0 + 3.2 * behind) / 4.2
         for number in range(4):
-            foot = middle + 3.2 * reach_m * away
-            foot = foot + reach_m * (0.9 - 0.6 * number + 0.2 * rng.uniform()) * side
+            foot = middle + 3.2 * behind * reach_m * away
+            foot = foot + spread * reach_m * (0.9 - 0.6 * number + 0.2 * rng.uniform()) * side
             bolts.append(_bolt(foot, side, 2.6 * reach_m, rng))
         return cls(np.array(bolts), 0.016 * reach_m)
 

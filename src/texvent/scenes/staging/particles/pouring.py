@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from texvent.scenes.models.effects import LIQUID_COLOURS
 from texvent.scenes.models.people.work.bench import in_body
 from texvent.scenes.models.people.work.patterns import POURED_S
 from texvent.scenes.scene import Colour
@@ -19,15 +20,22 @@ from texvent.scenes.staging.particles.motion import GRAVITY, Lives, Source
 _HEIGHTS_M = {"pour": 0.22, "water": 0.40}
 """Pattern of hand work → from the vessel's lip to what is poured into, for an adult."""
 _SIZE_M = 0.2
-_COLOURS: dict[str, Colour] = {
-    "milk": (0.9, 0.88, 0.82), "cream": (0.9, 0.86, 0.75), "coffee": (0.14, 0.06, 0.03),
-    "tea": (0.35, 0.14, 0.04), "wine": (0.30, 0.01, 0.04), "juice": (0.9, 0.42, 0.05),
-    "oil": (0.75, 0.55, 0.08), "honey": (0.75, 0.38, 0.04), "beer": (0.75, 0.42, 0.06),
-    "sauce": (0.45, 0.06, 0.02), "chocolate": (0.18, 0.07, 0.03), "syrup": (0.4, 0.15, 0.03),
-    "batter": (0.85, 0.72, 0.45), "whiskey": (0.55, 0.25, 0.05),
-}  # fmt: skip
-"""Word of the prompt → colour of what is poured; the first one counts."""
 _STREAM = JetStyle(70, 1.0, 0.1, 0.03, 0.05, (WATER,), stretch=2.5, aim=(0.0, 0.0, -1.0), area=0.01)
+
+
+def pour_into(vessel: Actor, colour: Colour | None, rng: np.random.Generator) -> Jet:
+    """A stream from above into a vessel."""
+    tall = vessel.model.height
+    low = -0.5 * tall if vessel.is_centred else 0.0
+    size = 0.35 * max(tall, vessel.model.width)
+    life_s = math.sqrt(2.0 * (_ABOVE - 0.1) * tall / GRAVITY)
+    style = replace(_STREAM, count=110, colours=(colour or WATER,))
+    source = Source(size, np.array([0.0, 0.0, low + _ABOVE * tall]), vessel)
+    return Jet(source, style, Lives.of(style.count, life_s, rng))
+
+
+_ABOVE = 2.0
+"""Height from which something pours into a vessel, as a multiple of the vessel's."""
 
 
 def make_streams(actors: Sequence[Actor], prompt: str, rng: np.random.Generator) -> list[Jet]:
@@ -39,7 +47,7 @@ def make_streams(actors: Sequence[Actor], prompt: str, rng: np.random.Generator)
         rng: for the drops.
     """
     said = [word.strip(".,;:!?") for word in prompt.casefold().split()]
-    colour = next((_COLOURS[word] for word in said if word in _COLOURS), WATER)
+    colour = next((LIQUID_COLOURS[word] for word in said if word in LIQUID_COLOURS), WATER)
     made = []
     for actor in actors:
         path = actor.trajectory

@@ -49,7 +49,7 @@ def face(
 
 _HUNG = frozenset(
     {"picture frame", "poster", "clock", "mirror", "tv", "map", "sign", "dartboard", "mask",
-     "guitar"}
+     "guitar", "laser dot"}
 )  # fmt: skip
 """Flat things with their front at +x."""
 _UPRIGHT = frozenset({"wall", "fence", "door", "garage front"})
@@ -77,7 +77,9 @@ def hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     """
     model, face = group.models[0], target.models[0]
     yaw = target.plan.yaw
-    group.plan = replace(group.plan, yaw=yaw)
+    # What moves on a wall goes along it.
+    along_it = 0.5 * math.pi if group.plan.is_path else 0.0
+    group.plan = replace(group.plan, yaw=yaw + along_it)
     ahead, aside = (math.cos(yaw), math.sin(yaw)), (-math.sin(yaw), math.cos(yaw))
     step = 1.2 * model.width
     count = len(group.models)

@@ -73,6 +73,12 @@ def _find_named(
     return None
 
 
+def base_form(text: str) -> str:
+    """Base form of a verb of one or more words: "shakes off" → "shake off"."""
+    first, *rest = text.split()
+    return " ".join((_normalise(first), *rest))
+
+
 def note_near(name: str, words: Sequence[Word]) -> None:
     """Where words that `find_activity` found say more than the activity shows, the verb says so."""
     key = tuple(lemma for word in dict.fromkeys(words) for lemma in _split(word))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 from texvent.scenes.description import ObjectMotion
@@ -25,6 +26,11 @@ def settle_doings(draft: Draft) -> None:
     mount_riders(draft)
     give_to_owners(draft)
     add_doings(draft)
+    for number, one in enumerate(draft.relations):
+        motions = draft.objects[one.subject].motions
+        if one.kind in ("with", "hold") and motions and motions[-1].kind == "paw":
+            # As in "a cat plays with a ball of yarn": it is before its paws.
+            draft.relations[number] = replace(one, kind="work on")
 
 
 def mount_riders(draft: Draft) -> None:

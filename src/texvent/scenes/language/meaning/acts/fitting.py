@@ -12,12 +12,12 @@ from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.english import VerbForm
-from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.machine_acts import COLLAPSE, PULSE
+from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.models.machine_acts import COLLAPSE, HANG, PULSE
 from texvent.scenes.models.protocol import Noun
 
 _PULSING = frozenset({"beat", "pulse", "throb", "pulsate"})
-_PAW = "paw"
+PAW = "paw"
 SEEN_AS_SAID = frozenset({*_PULSING, "flap", "taxi", "dig"})
 """Verbs whose fitting motion is just what they say: what flaps its wings stays where it is."""
 _ON_GROUND = ("drive", "walk", "run", "jump")
@@ -59,6 +59,34 @@ def fit_verb(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     return verb
 
 
+def hang_up(draft: Draft, clause: Clause, subjects: Sequence[int], targets: Sequence[int]) -> bool:
+    """As in "a lamp hangs from the ceiling": on a cord, below a piece of it."""
+    del targets
+    found = [
+        phrase
+        for phrase in clause.phrases
+        if phrase.preposition.text in ("from", "on", "under", "below")
+        and any(one.head is not None and one.head.lemma == "ceiling" for one in phrase.groups)
+    ]
+    things = [n for n in subjects if not is_living(draft.noun(n))]
+    if not found or clause.verb_word.lemma not in _HANGING or things != list(subjects):
+        return False
+    for index in things:
+        item = draft.objects[index]
+        item.noun = _HUNG.get(item.noun, item.noun)
+        item.motions = [ObjectMotion(HANG)]
+    clause.verb_word.is_used = bool(things)
+    for phrase in found:
+        mark_used([phrase.preposition, *(one for group in phrase.groups for one in group.words)])
+        clause.phrases.remove(phrase)
+    return bool(things)
+
+
+_HANGING = frozenset({"hang", "dangle", "suspend", "be"})
+_HUNG = {"lamp": "pendant lamp", "desk lamp": "pendant lamp", "fan": "ceiling fan"}
+"""What hangs in place of what stands."""
+
+
 def _choose_own(verb: Verb, noun: Noun) -> Verb | None:
     """As in "a bird flaps", "a heart beats", "a dog digs", "a plane taxis": just what is said."""
     if verb.base in ("flap", "beat") and noun.motion == "fly" and is_living(noun):
@@ -66,16 +94,21 @@ def _choose_own(verb: Verb, noun: Noun) -> Verb | None:
     if verb.base in _PULSING and not noun.is_working:
         kind = "hover" if noun.motion == "swim" and is_living(noun) else PULSE
         return None if is_living(noun) and kind == PULSE else replace(verb, kind=kind)
-    if verb.base == "dig" and _PAW in noun.acts:
-        return replace(verb, kind=_PAW)
+    if verb.base == "dig" and PAW in noun.acts:
+        return replace(verb, kind=PAW)
     if verb.base == "taxi" and noun.motion == "fly":
         return replace(verb, kind="slide")
     return None
 
 
+def has_phrase(clause: Clause, preposition: str) -> bool:
+    """Whether a preposition leads a phrase of the clause."""
+    return any(phrase.preposition.text == preposition for phrase in clause.phrases)
+
+
 def throw_up_earth(draft: Draft, kind: str, verb: Verb, index: int) -> None:
     """What digs with its paws throws up earth."""
-    if kind == _PAW and verb.base == "dig":
+    if kind == PAW and verb.base == "dig":
         draft.effects.append(Effect("dust", index))
 
 

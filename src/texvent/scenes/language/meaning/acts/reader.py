@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import Effect, ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.acts.activities import find_activity, note_near
+from texvent.scenes.language.meaning.acts.activities import base_form, find_activity, note_near
 from texvent.scenes.language.meaning.acts.devices import (
     blink,
     give_effect,
@@ -19,11 +19,14 @@ from texvent.scenes.language.meaning.acts.devices import (
 )
 from texvent.scenes.language.meaning.acts.fitting import (
     MANOEUVRES,
+    PAW,
     SEEN_AS_SAID,
     choose_act,
     fall_over,
     fit_moving,
     fit_verb,
+    hang_up,
+    has_phrase,
     is_played,
     line_up,
     note_untouched,
@@ -107,7 +110,7 @@ class ActReader:
             return subjects
         if clause.verb_word.role is Role.FLICKER:
             return blink(self._draft, clause.verb_word, subjects)
-        for does in (lift_load, look_at):
+        for does in (lift_load, look_at, hang_up):
             if does(self._draft, clause, subjects, targets):
                 return subjects
         if switch(self._draft, clause, subjects):
@@ -171,6 +174,9 @@ class ActReader:
                 for one in (word.meaning, *word.others)
                 if one.role is Role.SIMILAR and one.value[1] == is_person(noun)
             ]
+            base = base_form(word.lemma)
+            is_toying = base == "play" and has_phrase(clause, "with") and PAW in noun.acts
+            kinds = [PAW] if is_toying else kinds
             if is_done_to and not is_person(noun) and not set(kinds) & ANIMAL_ACTS.keys():
                 continue
             if is_done_to and kinds[:1] and kinds[0] in OF_ONESELF:
@@ -180,7 +186,8 @@ class ActReader:
             )
             if is_able and add_motion(self._draft, index, ObjectMotion(kinds[0]), clause):
                 is_act = kinds[0] in ANIMAL_ACTS
-                word.shown_as = shown_as(kinds[0], word.lemma) if is_act else kinds[0]
+                seen = shown_as(kinds[0], base) if is_act else kinds[0]
+                word.shown_as = None if is_toying else seen
                 moved.append(index)
         if moved and targets:
             done = {self._draft.objects[index].motions[-1].kind for index in moved}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.description import Effect
+from texvent.scenes.description import Effect, NamedColour
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
@@ -12,7 +12,7 @@ from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.word import mark_used
-from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.effects import EFFECTS, LIQUID_COLOURS
 
 _OF_LIGHT_SHOWS = frozenset(
     {"changing", "moving", "sweeping", "flashing", "rotating", "colorful", "colourful",
@@ -60,6 +60,13 @@ def is_done_to_effect(
     return not comes_from_doer(draft, clause, doers)
 
 
+def _find_liquid(one: Referent) -> NamedColour | None:
+    """The colour of milk, of honey: of what pours or drips."""
+    name = one.group.head.lemma.split()[-1] if one.group.head is not None else ""
+    rgb = LIQUID_COLOURS.get(name)
+    return None if rgb is None else NamedColour(name, rgb)
+
+
 def add_effect(draft: Draft, one: Referent, scope: Scope, near: Sequence[int] = ()) -> bool:
     """Add smoke, sparks ... to the clause's subjects; whether there is something to add it to.
 
@@ -74,7 +81,7 @@ def add_effect(draft: Draft, one: Referent, scope: Scope, near: Sequence[int] = 
     if source is None and EFFECTS[kind].needs_source:
         return False
     colours = one.attributes.colours
-    colour = colours[0][0] if colours else None
+    colour = colours[0][0] if colours else _find_liquid(one)
     for _, words in colours[:1]:
         mark_used(words)
     if EFFECTS[kind].is_around:

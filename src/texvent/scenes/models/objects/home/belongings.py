@@ -14,6 +14,7 @@ from texvent.scenes.models.objects.figures import (
     lying,
     placed,
     ring,
+    spinning,
     swinging,
     thing,
     toned,
@@ -39,6 +40,7 @@ from texvent.scenes.models.shapes import (
     Affine,
     ball,
     box,
+    compose,
     limb,
     moved,
     peak,
@@ -47,10 +49,22 @@ from texvent.scenes.models.shapes import (
     rod,
     shift,
     spike,
+    turn_x,
     turn_y,
+    turn_z,
 )
 
 _WOOD = Material(WOOD_BROWN)
+
+
+def _fan_blades(p: Material) -> list[ModelPart]:
+    """Four pitched blades below a ceiling, one of them pale."""
+    parts = []
+    for k in range(4):
+        wing = box(p if k else PALE, (0.0, 0.0, 0.0), (0.56, 0.17, 0.02))
+        place = compose(shift(0.38, 0.0, 1.10), turn_x(0.6))
+        parts += moved([wing], compose(turn_z(0.5 * math.pi * k), place))
+    return parts
 
 
 def _windshield(p: Material) -> list[ModelPart]:
@@ -264,6 +278,23 @@ _ROOM = placed("indoor", (
     thing("plastic heart", (RED_PAINT.colour,), lambda p: [
         *(limb(p, (0.0, 0.085 * s, 0.22), (0.0, 0.0, 0.06), 0.085) for s in (1.0, -1.0)),
         spike(p, (0.0, 0.0, 0.12), (0.0, 0.0, 0.0), 0.10)], ("heart", "red heart", "heart shape")),
+    thing("ceiling fan", ((0.36, 0.20, 0.08),), lambda p: [
+        rod(SILVER, (0.0, 0.0, 1.14), (0.0, 0.0, 1.55), 0.025),
+        post(PALE, (0.0, 0.0, 1.57), (1.0, 1.0, 0.04)), post(SILVER, (0.0, 0.0, 1.10),
+            (0.22, 0.22, 0.14))], ("ceiling ventilator",),
+        moving=(Moving(_fan_blades, spinning("z", 1.3)),)),
+    thing("pendant lamp", ((0.10, 0.30, 0.28),), lambda p: [
+        peak(p, (0.0, 0.0, 0.22), (0.56, 0.56, 0.30)), ball(Material((1.0, 0.85, 0.55),
+            emission=2.5), (0.0, 0.0, 0.08), (0.13, 0.13, 0.13))],
+        ("hanging lamp", "pendant light", "ceiling lamp", "ceiling light")),
+    thing("laser dot", ((1.0, 0.02, 0.02),), lambda p: [
+        ball(Material(p.colour, emission=4.0), (0.0, 0.0, 0.0), (0.07, 0.07, 0.07))],
+        ("laser point", "laser spot", "red laser dot"), goes=("air", "slide", 0.5)),
+    thing("tilting platform", ((0.45, 0.30, 0.16),), lambda p: [
+        box(p, (0.0, 0.0, 0.52), (1.2, 1.2, 0.06)), post(IRON, (0.0, 0.0, 0.25),
+            (0.16, 0.16, 0.50)), *(box(toned(p, 0.7), (0.0, -0.5 + 0.25 * k, 0.552),
+            (1.2, 0.02, 0.006)) for k in range(5))],
+        ("balance platform", "rotating platform", "tilt platform")),
     thing("maraca", ((0.62, 0.20, 0.02),), lambda p: [
         part for y in (0.08, -0.08) for part in (
             limb(_WOOD, (0.0, y, 0.02), (0.0, 1.2 * y, 0.16), 0.014),

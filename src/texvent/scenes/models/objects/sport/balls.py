@@ -172,7 +172,7 @@ NOUNS = placed("indoor", (
         limb(p, (-0.06, 0.0, 0.0), (0.10, -0.16, 0.0), 0.024),
         box(YELLOW_PAINT, (-0.05, 0.0, 0.0), (0.02, 0.05, 0.05))], _tilted(2.0)),),
         goes=("air", "fly", 4.0)),
-    thing("spinning top", _BRIGHT, nothing, ("whipping top",),
+    thing("spinning top", _BRIGHT, nothing, ("whipping top", "top"),
         moving=(Moving(_top_parts, spinning("z", 3.57)),)),
     thing("gyroscope", (BRASS.colour,),
         lambda p: [post(INK, (0.0, 0.0, 0.01), (0.07, 0.07, 0.02)),

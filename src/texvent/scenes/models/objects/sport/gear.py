@@ -82,7 +82,7 @@ def _board(skin: Material, long: float, wide: float, thick: float) -> list[Model
 
 _SPORT = placed("grass", (
     thing("tennis racket", _BRIGHT, lambda p: _racket(p, (0.13, 0.17), 0.69),
-        ("tennis racquet", "racquet")),
+        ("tennis racquet", "racquet", "racket")),
     thing("badminton racket", _BRIGHT, lambda p: _racket(p, (0.10, 0.13), 0.67),
         ("badminton racquet",)),
     thing("baseball bat", (PALE_WOOD,), lambda p: lying([

@@ -25,6 +25,8 @@ MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""
 FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
 """Sines that make a flame flicker: multiple of its frequency, and amplitude."""
+_FLICKERING = 2.6
+"""How much more a flame flickers that is said to."""
 _UNLIT = ("sky", "space", "underwater", "sea")
 """Places without lamps out of sight."""
 _LIGHTS_A_ROOM = 0.1
@@ -78,7 +80,12 @@ class Switch:
             return 0.0
         full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
         rate = self.blink_of(lamp)
-        return full * (1.0 if rate is None else wave_at(lamp, rate, time_s, self.phase, number))
+        if rate is None:
+            return full
+        wave = wave_at(lamp, rate, time_s, self.phase, number)
+        if lamp.wave == "flame" and self.blink_hz is not None:
+            wave = max(1.0 + _FLICKERING * (wave - 1.0), 0.05)
+        return full * wave
 
 
 def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int) -> float:
