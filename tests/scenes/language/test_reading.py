@@ -336,6 +336,10 @@ def test_who_does_what_in_everyday_sentences(prompt: str, lines: list[str]) -> N
         ("a door painted orange opens", ["door"], ("painted",)),
         ("Two dogs run. The brown dog jumps.", ["dog", "dog"], ()),
         ("A farmer digs. The man waves.", ["farmer"], ()),
+        ("a boy is cycling", ["child", "bicycle"], ()),
+        ("a man takes a bow", ["man"], ()),
+        ("a man drills a hole", ["man"], ()),
+        ("a cat plays with a ball of yarn", ["cat", "yarn ball"], ()),
         ("A toddler walks. The child falls.", ["toddler"], ()),
     ],
 )

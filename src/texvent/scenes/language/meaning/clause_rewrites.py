@@ -91,7 +91,8 @@ def take_vessel(clause: Clause) -> None:
     if clause.verb is None or clause.verb.lemma not in _POURING or clause.is_passive:
         return
     for group in list(clause.objects):
-        if group.head is not None and group.text == "water" and clause.phrases:
+        is_liquid = group.text == "water" or group.text in LIQUID_COLOURS
+        if group.head is not None and is_liquid and clause.phrases:
             group.head.is_used = True  # the stream
             clause.objects.remove(group)
     for phrase in list(clause.phrases):

@@ -192,6 +192,7 @@ ACTIVITY_NOUNS = (
     "lip gloss", "face cream", "face paint", "eye shadow", "slam dunk", "high five",
     "high knee", "handstand", "headstand", "backflip", "deadlift", "cartwheel", "pushup", "pullup",
     "somersault", "pirouette", "pneumatic drill", "double bass", "bow and arrow", "sun screen",
-    "rock paper scissors", "ok sign", "okay sign",
+    "rock paper scissors", "ok sign", "okay sign", "peace sign", "victory sign", "rock sign",
+    "shaka sign",
 )  # fmt: skip
 """Nouns of several words that name what is done, or with what."""

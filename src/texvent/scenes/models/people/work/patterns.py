@@ -129,7 +129,7 @@ def _twist(t: float, half: float) -> Stroke:
 def _squeeze(t: float, half: float) -> Stroke:
     """Both hands press from the sides, lift it a little and wring it."""
     press, turn = pulse(t, RATE_HZ), 0.05 * swing(t, RATE_HZ)
-    side, up = min(half, 0.12) + 0.07 - 0.06 * press, 0.03 + 0.10 * press
+    side, up = min(half, 0.12) + 0.06 - 0.06 * press, -0.03 + 0.10 * press
     thing = (0.0, 0.0, 0.10 * press)
     return Stroke((turn, -side, up), (-turn, side, up), thing=thing, bow=-0.04 * press)
 

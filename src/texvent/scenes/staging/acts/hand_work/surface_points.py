@@ -15,6 +15,8 @@ from texvent.scenes.staging.claims.bodies import own_parts
 _BAND_M = 0.14
 """Half of the width of the strip before the worker in which a spot is looked for."""
 _BIN_M = 0.04
+_COARSE_M = 2.0
+"""Length of a thing from which on the points of its faces are farther apart than bins, m."""
 _GAP_BINS = 2
 """Bins to either side between which points of a large face may lie."""
 _INSET_M = 0.16
@@ -87,7 +89,8 @@ class Surface:
         bins = np.floor((ahead - ahead.min()) / _BIN_M).astype(int)
         heights = np.full(bins.max() + 1, -np.inf)
         np.maximum.at(heights, bins, points[:, 2])
-        heights = _without_gaps(heights)
+        if np.ptp(self.points[:, :2] @ heading) > _COARSE_M:
+            heights = _without_gaps(heights)
         low_top = min(top, _OVERHEAD_M * size)
         edge = int(np.argmax(heights >= _EDGE_SHARE * low_top))
         later = heights[edge : edge + max(int(_INSET_M / _BIN_M), 1)]
