@@ -36,7 +36,7 @@ RISE_RAD = 0.45
 _INSTANTS = 5
 _KEPT = 0.92
 """Share of the subject's box in the image that a take keeps, of that in the usual one."""
-_LEAST_EXTENT = 0.22
+_LEAST_EXTENT = 0.12
 """Share of the image's width or height over which a take that goes away leaves the subject."""
 _SMALL = frozenset({"too small"})
 _HIDDEN = frozenset({"hidden", "mostly hidden"})
@@ -124,10 +124,12 @@ def list_takes(
     is_small, is_hidden = bool(reasons & _SMALL), bool(reasons & _HIDDEN)
     is_open = shot.framing is None
     is_outside = bool(reasons & _OUTSIDE) and is_open
+    is_still = all(move.kind in ("static", "handheld") for move in shot.moves)
     may_come = is_small and is_open
     choices = [
         (is_small and bool(larger), Take()),
         (is_outside, Take(distance=FURTHER)),
+        (is_outside and is_still, Take(is_whole=True)),
         ((is_hidden or is_place_lost) and shot.view is None, Take(rise_rad=RISE_RAD)),
         (may_come, Take(distance=NEARER)),
         (may_come and not is_subject_named, Take(distance=NEAREST, aim=_list_small(evidence))),

@@ -133,7 +133,7 @@ class Relation:
     """Indices into `SceneDescription.objects`."""
     way: str = ""
     """What its preposition says besides: "into", "onto", "out of", "off", "against", "across",
-    "along", "opposite", "at" or "not on"; "" = nothing."""
+    "along", "opposite", "at", "up", "down" (a slope) or "not on"; "" = nothing."""
 
 
 @dataclass(frozen=True)

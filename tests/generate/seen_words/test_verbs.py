@@ -36,7 +36,6 @@ def report_of(prompt: str) -> PromptReport:
     [
         ("a frog stands up", "stands up", "frog does so all the time"),
         ("a penguin sits down", "sits down", "penguin does so all the time"),
-        ("a cat jumps onto a table", "onto", "cat is there from the start"),
         ("a man twirls her", "twirls", "it is not done to her"),
         ("a toddler falls backwards", "backwards", "falls forwards"),
         ("a lantern hangs in the forest", "hangs", "lantern stands on the ground"),

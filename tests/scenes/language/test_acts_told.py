@@ -11,7 +11,7 @@ from texvent.scenes.language.parser import parse_prompt
     ("prompt", "first", "lost"),
     [
         ("a man walks off", "1 man, walks away", ()),
-        ("a ball rolls off a table", "1 ball, rolls", ("off",)),
+        ("a ball rolls off a table", "1 ball, rolls, from 1 table", ()),
         ("a vase is about to fall", "1 vase, stands still", ("fall",)),
         ("a waiter walks from one table to another", "1 waiter, walks, from 1 table", ("another",)),
         ("a cyclist falls", "1 bicycle, stands still, then falls", ()),

@@ -78,11 +78,22 @@ def judge_goals(description: SceneDescription, unseen: Mapping[str, str]) -> dic
 
 def _judge_crossing(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """Over a road, or over the picture where no ground tells its way."""
-    if description.surroundings.place in _BARE:
+    if description.surroundings.place in _BARE or _is_on_deck(description, claim):
         is_far = _goes_over_picture(picture, claim)
         return None if is_far else "it stays where it is in the picture"
     is_over = _goes_over_road(picture, claim)
     return None if is_over else "it does not go across the road"
+
+
+def _is_on_deck(description: SceneDescription, claim: Claim) -> bool:
+    """As in "a car crosses a bridge": over that, not over the road."""
+    return any(
+        one.kind == "on" and description.objects[one.targets[0]].noun in _DECKS
+        for one in claim.relations
+    )
+
+
+_DECKS = frozenset({"bridge", "pier"})
 
 
 def _goes_over_picture(picture: Picture, claim: Claim) -> bool:

@@ -174,7 +174,7 @@ _NOUNS: tuple[str, ...] = (
     "gripper", "domino row", "block tower", "card house", "box stack",
     "book stack",
     "vertical edge", "random dots", "barcode", "qr code", "april tag",
-    "ceiling fan", "pendant lamp", "laser dot", "tilting platform",
+    "ceiling fan", "pendant lamp", "laser dot", "tilting platform", "ramp",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

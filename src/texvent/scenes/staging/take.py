@@ -17,6 +17,9 @@ class Take(NamedTuple):
     aim: frozenset[int] = frozenset()
     """Objects of the description at the middle of which the camera looks."""
 
+    is_whole: bool = False
+    """Whether all things that are near must be in the picture whole."""
+
 
 USUAL = Take()
 """Nothing is otherwise."""

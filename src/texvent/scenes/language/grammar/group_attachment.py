@@ -14,6 +14,8 @@ from texvent.scenes.language.words.word import Word
 _GOING = frozenset(
     {"roll", "fall", "jump", "drive", "run", "walk", "slide", "move", "bounce", "fly"}
 )
+_STEERED = (None, "ride", "hold")
+"""Acts on the objects of such verbs, as in "drives a car": what follows "off" is none."""
 _PICTURES = frozenset({"picture", "photo", "photograph", "image"})
 _HANGS_ON = frozenset(
     {"wall", "desk", "shelf", "fridge", "easel", "billboard", "mantelpiece", "fireplace", "door"}
@@ -87,7 +89,7 @@ class GroupAttachment(ClauseState):
         value = verb.meaning.value
         if verb.role is Role.SIMILAR:
             return value[0] in _GOING
-        return isinstance(value, Verb) and value.kind in _GOING and value.act is None
+        return isinstance(value, Verb) and value.kind in _GOING and value.act in _STEERED
 
     def _names_shot(self, word: Word) -> bool:
         """As in "A static shot of a dog": the dog is the subject of what follows."""

@@ -22,6 +22,8 @@ class Verb:
     """Motion of the object, as in "spins a wheel"."""
     end_pace: float | None = None
     """As `ObjectMotion.end_pace`."""
+    way: str = ""
+    """`Relation.way` of that relation."""
 
 
 _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
@@ -322,6 +324,7 @@ PREPOSITION_WAYS: dict[str, str] = {
     "into": "into", "onto": "onto", "out of": "out of", "off of": "off", "off": "off",
     "against": "against", "across": "across", "along": "along", "opposite": "opposite",
     "across from": "opposite", "at": "at",
+    "up": "up", "down": "down",
 }  # fmt: skip
 """Preposition → `Relation.way`: what it says besides the kind of the relation."""
 

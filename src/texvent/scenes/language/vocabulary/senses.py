@@ -242,6 +242,8 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "cabin": (_sense("plane airplane aircraft airliner cruise ship passenger pilot"),),
     "jumper": (_sense("ski high long horse cable"),),
     "racket": (_sense("noise loud"),),
+    "ramp": (_sense("skate skateboard skateboarder skater bmx scooter stunt", "skate ramp"),),
+    "hoop": (_sense("dog lion tiger seal poodle puppy cat horse dolphin circus", "hula hoop"),),
 }  # fmt: skip
 """Noun → its senses other than the usual one; the first whose cue is said counts."""
 ONLY_WITH: dict[str, frozenset[str]] = {

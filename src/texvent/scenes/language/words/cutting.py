@@ -54,6 +54,7 @@ def cut_tokens(
         elif length < len(window) and window[length].text in _GOES_ON:
             length = 1  # "from the back seat"
         length = _split_particle(window, length, known)
+        length = _leave_way(window, length, known)
         length = _leave_head(window, length, known)
         meanings = known.find([token.text for token in window[:length]])[1] if length else []
         joined = _count_joined(window, length, known)
@@ -107,6 +108,15 @@ def _leave_head(window: Sequence[Token], length: int, known: Lexicon) -> int:
         if longer > length - first and _is_noun(meanings) and window[first].picture is None:
             return first
     return length
+
+
+def _leave_way(window: Sequence[Token], length: int, known: Lexicon) -> int:
+    """As in "moves back and forth", "moves in front of a house": no "moves back", "moves in"."""
+    if length != 2:
+        return length
+    longer, meanings = known.find([token.text for token in window[1:]])
+    is_way = any(one.role in (Role.DIRECTION, Role.RELATION) for one in meanings)
+    return 1 if is_way and longer > length else length
 
 
 def _is_noun(meanings: Sequence[Meaning]) -> bool:

@@ -143,9 +143,10 @@ def _choose_noun(
         if is_before_noun:
             _forget(word, Pos.ADJECTIVE)
         return
+    is_other = _find_sense(SENSES.get(word.lemma, ()), others) is not None
     if (
         (word.lemma in _SHAPES and is_of)
-        or (needed is not None and others and not needed & others)
+        or (needed is not None and others and not needed & others and not is_other)
         or (word.lemma in OWNED and is_owned)
     ):
         _forget(word, Pos.NOUN)

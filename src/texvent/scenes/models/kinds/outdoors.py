@@ -199,7 +199,7 @@ OUTDOOR_KINDS: dict[str, str] = {
     "stalagmite": "stalactite",
     "canyon wall": "mesa, butte",
     "tornado": "hurricane, cyclone",
-    "skate ramp": "ramp, quarter pipe, halfpipe, half pipe",
+    "skate ramp": "quarter pipe, halfpipe, half pipe",
     "lifebuoy": "pool float",
     "fishing rod": "fishing tackle",
     "spear": "lance, harpoon",

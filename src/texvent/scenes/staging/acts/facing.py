@@ -115,9 +115,12 @@ def look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> Non
     """
     tied = {one.subject for one in relations if one.kind in _TIED}
     for relation in relations:
-        if relation.kind != "look at" or relation.subject in tied:
+        is_facing = relation.kind == "look at" or relation.way == "opposite"
+        if not is_facing or relation.subject in tied:
             continue
         goals = [number for target in relation.targets for number in cast.copies(target)]
+        if relation.targets == (relation.subject,):
+            goals = goals[1:] + goals[:1]
         for turn, number in enumerate(cast.copies(relation.subject) if goals else ()):
             actor = cast.get(number)
             path = actor.trajectory
@@ -125,6 +128,15 @@ def look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> Non
                 goal = cast.get(goals[turn % len(goals)]).middle(0.5 * duration_s)
                 yaw = math.atan2(goal[1] - path.home[1], goal[0] - path.home[0])
                 cast.put(number, replace(actor, trajectory=replace(path, yaw=yaw)))
+                if relation.way == "opposite":
+                    _turn_back(cast, goals[turn % len(goals)], yaw + math.pi)
+
+
+def _turn_back(cast: Cast, number: int, yaw: float) -> None:
+    """Who is faced, and stays in its place, faces the other."""
+    actor, path = cast.get(number), cast.get(number).trajectory
+    if isinstance(path, Stationary) and actor.noun.habitat == "ground":
+        cast.put(number, replace(actor, trajectory=replace(path, yaw=yaw)))
 
 
 def hand_over(giver: Actor, thing: Actor, taker: Actor) -> tuple[Actor, Actor, Actor]:

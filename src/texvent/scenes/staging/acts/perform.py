@@ -45,6 +45,7 @@ from texvent.scenes.staging.acts.holding import (
 from texvent.scenes.staging.acts.named_props import name_all_props
 from texvent.scenes.staging.acts.on_body import ON_BODY, put_on_body
 from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
+from texvent.scenes.staging.acts.transits.transit import go_over
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _ORDER = (
@@ -244,6 +245,7 @@ def perform_acts(
         for relation in relations:
             if relation.kind == kind:
                 _perform(cast, relation, duration_s)
+    go_over(cast, description, duration_s)
     name_all_props(description, cast, len(actors))
     _take_off_doubles(cast, actors)
     take_along(cast, description.relations, actors)
@@ -339,6 +341,8 @@ def _move_along(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]
         grips = (("left hand", (reach, side, height)), ("right hand", (reach, -side, height)))
     else:
         along = -(0.9 * size + 0.5 * model.length)
+        if subject.noun.motion == "drive":
+            along = -(0.5 * subject.model.length + 0.5 * model.length + _HITCH_M)
         grips = (("right hand", (-0.34 * size, -0.20 * size, 0.92 * size)),)
     if is_person(subject):
         path = Performed(subject.trajectory, f"{kind} along", grips)
@@ -362,6 +366,8 @@ def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     return subject, _carried(target, held, subject)
 
 
+_HITCH_M = 0.5
+"""Between a vehicle and what it tows."""
 _IDLE = frozenset({"stand", "move", "walk", "run", "sit", "sit on ground"})
 
 

@@ -148,7 +148,7 @@ def _fit_path(
         )  # fmt: skip
 
     def come(times: Float64Array, elevation: float) -> CameraPath:
-        views = list_views(description, actors, main, moves, times)
+        views = list_views(description, actors, main, moves, times, is_whole=take.is_whole)
         framings = [
             fit(view.points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=view.fill,
                 lift=lift)

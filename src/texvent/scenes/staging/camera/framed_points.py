@@ -55,6 +55,8 @@ def list_views(
     main: Actor,
     moves: Sequence[CameraMove],
     times: Float64Array,
+    *,
+    is_whole: bool = False,
 ) -> list[View]:
     """What the image may hold, from all there is to the subject alone.
 
@@ -64,7 +66,10 @@ def list_views(
         main: the subject.
         moves: of the camera.
         times: instants at which it must fit, s.
+        is_whole: whether all that is near must fit, whole.
     """
+    if is_whole:
+        return [_view_of_all(description, actors, times)]
     shot = description.shot
     tying = moves if any(move.kind in TYING for move in moves) and main.is_mover else ()
     aims = is_aimed(description, main, moves)
@@ -107,6 +112,16 @@ def list_views(
     return [View(points, fill, least * goal) for points, goal in zip(choices, goals, strict=True)]
 
 
+def _view_of_all(
+    description: SceneDescription, actors: Sequence[Actor], times: Float64Array
+) -> View:
+    """A view of all that is not far, whole."""
+    near = [one for one in actors if description.objects[one.object_index].side != "far"]
+    points = [one.corners(float(time)) for one in near or actors for time in times]
+    return View(np.vstack(points), _WHOLE_FILL)
+
+
+_WHOLE_FILL = 0.95
 _UPPER = {"close": 0.62, "medium": 0.42}
 """Framing → share of a person's height below which the image may end."""
 _BREADTH = {"close": 0.24, "medium": 0.32}

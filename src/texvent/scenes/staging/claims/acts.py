@@ -72,6 +72,7 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
     bound |= {one.subject for one in relations if one.kind in _MOVED_BY_OTHERS}
     carried = {one.subject for one in relations if one.kind in _CARRIED} | bound
     carried |= {target for one in relations if one.kind in _CARRIED for target in one.targets}
+    carried |= {one.subject for one in relations if one.way in _OVER_THINGS}
     for index, scene_object in enumerate(stage.description.objects):
         copies = [actor for actor in stage.actors if actor.object_index == index]
         if not copies:
@@ -94,6 +95,10 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
                 number = next((n for n, one in enumerate(said) if one is phase.motion), 0)
                 missing.append(Unmet(text, motion=(index, number)))
     return missing
+
+
+_OVER_THINGS = frozenset({"off", "onto", "into", "out of", "through", "up", "down"})
+"""Ways of which a relation says where they begin or end."""
 
 
 def _is_in_hand(actor: Actor) -> bool:

@@ -60,6 +60,7 @@ from texvent.scenes.staging.claims.ways import WAYS
 from texvent.scenes.staging.placement.at_table import turned_to
 from texvent.scenes.staging.placement.cages import CAGES
 from texvent.scenes.staging.placement.faced import LOOKED_AT, hangs
+from texvent.scenes.staging.placement.spatial_relations import GATES
 from texvent.scenes.wording import RELATION_WORDS
 
 _INSTANTS = 13
@@ -116,7 +117,8 @@ def _list_checks(relation: Relation, description: SceneDescription) -> list[_Che
     """What must hold of a relation: what its preposition says, and the verb of its subject."""
     motion = description.objects[relation.subject].motion
     checks = [CHECKS[relation.kind]]
-    if relation.kind == "from" and motion is not None and motion.kind in _LIFTING:
+    is_lifting = motion is not None and motion.kind in _LIFTING and relation.way != "out of"
+    if relation.kind == "from" and is_lifting:
         checks = [_by_copies(lifts_from)]
     if relation.kind == "past" and not relation.way and motion is not None and motion.is_moving:
         checks.append(_one_goes)
@@ -223,6 +225,8 @@ def _is_on(subject: Body, targets: list[Body]) -> bool:
 
 
 def _is_in(subject: Body, targets: list[Body]) -> bool:
+    if targets[0].copies[0].noun.name in GATES:
+        return goes_through(subject, targets) or WAYS["into"](subject, targets)
     is_caged = targets[0].copies[0].noun.name in CAGES
     return holds_for_all(
         is_in, subject.copies, targets[0].copies, subject.duration_s, always=is_caged

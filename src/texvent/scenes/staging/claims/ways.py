@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.claims.contact import is_in, is_on, touches
 from texvent.scenes.staging.claims.courses import faces
 from texvent.scenes.staging.claims.positions import Body, gaps, is_near
+from texvent.scenes.staging.placement.spatial_relations import GATES
 
 _INSTANTS = 13
 _TOUCH_M, _TOUCH_SHARE = 0.04, 0.05
@@ -21,6 +23,8 @@ _ACROSS = 0.35
 """Share of the target's extent that who goes across it covers at least."""
 _ALONG_COSINE = 0.8
 """Least cosine between a way and the long axis of what it is along."""
+_ON_SLOPE, _RISE = 3, 0.4
+"""Instants at which who goes up or down a slope touches it at least, and share of its height."""
 _LONG = 1.5
 """How much longer than wide a thing is that has a long axis."""
 
@@ -41,6 +45,17 @@ def _changes(
         )
 
     return check
+
+
+def _is_inside(subject: Actor, target: Actor, time_s: float) -> bool:
+    """It is in a vessel; of who goes into a tunnel or through a gate the front is."""
+    if target.noun.name not in GATES:
+        return is_in(subject, target, time_s)
+    state = subject.trajectory.at(time_s)
+    ahead = 0.5 * subject.model.length * state.to_world()[:, 0]
+    front = subject.middle(time_s) + ahead
+    low, high = part_boxes(target, time_s).hull
+    return bool(np.all(front > low) and np.all(front < high))
 
 
 def _lies_against(subject: Body, targets: list[Body]) -> bool:
@@ -120,10 +135,23 @@ def _is_opposite(subject: Body, targets: list[Body]) -> bool:
     return faces(subject.copies, others, subject.duration_s)
 
 
+def _goes_on_slope(subject: Body, targets: list[Body], *, sign: float) -> bool:
+    """It is on the target, and rises (sign 1) or sinks (-1) by a good part of its height."""
+    tall = float((targets[0].high - targets[0].low)[0, 2])
+    others = [copy for target in targets for copy in target.copies]
+    times = np.linspace(0.0, subject.duration_s, _INSTANTS)
+    for one in subject.copies:
+        heights = np.array([one.middle(float(t))[2] for t in times])
+        is_there = [any(touches(one, other, float(t)) for other in others) for t in times]
+        if sum(is_there) < _ON_SLOPE or sign * (heights[-1] - heights[0]) < _RISE * tall:
+            return False
+    return True
+
+
 WAYS: Mapping[str, Way] = {
-    "into": _changes(is_in, begins=False),
+    "into": _changes(_is_inside, begins=False),
     "onto": _changes(is_on, begins=False),
-    "out of": _changes(is_in, begins=True),
+    "out of": _changes(_is_inside, begins=True),
     "off": _changes(lambda one, other, t: is_on(one, other, t) or touches(one, other, t),
                     begins=True),
     "against": _lies_against,
@@ -131,6 +159,8 @@ WAYS: Mapping[str, Way] = {
     "along": _goes_along,
     "opposite": _is_opposite,
     "at": _is_close,
+    "up": partial(_goes_on_slope, sign=1.0),
+    "down": partial(_goes_on_slope, sign=-1.0),
     "not on": lambda subject, targets: not _rests(subject, targets),
 }  # fmt: skip
 """`Relation.way` → whether a scene shows it."""

@@ -16,6 +16,9 @@ _SWIMMING_ROOM = 0.55
 """The same of one that swims in it."""
 _LONGEST_STEM = 2.0
 """How much taller than its vessel a stem may be."""
+_WAYS = ("into", "out of")
+_OPENING, _LARGEST_VESSEL_M = 0.75, 3.0
+"""The same of what is seen to go in or come out; what is larger stays as it is, m."""
 _ROOM = 0.8
 """Share of a container's longer side that an animal in it may be long."""
 
@@ -28,10 +31,12 @@ def fit_contents(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     """
     objects = list(description.objects)
     for relation in description.relations:
-        if relation.kind != "in":
+        if relation.kind != "in" and relation.way not in _WAYS:
             continue
         inside, around = relation.subject, relation.targets[0]
-        is_animal = nouns[objects[inside].noun].habitat != "fixed"
+        if relation.way in _WAYS and _side(objects[around], nouns) > _LARGEST_VESSEL_M:
+            continue
+        is_animal = nouns[objects[inside].noun].habitat != "fixed" or relation.way in _WAYS
         is_container = nouns[objects[around].noun].habitat == "fixed"
         if is_container and not is_animal:
             objects[inside] = _shorten(objects[inside], objects[around], nouns)
@@ -39,6 +44,7 @@ def fit_contents(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
             continue
         is_swimmer = nouns[objects[inside].noun].motion == "swim"
         room = _SWIMMING_ROOM if is_swimmer else _ROOM
+        room = _OPENING if relation.way in _WAYS else room
         ratio = room * _side(objects[around], nouns) / _side(objects[inside], nouns)
         if ratio < 1.0:
             factor = math.sqrt(ratio)
@@ -77,7 +83,7 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
     A cup in a hand is hardly seen in a picture that holds who has it. What the prompt calls small
     keeps its size.
     """
-    objects = list(description.objects)
+    objects = list(_lower_trees(description, nouns))
     worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
     sizes = [extent(one, nouns) for one in objects]
     for index, (one, size) in enumerate(zip(objects, sizes, strict=True)):
@@ -94,6 +100,31 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
     return replace(description, objects=tuple(objects))
 
 
+_LOWERED = {**dict.fromkeys(("tree", "pine", "palm", "ramp", "slide"), 0.4), "house": 0.75}
+"""What is drawn lower for something small at it, and to which multiple of its size at least."""
+
+
+def _lower_trees(
+    description: SceneDescription, nouns: Mapping[str, Noun]
+) -> tuple[SceneObject, ...]:
+    """As in "an apple falls from a tree": of a low tree more is seen with the apple."""
+    objects = list(description.objects)
+    for relation in description.relations:
+        tree, other = relation.targets[0], relation.subject
+        is_alone = len(objects) == _PAIR and objects[tree].scale == 1.0
+        if is_alone and objects[tree].noun in _LOWERED and relation.kind in _AT_LOWERED:
+            small, large = (extent(objects[one], nouns) for one in (other, tree))
+            factor = max(_LOWERED_TO * small / large, _LOWERED[objects[tree].noun])
+            objects[tree] = replace(objects[tree], scale=min(factor, 1.0))
+    return tuple(objects)
+
+
+_AT_LOWERED = frozenset(
+    {"from", "on", "work on", "in", "behind", "front", "beside", "under", "above"}
+)
+_LOWERED_TO = 3.0
+"""Most times larger that it then is."""
+_PAIR = 2
 _LARGER_AGAIN = 1.6
 """Factor by which things are larger still in a take."""
 

@@ -155,7 +155,7 @@ class ObjectPlacer:
     def _holds_something(self, index: int) -> bool:
         """Whether the prompt has something in it, on it or going through it."""
         return any(
-            relation.kind in ("in", "on", "through") and relation.targets[0] == index
+            relation.kind in ("in", "on", "through", "from") and relation.targets[0] == index
             for relation in self._description.relations
         )
 

@@ -117,6 +117,8 @@ GATES = frozenset({"tunnel", "arch", "gate", "door"})
 _TRUNKS = frozenset({"tree", "pine", "palm", "street lamp", "traffic light", "sign", "flag",
                      "windmill", "wind turbine", "umbrella"})  # fmt: skip
 """Nouns that one stands under beside what holds them up."""
+_CROWN_M = 2.5
+"""Height from which such a thing hides with its trunk alone."""
 _UNDERSIDES = {"chair": 0.42, "sofa": 0.15, "bed": 0.25, "bench": 0.42, "bridge": 0.3, "car": 0.12,
                "house": 0.0, "building": 0.0}  # fmt: skip
 """Share of an object's height that is free below it."""
@@ -197,6 +199,10 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
         back = 0.1 * way + 0.5 * group.models[0].length
         return Goal(_shift(here, -back * math.cos(yaw), -back * math.sin(yaw)), _FIXED)
+    if kind == "behind" and group.noun.name in _TRUNKS and group.models[0].height > _CROWN_M:
+        own = subject.models[0]
+        aside, deep = 0.2 + 0.3 * max(own.width, 0.3), 0.6 + 0.5 * max(own.length, own.width)
+        return Goal(_shift(here, aside, -deep), _FIXED)
     away = (-x * math.cos(yaw), -y * math.sin(yaw), _AWAY)
     goals = {
         "from": away,

@@ -251,16 +251,22 @@ _CARRIED_M = 0.6
 _THROUGH = {"enter": ("towards", "go to it"), "exit": ("from", "go away from it"),
             "leave": ("from", "go away from it")}  # fmt: skip
 """Verb → relation to what is entered or left, and what is seen of it."""
+_ENTERED = frozenset({"tunnel", "gate", "arch"})
+"""Into what one is seen to go."""
 _ENTERED_M = 1.5
 """Least length of what one may enter or leave."""
 
 
-def fit_moving(verb: Verb, doer: Noun, target_m: float, word: Word) -> Verb | None:
+def fit_moving(verb: Verb, pair: tuple[Noun, Noun], target_m: float, word: Word) -> Verb | None:
     """The verb, where it moves a thing or leads into or out of it; None if this one cannot.
 
     A forklift takes it along; a crane or a robot arm that moves something is not shown. Who enters
     a house goes to it.
     """
+    doer, target = pair
+    if verb.base in _THROUGH and target.name in _ENTERED:
+        relation, way = ("in", "into") if verb.base == "enter" else ("from", "out of")
+        return replace(verb, kind="move", relation=relation, way=way)
     if verb.base in _THROUGH and target_m > _ENTERED_M:
         relation, word.shown_as = _THROUGH[verb.base]
         return replace(verb, kind="move", relation=relation)

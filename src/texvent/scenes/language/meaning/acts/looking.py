@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.description import STANDING
+from texvent.scenes.description import STANDING, Relation
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.draft import Draft
@@ -15,6 +15,25 @@ LOOKS_TO = ("at", "toward", "towards")
 """Prepositions before what is looked at."""
 _LEAST_M = 0.35
 """Shortest thing that one is seen to look at; what is smaller is held."""
+
+
+def face(draft: Draft, subjects: Sequence[int], targets: Sequence[int]) -> bool:
+    """As in "a man facing a robot", "two men facing each other"; whether it is read so."""
+    fronted = [draft.noun(index) for index in subjects]
+    if not targets or not all(is_living(one) or one.motion == "drive" for one in fronted):
+        return False
+    if not set(targets) >= set(subjects):
+        return draft.relate("look at", list(subjects), list(targets), "opposite")
+    subjects = list(targets)
+    if sum(draft.objects[index].count for index in subjects) != _PAIR:
+        return False
+    for number, index in enumerate(subjects):
+        goal = subjects[(number + 1) % len(subjects)]
+        draft.relations.append(Relation("look at", index, (goal,), "opposite"))
+    return True
+
+
+_PAIR = 2
 
 
 def look_at(draft: Draft, clause: Clause, subjects: Sequence[int], targets: Sequence[int]) -> bool:

@@ -135,8 +135,8 @@ class ActReader:
         if targets and is_by_hand(self._draft, verb, subjects, targets):
             return self._work_by_hand(clause, verb, subjects, targets)
         if targets:
-            long = self._draft.length_m(targets[0])
-            moving = fit_moving(verb, self._draft.noun(subjects[0]), long, word)
+            pair = (self._draft.noun(subjects[0]), self._draft.noun(targets[0]))
+            moving = fit_moving(verb, pair, self._draft.length_m(targets[0]), word)
             return self._do_to(clause, moving, subjects, targets) if moving else []
         acts_on_unshown = any(
             one.kind in ("unknown", "part") and one.group.text.split()[-1:] != ["times"]
@@ -277,7 +277,7 @@ class ActReader:
                 return self._do_to_each_other(clause, verb, subjects)
             movers = self._give(clause, verb, subjects)
             if movers:
-                self._draft.relate(verb.relation, movers, targets)
+                self._draft.relate(verb.relation, movers, targets, verb.way)
             return movers
         if verb.object_kind is not None:
             note_untouched(self._draft, clause, subjects, targets)

@@ -333,6 +333,9 @@ class CircumstanceReader:
             self._draft.tempo, pace[1].is_used = 0.3, True
 
     def _read_towards_camera(self, word: Word, one: Referent, scope: Scope) -> None:
+        if word.text == "in front of" and (scope.movers or scope.subjects):
+            mark_used([word, *one.group.words])
+            return
         direction = _BY_CAMERA.get(word.text)
         if direction is None:
             return

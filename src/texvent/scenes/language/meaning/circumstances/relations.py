@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import PrepPhrase
+from texvent.scenes.language.meaning.acts.looking import face
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_followed
 from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
+from texvent.scenes.language.meaning.circumstances.slopes import go_on_slope
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
@@ -72,8 +73,8 @@ class RelationReader:
             is_used = self._read_with(things, scope)
         elif self._ride_along(word, things, scope) or self._is_in_use(scope, things):
             is_used = True
-        elif word.text in ("up", "down"):
-            is_used = self._go_on_stairs(word, things, scope)
+        elif word.text in ("up", "down", "facing"):
+            is_used = self._turn_or_climb(word, things, scope)
         elif self._is_walked(word, things, scope):
             goers = self._find_slid(word, things, scope) or scope.movers or scope.subjects
             is_used = self._relate("on", goers, things, _WALKED[word.text])
@@ -166,16 +167,10 @@ class RelationReader:
             return scope
         return Scope(near.things, [], has_verb=False)
 
-    def _go_on_stairs(self, word: Word, things: list[int], scope: Scope) -> bool:
-        """As in "walks down the stairs", "climbs up a ladder"."""
-        is_flight = self._draft.noun(things[0]).name in ("stairs", "ladder")
-        are_people = all(is_person(self._draft.noun(n)) for n in scope.movers)
-        if not (is_flight and are_people and scope.movers):
-            return False
-        for index in scope.movers:
-            motions = self._draft.objects[index].motions
-            motions[-1] = ObjectMotion("climb", word.text, motions[-1].pace)
-        return self._draft.relate("work on", scope.movers, things)
+    def _turn_or_climb(self, word: Word, things: list[int], scope: Scope) -> bool:
+        if word.text == "facing":
+            return face(self._draft, scope.subjects, things)
+        return go_on_slope(self._draft, word, things, scope)
 
     def _rest(self, word: Word, kind: str | None, things: list[int], scope: Scope) -> bool:
         """What does something that is not shown is where it is, if it acts on nothing.
@@ -382,6 +377,7 @@ _OFF_GROUND = frozenset(
 )
 WEAK_PREPOSITIONS: dict[object, str] = {
     "at": "beside", "by": "beside", "across": "on", "along": "past",
+    "off": "from",
 }  # fmt: skip
 """Prepositions of many senses → the relation they mean between two objects."""
 _RESTING = frozenset(

@@ -80,6 +80,10 @@ _AROUND = ("surrounded by", "among", "amongst", "amid", "lined with", "lined by"
 """Prepositions after which a bare plural means many."""
 
 
+_ONE_FLIGHT = frozenset({"stairs"})
+"""Nouns whose bare plural is one thing: "climbs stairs"."""
+
+
 class Referents(Antecedents):
     """Gives noun groups their meaning, each once."""
 
@@ -350,6 +354,8 @@ class Referents(Antecedents):
     def _add(self, noun: str, is_plural: bool, attributes: Attributes, bare: int) -> int | None:
         if noun in PAIRED and is_plural and bare == PLURAL_COUNT:
             bare = 2
+        elif noun in _ONE_FLIGHT:
+            bare = 1
         count, note = attributes.decide_count(bare)
         if note is not None:
             self._draft.note(note)

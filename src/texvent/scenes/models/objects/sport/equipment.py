@@ -68,6 +68,19 @@ def _ramp(p: Material) -> list[ModelPart]:
     return parts
 
 
+def _wedge(p: Material) -> list[ModelPart]:
+    """A straight ramp that falls towards +x, on posts, 2.8 m long and 1.1 m high."""
+    side = toned(p, 0.55)
+    return [
+        plank(p, (1.4, 0.0, 0.02), (-1.4, 0.0, 1.1), chord=(0.0, 1.0, 0.0),
+              thickness=(0.02, 0.0, 0.05)),
+        *(plank(side, (1.4, y, 0.02), (-1.4, y, 1.1), chord=(0.0, 0.05, 0.0),
+                thickness=(0.04, 0.0, 0.10)) for y in (0.5, -0.5)),
+        *(box(side, (x, y, 0.5 * tall), (0.09, 0.09, tall))
+          for x, tall in ((-1.34, 1.02), (-0.6, 0.74), (0.2, 0.43)) for y in (0.44, -0.44)),
+    ]  # fmt: skip
+
+
 def _podium(p: Material) -> list[ModelPart]:
     steps = ((0.0, 0.75), (-0.9, 0.5), (0.9, 0.35))
     parts = [box(p, (0.0, y, 0.5 * tall), (0.8, 0.9, tall)) for y, tall in steps]
@@ -140,6 +153,8 @@ _OUTSIDE = placed("grass", (
         ("javelin",)),
     thing("skate ramp", ((0.50, 0.40, 0.28), (0.42, 0.43, 0.44)), _ramp,
           ("skateboard ramp", "bmx ramp")),
+    thing("ramp", ((0.50, 0.40, 0.28), (0.42, 0.43, 0.44)), _wedge,
+          ("wooden ramp", "loading ramp", "inclined plane", "incline", "slope ramp")),
     thing("saddle", ((0.20, 0.085, 0.035),), lambda p: [
         rod(Material(WOOD_BROWN), (-0.45, 0.0, 0.42), (0.45, 0.0, 0.42), 0.10),
         *(limb(Material(WOOD_BROWN), (x, 0.0, 0.42), (x, 0.28 * s, 0.0), 0.025)

@@ -1,0 +1,1 @@
+"""Ways off, onto, into, out of, through, up and down things."""
