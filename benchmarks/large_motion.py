@@ -125,6 +125,7 @@ SCENES: Mapping[str, Scene] = {
     **{f"zoom, {factor}": partial(zoom, factor=factor) for factor in (1.05, 1.1, 1.2, 1.3)},
     "ball, 8 px, 12 px": partial(ball, size=8.0, step=12.0),
     "ball, 14 px, 25 px": partial(ball, size=14.0, step=25.0),
+    "ball, 30 px, 20 px": partial(ball, size=30.0, step=20.0),
     "spokes, 6°": partial(spokes, degrees=6.0),
     "spokes, 12°": partial(spokes, degrees=12.0),
     "stripes of 10 px, 2 px": partial(stripes, period=10.0, step=2.0),

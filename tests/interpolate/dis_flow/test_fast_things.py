@@ -118,6 +118,16 @@ def test_a_thing_that_the_search_has_found_keeps_its_flow(ground):
         np.testing.assert_array_equal(one, other)
 
 
+def test_ground_that_a_followed_disc_covers_is_no_thing(ground, config, stream, psnr):
+    # The search finds the disc; what it covers and what it uncovers look alike.
+    first, truth, second = (
+        with_balls(ground, (76 + 8 * half, 80 - 3 * half), radius=10) for half in (0, 1, 2)
+    )
+    pair = Frame(first, 0), Frame(second, 1000)
+    (frame,) = FlowInterpolator(config(), stream).between(*pair, [500])
+    assert psnr(frame.pixels, truth) > 32.0
+
+
 def test_the_shift_of_missed_details_is_found_and_one_that_repeats_has_a_rival():
     rng = np.random.default_rng(3)
     image = np.zeros((60, 90))

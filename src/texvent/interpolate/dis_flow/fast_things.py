@@ -8,7 +8,8 @@ both flows are known on a level, one after the other, in what the motion around 
    belong to a thing, or to what it covers and uncovers.
 3. *Shift.* These pixels of both images are correlated at every shift: first their detail, then
    their difference from a wide mean, which tells a thing of one colour. The best shift is tried,
-   unless another one explains the same pixels nearly as well.
+   unless another one explains the same pixels nearly as well, or they are mostly ground that
+   something covers or uncovers which is followed already.
 4. *Pixels.* A missed pixel takes the shift if its surroundings agree there, and the other image
    says the same. What the thing covers or uncovers takes the flow of the surroundings.
 5. *Check.* Around the thing, brightness must change clearly less along the new flows than along
@@ -45,6 +46,9 @@ brightness around (9×9): ground that a thing covers fits other ground better th
 AMBIGUOUS = 0.5
 """Where a rival fits this share of a shift's pixels too, as in a texture that repeats, neither
 counts."""
+HIDDEN = 0.5
+"""At most this share of a thing's pixels may be ground, moving as the surroundings do, that in the
+other image is covered by something that is followed: two such grounds look alike by chance."""
 BORDER = 3
 """Pixels around a thing that may have its flow, or what it covers, by mistake. The check looks as
 far around these."""
@@ -99,9 +103,13 @@ def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: Modul
         missed = ways[0].missed & is_open[0] & ~settled, ways[1].missed & is_open[1] & ~settled
         for detail_of in (detail, wide_detail):
             shifts = correlate_missed((detail_of(images[0]), detail_of(images[1])), missed)
-            if not shifts or _is_ambiguous(ways[0], shifts, is_open[0]):
+            if not shifts:
                 continue
-            found, near = _follow(ways, flows, is_open, shifts[0])
+            fits = _fits(ways[0], shifts[0], is_open[0]), _fits(ways[1], -shifts[0], is_open[1])
+            rivals = [_fits(ways[0], rival, is_open[0]) for rival in shifts[1:]]
+            if _is_ambiguous(fits[0], rivals) or _is_hidden(fits, ways, is_open):
+                continue
+            found, near = _follow(ways, flows, is_open, shifts[0], fits)
             still_open, wide = both_unconfirmed(start, stop, found, kernels), _dilated(near, BORDER)
             before = _unexplained(ways, flows, is_open, wide, kernels)
             after = _unexplained(ways, found, still_open, wide, kernels)
@@ -132,20 +140,30 @@ def surroundings(flow: Floats) -> Floats:
     return np.ascontiguousarray(median[:, rows][:, :, columns], np.float32)
 
 
-def _is_ambiguous(way: Way, shifts: list[Floats], is_open: Mask) -> bool:
-    """Whether the second shift fits the pixels that the first one fits."""
-    if len(shifts) < 2:
-        return False
-    best, rival = (_fits(way, shift, is_open) for shift in shifts)
-    return bool((best & rival).sum() > AMBIGUOUS * best.sum())
+def _is_ambiguous(fits: Mask, rivals: list[Mask]) -> bool:
+    """Whether another shift fits the pixels that the first one fits."""
+    return any(bool((fits & rival).sum() > AMBIGUOUS * fits.sum()) for rival in rivals)
+
+
+def _is_hidden(fits: tuple[Mask, Mask], ways: Ways, is_open: tuple[Mask, Mask]) -> bool:
+    """Whether most pixels that a shift fits are ground that something followed covers."""
+    hidden = (
+        mask & covered(way.around, one, other)
+        for mask, way, one, other in zip(fits, ways, is_open, is_open[::-1], strict=True)
+    )
+    total = sum(int(mask.sum()) for mask in fits)
+    return sum(int(mask.sum()) for mask in hidden) > HIDDEN * total
 
 
 def _follow(
-    ways: Ways, flows: Flows, is_open: tuple[Mask, Mask], shift: Floats
+    ways: Ways,
+    flows: Flows,
+    is_open: tuple[Mask, Mask],
+    shift: Floats,
+    fits: tuple[Mask, Mask],
 ) -> tuple[Flows, Mask]:
     """Both flows with a thing that moves by a shift, and the pixels around it in either image."""
     shifts = shift, -shift
-    fits = [_fits(*each) for each in zip(ways, shifts, is_open, strict=True)]
     things = [
         _filled(_confirmed_by(one, other, each))
         for one, other, each in zip(fits, fits[::-1], shifts, strict=True)
