@@ -27,14 +27,12 @@ LEAST_COLOURED = 0.4
 """How much of its tint the mean colour has, as a share of its luma."""
 LEAST_GAIN = 0.1
 """How much of that the tint of the light must have brought."""
-LEAST_BACK, MOST_BACK = 0.1, 0.8
+LEAST_BACK, MOST_BACK = 0.15, 0.7
 """How much darker, in luma, things must be than in light from the other side; their luma as a share
-of that of the rest, at most."""
-LEAST_SIDE, LEAST_OWN_SIDE = 0.15, 0.12
+of that of the rest, at most. So bright a background is the sky."""
+LEAST_SIDE, LEAST_OWN_SIDE = 0.2, 0.12
 """How much brighter the lit half of a thing is: than lit from the other side, and than the other
 half."""
-LEAST_NEAR, LEAST_ASIDE = 0.008, 0.15
-"""Share of the picture of shadows beside things; how far beside, as a share of the size."""
 MOST_TURNED = 0.8
 """Cosine by which the camera turns at most while light comes from one side of it."""
 LEAST_THING = 0.004
@@ -109,7 +107,7 @@ def _judge_brightness(picture: Picture, value: str) -> str | None:
 
 
 def _judge_direction(picture: Picture, value: str) -> str | None:
-    """Where the light comes from must be told by shadows, or by the sides of things."""
+    """Where the light comes from is told by the sides of things."""
     if value == "above":
         return "not to be told from usual light"
     if value == "low":
@@ -122,8 +120,7 @@ def _judge_direction(picture: Picture, value: str) -> str | None:
     if value in ("back", "front"):
         return _judge_depth(picture, forward, is_behind=value == "back")
     sign = 1.0 if value == "left" else -1.0
-    is_told = _lights_side(picture, right, sign) or _shades_side(picture, sign)
-    return None if is_told else "hardly to be told"
+    return None if _lights_side(picture, right, sign) else "hardly to be told"
 
 
 def _judge_depth(picture: Picture, forward: Float64Array, *, is_behind: bool) -> str | None:
@@ -138,7 +135,8 @@ def _judge_depth(picture: Picture, forward: Float64Array, *, is_behind: bool) ->
     change = float(seen[things].mean() - turned[things].mean())
     if is_behind:
         is_dark = float(seen[things].mean()) <= MOST_BACK * float(seen[~things].mean())
-        return None if change <= -LEAST_BACK and is_dark else "hardly to be told"
+        is_told = change <= -LEAST_BACK and is_dark and sky_share(picture) >= CLEAR_SKY
+        return None if is_told else "hardly to be told"
     return None if change >= LEAST_BACK else "hardly to be told"
 
 
@@ -161,23 +159,6 @@ def _lights_side(picture: Picture, right: Float64Array, sign: float) -> bool:
 
 def _left_less_right(values: Float64Array, is_left: NDArray[np.bool_]) -> float:
     return float(values[is_left].mean() - values[~is_left].mean())
-
-
-def _shades_side(picture: Picture, sign: float) -> bool:
-    """Whether the shadows beside things fall away from where the light comes from."""
-    view = picture.views[_MIDDLE]
-    things = view.instance > 0
-    if not things.any():
-        return False
-    low, high = picture.points[things].min(axis=0), picture.points[things].max(axis=0)
-    middle, size = 0.5 * (low + high), float((high - low).max())
-    offset = picture.points - middle
-    is_near = (np.abs(offset[:, 0]) <= 1.5 * size) & (offset[:, 1] >= 0.0) & ~things
-    is_near &= offset[:, 1] <= 1.2 * size
-    dark = (picture.difference(None, _MIDDLE, shadows=False) > VISIBLE) & is_near
-    if dark.mean() < LEAST_NEAR:
-        return False
-    return sign * float(offset[dark, 0].mean()) >= LEAST_ASIDE * size
 
 
 def _mirrored(scene: ComposedScene, across: Float64Array) -> ComposedScene:
