@@ -20,7 +20,7 @@ from texvent.scenes.language.parser import parse_prompt
         ("a dog races", "1 dog, runs at 1.1 times its usual speed", ()),
         ("a girl bounces on a bed", "1 girl, jumps, on 1 bed", ()),
         ("dough kneaded by a baker", "1 baker, kneads, working on 1 dough", ()),
-        ("milk is poured into a cup", "1 person, pours, working on 1 cup, holding 1 glass", ()),
+        ("milk is poured into a cup", "1 person, pours, working on 1 cup", ()),
         ("a forklift lifts a pallet", "1 forklift, does 'lift load', with 1 pallet", ()),
         ("a man moves a chair", "1 man, walks, pushing 1 chair", ()),
         ("a crane moves a chair", "1 crane, moves in place, far away", ("moves",)),

@@ -145,8 +145,7 @@ class ActReader:
         is_own = verb.kind in _TAKES_ANY_OBJECT or verb.base in STOPS
         if not verb.kind or (acts_on_unshown and not is_own):
             return []
-        ridden = ride_unnamed(self._draft, clause, subjects)
-        if ridden:
+        if ridden := ride_unnamed(self._draft, clause, subjects):
             return ridden
         moved = self._give(clause, verb, subjects)
         if moved and verb.relation == "overtake":
@@ -186,8 +185,8 @@ class ActReader:
             )
             if is_able and add_motion(self._draft, index, ObjectMotion(kinds[0]), clause):
                 is_act = kinds[0] in ANIMAL_ACTS
-                seen = shown_as(kinds[0], base) if is_act else kinds[0]
-                word.shown_as = None if is_toying else seen
+                word.shown_as = shown_as(kinds[0], base) if is_act else kinds[0]
+                word.shown_as = None if is_toying else word.shown_as
                 moved.append(index)
         if moved and targets:
             done = {self._draft.objects[index].motions[-1].kind for index in moved}
