@@ -8,7 +8,7 @@ import numpy as np
 
 from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.picture import USUAL, Picture
-from texvent.scenes.language.vocabulary.objects import COLOURS, MATERIALS, decode_hex
+from texvent.scenes.language.vocabulary.objects import COLOURS, MATERIALS
 from texvent.scenes.scene import Float64Array
 
 LEAST_COVERED = 0.4
@@ -19,10 +19,9 @@ GREY = 0.15
 """Difference of the highest and lowest of R, G, B that grey may have."""
 METAL = (0.12, 0.57)
 """Mean luma of grey metal: what is lighter looks like china, what is darker like plastic."""
-DARK_LUMA, PALE_LUMA = 0.4, 0.6
+DARK_LUMA = 0.4
 _LUMA = np.array([0.299, 0.587, 0.114])
 _NOT_TOLD = "not to be told from other ones"
-_LEATHER = (COLOURS["brown"], decode_hex("3a2a20"))
 
 Look = Callable[[Float64Array], bool]
 
@@ -49,16 +48,13 @@ LOOKS: Mapping[str, Look] = {
     "metal": _is_metal,
     "brass": _is_coloured(COLOURS["gold"]),
     "rust": _is_coloured(COLOURS["copper"], COLOURS["brown"]),
-    "leather": _is_coloured(*_LEATHER),
     "rubber": lambda pixels: bool(np.mean(pixels @ _LUMA < DARK_LUMA) >= LEAST_COVERED),
-    "paper": lambda pixels: bool(np.mean(pixels @ _LUMA > PALE_LUMA) >= LEAST_COVERED),
-    "plastic": lambda pixels: True,
     "ceramic": lambda pixels: True,
 }
 """Material → whether pixels [k, 3], sRGB-coded 0..1, have its look; others are never told."""
 _COLOURED = {"cardboard": _is_coloured(COLOURS["brown"], COLOURS["tan"])}
 """Words with a look of their own."""
-_SMOOTH = frozenset({"ceramic", "plastic", "paper", "rubber"})
+_SMOOTH = frozenset({"ceramic", "rubber"})
 _OWN_LOOK = frozenset({"wood", "stone", "concrete", "metal", "marble", "brick"})
 """Materials that are told by their texture where a colour is said too."""
 

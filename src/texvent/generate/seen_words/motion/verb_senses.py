@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from texvent.scenes.description import Claim, SceneDescription
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.people.activities import DONE_SEATED, PERSON_NOUNS, SEATS
+from texvent.scenes.models.nouns import FAMILIES, NOUNS
+from texvent.scenes.models.people.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS, SEATS
 
 _OBJECTS = frozenset({"it", "him", "her", "them"})
 _DETERMINERS = frozenset({"his", "her", "its", "their", "the", "a", "an"})
@@ -15,13 +15,23 @@ _AFTER_OBJECT = re.compile(
     r"|under|with|to|into|between|by|at|before|across|through)"
 )
 _TURNING = re.compile(r"(twirl|spin|turn|rotat|whirl|swing|roll|flip)\w*")
-_HANGING = re.compile(r"(hang|hung)\w*")
+_AT_REST = re.compile(r"(hang|hung|rest)\w*")
 _FALLING = re.compile(r"(fall|fell)\w*")
 _SITTING = re.compile(r"sit|sits|sat|sitting|seated")
 _GRASPING = re.compile(r"(grab|seiz|snatch|bring|brought)\w*")
+_FLAPPING = frozenset(
+    noun.name
+    for family in ("animals flying birds", "animals coloured birds")
+    for noun in FAMILIES[family]
+    if noun.motion == "fly"
+)
 _ON_FOOT = {"walk", "run"}
 """How who brings something comes with it; who grabs it has it in hand only then."""
 _BACKWARD = ("backward", "backwards", "back")
+_WINGS = re.compile(r"(glid|soar)\w*")
+_ON_LEGS = re.compile(r"waddl\w*")
+_BY_HAND = re.compile(r"(tap|typ|press|click|rest|touch|grasp|grab|grip|pok)\w*")
+_AIRBORNE = re.compile(r"(catch|caught|throw|threw|thrown|toss|hurl|climb)\w*")
 _MOUTH = re.compile(r"(laugh|giggl|chuckl|smil|grin)\w*")
 
 
@@ -67,12 +77,25 @@ def _judge_word(
     is_off = any(rest.startswith("off") for rest in rests)
     is_on_any = any(one.kind == "on" and one.subject in claim.things
                     for one in description.relations)  # fmt: skip
+    is_hand = any(noun in HAND_NOUNS for noun in nouns)
+    is_flier = any(noun in _FLAPPING for noun in nouns)
+    is_afloat = any(noun in NOUNS and NOUNS[noun].habitat == "water" for noun in nouns)
+    is_alone = not any(
+        index in claim.things
+        for one in description.relations
+        for index in (one.subject, *one.targets)
+    )
     is_held = any(one.kind in ("hold", "carry") for one in claim.relations)
     faults = {
         "faces do not move": _MOUTH.fullmatch(word),
         "stays upright": word.startswith("wobbl") and _is_going(claim, description),
         "the box bursts": word.startswith("pop") and "popcorn" in nouns,
-        "stands": _HANGING.fullmatch(word) and "stand" in kinds and is_alive,
+        "stands": _AT_REST.fullmatch(word) and "stand" in kinds and is_alive,
+        "touches nothing": is_hand and _BY_HAND.fullmatch(word) and is_alone,
+        "flaps its wings": is_flier and _WINGS.fullmatch(word),
+        "swims": _ON_LEGS.fullmatch(word) and is_afloat,
+        "with nothing": is_person and _AIRBORNE.fullmatch(word) and is_alone,
+        "only slides": word.startswith("slip") and "slide" in kinds,
         "stands, on no seat": (
             _SITTING.fullmatch(word) and kinds & DONE_SEATED and not _has_seat(claim, description)
         ),
