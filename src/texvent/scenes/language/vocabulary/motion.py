@@ -29,7 +29,7 @@ class Verb:
 _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "move": {
         1.0: ("move", "head", "proceed", "advance", "journey", "go", "travel"),
-        1.7: ("race", "speed"), 1.6: ("rush",), 1.8: ("zip",), 1.5: ("hurry",),
+        2.4: ("race", "speed"), 2.2: ("rush",), 2.6: ("zip",), 1.8: ("hurry",),
         0.4: ("creep",), 0.7: ("drift",),
     },
     "drive": {0.8: ("cruise",)},
@@ -253,20 +253,20 @@ PACES: dict[float, tuple[str, ...]] = {
     0.6: ("gently", "gentle", "leisurely"),
     0.7: ("calmly",),
     1.0: ("steadily",),
-    1.6: ("quickly", "quick", "swiftly"),
-    1.7: ("fast",),
-    1.9: ("faster",),
-    1.8: ("rapidly", "rapid"),
-    2.2: ("very fast", "at top speed"),
-    2.0: ("at high speed", "at full speed", "wildly"),
+    2.0: ("quickly", "quick", "swiftly"),
+    2.4: ("fast",),
+    2.6: ("faster",),
+    2.5: ("rapidly", "rapid"),
+    3.2: ("very fast", "at top speed"),
+    3.0: ("at high speed", "at full speed", "wildly"),
 }  # fmt: skip
 
 PACE_ADJECTIVES: dict[float, tuple[str, ...]] = {
     0.5: ("slow",),
     0.6: ("gentle",),
-    1.6: ("quick",),
-    1.7: ("fast", "speeding"),
-    1.8: ("rapid",),
+    2.0: ("quick",),
+    2.4: ("fast", "speeding"),
+    2.5: ("rapid",),
 }
 UNITS: dict[tuple[str, float], tuple[str, ...]] = {
     ("speed", 1 / 3.6): (
