@@ -18,7 +18,7 @@ from texvent.scenes.language.lanes import go_along
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.objects.patterns import FACING
-from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
+from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS, SEATS
 from texvent.scenes.models.protocol import Noun
 
 SWAY = CameraMove("handheld", pace=0.4)
@@ -326,6 +326,8 @@ def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
             return replace(scene_object, motion=STANDING)
         pace = 1.0 if motion is None else motion.pace
         return replace(scene_object, motion=ObjectMotion("work", pace=pace))
+    if motion is None and noun.name in HAND_NOUNS:
+        return replace(scene_object, motion=STANDING)
     if motion is None and noun.habitat in ("air", "water") and noun.motion != "stand":
         return replace(scene_object, motion=ObjectMotion(noun.motion))
     if motion is not None and motion.kind == "move":

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
-from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.prominence import GOALS
@@ -80,6 +80,8 @@ def list_views(
         is_still = bool(tying) and not aims
         near = np.vstack([main.corners(float(t)) for t in (times[:1] if is_still else times)])
         if not aims:
+            if main.noun.name in HAND_NOUNS:
+                near = upper_part(near, FOREARM)
             if not is_person:
                 return [View(near, 0.95)]
             held = [
@@ -128,6 +130,8 @@ _BREADTH = {"close": 0.24, "medium": 0.32}
 """Framing → how far to each side of the middle it must hold the person, in heights."""
 
 
+FOREARM = 0.28
+"""Share of a hand with its forearm below which the image may end: it comes from outside."""
 _IN_HAND = 0.25
 """Size of what is in a person's hands, as a multiple of the person's, at most."""
 

@@ -9,15 +9,16 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.anchors import has_places, locate
-from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.acts.prop_shapes import Prop
 from texvent.scenes.models.shapes import bounds, compose, moved
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.closeness import STAYING, is_open
-from texvent.scenes.staging.camera.framed_points import upper_part
+from texvent.scenes.staging.camera.framed_points import FOREARM, upper_part
 from texvent.scenes.staging.camera.framing import Framing, fit
+from texvent.scenes.staging.trajectories.trajectory import Stationary
 
 WAIST = 0.45
 """Share of a person's height below which the image may end."""
@@ -63,13 +64,10 @@ def come_near_arms(
     if _needs_whole_body(description, main):
         return path
     people = [one for one in actors if one.object_index == main.object_index]
-    if not main.is_mover or not all(_stays_on_the_spot(one, times) for one in people):
+    is_active = main.is_mover or main.noun.name in HAND_NOUNS
+    if not is_active or not all(_stays_on_the_spot(one, times) for one in people):
         return path
-    boxes = [
-        upper_part(_boxes(one, times), WAIST) if _stays_on_the_spot(one, times)
-        else _boxes(one, times)
-        for one in actors
-    ]  # fmt: skip
+    boxes = [_part_of_interest(one, times) for one in actors]
     boxes += [_box_of(prop, one, times) for one in actors for prop in one.props]
     wide = path.framing
     near = fit(np.vstack(boxes), azimuth=wide.azimuth, elevation=wide.elevation, aspect=aspect,
@@ -87,8 +85,18 @@ def _needs_whole_body(description: SceneDescription, main: Actor) -> bool:
     return wears or is_posture or any(word.startswith("stand") for word in description.shown)
 
 
+def _part_of_interest(actor: Actor, times: Float64Array) -> Float64Array:
+    """[n, 3] corners of what the image must hold of it, m."""
+    boxes = _boxes(actor, times)
+    if not _stays_on_the_spot(actor, times):
+        return boxes
+    return upper_part(boxes, FOREARM if actor.noun.name in HAND_NOUNS else WAIST)
+
+
 def _stays_on_the_spot(actor: Actor, times: Float64Array) -> bool:
-    """Whether it is a person whose feet and seat stay where they are."""
+    """Whether it is a hand that stays, or a person whose feet and seat do."""
+    if actor.noun.name in HAND_NOUNS:
+        return isinstance(actor.trajectory, Stationary)
     if actor.noun.name not in PERSON_NOUNS or not has_places(actor.model):
         return False
     limit = _STILL * actor.model.height
