@@ -68,9 +68,9 @@ def test_of_many_four_must_be_seen_and_of_a_count_half() -> None:
 def test_a_plural_of_which_one_is_seen_and_adjectives_of_a_lost_noun_are_not_shown() -> None:
     one = report_on(parse_prompt(PROMPT), Evidence(faults={0: SEEN, 1: [None, "hidden", "hidden"]}))
     assert "seagulls (only one in view)" in one.not_shown
-    sun = parse_prompt("strong sun over a lake")
-    assert "strong" in report_on(sun, Evidence()).shown
-    assert "strong" not in report_on(sun, Evidence(places={"sun": "out of view"})).shown
+    sky = parse_prompt("red sky over a lake")
+    assert "red" in report_on(sky, Evidence()).shown
+    assert "red" not in report_on(sky, Evidence(places={"sky": "out of view"})).shown
 
 
 def test_what_is_said_of_a_noun_in_doubt_is_in_doubt() -> None:
@@ -106,7 +106,7 @@ def test_a_kind_that_is_not_seen_is_no_substitute() -> None:
     ("prompt", "shown"),
     [
         ("A video of a car, at very high resolution, with its wheels", {"car", "wheels"}),
-        ("the camera looks at a dog in a kitchen with soft light", {"dog", "kitchen"}),
+        ("the camera looks at a dog in a kitchen with soft light", {"dog", "kitchen", "soft"}),
         ("a dog runs through the frame, without a cat", {"dog", "runs", "no cat"}),
         ("a ball on a table under a lamp", {"ball", "table", "under", "lamp"}),
     ],

@@ -86,7 +86,7 @@ def test_what_goes_too_slowly_is_not_fast_and_what_stands_still_does_not_go() ->
     assert not find_evidence(scene, description, SIZE, DURATION_S).places
 
     class Slowed(type(scene)):
-        share = 0.2
+        share = 0.13
 
         def primitives(self, time_s):
             return super().primitives(0.5 + self.share * time_s)

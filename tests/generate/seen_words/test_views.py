@@ -38,7 +38,7 @@ def test_what_the_camera_does_is_shown(prompt, word) -> None:
         ("First-person view: hands type on a laptop.",
          "first person view (the person is seen from outside)"),
         ("A drone flies over a city.", "over (not above the roofs)"),
-        ("A boy sits in his bedroom.", "bedroom (no bed or double bed)"),
+        ("A woman stands in a wheat field.", "wheat field (no stalks)"),
         ("Two balls lie on the grass, seen from the stands.",
          "stands (the camera is not up there)"),
         ("A runner runs. The camera falls behind.",

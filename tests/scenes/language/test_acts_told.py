@@ -17,7 +17,7 @@ from texvent.scenes.language.parser import parse_prompt
         ("a cyclist falls", "1 bicycle, stands still, then falls", ()),
         ("a seagull takes off from the beach", "1 gull, rises", ()),
         ("a bus slows to a stop", "1 bus, drives at 1.8 times its usual speed", ()),
-        ("a dog races", "1 dog, runs at 1.1 times its usual speed", ()),
+        ("a dog races", "1 dog, runs at 1.6 times its usual speed", ()),
         ("a girl bounces on a bed", "1 girl, jumps, on 1 bed", ()),
         ("dough kneaded by a baker", "1 baker, kneads, working on 1 dough", ()),
         ("milk is poured into a cup", "1 person, pours, working on 1 cup", ()),

@@ -50,7 +50,7 @@ THINGS: list[tuple[str, list[str]]] = [
     ("a car drives right at 36 kph", ["1 car drive right 10m/s"]),
     ("a man runs at 3 m/s", ["1 man run 3m/s"]),
     ("a train travels at 60 mph", ["1 train drive 26.82m/s"]),
-    ("a fast motorcycle", ["1 motorcycle drive @1.7"]),
+    ("a fast motorcycle", ["1 motorcycle drive @2.4"]),
     ("a boat sails very slowly", ["1 boat sail @0.3"]),
     ("a ball bounces", ["1 ball bounce"]),
     ("a boy kicks a ball", ["1 child stand", "1 ball stand"]),
@@ -76,12 +76,12 @@ THINGS: list[tuple[str, list[str]]] = [
     ("fifteen penguins", ["15 penguin walk"]),
     ("100 sheep", [f"{MAX_COUNT} sheep walk"]),
     ("a dark car", ["1 car dark drive"]),
-    ("police cars speed by", ["3 police car drive @1.7"]),
+    ("police cars speed by", ["3 police car drive @2.4"]),
     ("a woman in the middle dances", ["1 woman <centre dance"]),
     ("a dog chases a cat", ["1 dog run @1.2", "1 cat walk"]),
     ("a bird without trees", ["1 bird fly"]),
     ("not a car but a bus drives left", ["1 bus drive left"]),
-    (SUV_PROMPT, ["1 suv white drive @1.7", "14 pine stand"]),
+    (SUV_PROMPT, ["1 suv white drive @2.4", "14 pine stand"]),
 ]
 
 

@@ -17,7 +17,7 @@ from texvent.generate.seen_words.lighting import (
     shadow_share,
     sky_share,
 )
-from texvent.generate.seen_words.picture import DENSE, USUAL, VISIBLE, Picture
+from texvent.generate.seen_words.picture import DARK, DENSE, USUAL, VISIBLE, Picture
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.projection import project
 from texvent.scenes.raycast.trace import GROUND
@@ -69,8 +69,9 @@ def _judge_kind(picture: Picture, description: SceneDescription, claim: Claim) -
     if _SUN_WORDS & set(claim.word.split()) and not _is_sun_seen(picture):
         return "out of view"
     if kind in ("night", "moonlight"):
-        is_lit = picture.brightness() > MOST_LIT and sky_share(picture) < LEAST_SKY
-        return "the picture is bright" if is_lit or not picture.is_dark() else None
+        is_dark = picture.is_dark() and picture.brightness() <= MOST_LIT
+        is_dark |= sky_share(picture) >= LEAST_SKY and _is_sky_dark(picture)
+        return None if is_dark else "the picture is bright"
     if kind == "sunny" or _NOON & set(claim.word.split()):
         return _judge_sunshine(picture)
     if kind in ("dawn", "dusk") and sky_share(picture) < LEAST_SKY:
@@ -80,6 +81,15 @@ def _judge_kind(picture: Picture, description: SceneDescription, claim: Claim) -
     if kind == "lamp":
         return _judge_lamp(picture, claim.word)
     return None
+
+
+def _is_sky_dark(picture: Picture) -> bool:
+    """Whether the sky that is seen is as at night, whatever lamps light below it."""
+    shades = []
+    for number in USUAL:
+        sky = picture.views[number].is_sky
+        shades += list(picture.colours(number)[sky].mean(axis=1))
+    return bool(np.mean(shades) <= DARK) if shades else False
 
 
 def _judge_sunshine(picture: Picture) -> str | None:

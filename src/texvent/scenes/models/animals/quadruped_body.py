@@ -99,7 +99,7 @@ def _tip(build: Build, stance: Stance) -> Affine:
 
 def _bow(build: Build) -> float:
     """How far the trunk bows for the mouth to reach the ground, rad."""
-    left = _lowest_nose(build) - 0.04 * build.shoulder
+    left = _lowest_nose(build) - 0.04 * build.shoulder - 0.12 * build.head[0]
     return min(max(left / max(0.66 * build.body[0], 1e-6), 0.0), 0.34)
 
 

@@ -43,9 +43,11 @@ def is_structure(rule: ScatterRule) -> bool:
     return rule.encloses or rule.is_beyond
 
 
-def along_walls(*furniture: tuple[str, int]) -> tuple[ScatterRule, ...]:
-    """Furniture against the walls, what the room is known by first."""
+def along_walls(*furniture: tuple[str, int], is_told: bool = True) -> tuple[ScatterRule, ...]:
+    """Furniture against the walls; `is_told`: the room is known by what comes first."""
     return tuple(
-        ScatterRule(noun, count, 0.0, 0.0, (0.95, 1.1), is_at_wall=True, is_telling=number == 0)
+        ScatterRule(
+            noun, count, 0.0, 0.0, (0.95, 1.1), is_at_wall=True, is_telling=is_told and number == 0
+        )
         for number, (noun, count) in enumerate(furniture)
     )

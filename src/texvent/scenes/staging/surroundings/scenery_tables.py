@@ -68,7 +68,7 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
                ScatterRule("bush", 4, 0.5, 2.5, (0.4, 0.8))),
     "soil": (ScatterRule("rock", 6, 0.2, 2.0, (0.15, 0.5)),
              ScatterRule("bush", 4, 0.6, 2.5, (0.4, 0.8))),
-    "indoor": _along_walls(("bookshelf", 1), ("chair", 2), ("lamp", 1)),
+    "indoor": _along_walls(("bookshelf", 1), ("chair", 2), ("lamp", 1), is_told=False),
     "living room": _along_walls(
         ("sofa", 1), ("fireplace", 1), ("armchair", 2), ("lamp", 1), ("large painting", 2),
         ("chest of drawers", 1), ("bookshelf", 1), ("potted plant", 2), ("grandfather clock", 1),
