@@ -19,6 +19,8 @@ _LONGEST_STEM = 2.0
 _WAYS = ("into", "out of")
 _OPENING, _LARGEST_VESSEL_M = 0.75, 3.0
 """The same of what is seen to go in or come out; what is larger stays as it is, m."""
+_HOOP = 1.4
+"""Width of a hoop that one goes through, in heights of who does."""
 _ROOM = 0.8
 """Share of a container's longer side that an animal in it may be long."""
 
@@ -31,6 +33,10 @@ def fit_contents(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     """
     objects = list(description.objects)
     for relation in description.relations:
+        if relation.kind == "through" and objects[relation.targets[0]].noun == "hula hoop":
+            hoop = objects[relation.targets[0]]
+            wide = _HOOP * _height(objects[relation.subject], nouns) / _side(hoop, nouns)
+            objects[relation.targets[0]] = replace(hoop, scale=hoop.scale * max(wide, 1.0))
         if relation.kind != "in" and relation.way not in _WAYS:
             continue
         inside, around = relation.subject, relation.targets[0]
@@ -147,6 +153,11 @@ def extent(scene_object: SceneObject, nouns: Mapping[str, Noun]) -> float:
     """Its largest extent, m."""
     model: Model = nouns[scene_object.noun].build(colour=None, scale=scene_object.scale, seed=0)
     return max(model.length, model.width, model.height)
+
+
+def _height(scene_object: SceneObject, nouns: Mapping[str, Noun]) -> float:
+    model: Model = nouns[scene_object.noun].build(colour=None, scale=scene_object.scale, seed=0)
+    return model.height
 
 
 def _side(scene_object: SceneObject, nouns: Mapping[str, Noun]) -> float:

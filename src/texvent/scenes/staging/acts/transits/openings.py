@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion
@@ -10,13 +11,15 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.transits.surfaces import half_along, rest_height
 from texvent.scenes.staging.acts.transits.tops import with_path
 from texvent.scenes.staging.acts.transits.vessels import Tipped
-from texvent.scenes.staging.trajectories.legs import Leg, Legs
-from texvent.scenes.staging.trajectories.trajectory import Stationary, Trajectory
+from texvent.scenes.staging.trajectories.legs import Leg, Legs, flight_s
+from texvent.scenes.staging.trajectories.trajectory import Stationary, Trajectory, Vector
 
 OPENINGS = frozenset({"hula hoop", "window", "goal"})
 """Nouns that one goes through along their front, besides gates."""
 _MIDDLES = {"hula hoop": 0.5, "window": 0.69}
 """Height of the middle of an opening, in its own heights, of those that are above the ground."""
+_MIDDLE = 0.4
+"""Share of the clip after which a leap is in the opening."""
 _TURNED_RAD = 0.6
 """How far the way is turned out of the picture's plane: opening and way are both seen."""
 
@@ -67,7 +70,8 @@ def pass_opening(
     # What is longer than a tunnel ends with its front in it.
     deep = min(0.3 * target.model.length, 0.4 * target.model.length - half)
     far = reach + (0.5 * target.model.length if is_half else 0.0)
-    first = -deep if is_half and is_out else -far
+    first = -abs(deep) if deep > 0.0 else deep
+    first = first if is_half and is_out else -far
     last = deep if is_half and not is_out else far
 
     def spot(along: float) -> tuple[float, float, float]:
@@ -77,8 +81,25 @@ def pass_opening(
     radius = 0.5 * subject.model.height if rolls else 0.0
     gait = motion.kind if motion.kind in ("walk", "run") else "move"
     seconds = (0.8 if is_half else 1.0) * duration_s * (1.0 - 0.2 * turn)
-    legs = (Leg(spot(last), seconds, gait, slows=is_half and not is_out),)
+    legs: tuple[Leg, ...] = (Leg(spot(last), seconds, gait, slows=is_half and not is_out),)
+    if motion.kind == "jump" and height > 0.0:
+        return with_path(subject, _leap(spot, height, 2.2 * half, duration_s, yaw)), target
     return with_path(subject, Legs(spot(first), yaw, legs, radius, radius)), target
+
+
+def _leap(
+    spot: Callable[[float], Vector], height_m: float, reach_m: float, duration_s: float, yaw: float
+) -> Legs:
+    """From the ground before the opening through it to the ground behind it."""
+    (x0, y0, top), (x1, y1, _) = spot(-reach_m), spot(reach_m)
+    ground = top - height_m
+    flight = flight_s(ground, ground, top)
+    legs = (
+        Leg((x0, y0, ground), max(_MIDDLE * duration_s - 0.5 * flight, 0.1), "stand"),
+        Leg((x1, y1, ground), flight, "jump", is_flight=True),
+        Leg((x1, y1, ground), duration_s, "stand"),
+    )
+    return Legs((x0, y0, ground), yaw, legs)
 
 
 def _raised(subject: Actor, motion: ObjectMotion, middle_m: float) -> float:

@@ -128,12 +128,12 @@ def _go_over_edge(
     half, tall = half_along(subject), subject.model.height
     edge_s = min(_EDGE * duration_s, _MOST_EDGE_S) * (0.7 + 0.9 * turn)
     is_fall = kind in FALLING or kind == "slide"
-    room = top.edge_m + min(top.edge_m, 0.6)
+    room = top.edge_m + 0.6 * min(top.edge_m, 0.8)
     run = min(room, 2.0 * half + 0.15 if is_fall else max(4.0 * half, 0.7))
     over = top.edge_m + 0.05 * half
     speed = max(run / edge_s, 0.25)
     fall_s = flight_s(up, down, up)
-    land = max(over + speed * fall_s, top.side_m + (0.6 * half if is_fall else 1.05 * half))
+    land = max(over + speed * fall_s, top.side_m + 1.05 * half + 0.12)
     begin = ahead_of(top.middle, yaw, over - run, up)
     brink = ahead_of(top.middle, yaw, over, up)
     gait = kind if kind in ("walk", "run") else "stand" if is_fall else "move"

@@ -9,6 +9,7 @@ from texvent.scenes.description import ObjectMotion
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import box, post
+from texvent.scenes.models.support_surface import find_support
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.transits.surfaces import ahead_of, half_along, rest_height
 from texvent.scenes.staging.acts.transits.tops import FLYING, JUMPING, choose_yaw, with_path
@@ -118,7 +119,10 @@ def _go_over_rim(
     yaw = choose_yaw(subject, target)
     lift, half, tall = rest_height(subject), half_along(subject), subject.model.height
     middle = 0.5 * (low + high)
-    inside = max(float(high[2]) - _SUNK * tall, float(low[2]) + _LOWEST * float(high[2] - low[2]))
+    # The handle of a basket is above its rim.
+    is_upright = isinstance(target.trajectory, Stationary)
+    rim = float(low[2]) + find_support(target.model).height if is_upright else float(high[2])
+    inside = max(rim - _SUNK * tall, float(low[2]) + _LOWEST * (rim - float(low[2])))
     aside = 0.5 * float(max(high[:2] - low[:2])) + 1.3 * half + 0.1
     within = ahead_of(middle, yaw, 0.0, inside + lift)
     outer = ahead_of(middle, yaw, aside if is_out else -aside, float(low[2]) + lift)
