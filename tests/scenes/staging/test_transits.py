@@ -44,13 +44,10 @@ def test_a_flight_lasts_as_long_as_up_and_down() -> None:
     assert flight_s(0.0, 1.0, 1.0) == pytest.approx((2.0 / 9.81) ** 0.5)
 
 
-@pytest.mark.parametrize(
-    ("prompt", "heads"),
-    [("two men facing each other", True), ("a woman opposite a man", True)],
-)
-def test_who_face_each_other_are_turned_to_each_other(prompt: str, heads: bool) -> None:
+@pytest.mark.parametrize("prompt", ["two men facing each other", "a woman opposite a man"])
+def test_who_face_each_other_are_turned_to_each_other(prompt: str) -> None:
     scene = compose_scene(parse_prompt(prompt), seed=0, size=SensorSize(64, 48), duration_s=2.0)
     one, other = (actor.trajectory.at(1.0) for actor in scene.actors)
     way = other.position[0] - one.position[0]
     fronts = [state.to_world()[0, 0] for state in (one, other)]
-    assert (fronts[0] * way > 0.0 > fronts[1] * way) == heads
+    assert fronts[0] * way > 0.0 > fronts[1] * way
