@@ -74,7 +74,7 @@ _LARGER = 1.8
 """Most by which a small thing is enlarged; see docs/prompts.md."""
 _LARGER_WORN = 1.3
 """The same of what is worn."""
-_LARGER_BALL = 1.3
+_LARGER_BALL = 1.5
 """The same of balls and what else is thrown by hand."""
 _LARGER_BIRD = 1.5
 """The same of what flies."""
