@@ -375,7 +375,8 @@ def _is_able(actor: Actor) -> bool:
 def _plan_moves(
     description: SceneDescription, main: Actor | None, duration_s: float
 ) -> tuple[CameraMove, ...]:
-    moves = tuple(move for move in description.shot.moves if move.kind != "static")
+    said = (move for move in description.shot.moves if move.kind != "static")
+    moves = tuple({(move.kind, move.phase): move for move in said}.values())  # each kind once
     if main is None or moves or description.shot.moves:
         return moves
     span = max(main.model.length, main.model.height)
