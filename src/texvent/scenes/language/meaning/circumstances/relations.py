@@ -105,13 +105,18 @@ class RelationReader:
             return self._relate(place, scope.subjects, things, "at" if place == "beside" else "")
         if kind == "from" and lifts_off(self._draft, scope.movers, things[0]):
             return self._relate("on", scope.movers, things, "off")
-        if self._is_journey_of_none(kind, scope):
+        if self._is_journey_of_none(kind, scope) or (word.text == "off" and self._bounce(scope)):
             return False
         subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
         if word.text in _MOVES_OBJECT and kind in ("on", "in") and scope.acted_on:
             # As in "drops a box into a bin", "takes a book off a shelf".
             subjects = list(scope.acted_on)
         return self._relate(kind, subjects, things, PREPOSITION_WAYS.get(word.text, ""))
+
+    def _bounce(self, scope: Scope) -> bool:
+        """As in "bounces off a wall", which is no way down from it."""
+        motions = [self._draft.objects[index].motions[-1:] for index in scope.movers]
+        return any(one and one[0].kind == "bounce" for one in motions)
 
     def _at_bench(self, kind: str | None, things: list[int], scope: Scope) -> str | None:
         """As in "kneads dough on a table", of which the dough is not shown: hands at the table."""
