@@ -69,9 +69,10 @@ def _judge_kind(picture: Picture, description: SceneDescription, claim: Claim) -
     if _SUN_WORDS & set(claim.word.split()) and not _is_sun_seen(picture):
         return "out of view"
     if kind in ("night", "moonlight"):
-        is_dark = picture.is_dark() and picture.brightness() <= MOST_LIT
-        is_dark |= sky_share(picture) >= LEAST_SKY and _is_sky_dark(picture)
-        return None if is_dark else "the picture is bright"
+        has_sky = sky_share(picture) >= LEAST_SKY
+        is_dark = picture.is_dark() and (has_sky or picture.brightness() <= MOST_LIT)
+        is_night = is_dark or (has_sky and _is_sky_dark(picture))
+        return None if is_night else "the picture is bright"
     if kind == "sunny" or _NOON & set(claim.word.split()):
         return _judge_sunshine(picture)
     if kind in ("dawn", "dusk") and sky_share(picture) < LEAST_SKY:
