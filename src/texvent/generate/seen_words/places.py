@@ -80,6 +80,8 @@ _NEEDS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("warehouse", "storehouse"), ("shelf", "crate", "pallet")),
     **dict.fromkeys(("laboratory", "lab", "research lab", "chemistry lab", "science lab"),
                     ("lab bench", "centrifuge", "microscope", "beaker", "flask")),
+    **dict.fromkeys(("park", "city park", "public park", "park path"),
+                    ("tree", "pine", "birch", "park bench", "bench", "park lamp")),
     "stage": ("stage curtain", "spotlight"),
     "garden": ("flower", "fence", "garden fence"),
     **dict.fromkeys(("garage", "auto repair shop", "car workshop"), ("car lift",)),

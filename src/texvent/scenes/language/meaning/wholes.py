@@ -45,6 +45,8 @@ _OWN_PARTS: Mapping[str, frozenset[str]] = {
                    " insect dragonfly moth pigeon hummingbird swan goose"),
 }  # fmt: skip
 """Part that is a thing by itself, or food → last words of the things of which it is a part."""
+_MARKS = _words("dot spot mark")
+"""What things have on them, which is not drawn."""
 _ALONE = _words("wheel propeller barrel mirror lens gripper")
 """Parts that are shown alone, unless the whole does what is said of them."""
 _TURNING = _words("spin rotate turn revolve whirl move run")
@@ -62,6 +64,7 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun]) -> None:
         nouns: the objects that can be shown, by name.
     """
     verb = clause.verb.lemma if clause.verb is not None else ""
+    _drop_marks(clause)
     for group in _list_others(clause):
         whole = _find_whole(group, nouns)
         if whole is not None and _name(group.head_word) not in _ALONE:
@@ -81,6 +84,15 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun]) -> None:
             part.shown_as, clause.subjects[at] = whole.name, owner
         if not is_by_part:
             _lose_verb(clause)
+
+
+def _drop_marks(clause: Clause) -> None:
+    """As in "a black disc with a white dot": the dot is on the disc, no second disc beside it."""
+    for phrases in (clause.phrases, *(one.phrases for one in clause.subjects + clause.objects)):
+        for phrase in list(phrases):
+            heads = [_name(group.head) for group in phrase.groups if group.head is not None]
+            if phrase.preposition.text == "with" and _MARKS.issuperset(heads):
+                phrases.remove(phrase)
 
 
 def _list_others(clause: Clause) -> Iterator[NounGroup]:

@@ -32,6 +32,7 @@ LOOKS: Mapping[str, str] = MappingProxyType(
         "sprinkler": "post with a round head",
         "technician": "person in a white coat",
         "teenager": "person in a cap",
+        "tunnel": "short gateway",
         "tutu": "pink disc",
         "vest": "striped bag",
         "welder": "person in work clothes",

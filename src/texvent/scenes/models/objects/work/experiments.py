@@ -32,10 +32,13 @@ from texvent.scenes.models.objects.palette import (
     YELLOW_PAINT,
 )
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import ball, box, limb, peak, plank, post, rod, shift
+from texvent.scenes.models.shapes import ball, box, compose, limb, peak, plank, post, rod, shift
 
 _CLAY = Material((0.42, 0.20, 0.10))
 _WOOD = Material(WOOD_BROWN)
+_UPPER_ARM = swinging("x", 0.9, 0.7, (0.0, 0.0, 0.98))
+_LOWER_ARM = swinging("x", 1.5, 0.45, (0.0, 0.0, 0.60))
+"""About the end of the upper arm of a double pendulum."""
 
 
 def _wedges(count: int, radius: float, x: float, turn: float = 0.0) -> list[ModelPart]:
@@ -144,10 +147,10 @@ _SCIENCE = (
         1.0), 0.02), post(IRON, (-0.1, 0.0, 0.02), (0.4, 0.4, 0.04)),
         rod(IRON, (-0.1, 0.0, 0.98), (0.03, 0.0, 0.98), 0.02)], ("chaotic pendulum",), moving=(
         Moving(lambda p: [bar(p, (0.0, 0.98), (0.0, 0.60), 0.03, 0.02), ball(p, (0.0, 0.0, 0.60),
-            (0.08, 0.08, 0.08))], swinging("x", 0.9, 0.7, (0.0, 0.0, 0.98))),
-        Moving(lambda p: [bar(RED_PAINT, (0.0, 0.98), (0.22, 0.30), 0.025, 0.02, 0.03),
-            ball(RED_PAINT, (0.03, 0.22, 0.30), (0.08, 0.08, 0.08))],
-               swinging("x", 1.5, 0.45, (0.0, 0.0, 0.98))))),
+            (0.08, 0.08, 0.08))], _UPPER_ARM),
+        Moving(lambda p: [bar(RED_PAINT, (0.0, 0.60), (0.0, 0.24), 0.025, 0.02, 0.03),
+            ball(RED_PAINT, (0.03, 0.0, 0.24), (0.08, 0.08, 0.08))],
+               lambda pose: compose(_UPPER_ARM(pose), _LOWER_ARM(pose))))),
     thing("zoetrope", (INK.colour,), lambda p: [post(_WOOD, (0.0, 0.0, 0.03), (0.26, 0.26,
         0.06)), rod(IRON, (0.0, 0.0, 0.0), (0.0, 0.0, 0.14), 0.015)],
         (), moving=(Moving(lambda p: [post(toned(p, 0.6), (0.0, 0.0, 0.15), (0.40,
