@@ -51,6 +51,7 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
     "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket", "hand"),
     "forest": ("bear", "wolf", "fox", "deer"),
     "grass": ("tent",),
+    "square": ("skateboarder",),
 }  # fmt: skip
 """Place → nouns that are usually found there; what is not listed is shown on grass."""
 
