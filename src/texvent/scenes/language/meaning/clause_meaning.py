@@ -29,6 +29,7 @@ from texvent.scenes.language.meaning.clause_rewrites import (
     list_brought,
     list_other_phrases,
     rewrite_objects,
+    take_climbed,
     take_partners,
     take_vessel,
     turn_active,
@@ -201,6 +202,7 @@ class ClauseMeaning:
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         self._referents.doers = things
         take_vessel(clause)
+        take_climbed(clause)
         take_partners(clause)
         take_fellows(clause)
         take_receivers(clause)

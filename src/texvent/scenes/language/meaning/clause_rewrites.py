@@ -104,6 +104,17 @@ def take_vessel(clause: Clause) -> None:
             clause.phrases.remove(phrase)
 
 
+def take_climbed(clause: Clause) -> None:
+    """As in "climbs up a tree": it climbs the tree."""
+    if clause.verb is None or clause.verb.lemma != "climb" or clause.objects:
+        return
+    for phrase in list(clause.phrases):
+        if phrase.preposition.text == "up" and phrase.groups:
+            phrase.preposition.is_used = True
+            clause.objects = phrase.groups
+            clause.phrases.remove(phrase)
+
+
 _POURING = frozenset({"pour", "decant", "refill", "spill"})
 _DRESSING = ("put on", "putt on")
 

@@ -27,7 +27,7 @@ SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "talk": ("whisper", "recite", "interview", "present", "explain"),
     "kneel": ("pray", "propose"),
     "dance": ("breakdance", "moonwalk", "twerk"),
-    "climb": ("clamber", "cling", "scale", "climb up", "shin up"),
+    "climb": ("clamber", "cling", "scale", "shin up"),
     "jump": ("vault",),
 }  # fmt: skip
 """Activity of people → verbs it stands for."""
@@ -141,7 +141,7 @@ SIMILAR_MOTIONS: dict[str, tuple[str, ...]] = {
     "topple": ("capsize",),
     "fly": ("swarm", "buzz", "wheel"),
     "move": ("slither", "cut", "emerge", "flow", "stream", "navigate", "patrol"),
-    "rise": ("lift", "float up", "climb up", "soar up"),
+    "rise": ("lift", "float up", "soar up"),
     "fall": ("tumble", "cascade", "plunge"),
     "bounce": ("ricochet", "rebound"),
 }  # fmt: skip
