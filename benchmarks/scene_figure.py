@@ -19,8 +19,8 @@ from texvent.scenes.raycast.ground_truth import GroundTruth
 PROMPTS = (
     "tracking shot of a red car driving left past two trees",
     "a woman plays the guitar",
-    "a dog catches a frisbee on a beach",
-    "a taxi waits at a traffic light in a city street at night",
+    "a dog runs through a hoop",
+    "a hand shows a victory sign",
 )
 SIZE = (240, 180)
 AT_US = 600_000
