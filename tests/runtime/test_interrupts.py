@@ -2,7 +2,9 @@ from __future__ import annotations
 
 import contextlib
 import signal
+import sys
 import threading
+import time
 
 import pytest
 
@@ -50,6 +52,25 @@ def test_an_interrupt_inside_a_compiled_function_is_one() -> None:
     assert caught.value.number == signal.SIGTERM
     with pytest.raises(SystemError, match="another"), raise_interrupted():
         raise SystemError("another")
+
+
+def test_a_signal_in_a_finaliser_is_neither_lost_nor_printed(capfd) -> None:
+    class Signalling:
+        def __del__(self) -> None:
+            signal.raise_signal(signal.SIGTERM)
+            time.sleep(0.0)  # the handler runs here, and what it raises is dropped
+
+    def work() -> None:
+        with raise_interrupted():
+            done = Signalling()
+            del done
+            time.sleep(60.0)
+
+    before = sys.unraisablehook
+    with pytest.raises(Interrupted, match="SIGTERM"):
+        work()
+    assert sys.unraisablehook is before
+    assert capfd.readouterr().err == ""
 
 
 def test_other_threads_are_left_alone() -> None:
