@@ -9,9 +9,9 @@ import pytest
 
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.opened_model import OpenedModel
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
+from texvent.scenes.models.wrapped.opened import OpenedModel
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.claims.bodies import part_boxes
 from texvent.scenes.staging.compose import ComposedScene, compose_scene

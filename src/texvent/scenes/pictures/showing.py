@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from texvent.scenes.description import Picture
 from texvent.scenes.models.objects.home.screens import PICTURE_FACES
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
+from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
 from texvent.scenes.pictures.source import PAPER, load_picture
 from texvent.scenes.scene import Colour, Shape, Texture
 
@@ -25,7 +25,7 @@ _BESIDE = 1.001
 """What reaches farther than this from the middle of a face, in half sides, is no print on it."""
 
 
-class PicturedModel:
+class PicturedModel(WrappedModel):
     """A model with a picture where its noun shows one; all else is the model's own.
 
     What is usually printed on that face is left out.
@@ -40,7 +40,7 @@ class PicturedModel:
     """
 
     def __init__(self, model: Model, noun: str, picture: Picture) -> None:
-        self._model = model
+        super().__init__(model)
         self._source = load_picture(picture)
         self._margin: Colour | None = None if picture.kind == "file" else (PAPER, PAPER, PAPER)
         place = PICTURE_FACES[noun]
@@ -48,12 +48,6 @@ class PicturedModel:
         self._shines = noun in DISPLAYS
         if self._shines and self._margin is None:
             self._margin = _DARK
-        self.length, self.width, self.height = model.length, model.width, model.height
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name == "_model":
-            raise AttributeError(name)
-        return getattr(self._model, name)
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose, the picture on one of them."""

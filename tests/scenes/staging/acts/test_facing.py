@@ -7,9 +7,9 @@ import pytest
 
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.opening_model import OPENING, OpeningModel
 from texvent.scenes.models.people.acts.pairs import GIVEN_S, PAIR_GAPS
 from texvent.scenes.models.protocol import Pose
+from texvent.scenes.models.wrapped.opening import OPENING, OpeningModel
 from texvent.scenes.scene import Scene
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize

@@ -22,9 +22,9 @@ from texvent.scenes.language.vocabulary.motion import (
     VERBS,
 )
 from texvent.scenes.language.words.english import list_verb_forms
-from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED
+from texvent.scenes.models.wrapped.opening import OPENS
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.claims.bodies import part_boxes

@@ -8,8 +8,8 @@ from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.opening_model import OPENING
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.wrapped.opening import OPENING
 
 
 def _words(text: str) -> frozenset[str]:

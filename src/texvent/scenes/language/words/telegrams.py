@@ -14,8 +14,8 @@ from texvent.scenes.language.words.english import Pos, VerbForm, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.activities import ACTIVITIES
+from texvent.scenes.models.wrapped.opening import OPENS
 
 _FINITE = frozenset({Pos.VERB, Pos.AUXILIARY})
 _OF_VERBS = (Role.VERB, Role.ACTIVITY, Role.SIMILAR)

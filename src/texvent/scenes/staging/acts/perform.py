@@ -12,10 +12,10 @@ from texvent.scenes.description import (
     SceneDescription,
     SceneObject,
 )
-from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.wrapped.opening import OPENS
 from texvent.scenes.staging.actors import Actor, Tether, seeded
 from texvent.scenes.staging.acts import colliding, striking
 from texvent.scenes.staging.acts.acts import ACTS

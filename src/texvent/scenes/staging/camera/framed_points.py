@@ -73,24 +73,13 @@ def list_views(
     shot = description.shot
     tying = moves if any(move.kind in TYING for move in moves) and main.is_mover else ()
     aims = is_aimed(description, main, moves)
-    framing = "close" if shot.framing == "close" else "medium"
     is_medium = shot.framing == "medium" or shot.view == "shoulder"
     is_person = main.noun.name in PERSON_NOUNS
     if aims or shot.framing == "close" or (is_medium and is_person):
         is_still = bool(tying) and not aims
         near = np.vstack([main.corners(float(t)) for t in (times[:1] if is_still else times)])
         if not aims:
-            if main.noun.name in HAND_NOUNS:
-                near = upper_part(near, FOREARM)
-            if not is_person:
-                return [View(near, 0.95)]
-            held = [
-                one.corners(float(t))
-                for one in _list_partners_of(description, actors, main, times)
-                if one.size_m < _IN_HAND * main.size_m
-                for t in times
-            ]
-            return [View(np.vstack([_bust(near, framing), *held]), 0.95)]
+            return [_close_view(description, actors, main, near, times)]
         # At the far end of the move the image shows what else there is, about the subject.
         rest = _points_of(description, actors, main, times, ())
         aim = 0.5 * (near.min(axis=0) + near.max(axis=0))
@@ -112,6 +101,28 @@ def list_views(
     least = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
     goals = (1.0, *GOALS, _HARDLY_SEEN)
     return [View(points, fill, least * goal) for points, goal in zip(choices, goals, strict=True)]
+
+
+def _close_view(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    near: Float64Array,
+    times: Float64Array,
+) -> View:
+    """A close or medium view: of people the bust and what they hold, of a hand no forearm."""
+    if main.noun.name in HAND_NOUNS:
+        near = upper_part(near, FOREARM)
+    if main.noun.name not in PERSON_NOUNS:
+        return View(near, 0.95)
+    framing = "close" if description.shot.framing == "close" else "medium"
+    held = [
+        one.corners(float(t))
+        for one in _list_partners_of(description, actors, main, times)
+        if one.size_m < _IN_HAND * main.size_m
+        for t in times
+    ]
+    return View(np.vstack([_bust(near, framing), *held]), 0.95)
 
 
 def _view_of_all(

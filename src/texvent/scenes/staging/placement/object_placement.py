@@ -11,10 +11,10 @@ import numpy as np
 from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import Material
-from texvent.scenes.models.opened_model import OPENED, OpenedModel
-from texvent.scenes.models.opening_model import opening
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
+from texvent.scenes.models.wrapped.opened import OPENED, OpenedModel
+from texvent.scenes.models.wrapped.opening import opening
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded

@@ -9,8 +9,8 @@ import math
 from dataclasses import dataclass, replace
 
 from texvent.scenes.models.machine_acts import MACHINE_ACTS
-from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.protocol import Model
+from texvent.scenes.models.wrapped.opening import OPENS
 from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Climb, Hop, Sway
 from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.trajectory import (

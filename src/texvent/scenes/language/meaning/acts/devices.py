@@ -16,7 +16,7 @@ from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.machine_acts import COLLAPSE, LIFT
-from texvent.scenes.models.opening_model import OPENING, opens_after
+from texvent.scenes.models.wrapped.opening import OPENING, opens_after
 
 _SWITCHES = ("turn", "change", "switch", "go")
 _SIGNALS = ("red", "yellow", "amber", "green")

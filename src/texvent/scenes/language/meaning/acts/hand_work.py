@@ -14,10 +14,10 @@ from texvent.scenes.language.meaning.referents.resolver import PERSON
 from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.opening_model import OPENING, OPENS, opens_after
 from texvent.scenes.models.people.activities import SEATS
 from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED, ONTO
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.wrapped.opening import OPENING, OPENS, opens_after
 
 DRINKS = frozenset({"drink", "lap", "eat", "nibble", "feed", "peck"})
 """What a mouth does "from" something."""

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.opening_model import OPENS
 from texvent.scenes.models.people.acts.prop_shapes import Prop
 from texvent.scenes.models.people.props import hand_tool, table
 from texvent.scenes.models.people.work.bench import (
@@ -21,6 +20,7 @@ from texvent.scenes.models.people.work.bench import (
 )
 from texvent.scenes.models.people.work.tools import TOOLS
 from texvent.scenes.models.people.work.verbs import HANDWORK, HandWork
+from texvent.scenes.models.wrapped.opening import OPENS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged

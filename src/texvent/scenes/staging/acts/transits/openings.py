@@ -54,15 +54,10 @@ def pass_opening(
     yaw = out_of_plane if is_right else math.pi - out_of_plane
     front = yaw if is_out or not is_half else yaw + math.pi
     turned: Trajectory = replace(path, yaw=front)
-    height, lift = 0.0, rest_height(subject)
     if target.noun.name == "hula hoop":
         turned = Tipped(path, front, 0.5 * math.pi, 0.5 * target.model.length)
-        height = _raised(subject, motion, target.model.length * 0.5)
-    elif target.noun.name in _MIDDLES:
-        height = _MIDDLES[target.noun.name] * target.model.height
-        height -= 0.0 if subject.is_centred else 0.5 * subject.model.height
-        lift = 0.0
     target = replace(target, trajectory=turned)
+    height, lift = _find_level(subject, target, motion)
     x, y, z = path.home
     half = half_along(subject)
     speed_way = min(max(subject.noun.speed_m_s, 2.0 * half) * duration_s, 6.0 * half + 1.0)
@@ -85,6 +80,16 @@ def pass_opening(
     if motion.kind == "jump" and height > 0.0:
         return with_path(subject, _leap(spot, height, 2.2 * half, duration_s, yaw)), target
     return with_path(subject, Legs(spot(first), yaw, legs, radius, radius)), target
+
+
+def _find_level(subject: Actor, target: Actor, motion: ObjectMotion) -> tuple[float, float]:
+    """How high above the opening's foot it goes through, and above that the subject's origin, m."""
+    if target.noun.name == "hula hoop":
+        return _raised(subject, motion, target.model.length * 0.5), rest_height(subject)
+    if target.noun.name not in _MIDDLES:
+        return 0.0, rest_height(subject)
+    height = _MIDDLES[target.noun.name] * target.model.height
+    return height - (0.0 if subject.is_centred else 0.5 * subject.model.height), 0.0
 
 
 def _leap(

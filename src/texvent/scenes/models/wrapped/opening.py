@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
 from texvent.scenes.models.articulated_model import STANDING_POSES
-from texvent.scenes.models.hanging_model import hanging
 from texvent.scenes.models.materials import Material, shade
 from texvent.scenes.models.people.timing import ease
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
-from texvent.scenes.models.pulsing_model import pulsing
 from texvent.scenes.models.shapes import Affine, Point, box, compose, shift, turn_y, turn_z
+from texvent.scenes.models.wrapped.hanging import hanging
+from texvent.scenes.models.wrapped.pulsing import pulsing
+from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
 
 OPENING: Mapping[str, str] = MappingProxyType(
     {
@@ -47,7 +47,7 @@ _Move = Callable[[float], Affine]
 """How far it is open, 0..1 → the map of what moves, in body coordinates."""
 
 
-class OpeningModel:
+class OpeningModel(WrappedModel):
     """A model with a leaf that moves; all else is the model's own.
 
     Args:
@@ -56,19 +56,14 @@ class OpeningModel:
     """
 
     def __init__(self, model: Model, noun: str) -> None:
-        self._model, self._kind = model, OPENING[noun]
-        self.length, self.width, self.height = model.length, model.width, model.height
+        super().__init__(model)
+        self._kind = OPENING[noun]
         if self._kind == "lid":
             self.height += 0.9 * self.length
         parts = self._rest()
         self._skin = max(parts, key=lambda one: abs(float(np.linalg.det(one.to_body[:, :3]))))
         self._own = self._find_own(parts)
         self._leaf, self._fixed, self._move = self._build()
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name in ("_model", "_kind"):
-            raise AttributeError(name)
-        return getattr(self._model, name)
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose."""

@@ -4,30 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from texvent.scenes.models.machine_acts import PULSE
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import compose
+from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
 
 _SWELLS = 0.14
 """How much larger it is at a beat, as a share of its size."""
 _RATE_HZ = 1.1
 
 
-class PulsingModel:
+class PulsingModel(WrappedModel):
     """A model that swells at each beat; all else is the model's own."""
-
-    def __init__(self, model: Model) -> None:
-        self._model = model
-        self.length, self.width, self.height = model.length, model.width, model.height
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name == "_model":
-            raise AttributeError(name)
-        return getattr(self._model, name)
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose."""

@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
 from texvent.scenes.models.articulated_model import STANDING_POSES
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import Affine, moved
+from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
 
 Box = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
 
@@ -35,7 +35,7 @@ _HINGES: Mapping[str, float] = MappingProxyType({"gate": 1.45})
 _SWUNG = math.radians(-78.0)
 
 
-class OpenedModel:
+class OpenedModel(WrappedModel):
     """A model without its pane, lid or load; all else is the model's own.
 
     Args:
@@ -44,7 +44,7 @@ class OpenedModel:
     """
 
     def __init__(self, model: Model, noun: str) -> None:
-        self._model = model
+        super().__init__(model)
         scale = float(getattr(model, "scale", 1.0))
         box = [(scale * low, scale * high) for low, high in OPENED[noun]]
         drawn = [model.parts(pose) for pose in STANDING_POSES]
@@ -53,12 +53,6 @@ class OpenedModel:
         }
         hinge = _HINGES.get(noun)
         self._swing = None if hinge is None else _about_upright(scale * hinge, _SWUNG)
-        self.length, self.width, self.height = model.length, model.width, model.height
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name == "_model":
-            raise AttributeError(name)
-        return getattr(self._model, name)
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose that are left."""

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from texvent.scenes.models.machine_acts import HANG
 from texvent.scenes.models.materials import DARK, WHITE, Material
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import Point, box, moved, rod, shift
+from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
 
 _CORD_M, _LEAST_M = 0.40, 0.75
 """Length of the cord, and height of what hangs above the floor at least, m."""
 _CEILING: Point = (0.9, 0.9, 0.04)
 
 
-class HangingModel:
+class HangingModel(WrappedModel):
     """A model on a cord below a ceiling; all else is the model's own."""
 
     def __init__(self, model: Model) -> None:
-        self._model = model
+        super().__init__(model)
         low = -0.5 * model.height if getattr(model, "is_centred", False) else 0.0
         self._lift = _LEAST_M
         top = _LEAST_M + low + model.height
@@ -29,11 +29,6 @@ class HangingModel:
             rod(DARK, (0.0, 0.0, top - 0.02), (0.0, 0.0, top + _CORD_M), 0.008),
             box(Material(WHITE), (0.0, 0.0, self.height - 0.5 * _CEILING[2]), _CEILING),
         )
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name == "_model":
-            raise AttributeError(name)
-        return getattr(self._model, name)
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose."""

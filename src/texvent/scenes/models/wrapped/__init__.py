@@ -1,0 +1,1 @@
+"""Models drawn by another model and changed: opened, hanging, pulsing."""
