@@ -11,8 +11,9 @@ from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.interpolate.dis_flow import flow_cpu
 from texvent.interpolate.dis_flow.definitions import make_pyramid
 from texvent.interpolate.dis_flow.estimator import DisFlow
-from texvent.interpolate.dis_flow.fast_things import covered, follow_fast_things, surroundings
-from texvent.interpolate.dis_flow.missed_shift import correlate_missed, wide_detail
+from texvent.interpolate.dis_flow.things.fast_things import follow_fast_things
+from texvent.interpolate.dis_flow.things.missed_shift import correlate_missed, wide_detail
+from texvent.interpolate.dis_flow.things.ways import covered, surroundings
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.sensor import SensorSize
 from texvent.video import Frame
@@ -100,7 +101,7 @@ def test_a_thing_that_explains_the_images_no_better_changes_no_flow(ground, monk
     found = follow_fast_things(first, second, flows, flow_cpu)
     assert np.abs(found[0]).max() > 11
     monkeypatch.setattr(
-        "texvent.interpolate.dis_flow.fast_things.correlate_missed",
+        "texvent.interpolate.dis_flow.things.fast_things.correlate_missed",
         lambda *_: [np.float32([-20, 9])],
     )
     for one, other in zip(follow_fast_things(first, second, flows, flow_cpu), flows, strict=True):
