@@ -115,8 +115,12 @@ def test_a_thing_that_the_search_has_found_keeps_its_flow(ground):
     flows = constant((0, 0)), constant((0, 0))
     flows[0][0, 64:77, 74:87], flows[1][0, 64:77, 86:99] = 12, -12
     found = follow_fast_things(*levels, flows, flow_cpu)
-    for one, other in zip(found, flows, strict=True):
-        np.testing.assert_array_equal(one, other)
+    y, x = np.mgrid[:HEIGHT, :WIDTH]
+    for one, other, middle in zip(found, flows, (80, 92), strict=True):
+        ball = np.hypot(x - middle, y - 70) < 4.5
+        np.testing.assert_array_equal(one[:, ball], other[:, ball])
+        # No other pixel gets a motion: of the square around the ball, ground may get its own back.
+        assert ((one == other) | (one == 0)).all()
 
 
 def test_ground_that_a_followed_disc_covers_is_no_thing(ground, config, stream, psnr):

@@ -26,7 +26,6 @@ from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.interpolate.dis_flow.confirmation import Flows, both_unconfirmed
 from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, Mask
@@ -59,6 +58,8 @@ DENSE = 0.1
 """They are at least this share of the pixels in the rectangle around them."""
 AROUND = 12
 """The window reaches this far beyond the thing's places in both images, px."""
+MOST_WINDOW = 110
+"""Longest side of a window, px: larger things cost more than they gain."""
 MOST_AT_BORDER = 0.02
 """Share of a thing's pixels that may lie at the border of the window."""
 FINER = (1.0, 0.5, 0.25)
@@ -86,8 +87,8 @@ def redraw_things(
         kernels: `flow_reference` or `flow_cpu`.
     """
     candidates = ways[0].missed & ~is_open[0] & ~settled
+    candidates &= ((flows[0] - ways[0].around) ** 2).sum(axis=0) > OTHER2
     for _ in range(MOST_OUTLINES):
-        candidates &= ((flows[0] - ways[0].around) ** 2).sum(axis=0) > OTHER2
         found = _most_frequent(flows[0], candidates)
         if found is None:
             break
@@ -138,9 +139,11 @@ def _window(pixels: Mask, shift: Floats) -> tuple[slice, slice] | None:
         sides.append(last + 1 - first)
         # What the surroundings explain too, such as the middle of one colour, may lie outside.
         reach = AROUND + int(abs(step)) + sides[-1] // 2
-        slices.append(slice(max(0, first - reach), last + 1 + reach))
+        stop = min(last + 1 + reach, pixels.shape[1 - axis])
+        slices.append(slice(max(0, first - reach), stop))
     is_dense = pixels.sum() >= DENSE * sides[0] * sides[1]
-    return (slices[0], slices[1]) if is_dense else None
+    is_small = all(one.stop - one.start <= MOST_WINDOW for one in slices)
+    return (slices[0], slices[1]) if is_dense and is_small else None
 
 
 def _crop(level: Floats, window: tuple[slice, slice]) -> Floats:
@@ -244,11 +247,12 @@ def _change(
 
 def _mean_change(
     start: Floats, stop: Floats, shift: Floats, shape: tuple[int, ...], kernels: ModuleType
-) -> NDArray[np.float32]:
+) -> Floats:
     """The same, its mean over 3×3 pixels."""
     padded = np.pad(_change(start, stop, shift, shape, kernels), 1, mode="edge")
     rows = padded[:-2] + padded[1:-1] + padded[2:]
-    return (rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]) / np.float32(9.0)
+    mean: Floats = (rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]) / np.float32(9.0)
+    return mean
 
 
 def _column(vector: Floats) -> Floats:
