@@ -90,7 +90,8 @@ class DisFlow:
             flows = self._both(
                 _match_again, (one, other, flows[0], found[0]), (other, one, flows[1], found[1])
             )
-        flows = follow_fast_things(one, other, flows, flow_cpu)
+        is_full_size = finest == number == 0
+        flows = follow_fast_things(one, other, flows, flow_cpu, is_full_size=is_full_size)
         if number:
             flows = self._follow(earlier[:number], later[:number], motions, flows)
         full = images[0].shape

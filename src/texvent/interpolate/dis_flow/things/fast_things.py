@@ -71,7 +71,9 @@ def level_of_things(pyramid: list[Floats]) -> int:
     return next((k for k, side in enumerate(sizes) if side <= MOST_SIDE), len(sizes) - 1)
 
 
-def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: ModuleType) -> Flows:
+def follow_fast_things(
+    start: Floats, stop: Floats, flows: Flows, kernels: ModuleType, *, is_full_size: bool = False
+) -> Flows:
     """Both flows of a level, with the motion of small fast things where there are any.
 
     Args:
@@ -79,6 +81,8 @@ def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: Modul
         stop: level of the other.
         flows: from one to the other and back, [2, H, W] px.
         kernels: `flow_reference` or `flow_cpu`.
+        is_full_size: the level is that of the frames. Outlines are then not drawn anew: a mask of
+            whole pixels cuts the soft edge of a thing off.
     """
     ways = look(start, stop, flows[0], kernels), look(stop, start, flows[1], kernels)
     if not 0 < ways[0].missed.mean() <= MOST_MISSED:
@@ -104,7 +108,7 @@ def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: Modul
                 break
         else:
             break
-    return redraw_things(ways, flows, is_open, settled, kernels)
+    return flows if is_full_size else redraw_things(ways, flows, is_open, settled, kernels)
 
 
 def _is_ambiguous(fits: Mask, rivals: list[Mask]) -> bool:
