@@ -216,7 +216,7 @@ def measure_events(scene: Scene, rife: list[Path]) -> list[float]:
 
 def simulate(video: Any, interpolation: dict[str, Any]) -> EventStream:
     """Events of ESIM."""
-    options = {"simulator": "esim", "motion_floor": True, **interpolation}
+    options = {"simulator": "esim", "frames_per_pixel": 1.0, **interpolation}
     return simulate_video(video, resolve("simulate", options), None)
 
 

@@ -5,8 +5,9 @@
 writes src/texvent/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
 
 It does what docs/calibration.md tells the owner of a sensor to do, with recordings that the
-benchmark does not score: first a field that flickers, without frames, then a camera at rest before
-a texture of which one half moves, with the frames of an ordinary camera.
+benchmark does not score: a field at rest, without frames; a camera at rest before a texture of
+which one half moves, with the frames of an ordinary camera, which tell the balance; a field that
+flickers, without frames; and the texture again, now that the bandwidth is known.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from texvent.bench.oracle.scenes import Float64Array, Scene, panning_texture
 from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.calibrate.estimates import describe_estimates
 from texvent.calibrate.events_only.flicker import measure_flicker
+from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.preset import describe_fit, describe_scene, write_preset
 from texvent.calibrate.recording import Recording
@@ -36,9 +38,12 @@ from texvent.simulate.physical.threshold_map import write_threshold_map
 FLICKER_HZ, RATIO, BRIGHT = 4.0, 5.0, 1 / EXPOSURE
 """Bright is what the camera shows as white."""
 FRAMES = 2 * int(FPS) + 1
+REST_FRAMES = 10 * int(FPS) + 1
 TEXTURE = 7
 """The texture on which the benchmark fits thresholds; others are scored."""
-VELOCITY = (150.0, 35.0)
+FRAMES_PER_PIXEL = 2.0
+"""Of motion, while frames are compared with events: what fine texture does between them counts."""
+VELOCITY = (60.0, 14.0)
 """Of the half that moves, px/s."""
 
 
@@ -46,6 +51,12 @@ def flickering_field(seconds: float) -> Float64Array:
     """Radiance of a flat field, bright for the first half of each cycle."""
     is_bright = seconds * FLICKER_HZ % 1.0 < 0.5
     return np.full(SIZE.shape, BRIGHT if is_bright else BRIGHT / RATIO)
+
+
+def field_at_rest(seconds: float) -> Float64Array:
+    """Radiance of a flat field under steady light."""
+    del seconds
+    return np.full(SIZE.shape, BRIGHT / RATIO)
 
 
 def half_moving(seconds: float) -> Float64Array:
@@ -58,9 +69,9 @@ def half_moving(seconds: float) -> Float64Array:
     return image * np.linspace(0.05, 1.8, SIZE.width)
 
 
-def recorded(scene: Scene) -> EventStream:
-    """What the benchmark's sensor records of a scene."""
-    return record(scene, {"events": (NOISY, REFERENCE_SEED)}, frames=FRAMES)["events"]
+def recorded(scene: Scene, frames: int = FRAMES) -> EventStream:
+    """What the benchmark's sensor records of a scene, while its camera takes so many frames."""
+    return record(scene, {"events": (NOISY, REFERENCE_SEED)}, frames=frames)["events"]
 
 
 def main() -> None:
@@ -68,17 +79,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--folder", type=Path, default=SENSOR_FILE.parent)
     folder = parser.parse_args().folder
-    flicker = measure_flicker(
-        recorded(flickering_field), PhysicalConfig(), hz=FLICKER_HZ, ratio=RATIO
-    )
+    video = render_video(half_moving, frames=FRAMES)
+    interpolate = InterpolateConfig(frames_per_pixel=FRAMES_PER_PIXEL)
+    recording = Recording(video, recorded(half_moving), interpolate)
+    rest = measure_static_scene(recorded(field_at_rest, REST_FRAMES), PhysicalConfig())
+    first = fit_sensor(recording, start=rest.config, report=print).config
+    flicker = measure_flicker(recorded(flickering_field), first, hz=FLICKER_HZ, ratio=RATIO)
     pixels = write_threshold_map(flicker.thresholds, folder / THRESHOLD_FILE.name, overwrite=True)
     start = dataclasses.replace(flicker.config, threshold_map=pixels)
-    video = render_video(half_moving, frames=FRAMES)
-    recording = Recording(video, recorded(half_moving), InterpolateConfig(motion_floor=True))
-    fit = fit_sensor(recording, start=start, report=print)
+    fit = fit_sensor(recording, start=start, keep=["cutoff_hz"], report=print)
     # Its camera has no grain, so pixels may begin anywhere; entries name the map's place.
     config = dataclasses.replace(fit.config, initial_phase="random", threshold_map=None)
     lines = [
+        *describe_scene(rest, "the benchmark's sensor", "a field at rest"),
         *describe_scene(flicker, "the benchmark's sensor", "a field that flickers"),
         *describe_fit(fit, "a texture of which one half moves, see benchmarks/oracle_sensor.py"),
         *describe_estimates(fit.found, fit.kept),

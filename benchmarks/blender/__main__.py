@@ -130,8 +130,8 @@ def variants(film: Path) -> dict[str, dict[str, Any]]:
     return {
         "none": {"interpolate": "none"},
         "blend": {"interpolate": "blend"},
-        "flow": {"interpolate": "flow", "motion_floor": False},
-        "flow, motion floor": {"interpolate": "flow", "motion_floor": True},
+        "flow": {"interpolate": "flow", "frames_per_pixel": 0.0},
+        "flow, a frame per px": {"interpolate": "flow", "frames_per_pixel": 1.0},
         "motion": {"motion": passes},
         "motion, backward only": {"flow_back": backward, "depth": depth},
         "motion, backward, no depth": {"flow_back": backward},

@@ -231,11 +231,11 @@ class InterpolateConfig:
     """Contrast threshold in Eq. 4; without it, the simulator's own."""
     count_balance: float | None = None
     """Balance α in Eq. 4; without it, the simulator's own."""
-    motion_floor: bool | None = None
-    """Put at least as many intermediate frames into a pair as its fastest part moves in pixels
-    (DIS optical flow), so that thin and faint things do not jump over pixels. Where neither is
-    said, models whose pixels may fire several times per frame get so many too, up to twice Eq. 4's
-    count; with no-motion-floor all get Eq. 4's."""
+    frames_per_pixel: float | None = renamed(None, was="motion_floor", was_switch=True)
+    """Intermediate frames per pixel that the fastest part of a pair moves (DIS optical flow), at
+    least: 1 keeps thin and faint things from jumping over pixels, 2 shows all that fine texture
+    does; 0 is Eq. 4's count alone. Without it, models whose pixels may fire several times per
+    frame get 1, up to twice Eq. 4's count."""
     max_frames_per_second: float | None = None
     """Upper limit of frames per second after interpolation: a budget, whatever else asks for
     more. Source frames always stay."""
@@ -281,6 +281,7 @@ class InterpolateConfig:
         if self.lamp_hz is not None and self.deflicker:
             raise ConfigError("deflicker removes what lamp_hz puts back; choose one of the two")
         check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)
+        check_range("frames_per_pixel", self.frames_per_pixel, 0.0, 100.0)
         check_range("fixed_count", self.fixed_count, 0, 10_000)
         check_range("max_intermediate", self.max_intermediate, 0, 10_000)
         check_range("count_percentile", self.count_percentile, 0.0, 100.0)

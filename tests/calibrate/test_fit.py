@@ -76,6 +76,14 @@ def test_a_third_of_a_second_is_fitted_and_says_what_it_does_not_tell():
     assert {one.name for one in (*fit.found, *fit.kept)} >= {"balance", "cutoff_hz", "noise_curve"}
 
 
+def test_what_another_recording_told_better_is_kept(recording):
+    fit = fit_sensor(recording, start=START, seconds=0.2, keep=["balance", "cutoff_hz"])
+    assert (fit.config.balance, fit.config.cutoff_hz) == (START.balance, START.cutoff_hz)
+    assert fit.config.contrast_threshold != START.contrast_threshold
+    assert {one.name for one in fit.found} == {"contrast_threshold", "on_off_ratio"}
+    assert {one.name for one in fit.kept if one.reason == "as asked"} == {"balance", "cutoff_hz"}
+
+
 def test_too_few_events_keep_every_option_of_the_circuit(recording):
     few = dataclasses.replace(recording, events=recording.events[::400])
     fit = fit_sensor(few, start=START, seconds=0.2)

@@ -41,6 +41,17 @@ def test_the_noise_of_a_still_recording_is_found_again():
     assert noise.leak_rate_hz == pytest.approx(0, abs=0.1)
 
 
+def test_noise_follows_from_off_events_and_the_share_of_on():
+    recording = still_recording(
+        noise_scale=1.0, noise_curve="1:6 25:2 120:0.5", noise_on_fraction=0.3, leak_rate_hz=0.0
+    )
+    noise = measure_noise(recording, SPAN, gamma=1.0, on_fraction=0.3)
+    assert noise.curve.rates_hz == pytest.approx([6, 2, 0.5], rel=0.25)
+    assert noise.leak_rate_hz == pytest.approx(0, abs=0.1)
+    halves = measure_noise(recording, SPAN, gamma=1.0)
+    assert halves.curve.rates_hz == pytest.approx(noise.curve.rates_hz * 1.4)
+
+
 def test_on_events_without_off_events_are_leak():
     recording = still_recording(leak_rate_hz=3.0, initial_phase="random")
     noise = measure_noise(recording, SPAN, gamma=1.0)

@@ -111,11 +111,21 @@ def test_printed_options_read_back_give_the_same_options(folder, capsys):
 
 
 @pytest.mark.parametrize(
-    ("words", "expected"), [([], None), (["--motion-floor"], True), (["--no-motion-floor"], False)]
+    ("words", "expected"),
+    [
+        ([], None),
+        (["--frames-per-pixel", 2], 2),
+        (["--motion-floor"], 1),
+        (["--no-motion-floor"], 0),
+    ],
 )
-def test_a_switch_that_may_be_left_open_is_on_off_or_not_said(folder, capsys, words, expected):
+def test_a_former_switch_is_a_number_now(folder, capsys, words, expected):
     assert run("simulate", *words, CLIP, "--print-config") == 0
-    assert tomllib.loads(capsys.readouterr().out)["interpolate"].get("motion_floor") is expected
+    printed, notice = capsys.readouterr()
+    assert tomllib.loads(printed)["interpolate"].get("frames_per_pixel") == expected
+    assert ("is now --frames-per-pixel" in notice) == any(
+        "motion-floor" in str(one) for one in words
+    )
 
 
 def test_a_yaml_config_sets_options_too(folder, capsys):

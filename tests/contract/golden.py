@@ -65,7 +65,7 @@ MORE_CASES: list[dict[str, Any]] = [
     {**STILL, "simulator": "texvent", "cache": "leaky"},
     {**STILL, "simulator": "esim"},
     {**FLOW, "simulator": "texvent", "count": "fixed", "fixed_count": 3},
-    {**FLOW, "simulator": "texvent", "motion_floor": True},
+    {**FLOW, "simulator": "texvent", "frames_per_pixel": 1.0},
     {**FLOW, "simulator": "texvent", "max_frames_per_second": 60.0},
     {**FLOW, "simulator": "texvent", "detect_cuts": False},
     {**FLOW, "simulator": "texvent", "deflicker": True},

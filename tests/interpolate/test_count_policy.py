@@ -51,8 +51,8 @@ def contrast_pair(pair):
 def test_motion_raises_the_count_of_a_faint_pair(policy, faint_pair):
     assert policy().count(*faint_pair) == 0
     # The fastest thousandth are a few vectors gone astray in a corner.
-    assert policy(motion_floor=True).count(*faint_pair) in (7, 8, 9)
-    assert policy(motion_floor=True, max_intermediate=5).count(*faint_pair) == 5
+    assert policy(frames_per_pixel=1.0).count(*faint_pair) in (7, 8, 9)
+    assert policy(frames_per_pixel=1.0, max_intermediate=5).count(*faint_pair) == 5
 
 
 @pytest.mark.parametrize(("motion_px", "expected"), [(5, 11), (15, 15), (40, 22)])
@@ -63,8 +63,8 @@ def test_where_nothing_is_said_motion_counts_up_to_twice_eq4(
     gaining = {"interpolate": "flow", "counts_motion": True}
     assert policy(**gaining).count(*contrast_pair) == expected
     assert policy(**gaining, max_intermediate=12).count(*contrast_pair) == min(expected, 12)
-    assert policy(**gaining, motion_floor=False).count(*contrast_pair) == 11
-    assert policy(**gaining, motion_floor=True).count(*contrast_pair) == max(motion_px, 11)
+    assert policy(**gaining, frames_per_pixel=0.0).count(*contrast_pair) == 11
+    assert policy(**gaining, frames_per_pixel=1.0).count(*contrast_pair) == max(motion_px, 11)
     assert policy(interpolate="flow").count(*contrast_pair) == 11
     assert policy(interpolate="blend", counts_motion=True).count(*contrast_pair) == 11
 
@@ -82,13 +82,20 @@ def test_models_whose_pixels_fire_once_per_frame_get_eq4_alone():
     assert gaining == {"physical", "esim", "v2e", "voltmeter", "accurate"}
 
 
+def test_two_frames_per_pixel_are_twice_as_many_as_one(policy, contrast_pair, monkeypatch):
+    monkeypatch.setattr(PairFlow, "motion_px", lambda *_: 15.3)
+    assert policy(frames_per_pixel=1.0).count(*contrast_pair) == 16
+    assert policy(frames_per_pixel=2.0).count(*contrast_pair) == 31
+    assert policy(frames_per_pixel=0.5).count(*contrast_pair) == 11
+
+
 def test_motion_lowers_nothing(policy, contrast_pair):
-    assert policy(motion_floor=True).count(*contrast_pair) == 11
+    assert policy(frames_per_pixel=1.0).count(*contrast_pair) == 11
 
 
 def test_a_fixed_count_and_none_ignore_motion(policy, faint_pair):
-    assert policy(motion_floor=True, count="fixed", fixed_count=2).count(*faint_pair) == 2
-    assert policy(motion_floor=True, interpolate="none").count(*faint_pair) == 0
+    assert policy(frames_per_pixel=1.0, count="fixed", fixed_count=2).count(*faint_pair) == 2
+    assert policy(frames_per_pixel=1.0, interpolate="none").count(*faint_pair) == 0
 
 
 @pytest.mark.parametrize(
@@ -102,7 +109,7 @@ def test_the_budget_bounds_fixed_counts_and_motion(policy, contrast_pair, faint_
     fixed = policy(count="fixed", fixed_count=90, max_frames_per_second=250)
     assert fixed.count(*contrast_pair) == 9
     assert policy(count="fixed", fixed_count=90).count(*contrast_pair) == 90
-    assert policy(motion_floor=True, max_frames_per_second=100).count(*faint_pair) == 3
+    assert policy(frames_per_pixel=1.0, max_frames_per_second=100).count(*faint_pair) == 3
 
 
 def test_the_budget_holds_over_a_whole_clip(moving_texture):
@@ -131,7 +138,7 @@ def test_a_budget_of_nothing_is_refused(value):
 
 def test_flow_for_the_count_and_for_the_frames_is_computed_once(moving_texture, monkeypatch):
     video = Video(np.stack([100 + moving_texture(4 * i) / 50 for i in range(3)]), [0, 9000, 18_000])
-    config = InterpolateConfig(interpolate="flow", motion_floor=True)
+    config = InterpolateConfig(interpolate="flow", frames_per_pixel=1.0)
     interpolator = INTERPOLATORS.load("flow")(config, video)
     dis = interpolator.pair_flow._dis
     calls = []
@@ -156,7 +163,7 @@ def test_motion_is_that_of_the_fastest_thousandth(moving_texture):
     still = PairFlow().motion_px(Frame(moving_texture(0), 0), Frame(moving_texture(0), 1))
     assert still == 0
     fast = PairFlow().motion_px(Frame(moving_texture(0), 0), Frame(moving_texture(5.2), 1))
-    assert fast in (6, 7)
+    assert 5.2 < fast < 7
 
 
 def test_known_motion_counts_where_it_is_followed(policy, pair, stream):
@@ -166,6 +173,8 @@ def test_known_motion_counts_where_it_is_followed(policy, pair, stream):
     moving = [Frame(one.pixels, one.t_us, motion=Motion(forward)) for one in (first, second)]
     blend = BlendInterpolator(InterpolateConfig(), stream)
     assert policy(blend, interpolate="motion").count(*moving) == 10
+    assert policy(blend, interpolate="motion", frames_per_pixel=2.0).count(*moving) == 20
+    assert policy(blend, interpolate="motion", frames_per_pixel=0.0).count(*moving) == 10
     assert policy(blend, interpolate="motion", max_intermediate=3).count(*moving) == 3
     assert policy(blend, interpolate="motion").count(first, second) == 0
     assert policy().count(*moving) == 0

@@ -162,3 +162,13 @@ def test_a_former_name_still_works_as_keyword_and_in_a_stored_config(tmp_path):
     path.write_text("[interpolate]\nflicker_guard = true\n", encoding="utf-8")
     with pytest.warns(RenamedOptionWarning, match=r"config file .*run\.toml"):
         assert resolve("simulate", {}, config=path).interpolate.deflicker
+
+
+@pytest.mark.parametrize(("was", "now"), [(True, 1.0), (False, 0.0)])
+def test_a_former_switch_is_read_as_the_number_that_it_is_now(was, now):
+    with pytest.warns(RenamedOptionWarning, match="'motion_floor' is now 'frames_per_pixel'"):
+        settings = resolve("simulate", {"motion_floor": was})
+    assert settings.interpolate.frames_per_pixel == now
+    # Elsewhere a switch is no number.
+    with pytest.raises(ConfigError, match="frames_per_pixel is True; it must be a number"):
+        resolve("simulate", {"frames_per_pixel": was or True})

@@ -8,7 +8,7 @@ one at a time with steps that shrink. What the recording does not tell stays as 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from texvent.calibrate.distance import Distance, measure_distance
@@ -20,9 +20,17 @@ from texvent.calibrate.uncertainty import Judgement, judge_fit
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 
+MOST_ON = 0.95
+"""Share of ON among noise above which OFF events no longer tell how much there is."""
 LEAST_EVENTS = 100
 """Fewer recorded events than this of either polarity fit no threshold."""
-NOT_FITTED = ("threshold_sigma", "refractory_period_us", "noise_decades", "leak_rate_decades")
+NOT_FITTED = (
+    "threshold_sigma",
+    "refractory_period_us",
+    "noise_decades",
+    "noise_on_fraction",
+    "leak_rate_decades",
+)
 """Options that frames and events of a moving scene do not tell."""
 
 
@@ -54,6 +62,7 @@ def fit_sensor(
     *,
     start: PhysicalConfig,
     seconds: float = 1.0,
+    keep: Collection[str] = (),
     report: Report = lambda line: None,
 ) -> Fit:
     """Fit the physical model to the first half of a recording and score it on the second.
@@ -62,6 +71,7 @@ def fit_sensor(
         recording: frames and events.
         start: where the search starts; options that are not searched keep their value.
         seconds: how much of each half is simulated.
+        keep: of `COORDINATES`, those that another recording told better.
         report: told of every step in one line.
 
     Raises:
@@ -70,11 +80,16 @@ def fit_sensor(
     halves = recording.halves()
     span, held_out = (half.first(seconds) for half in halves)
     truth = {part: recording.events.cut(*part) for part in (span, held_out)}
-    noise = measure_noise(recording, halves[0], gamma=start.gamma)
+    noise = measure_noise(
+        recording,
+        halves[0],
+        gamma=start.gamma,
+        on_fraction=min(start.noise_on_fraction, MOST_ON),
+    )
     first = start if noise is None else _with_noise(start, noise)
     report("too few still pixels to measure noise" if noise is None else f"noise {noise.curve}")
     dense = {part: recording.dense_frames(part, start) for part in truth}
-    search = Search(dense[span], truth[span], span, report)
+    search = Search(dense[span], truth[span], span, report, keep=keep)
     fitted = _fit_circuit(search, truth[span], span, first, start)
     events = {
         (name, part): simulate_span(dense[part], part, config, offset_us=search.offset_us)
@@ -125,7 +140,6 @@ def _with_noise(config: PhysicalConfig, noise: MeasuredNoise) -> PhysicalConfig:
         config,
         noise_curve=str(noise.curve),
         noise_scale=1.0,
-        noise_on_fraction=0.5,
         leak_rate_hz=noise.leak_rate_hz,
     )
 

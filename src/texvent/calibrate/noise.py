@@ -60,16 +60,19 @@ class MeasuredNoise(NamedTuple):
         )
 
 
-def measure_noise(recording: Recording, span: TimeSpan, *, gamma: float) -> MeasuredNoise | None:
+def measure_noise(
+    recording: Recording, span: TimeSpan, *, gamma: float, on_fraction: float = 0.5
+) -> MeasuredNoise | None:
     """Noise and leak of still pixels.
 
-    A leak makes ON events only, so noise is taken as twice the OFF events, and the leak as what
-    is left of the ON events of bright pixels.
+    A leak makes ON events only, so noise follows from the OFF events, and the leak is what is left
+    of the ON events of bright pixels.
 
     Args:
         recording: frames and events.
         span: which part.
         gamma: exponent that makes the frames linear.
+        on_fraction: share of ON among noise events, below 1; a recording at rest tells it.
 
     Returns:
         The noise, or None if fewer than two ranges of intensity had still pixels for long enough.
@@ -95,12 +98,12 @@ def measure_noise(recording: Recording, span: TimeSpan, *, gamma: float) -> Meas
 
     def estimate(weights: Float64Array) -> Float64Array:
         exposure, off, on = np.einsum("f,fkr->kr", weights, parts)
-        return _rates_and_leak(exposure, off, on, bright)
+        return _rates_and_leak(exposure, off, on, bright, on_fraction)
 
     values = estimate(np.ones(len(parts)))
     ends = bootstrap(estimate, (len(parts),))
     # Without an event, a rate of 3 per exposure would have shown one in 95 % of all cases.
-    least = np.append(2 * 3 / exposure[known], 0.0)
+    least = np.append(3 / (1 - on_fraction) / exposure[known], 0.0)
     ends[1] = np.maximum(ends[1], least)
     # What stands for no event in the value is no evidence of noise.
     ends[0, :-1][parts[:, 1].sum(axis=0) == 0] = 0.0
@@ -110,14 +113,19 @@ def measure_noise(recording: Recording, span: TimeSpan, *, gamma: float) -> Meas
 
 
 def _rates_and_leak(
-    exposure: Float64Array, off: Float64Array, on: Float64Array, bright: BoolArray
+    exposure: Float64Array,
+    off: Float64Array,
+    on: Float64Array,
+    bright: BoolArray,
+    on_fraction: float,
 ) -> Float64Array:
     """Noise rates of all ranges, then the leak, [ranges + 1]."""
     exposure = np.maximum(exposure, 1e-9)
-    surplus_hz = (on - off)[bright] / exposure[bright]
+    noise_per_off = 1 / (1 - on_fraction)
+    surplus_hz = (on - (noise_per_off - 1) * off)[bright] / exposure[bright]
     # The median: one range in which something flickered or moved does not decide.
     leak_hz = max(float(np.median(surplus_hz)), 0.0) if bright.any() else 0.0
-    return np.append(2 * _rates(off, exposure), leak_hz)
+    return np.append(noise_per_off * _rates(off, exposure), leak_hz)
 
 
 def _rates(counts: Float64Array, exposure: Float64Array) -> Float64Array:

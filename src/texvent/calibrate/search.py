@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import NamedTuple
 
 from texvent.calibrate.distance import Distance, measure_distance
@@ -47,18 +47,25 @@ class Search:
     """The search on one part of a recording."""
 
     def __init__(
-        self, frames: list[Frame], truth: EventStream, span: TimeSpan, report: Report
+        self,
+        frames: list[Frame],
+        truth: EventStream,
+        span: TimeSpan,
+        report: Report,
+        *,
+        keep: Collection[str] = (),
     ) -> None:
         self._frames = frames
         self._truth = truth
         self._span = span
         self._report = report
+        self.coordinates = {name: one for name, one in COORDINATES.items() if name not in keep}
         self.offset_us = 0
 
     def run(self, best: Candidate) -> Candidate:
         """Change one option at a time, in both directions, as long as that helps."""
         for step in STEPS:
-            for name, limits in COORDINATES.items():
+            for name, limits in self.coordinates.items():
                 for factor in (step, 1 / step):
                     best = self._follow(best, name, factor, limits)
         return best

@@ -85,7 +85,7 @@ def judge_fit(
     found: list[Estimate] = []
     kept: list[Kept] = []
     others = np.zeros((2, 2))
-    for name in COORDINATES:
+    for name in search.coordinates:
         option = _judge_option(search, truth, blocks, best, name)
         others += option.threshold_ends() ** 2
         value = getattr(best, name)
@@ -99,6 +99,11 @@ def judge_fit(
             found.append(Estimate(name, value, low, high, unit))
     if kept:
         best = search.match_counts(best).config
+    kept += [
+        Kept(name, getattr(best, name), "as asked")
+        for name in COORDINATES
+        if name not in search.coordinates
+    ]
     thresholds = _thresholds(search, truth, blocks, best, others)
     return Judgement(best, (*thresholds, *found), tuple(kept))
 

@@ -12,7 +12,7 @@ import typing
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from texvent.cli.option_types import REQUIRED, is_optional_switch, metavar
+from texvent.cli.option_types import REQUIRED, metavar
 from texvent.errors import ConfigError
 from texvent.options.fields import option_help
 
@@ -132,7 +132,7 @@ def _options(config: Any) -> list[_Option]:
         is_positional = name in getattr(config, "positional", ())
         flag = f"--{name.replace('_', '-')}"
         spellings = [short_flags[name], flag] if name in short_flags else [flag]
-        if default is True or is_optional_switch(hints[name]):
+        if default is True:
             spellings.append(f"--no-{flag[2:]}")
         value = metavar(hints[name])
         if name in getattr(config, "repeated", ()):

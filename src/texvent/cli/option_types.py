@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import types
 import typing
-from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal
@@ -34,28 +33,6 @@ def without_none(hint: Any) -> Any:
     if typing.get_origin(hint) not in (typing.Union, types.UnionType):
         return hint
     return next(one for one in typing.get_args(hint) if one is not type(None))
-
-
-def is_optional_switch(hint: Any) -> bool:
-    """Whether an option is on, off or not said."""
-    return bool(hint == (bool | None))
-
-
-def spell_switches(words: Sequence[str], config_types: Iterable[type]) -> list[str]:
-    """The words with switches that may be on, off or not said as the parser reads them.
-
-    Example:
-        >>> from texvent.config import InterpolateConfig
-        >>> spell_switches(["a.mp4", "--no-motion-floor"], [InterpolateConfig])
-        ['a.mp4', '--motion-floor=False']
-    """
-    spelt: dict[str, str] = {}
-    for config_type in config_types:
-        for name, hint in typing.get_type_hints(config_type).items():
-            if is_optional_switch(hint):
-                flag = name.replace("_", "-")
-                spelt |= {f"--{flag}": f"--{flag}=True", f"--no-{flag}": f"--{flag}=False"}
-    return [spelt.get(word.replace("_", "-"), word) for word in words]
 
 
 def metavar(hint: Any) -> str:

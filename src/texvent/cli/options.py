@@ -17,12 +17,13 @@ import tyro
 
 from texvent.cli.help import ALL, asked_help, render_help
 from texvent.cli.notices import write_out
-from texvent.cli.option_types import REQUIRED, SCALARS, spell_switches, without_none
+from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.errors import ConfigError, shown
 from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import (
     RenamedOptionWarning,
     former_names,
+    former_switches,
     option_help,
     option_names,
     removed_options,
@@ -66,7 +67,7 @@ def parse_options(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
     )
     types = list(map(type, groups.values()))
-    words = spell_switches(_current_flags(arguments, types), types)
+    words = _current_flags(arguments, types)
     lists = set(_list_flags(groups.values()))
     _refuse_second_lists(words, lists)
     helps = {name: text for one in groups.values() for name, text in option_help(type(one)).items()}
@@ -243,9 +244,11 @@ def _current_flags(arguments: Sequence[str], config_types: Sequence[type]) -> li
         for name, option in removed_options(config_types).items()
     }
     former: dict[str, str] = {}
-    for old, new in former_names(config_types).items():
-        old, new = old.replace("_", "-"), new.replace("_", "-")
-        former |= {f"--{old}": f"--{new}", f"--no-{old}": f"--no-{new}"}
+    switches = former_switches(config_types)
+    for old, now in former_names(config_types).items():
+        old, new = old.replace("_", "-"), now.replace("_", "-")
+        on, off = (f"{new}=1", f"{new}=0") if now in switches else (new, f"no-{new}")
+        former |= {f"--{old}": f"--{on}", f"--no-{old}": f"--{off}"}
     words = []
     for word in arguments:
         flag, has_value, value = word.partition("=")

@@ -108,23 +108,23 @@ def count_for_flicker(
     return min(math.ceil(STEPS_PER_BEAT * beats) - 1, cap)
 
 
-def count_for_vectors(first: Motion | None, second: Motion | None) -> int:
-    """How many intermediate frames keep every step along known vectors below about a pixel.
+def longest_vector_px(first: Motion | None, second: Motion | None) -> float:
+    """How far the fastest part of a pair moves, where motion is known.
 
     Args:
         first: motion of the earlier frame; its vectors to the later one count.
         second: motion of the later frame; its vectors to the earlier one count.
 
     Returns:
-        Length of the longest vector, px, rounded up; 0 where none is known.
+        Length of the longest vector, px; 0 where none is known.
     """
     forward = None if first is None else first.forward
     backward = None if second is None else second.backward
     lengths = [
         np.hypot(field[..., 0], field[..., 1]) for field in (forward, backward) if field is not None
     ]
-    longest = (np.max(one, initial=0.0, where=np.isfinite(one)) for one in lengths)
-    return math.ceil(max(longest, default=0.0))
+    longest = (float(np.max(one, initial=0.0, where=np.isfinite(one))) for one in lengths)
+    return max(longest, default=0.0)
 
 
 def _bound_largest_change(

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.count import count_for_flicker, count_for_vectors, count_intermediate
+from texvent.interpolate.count import count_for_flicker, count_intermediate, longest_vector_px
 from texvent.interpolate.protocol import Interpolator
 from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream
 
@@ -43,7 +43,7 @@ class CountPolicy:
         Args:
             config: the options.
             stream: the source frames; it may know the frequency of flickering light.
-            interpolator: its optical flow is used, where it has one, for the motion floor.
+            interpolator: its optical flow is used, where it has one, to see how far things move.
             balance: the simulator's α.
             contrast_threshold: the simulator's δ.
             counts_motion: whether motion counts, up to `MOTION_LIMIT`, where the options do not
@@ -54,11 +54,12 @@ class CountPolicy:
         self._threshold = (
             contrast_threshold if config.count_threshold is None else config.count_threshold
         )
-        self._is_limited = config.motion_floor is None
+        self._is_limited = config.frames_per_pixel is None
+        self._per_pixel = 1.0 if config.frames_per_pixel is None else config.frames_per_pixel
         if self._is_limited:
             counts_motion = counts_motion and config.interpolate not in NEEDS_NO_FLOW
         else:
-            counts_motion = bool(config.motion_floor)
+            counts_motion = self._per_pixel > 0
         counts_motion = counts_motion and config.count == "brightness"
         self._pair_flow = _pair_flow(interpolator) if counts_motion else None
         self._flicker_hz = _flicker_hz(stream, config)
@@ -98,9 +99,11 @@ class CountPolicy:
             return count
         if config.interpolate in ("motion", "exact"):
             # What these frames show is exact, so what they skip is all that is lost.
-            count = max(count, count_for_vectors(first.motion, second.motion))
+            moves_px = longest_vector_px(first.motion, second.motion)
+            count = max(count, math.ceil(max(self._per_pixel, 1.0) * moves_px))
         if self._pair_flow is not None and count < limit:
-            count = max(count, min(self._pair_flow.motion_px(first, second), limit))
+            moves_px = self._pair_flow.motion_px(first, second)
+            count = max(count, min(math.ceil(self._per_pixel * moves_px), limit))
         return min(count, cap)
 
     def _budget(self, first: Frame, second: Frame) -> int:

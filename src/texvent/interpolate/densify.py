@@ -34,7 +34,7 @@ def densify(
         balance: the simulator's α, for Eq. 4 unless `config.count_balance` is set.
         contrast_threshold: the simulator's δ, for Eq. 4 unless `config.count_threshold` is set.
         counts_motion: whether the simulator gains from more frames where things move fast; then
-            motion counts unless `config.motion_floor` is set.
+            motion counts unless `config.frames_per_pixel` is set.
         on_scene_change: called at every cut and flash, before the frames that show it.
 
     Yields:

@@ -27,7 +27,7 @@ class FlowInterpolator:
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config, stream  # the arguments of every interpolator; not used here
         self.pair_flow = PairFlow()
-        """The flow of the last pair; `CountPolicy` uses it for the motion floor."""
+        """The flow of the last pair; `CountPolicy` uses it to count frames."""
         prepare_warp()
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> MotionInterpolation:

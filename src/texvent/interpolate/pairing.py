@@ -51,7 +51,7 @@ def plan_pairs(
         balance: the simulator's α, for Eq. 4 unless `config.count_balance` is set.
         contrast_threshold: the simulator's δ, for Eq. 4 unless `config.count_threshold` is set.
         counts_motion: whether the simulator gains from more frames where things move fast; then
-            motion counts unless `config.motion_floor` is set.
+            motion counts unless `config.frames_per_pixel` is set.
 
     Raises:
         ConfigError: there is no such interpolator.

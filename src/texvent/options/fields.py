@@ -18,8 +18,13 @@ class RenamedOptionWarning(FutureWarning):
     """An option was given by its former name, which works for one more release."""
 
 
-def renamed(default: Any, *, was: str) -> Any:
+def renamed(default: Any, *, was: str, was_switch: bool = False) -> Any:
     """A field whose option had another name in the release before.
+
+    Args:
+        default: of the option.
+        was: its former name.
+        was_switch: the former option was on or off, which are 1 and 0 of this one.
 
     Example:
         >>> @dataclasses.dataclass(frozen=True)
@@ -28,7 +33,7 @@ def renamed(default: Any, *, was: str) -> Any:
         >>> former_names([Example])
         {'flicker_guard': 'deflicker'}
     """
-    return dataclasses.field(default=default, metadata={"was": was})
+    return dataclasses.field(default=default, metadata={"was": was, "was_switch": was_switch})
 
 
 class RemovedOption(NamedTuple):
@@ -82,6 +87,16 @@ def former_names(config_types: Iterable[type]) -> dict[str, str]:
     }
 
 
+def former_switches(config_types: Iterable[type]) -> set[str]:
+    """Options, by their names of today, that are numbers now and were switches before."""
+    return {
+        field.name
+        for config_type in config_types
+        for field in dataclasses.fields(config_type)
+        if field.metadata.get("was_switch")
+    }
+
+
 def with_current_names(
     options: Mapping[str, Any], config_types: Iterable[type], *, where: str
 ) -> dict[str, Any]:
@@ -100,6 +115,7 @@ def with_current_names(
     """
     config_types = tuple(config_types)
     former, removed = former_names(config_types), removed_options(config_types)
+    switches = former_switches(config_types)
     current: dict[str, Any] = {}
     for name, value in options.items():
         if name in removed:
@@ -121,5 +137,7 @@ def with_current_names(
                 RenamedOptionWarning,
                 stacklevel=2,
             )
+            if now in switches and isinstance(value, bool):
+                value = float(value)
         current[now] = value
     return current

@@ -48,7 +48,7 @@ class InterpolateOptions(TypedDict, total=False):
     count_percentile: float | None
     count_threshold: float | None
     count_balance: float | None
-    motion_floor: bool | None
+    frames_per_pixel: float | None
     max_frames_per_second: float | None
     deflicker: bool | None
     lamp_hz: float | None

@@ -36,6 +36,9 @@ INTERPOLATIONS = ("none", "blend", "flow", "exact")
 
 CALIBRATED = ("physical", "calibrated")
 """Simulator and preset that know the oracle's sensor."""
+CALIBRATED_FRAMES_PER_PIXEL = 2.0
+"""Of motion: with fewer, what is missing between frames costs more than what is left of the
+sensor's constants."""
 SENSOR_FILE = Path(__file__).parents[1] / "oracle" / "sensor.toml"
 THRESHOLD_FILE = SENSOR_FILE.with_name("sensor_thresholds.npz")
 """Their options and the thresholds of each pixel, which `python -m benchmarks.oracle_sensor`
@@ -99,6 +102,7 @@ class Entry:
             "preset": None if self._is_calibrated else self.preset,
             "interpolate": self.interpolate,
             "lamp_hz": self.lamp_hz,
+            "frames_per_pixel": CALIBRATED_FRAMES_PER_PIXEL if self._is_calibrated else None,
             "seed": seed,
             "threshold_map": THRESHOLD_FILE if self._is_calibrated else None,
         }

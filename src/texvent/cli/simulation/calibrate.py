@@ -85,6 +85,9 @@ class CalibrateOptions:
     """Preset of the physical model, or a file of texvent calibrate, with what is known so far."""
     frames_gamma: float = 1.0
     """Exponent that makes the frames linear: 1 for those of a DAVIS, 2.2 for ordinary video."""
+    keep: tuple[Literal["balance", "cutoff_hz"], ...] = ()
+    """Options of --start-preset that frames and events shall not change: cutoff_hz, where a
+    flickering field told it."""
     seconds: float = 1.0
     """How much of each half of a recording with frames is simulated."""
     overwrite: bool = False
@@ -115,6 +118,8 @@ class CalibrateOptions:
             raise ConfigError("--threshold-map is for --scene flicker")
         if self.threshold_map is not None and self.threshold_map.suffix != ".npz":
             raise ConfigError(f"--threshold-map is {self.threshold_map}; its name must end in .npz")
+        if self.scene != "moving" and self.keep:
+            raise ConfigError("--keep is for --scene moving")
         if self.scene != "moving" and self.frames is not None:
             raise ConfigError(
                 f"--scene {self.scene} is measured from events alone; leave out --frames"
@@ -146,7 +151,7 @@ def run(arguments: Sequence[str]) -> int:
     groups = {
         "input": CalibrateOptions(),
         "capture": CaptureConfig(),
-        "interpolate": InterpolateConfig(max_intermediate=16),
+        "interpolate": InterpolateConfig(max_intermediate=16, frames_per_pixel=2.0),
     }
     options, capture, interpolate = parse_configs(
         arguments, groups, prog="texvent calibrate", description=DESCRIPTION
@@ -186,7 +191,13 @@ def _fit(
     progress: ConsoleProgress,
 ) -> tuple[PhysicalConfig, list[str], Report]:
     """Fit frames and events."""
-    fit = fit_sensor(recording, start=start, seconds=options.seconds, report=progress.announce)
+    fit = fit_sensor(
+        recording,
+        start=start,
+        seconds=options.seconds,
+        keep=options.keep,
+        report=progress.announce,
+    )
     source = " and ".join(dict.fromkeys((str(options.frames), str(options.events))))
     lines = describe_fit(fit, source)
     report = report_fit(fit, start, source, lines)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import weakref
 
 import numpy as np
@@ -41,15 +40,15 @@ class PairFlow:
             self._pair = weakref.ref(first), weakref.ref(second)
         return self._flows
 
-    def motion_px(self, first: Frame, second: Frame) -> int:
-        """How many intermediate frames keep every step below about a pixel.
+    def motion_px(self, first: Frame, second: Frame) -> float:
+        """How far the fastest part of a pair moves.
 
         Returns:
-            Length of the `FAST_PERCENTILE` of the flow from first to second, px, rounded up.
+            Length of the `FAST_PERCENTILE` of the flow from first to second, px.
         """
         forward, _ = self.both_ways(first, second)
         length = np.hypot(forward[..., 0], forward[..., 1])
-        return math.ceil(float(np.percentile(length, FAST_PERCENTILE)))
+        return float(np.percentile(length, FAST_PERCENTILE))
 
     def _is_of(self, first: Frame, second: Frame) -> bool:
         return self._pair is not None and self._pair[0]() is first and self._pair[1]() is second

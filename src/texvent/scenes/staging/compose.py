@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.errors import InputError
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.nouns import NOUNS
@@ -155,7 +154,7 @@ def compose_scene(
     nouns: Mapping[str, Noun] = NOUNS,
     take: Take = USUAL,
 ) -> ComposedScene:
-    """An animated scene from a description.
+    """An animated scene from a description; the same arguments give the same scene.
 
     Args:
         description: from `grammar.parse_prompt`.
@@ -166,14 +165,9 @@ def compose_scene(
         nouns: table of models.
         take: what is otherwise than usual.
 
-    Returns:
-        The scene; the same arguments give the same scene.
-
     Raises:
         InputError: the duration is not a positive number.
     """
-    if not (math.isfinite(duration_s) and duration_s > 0.0):
-        raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
     said, missing = prepare(description, nouns, duration_s)
     description = enlarge_again(set_on_table(enlarge_small(said, nouns), nouns), take.larger)
     place = description.surroundings.place or "grass"
@@ -182,8 +176,9 @@ def compose_scene(
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    how = (seed, size, duration_s, take)
-    actors, camera_path = _set_camera(description, placer, place, how, travel)
+    actors, camera_path = _set_camera(
+        description, placer, place, (seed, size, duration_s, take), travel
+    )
     view = _describe_view(description, place, camera_path, actors, duration_s)
     actors = wade(description, actors, place, view.road, PLACES[place].road_half_width)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
@@ -193,7 +188,7 @@ def compose_scene(
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
         description, place=place, road=view.road, distance_m=camera_path.framing.distance_m,
-        room_m=camera_path.room_m if PLACES[place].ground is Ground.FLOOR else 9.0, looking=looking,
+        room_m=camera_path.room_m, looking=looking,
     )  # fmt: skip
     staged = replace(said, objects=description.objects)
     stage = Stage(staged, actors, camera_path, animated_environment.at(0.0), place, duration_s)

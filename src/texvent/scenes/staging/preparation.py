@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+from texvent.errors import InputError
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.protocol import Noun
@@ -23,7 +25,12 @@ def prepare(
 
     A camera that follows something which stays in its place would show nothing: the subject does
     what it usually does, and what cannot move is passed by the camera instead.
+
+    Raises:
+        InputError: the duration is not a positive number.
     """
+    if not (math.isfinite(duration_s) and duration_s > 0.0):
+        raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
     missing = []
     for number, scene_object in enumerate(description.objects):
         said = [*filter(None, [scene_object.motion]), *scene_object.then]

@@ -38,6 +38,8 @@ STROBE = 1.2
 """Light of a strobe's flash, as a share of that."""
 TIMELAPSE = 60.0
 """How much faster the sky goes in a time lapse."""
+NO_ROOM_M = 9.0
+"""Half the side of a room where there is none, m; nothing shows it."""
 LOOKING = np.array((0.0, 1.0, 0.0))
 """Where a camera looks that nothing turns."""
 _SUN_RAD_S = 2.0 * math.pi / 600.0
@@ -129,7 +131,7 @@ def build_environment(
         place: key of `PLACES`.
         road: centre lines of the roads.
         distance_m: from the camera to what it looks at: fog is scaled to it.
-        room_m: half the side of a room, m.
+        room_m: half the side of the room, m, where the place is one.
         looking: [3] unit vector that the camera looks along.
     """
     ground = PLACES[place]
@@ -145,8 +147,6 @@ def build_environment(
         if description.objects and all(one.noun in FACING for one in description.objects):
             ground = replace(ground, ground=Ground.NONE)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
-    is_dim = said.weather in ("rain", "snow")
-    sun_colour = mix(lighting.sun, (0.0, 0.0, 0.0), 0.4) if is_dim else lighting.sun
     base = Environment(
         ground=ground.ground,
         ground_colour=_array(colour),
@@ -158,7 +158,7 @@ def build_environment(
         sky_horizon=_array(horizon),
         clouds=clouds,
         sun_direction=towards_light(_unit(lighting.sun_direction), looking, description.light),
-        sun_colour=_array(sun_colour),
+        sun_colour=_array(_sun_colour(lighting, said.weather)),
         ambient=_array(lighting.ambient),
         shadows=lighting.shadows,
         fog_distance=fog_distance,
@@ -166,7 +166,7 @@ def build_environment(
         exposure=lighting.exposure,
         lamps=np.zeros((0, LAMP_COLUMNS)),
         time_s=0.0,
-        room_half_size=room_m,
+        room_half_size=room_m if ground.ground is Ground.FLOOR else NO_ROOM_M,
         ground_surface=Texture.SNOW if is_white else ground.surface,
         has_stars=place != "plain",
         wall_surface=ground.walls,
@@ -175,6 +175,11 @@ def build_environment(
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
     return _animate(base, description, has_lightning=has_lightning)
+
+
+def _sun_colour(lighting: Lighting, weather: str | None) -> Colour:
+    is_dim = weather in ("rain", "snow")
+    return mix(lighting.sun, (0.0, 0.0, 0.0), 0.4) if is_dim else lighting.sun
 
 
 def _animate(
