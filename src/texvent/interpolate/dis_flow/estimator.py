@@ -20,7 +20,6 @@ from texvent.interpolate.dis_flow.definitions import (
     make_pyramid,
     match_level,
 )
-from texvent.interpolate.dis_flow.fast_things import follow_fast_things, level_of_things
 from texvent.interpolate.dis_flow.frame_motion import (
     NO_MOTIONS,
     Motions,
@@ -29,6 +28,7 @@ from texvent.interpolate.dis_flow.frame_motion import (
     shift_motion,
 )
 from texvent.interpolate.dis_flow.shifts import find_shift
+from texvent.interpolate.dis_flow.things.fast_things import follow_fast_things, level_of_things
 from texvent.runtime.allocator import keep_freed_memory
 from texvent.runtime.background_jit import is_ready, wait_until_ready
 
@@ -90,7 +90,8 @@ class DisFlow:
             flows = self._both(
                 _match_again, (one, other, flows[0], found[0]), (other, one, flows[1], found[1])
             )
-        flows = follow_fast_things(one, other, flows, flow_cpu)
+        is_full_size = finest == number == 0
+        flows = follow_fast_things(one, other, flows, flow_cpu, is_full_size=is_full_size)
         if number:
             flows = self._follow(earlier[:number], later[:number], motions, flows)
         full = images[0].shape

@@ -21,22 +21,31 @@ both flows are known on a level, one after the other, in what the motion around 
 from __future__ import annotations
 
 from types import ModuleType
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.interpolate.dis_flow.confirmation import Flows, both_unconfirmed
 from texvent.interpolate.dis_flow.definitions import CHANGED, MARGIN, Floats, Mask, size_of
-from texvent.interpolate.dis_flow.missed_shift import correlate_missed, wide_detail
+from texvent.interpolate.dis_flow.things.missed_shift import correlate_missed, wide_detail
+from texvent.interpolate.dis_flow.things.outlines import redraw_things
+from texvent.interpolate.dis_flow.things.ways import (
+    BORDER,
+    Way,
+    Ways,
+    confirmed_by,
+    covered,
+    dilated,
+    filled,
+    look,
+    unexplained,
+)
 from texvent.pairs.shift_correlation import detail
 
 MOST_SIDE = 400
 """Longer side of the level on which things are looked for, at most, px."""
 MOST_THINGS = 4
 """At most so many per pair."""
-GRID, WINDOW = 16, 5
-"""Surroundings: flow at this many places along the longer side, median over 5×5 of them."""
 MOST_MISSED = 0.2
 """Where a larger share is missed, no small thing explains it."""
 FITS, FITS_DETAIL = 0.3, 0.2
@@ -49,34 +58,11 @@ counts."""
 HIDDEN = 0.5
 """At most this share of a thing's pixels may be ground, moving as the surroundings do, that in the
 other image is covered by something that is followed: two such grounds look alike by chance."""
-BORDER = 3
-"""Pixels around a thing that may have its flow, or what it covers, by mistake. The check looks as
-far around these."""
+GAPS_AND_EDGE = 5, 5, 2
+"""A pixel with so many of a thing's pixels among 3×3 belongs to it: gaps, then the soft edge."""
 BETTER = 0.8
 """What is unexplained must fall to this share. Of discs and bars before textures, true shifts leave
 0.4 to 0.75 of it, and false ones 0.85 and more."""
-MOST_CHANGE = 96.0
-"""A larger change of brightness counts as this in the check, levels: it is an edge elsewhere, not
-worse."""
-
-
-class Way(NamedTuple):
-    """One direction of a pair on a level."""
-
-    start: Floats
-    stop: Floats
-    around: Floats
-    """[2, H, W] flow of the surroundings."""
-    change: Floats
-    """[H, W] of brightness along it, levels."""
-
-    @property
-    def missed(self) -> Mask:
-        """Pixels that the surroundings' motion does not explain."""
-        return np.abs(self.change) > CHANGED
-
-
-Ways = tuple[Way, Way]
 
 
 def level_of_things(pyramid: list[Floats]) -> int:
@@ -85,7 +71,9 @@ def level_of_things(pyramid: list[Floats]) -> int:
     return next((k for k, side in enumerate(sizes) if side <= MOST_SIDE), len(sizes) - 1)
 
 
-def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: ModuleType) -> Flows:
+def follow_fast_things(
+    start: Floats, stop: Floats, flows: Flows, kernels: ModuleType, *, is_full_size: bool = False
+) -> Flows:
     """Both flows of a level, with the motion of small fast things where there are any.
 
     Args:
@@ -93,8 +81,10 @@ def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: Modul
         stop: level of the other.
         flows: from one to the other and back, [2, H, W] px.
         kernels: `flow_reference` or `flow_cpu`.
+        is_full_size: the level is that of the frames. Outlines are then not drawn anew: a mask of
+            whole pixels cuts the soft edge of a thing off.
     """
-    ways = _look(start, stop, flows[0], kernels), _look(stop, start, flows[1], kernels)
+    ways = look(start, stop, flows[0], kernels), look(stop, start, flows[1], kernels)
     if not 0 < ways[0].missed.mean() <= MOST_MISSED:
         return flows
     is_open, settled = both_unconfirmed(start, stop, flows, kernels), np.zeros_like(ways[0].missed)
@@ -110,34 +100,15 @@ def follow_fast_things(start: Floats, stop: Floats, flows: Flows, kernels: Modul
             if _is_ambiguous(fits[0], rivals) or _is_hidden(fits, ways, is_open):
                 continue
             found, near = _follow(ways, flows, is_open, shifts[0], fits)
-            still_open, wide = both_unconfirmed(start, stop, found, kernels), _dilated(near, BORDER)
-            before = _unexplained(ways, flows, is_open, wide, kernels)
-            after = _unexplained(ways, found, still_open, wide, kernels)
+            still_open, wide = both_unconfirmed(start, stop, found, kernels), dilated(near, BORDER)
+            before = unexplained(ways, flows, is_open, wide, kernels)
+            after = unexplained(ways, found, still_open, wide, kernels)
             if (after < BETTER * before).all():
                 flows, is_open, settled = found, still_open, settled | near
                 break
         else:
             break
-    return flows
-
-
-def _look(start: Floats, stop: Floats, flow: Floats, kernels: ModuleType) -> Way:
-    around = surroundings(flow)
-    return Way(start, stop, around, kernels.change_along(start, stop, around))
-
-
-def surroundings(flow: Floats) -> Floats:
-    """The median flow around each pixel, [2, H, W], in steps of some pixels."""
-    _, height, width = flow.shape
-    step = max(2, round(max(height, width) / GRID))
-    first = [min(step // 2, side - 1) for side in (height, width)]
-    places = flow[:, first[0] :: step, first[1] :: step]
-    padded = np.pad(places, ((0, 0), (WINDOW // 2,) * 2, (WINDOW // 2,) * 2), mode="edge")
-    windows = np.lib.stride_tricks.sliding_window_view(padded, (WINDOW, WINDOW), axis=(1, 2))
-    median = np.median(windows.reshape(*places.shape, WINDOW**2), axis=-1)
-    rows = np.minimum(np.arange(height) // step, places.shape[1] - 1)
-    columns = np.minimum(np.arange(width) // step, places.shape[2] - 1)
-    return np.ascontiguousarray(median[:, rows][:, :, columns], np.float32)
+    return flows if is_full_size else redraw_things(ways, flows, is_open, settled, kernels)
 
 
 def _is_ambiguous(fits: Mask, rivals: list[Mask]) -> bool:
@@ -165,10 +136,10 @@ def _follow(
     """Both flows with a thing that moves by a shift, and the pixels around it in either image."""
     shifts = shift, -shift
     things = [
-        _filled(_confirmed_by(one, other, each))
+        filled(confirmed_by(one, other, each), GAPS_AND_EDGE)
         for one, other, each in zip(fits, fits[::-1], shifts, strict=True)
     ]
-    near = _dilated(things[0] | things[1], BORDER)
+    near = dilated(things[0] | things[1], BORDER)
     found = [
         np.where(
             things[k],
@@ -178,37 +149,6 @@ def _follow(
         for k in (0, 1)
     ]
     return (found[0], found[1]), near
-
-
-def _unexplained(
-    ways: Ways, flows: Flows, is_open: tuple[Mask, Mask], near: Mask, kernels: ModuleType
-) -> NDArray[np.float64]:
-    """What flows leave unexplained in some pixels: change of brightness, and pixels, levels."""
-    total, count = 0.0, 0
-    for way, flow, mask, other in zip(ways, flows, is_open, is_open[::-1], strict=True):
-        change = np.abs(kernels.change_along(way.start, way.stop, np.ascontiguousarray(flow)))
-        change[covered(flow, mask, other)] = CHANGED
-        total += float(np.minimum(change[near], np.float32(MOST_CHANGE)).sum(dtype=np.float64))
-        count += int(mask[near].sum())
-    return np.array([total, total + CHANGED * count])
-
-
-def covered(flow: Floats, is_open: Mask, is_open_there: Mask) -> Mask:
-    """Pixels at whose place the other image shows something that comes from elsewhere.
-
-    Args:
-        flow: [2, H, W] px.
-        is_open: [H, W], whether the flow of each pixel is not confirmed.
-        is_open_there: [H, W], the same of the other image.
-    """
-    height, width = is_open.shape
-    y, x = np.nonzero(is_open)
-    column = np.floor(x + flow[0, y, x] + np.float32(0.5)).astype(np.intp)
-    row = np.floor(y + flow[1, y, x] + np.float32(0.5)).astype(np.intp)
-    is_inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
-    found = np.zeros_like(is_open)
-    found[y[is_inside], x[is_inside]] = ~is_open_there[row[is_inside], column[is_inside]]
-    return found
 
 
 def _image(level: Floats) -> NDArray[np.float64]:
@@ -245,33 +185,3 @@ def _window(level: Floats, y: NDArray[np.intp], x: NDArray[np.intp], reach: int)
     """Levels around pixels, [(2 · reach + 1)², n]."""
     steps = range(-reach, reach + 1)
     return np.stack([level[0, y + MARGIN + i, x + MARGIN + j] for i in steps for j in steps])
-
-
-def _confirmed_by(one: Mask, other: Mask, shift: Floats) -> Mask:
-    """Pixels that, shifted, meet pixels of the other image, within one."""
-    y, x = np.nonzero(one)
-    row, column = y + int(np.rint(shift[1])), x + int(np.rint(shift[0]))
-    is_met = np.pad(_dilated(other, 1), 1)[
-        np.clip(row, -1, one.shape[0]) + 1, np.clip(column, -1, one.shape[1]) + 1
-    ]
-    confirmed = np.zeros_like(one)
-    confirmed[y[is_met], x[is_met]] = True
-    return confirmed
-
-
-def _filled(thing: Mask) -> Mask:
-    """The pixels of a thing without gaps, and its soft edge."""
-    for least in (5, 5, 2):
-        padded = np.pad(thing, 1).astype(np.int8)
-        rows = padded[:-2] + padded[1:-1] + padded[2:]
-        thing = thing | (rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:] >= least)
-    return thing
-
-
-def _dilated(mask: Mask, reach: int) -> Mask:
-    """The mask and all pixels within `reach` rows and columns of it."""
-    for _ in range(reach):
-        padded = np.pad(mask, 1)
-        rows = padded[:-2] | padded[1:-1] | padded[2:]
-        mask = rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:]
-    return mask
