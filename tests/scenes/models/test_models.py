@@ -52,6 +52,12 @@ def build(noun: Noun, *, scale: float = 1.0, seed: int = 0) -> Model:
     return noun.build(colour=None, scale=scale, seed=seed)
 
 
+@cache
+def usual_model(noun: Noun) -> Model:
+    """What several tests look at; built once, as building takes most of their time."""
+    return build(noun, seed=1)
+
+
 for_every_noun = for_every(ALL)
 
 
@@ -79,8 +85,10 @@ def bodies(parts: Sequence[ModelPart]) -> np.ndarray:
     return np.array([part.to_body for part in parts])
 
 
-def all_points(model: Model, pose: Pose) -> np.ndarray:
-    return np.concatenate([surface_points(part) for part in model.parts(pose)])
+def all_points(model: Model, *poses: Pose) -> np.ndarray:
+    """Points all over it at some poses; a part that is the same at all of them counts once."""
+    parts = {id(part): part for pose in poses for part in model.parts(pose)}
+    return np.concatenate([surface_points(part) for part in parts.values()])
 
 
 def test_the_table_holds_the_nouns_that_the_issue_names() -> None:
@@ -169,7 +177,7 @@ def test_parts_keep_their_number_order_and_handedness(noun: Noun) -> None:
 @for_every_noun
 def test_size_holds_all_parts_and_is_not_loose(noun: Noun) -> None:
     model = build(noun, seed=2)
-    points = np.concatenate([all_points(model, pose) for pose in POSES if pose.activity != "sit"])
+    points = all_points(model, *(pose for pose in POSES if pose.activity != "sit"))
     reach = np.abs(points).max(axis=0)
     size = np.array([model.length, model.width, model.height])
     assert (reach[:2] <= 0.55 * size[:2]).all()
@@ -182,7 +190,7 @@ def test_size_holds_all_parts_and_is_not_loose(noun: Noun) -> None:
 
 @for_every_noun
 def test_scale_scales_everything(noun: Noun) -> None:
-    usual, double = build(noun, seed=5), build(noun, scale=2.0, seed=5)
+    usual, double = usual_model(noun), build(noun, scale=2.0, seed=1)
     assert double.length == pytest.approx(2.0 * usual.length)
     assert double.height == pytest.approx(2.0 * usual.height)
     # The same instant of a body twice as large, which has gone twice as far twice as fast.
@@ -195,7 +203,7 @@ def test_scale_scales_everything(noun: Noun) -> None:
 def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
     if noun.habitat not in ("ground", "fixed") or noun.name in MOUNDS | HUNG:
         return
-    model = build(noun, seed=1)
+    model = usual_model(noun)
     for pose in POSES:
         lowest = all_points(model, pose)[:, 2].min()
         assert lowest >= -0.05 * max(1.0, model.height / 10.0), pose
@@ -205,7 +213,7 @@ def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
 
 @for_every_noun
 def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
-    model = build(noun, seed=4)
+    model = usual_model(noun)
     speed = max(noun.speed_m_s, 1.0)
     extent = max(model.length, model.width, model.height)
     # Rotors turn up to 12 times a second, limbs swing at a few times the body's speed; wings of
@@ -218,12 +226,14 @@ def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
             before = model.parts(Pose(time_s, speed * time_s, speed, activity))
             time_s += 1e-3
             after = model.parts(Pose(time_s, speed * time_s, speed, activity))
-            assert len(before) == len(after)
-            change = bodies(after) - bodies(before)
+            changed = [(a, b) for a, b in zip(before, after, strict=True) if a is not b]
+            if not changed:
+                continue
+            change = np.array([b.to_body - a.to_body for a, b in changed])
             assert np.abs(change).max() <= bound
             fade = [
                 [*np.subtract(b.colour, a.colour), (b.emission - a.emission) / 3.0]
-                for a, b in zip(before, after, strict=True)
+                for a, b in changed
                 if (a.colour, a.emission) != (b.colour, b.emission)
             ]
             assert np.abs(fade).max(initial=0.0) <= 0.1
@@ -232,7 +242,7 @@ def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
 @for_every_noun
 def test_a_seed_fixes_every_detail(noun: Noun) -> None:
     pose = Pose(0.7, 1.9, 1.0)
-    once, again = build(noun, seed=9).parts(pose), build(noun, seed=9).parts(pose)
+    once, again = usual_model(noun).parts(pose), build(noun, seed=1).parts(pose)
     assert np.array_equal(bodies(once), bodies(again))
     assert [(a.colour, a.emission) for a in once] == [(b.colour, b.emission) for b in again]
 
