@@ -121,12 +121,13 @@ def test_a_job_that_wants_more_memory_than_it_may_take_says_so(tmp_path: Path) -
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds memory and time")
 def test_the_first_look_at_an_upload_is_bounded_in_time_and_memory() -> None:
     program = (
+        "import numpy\n"
         "from texvent.web import process_limits as limits\n"
         "limits.PROBE_CPU_S = 1\n"
         "try:\n"
-        "    with limits.bounded_probe(): bytearray(3_000_000_000)\n"
+        "    with limits.bounded_probe(): numpy.empty(3_000_000_000, 'u1')\n"
         "except MemoryError: print('refused', flush=True)\n"
-        "kept = bytearray(3_000_000_000)\n"
+        "kept = numpy.empty(3_000_000_000, 'u1')\n"
         "print('free again', flush=True)\n"
         "with limits.bounded_probe():\n"
         "    while True: pass\n"

@@ -101,6 +101,8 @@ class ArticulatedModel:
 
     def _at_usual_size(self, pose: Pose) -> Pose:
         """The same instant of a body of the usual size."""
+        if self._scale == 1.0:
+            return pose
         grips = tuple(
             (name, (x / self._scale, y / self._scale, z / self._scale))
             for name, (x, y, z) in pose.grips

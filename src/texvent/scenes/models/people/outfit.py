@@ -51,6 +51,8 @@ class PersonKind:
     """How far the torso is bent forward at any time, radians."""
     bulk: float = 1.0
     """Thickness of torso and limbs relative to an adult's."""
+    shells: tuple[Colour, ...] = ()
+    """Colours of the metal or plastic that a robot consists of; () = skin and clothes."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,8 @@ WORKER = PersonKind(hat="helmet", shirts=(ORANGE,))
 
 def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfit:
     """Choose skin, hair and clothes."""
+    if kind.shells:
+        return _build_shell(kind, colour=colour, seed=seed)
     flesh = skin(choose(seed, "skin", SKIN_TONES))
     shirt = cloth(paint(colour, seed, "shirt", kind.shirts))
     usual = choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05)))
@@ -99,5 +103,17 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfi
         hands=Material(kind.gloves) if kind.gloves is not None else None,
         hat=cloth(kind.hat_colour),
         garments=[(name, shirt if hue is None else cloth(hue)) for name, hue in kind.garments],
+        bulk=kind.bulk,
+    )
+
+
+def _build_shell(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfit:
+    """All surfaces of one material."""
+    shell = Material(paint(colour, seed, "shell", kind.shells))
+    garments = [(name, shell if hue is None else Material(hue)) for name, hue in kind.garments]
+    return Outfit(
+        *(shell for _ in ("skin", "hair", "shirt", "legs", "shins", "shoes")),
+        hat=shell,
+        garments=garments,
         bulk=kind.bulk,
     )

@@ -259,7 +259,7 @@ def _is_fitted(own: Actor, other: Actor) -> bool:
     return goes and other.noun.motion == "stand" and other.size_m < own.size_m
 
 
-_MACHINES = frozenset({"robot", "satellite", "rover"})
+_MACHINES = frozenset({"satellite", "rover"})
 
 
 def _is_touching(subject: Body, targets: list[Body]) -> bool:

@@ -192,7 +192,7 @@ _STANDING = frozenset(
     {"bicycle", "motorcycle", "scooter", "tree", "pine", "palm", "bare tree", "autumn tree",
      "cherry tree", "christmas tree", "ladder", "chair", "stool", "bookshelf", "wardrobe",
      "street lamp", "park lamp", "traffic light", "sign", "stop sign", "fence", "statue",
-     "scarecrow", "easel", "tripod", "column", "broom", "refrigerator", "robot", "snowman",
+     "scarecrow", "easel", "tripod", "column", "broom", "refrigerator", "snowman",
      "cactus", "coat rack", "traffic cone", "shopping cart", "sunflower"}
 )  # fmt: skip
 """What falls over where it stands, besides people and animals."""

@@ -24,7 +24,6 @@ from texvent.scenes.models.objects.palette import (
     BLACKISH,
     BRASS,
     CHINA,
-    GREY_PLASTIC,
     INK,
     IRON,
     PALE,
@@ -43,7 +42,6 @@ from texvent.scenes.models.shapes import (
     ball,
     box,
     compose,
-    limb,
     plank,
     post,
     rod,
@@ -58,46 +56,9 @@ _BRIGHT: tuple[Colour, ...] = ((0.75, 0.22, 0.01), (0.75, 0.45, 0.02), (0.03, 0.
 _GLOW = glowing((0.15, 0.70, 0.95), 1.5)
 
 
-def _humanoid(skin: Material) -> list[ModelPart]:
-    """A standing robot with two legs, a rounded head and lit eyes."""
-    dark = GREY_PLASTIC
-    return [
-        box(skin, (0.0, 0.0, 1.10), (0.22, 0.36, 0.46)),
-        box(dark, (0.0, 0.0, 0.82), (0.18, 0.24, 0.12)),
-        ball(skin, (0.0, 0.0, 1.50), (0.24, 0.24, 0.26)),
-        ball(INK, (0.045, 0.0, 1.50), (0.17, 0.20, 0.16)),
-        *(disc(_GLOW, (0.045 * s, 1.52), 0.022, 0.02, 0.13) for s in (1.0, -1.0)),
-        rod(dark, (0.0, 0.0, 1.32), (0.0, 0.0, 1.42), 0.05),
-        disc(_GLOW, (0.0, 1.15), 0.045, 0.02, 0.11),
-        *(ball(dark, (0.0, 0.23 * s, 1.27), (0.13, 0.12, 0.13)) for s in (1.0, -1.0)),
-        *(limb(skin, (0.0, 0.25 * s, 1.24), (0.0, 0.28 * s, 0.98), 0.05) for s in (1.0, -1.0)),
-        *(limb(skin, (0.0, 0.28 * s, 0.96), (0.08, 0.27 * s, 0.72), 0.042) for s in (1.0, -1.0)),
-        *(ball(dark, (0.09, 0.27 * s, 0.68), (0.09, 0.07, 0.10)) for s in (1.0, -1.0)),
-    ]  # fmt: skip
-
-
 def _cart_wheels(x: float, y: float, radius: float, wide: float) -> tuple[Wheel, ...]:
     return tuple(
         Wheel((a * x, b * y, radius), radius, wide) for a in (1.0, -1.0) for b in (1.0, -1.0)
-    )
-
-
-def _leg(side: float) -> Moving:
-    """A leg of the robot, which swings from the hip as far as it goes."""
-    y = 0.10 * side
-
-    def draw(skin: Material) -> list[ModelPart]:
-        return [
-            limb(skin, (0.0, y, 0.78), (0.02, y, 0.45), 0.065),
-            limb(skin, (0.02, y, 0.42), (0.0, y, 0.08), 0.055),
-            box(GREY_PLASTIC, (0.04, y, 0.03), (0.24, 0.11, 0.06)),
-        ]
-
-    return Moving(
-        draw,
-        lambda pose: turn_y(
-            0.32 * side * math.sin(2.0 * math.pi * pose.distance_m / 0.9), (0.0, y, 0.80)
-        ),
     )
 
 
@@ -142,9 +103,6 @@ def _mixing() -> Motion:
 
 
 _INDOOR = placed("indoor", (
-    thing("robot", (CHINA, SILVERY), _humanoid,
-        ("humanoid robot", "android", "humanoid"), moving=(_leg(1.0), _leg(-1.0)),
-        goes=("ground", "walk", 0.6)),
     thing("mobile robot", (INK.colour, CHINA),
         lambda p: [box(p, (0.0, 0.0, 0.20), (0.50, 0.36, 0.16)),
             box(YELLOW_PAINT, (0.0, 0.0, 0.29), (0.46, 0.32, 0.02)),

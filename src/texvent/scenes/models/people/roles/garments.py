@@ -18,6 +18,7 @@ from texvent.scenes.models.materials import (
     Material,
 )
 from texvent.scenes.models.people.posture import NECK, Skeleton
+from texvent.scenes.models.people.roles.robot_shell import draw_robot_joints
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import (
     Point,
@@ -386,6 +387,7 @@ GARMENTS: Mapping[str, GarmentDraw] = MappingProxyType(
         "wings": _wings,
         "belly": _belly,
         "rings": _mouse_mark,
+        "robot joints": draw_robot_joints,
     }
 )
 """Name of one of `PersonKind.garments` → how it is drawn."""

@@ -21,6 +21,7 @@ from texvent.scenes.models.materials import (
     cloth,
     shade,
 )
+from texvent.scenes.models.people.roles.robot_shell import draw_robot_head
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, blade, box, limb, peak, post, rod, spike
 
@@ -353,6 +354,7 @@ HATS: Mapping[str, HatDraw] = MappingProxyType(
         "samurai": _samurai,
         "welding": _welding,
         "headlamp": _headlamp,
+        "robot": draw_robot_head,
         "ski helmet": _shell(0.20, 1.16, _glass(Material((0.70, 0.28, 0.02)), 0.30)),
         "flying cap": _shell(0.16, 1.12, _glass(Material((0.10, 0.22, 0.28)), 0.24)),
         "bicycle helmet": _shell(
