@@ -57,6 +57,8 @@ class ObjectMotion:
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
 STANDING = ObjectMotion("stand")
+FORMATIONS = frozenset({"row", "ring"})
+"""Values of `SceneObject.side` that say how copies stand to each other."""
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from texvent.scenes.description import FORMATIONS
 from texvent.scenes.language.grammar.group_attachment import GroupAttachment
 from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
@@ -97,8 +98,17 @@ class _ClauseReader(GroupAttachment):
         self._add_group(group)
 
     def _read_adverb(self, word: Word) -> None:
-        self._clause.adverbs.append(word)
         self._at += 1
+        if word.role is not Role.SIDE or word.meaning.value in FORMATIONS:
+            self._clause.adverbs.append(word)
+            return
+        before = self._words[self._at - 2 : self._at - 1]
+        if self._last is not None and before == [self._last.head]:
+            self._last.sides.append(word)  # as in "a house on the left and a tree on the right"
+            return
+        if self._is_joined and starts_group(self._words, self._at, is_opening=True):
+            self._close()  # as in "a man waves, on the right a woman claps"
+        self._clause.adverbs.append(word)
 
     def _read_conjunction(self, word: Word) -> None:
         self._is_joined = "and"

@@ -234,7 +234,7 @@ class GroupAttachment(ClauseState):
                 return True
             if pos is Pos.PREPOSITION and starts_group(words, at + 1, is_opening=True):
                 _, at = read_group(words, at + 1)
-            elif pos is Pos.ADVERB:
+            elif pos is Pos.ADVERB or words[at].role is Role.SIDE:
                 at += 1
             else:
                 return False

@@ -22,6 +22,8 @@ class NounGroup:
     negation: Word | None = None
     phrases: list[PrepPhrase] = field(default_factory=list)
     """What follows it and belongs to it: "of water", "with a hat"."""
+    sides: list[Word] = field(default_factory=list)
+    """Where in the picture it is: "on the left"."""
 
     @property
     def words(self) -> list[Word]:

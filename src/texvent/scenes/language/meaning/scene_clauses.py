@@ -20,6 +20,9 @@ _SUN = {"set": "dusk", "rise": "dawn"}
 _OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
 _SWITCHES = ("switch", "turn", "go", "flick", "click", "toggle")
 _FLOWS = frozenset({"run", "flow", "gush", "trickle", "stream", "come", "shoot"})
+_FLOWING = frozenset({"river"})
+"""Places whose water goes one way."""
+_COVERS = frozenset({"cover", "blanket", "fill", "shroud", "envelop", "hide", "surround"})
 _SPILLS = frozenset({"pour", "drip", "leak", "spill", "splash"})
 _OUT_OF = ("from", "out of")
 _IN_THE_WIND = frozenset({"leaves", "petals", "confetti", "feathers", "smoke", "sand", "dust"})
@@ -96,6 +99,8 @@ class SceneClauses:
         if word is not None:
             able = [one for one in subjects if not _is_steady(word, one)]
             shown = self._read_scene_verb(word, {one.kind for one in able})
+            shown |= word.lemma in _FLOWS and all(one.value in _FLOWING for one in able)
+            shown |= self._covers_place(clause, word, able)
             word.is_used = word.is_used or shown
         for group in clause.complements:
             self._read_scene_complement(self._referents.resolve(group))
@@ -120,6 +125,13 @@ class SceneClauses:
         effects = [Referent("effect", one.group, value=kind) for one in subjects]
         self.read_effects(clause, effects)
         return True
+
+    def _covers_place(self, clause: Clause, word: Word, subjects: Sequence[Referent]) -> bool:
+        """As in "fog covers a harbour": the place is in it; "snow covers a car" is not shown."""
+        objects = [self._referents.resolve(group) for group in clause.objects]
+        is_place = bool(objects) and all(one.kind == "place" for one in objects)
+        is_it = all(one.kind in ("weather", "snow") for one in subjects)
+        return word.lemma in _COVERS and is_place and is_it and bool(subjects)
 
     def _read_scene_verb(self, word: Word, kinds: Set[str]) -> bool:
         """What light, weather or a place does; whether it is shown."""

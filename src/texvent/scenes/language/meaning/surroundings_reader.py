@@ -8,6 +8,7 @@ from texvent.scenes.description import Illumination, NamedColour, Surroundings
 from texvent.scenes.language.meaning.adjectives import Attributes
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary import scene as vocabulary_scene
+from texvent.scenes.language.vocabulary.motion import SHORES
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 
@@ -16,6 +17,8 @@ _CLEAR = ("clear",)
 _ALIKE = ({"day", "sunny"}, {"day", "overcast"})
 """Lights that go together."""
 _WATER = ("water", "waters")
+_CALM = ("calm", "tranquil", "placid")
+"""What water is unless the prompt says waves."""
 _WATERY = ("lake", "river", "beach", "underwater")
 """Places that have the water that is named after them."""
 _USUAL_HZ = {
@@ -100,6 +103,8 @@ class SurroundingsReader:
         is_used, is_coloured = self.read_place(place or str(one.value), named)
         if is_coloured and colour is not None:
             mark_used(colour[1])
+        if is_used and self._place in SHORES:
+            mark_used(word for word in one.attributes.words if word.text in _CALM)
         head = one.group.head
         meaning = head.read_as(Role.PLACE) if head is not None else None
         if not is_used or head is None or meaning is None:

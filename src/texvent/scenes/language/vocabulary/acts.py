@@ -131,7 +131,8 @@ SIMILAR_MOTIONS: dict[str, tuple[str, ...]] = {
     "change lane": ("cut in",),
     "stand": ("freeze",),
     "jump": ("bob", "breach"),
-    "sit": ("crouch", "squat", "curl up", "watch", "stare", "lean", "relax", "lounge"),
+    "sit": ("crouch", "squat", "curl up", "watch", "stare", "lean", "relax", "lounge",
+            "hide"),
     "sway": (
         "wiggle", "quiver", "jiggle", "shudder", "rattle", "bob", "tug", "wriggle", "squirm",
         "billow", "ripple", "twitch",

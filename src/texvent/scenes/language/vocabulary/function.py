@@ -60,11 +60,12 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
     ),
     Pos.ADJECTIVE: (
         "beautiful", "nice", "photorealistic", "pretty", "realistic", "visible",
-        "detailed", "high quality", "high resolution", "plain",
+        "detailed", "high quality", "high resolution", "plain", "quiet", "silent", "noisy", "loud",
+        "favourite", "favorite", "famous", "expensive", "cheap", "delicious", "tasty", "own",
     ),
     Pos.ADVERB: (
         "also", "here", "how", "please", "quite", "really", "so", "too", "very", "why", "together",
-        "somewhat", "almost", "again",
+        "somewhat", "almost", "again", "silently", "quietly", "loudly", "noisily",
     ),
     Pos.VERB: (
         "show", "shows", "showing", "shown", "depicts", "depicting", "depict", "features",

@@ -252,9 +252,9 @@ _ROLES = """
     elderly person, elderly
     woman, baby, toddler, teenager, schoolboy, schoolgirl, student, robot
 """
-PERSON_NOUNS = frozenset(
-    {"person", "man", "woman", "child", "girl", "runner", "worker"}
-).union(" ".join(name.split()) for name in _ROLES.split(","))
+PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "girl", "runner", "worker"}).union(
+    " ".join(name.split()) for name in _ROLES.split(",")
+)
 """Nouns whose models take every posture of `ACTIVITIES`."""
 HAND_NOUNS = frozenset({"hand"})
 """Nouns whose models take every posture of `HAND_GESTURES`."""

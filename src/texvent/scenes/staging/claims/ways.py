@@ -13,6 +13,7 @@ from texvent.scenes.staging.claims.contact import is_in, is_on, touches
 from texvent.scenes.staging.claims.courses import faces
 from texvent.scenes.staging.claims.positions import Body, gaps, is_near
 from texvent.scenes.staging.placement.spatial_relations import GATES
+from texvent.scenes.staging.trajectories.manoeuvres import LANE_M
 
 _INSTANTS = 13
 _TOUCH_M, _TOUCH_SHARE = 0.04, 0.05
@@ -116,6 +117,8 @@ def _is_close(subject: Body, targets: list[Body]) -> bool:
     if subject.copies[0].noun.habitat == "fixed" and not subject.copies[0].is_mover:
         return _lies_against(subject, targets)
     reach = _AT_M + _AT_SHARE * max(_extent(one) for one in (subject, *targets))
+    # What stands beside a road is half a lane further from who stops there.
+    reach += 0.5 * LANE_M if subject.copies[0].noun.motion == "drive" else 0.0
     times = [float(t) for t in np.linspace(0.0, subject.duration_s, 5)]
     return all(
         any(gap(part_boxes(own, t), part_boxes(one, t)) < reach

@@ -9,8 +9,6 @@ import numpy as np
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 
-FORMATIONS = frozenset({"row", "ring"})
-"""Values of `SceneObject.side` that say how copies stand to each other."""
 FACE_TO_FACE = frozenset({"talk", "shake hands", "high five", "hug", "fence", "box"})
 """What two people do turned to each other, and more in a half ring."""
 _TO_CAMERA = 0.35

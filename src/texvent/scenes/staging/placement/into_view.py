@@ -11,12 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import FORMATIONS, SceneDescription
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framed_points import is_backdrop, may_stand_back
-from texvent.scenes.staging.placement.formation import FORMATIONS
 
 _INSTANTS, _EYES = 5, 33
 _ROUTE_REACH_M = 60.0

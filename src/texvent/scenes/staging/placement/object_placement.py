@@ -43,6 +43,7 @@ from texvent.scenes.staging.placement.spatial_relations import (
     Goal,
     place_by_subject,
     place_on_targets,
+    side_offset,
 )
 from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory, plan_motion
@@ -226,7 +227,7 @@ class ObjectPlacer:
         if self._along is not None:
             is_goal = self._description.shot.target == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
-        offset = {"left": -2.0, "right": 2.0}.get(group.scene_object.side or "", 0.0) * group.size_m
+        offset = side_offset(group, self._description.objects, self.build_group)
         offset += self._spread_apart(group) + self._stagger(group)
         depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}
         wanted = np.array([offset, depth.get(group.scene_object.side or "", 0.0), height])

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import STANDING
+from texvent.scenes.description import STANDING, SceneObject
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.at_table import place_at
@@ -184,7 +184,7 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
             ahead = 0.55 * (subject.models[0].length + group.models[0].length) + 0.2
             return Goal(_shift(here, ahead * math.cos(yaw), y + 0.1), _AWAY)
         if goes_sideways:
-            return Goal(_shift(here, 0.0, y + 0.3), _AWAY)
+            return Goal(_shift(here, _find_stop(subject, kind), y + 0.3), _AWAY)
     if kind == "appear":
         # It comes out past the edge of what hides it after a third of its way.
         way = 2.0 * subject.half[0] - subject.models[0].length
@@ -217,6 +217,16 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     }
     right, away, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, away), slide)
+
+
+def _find_stop(subject: ObjectGroup, kind: str) -> float:
+    """How far to the right of its middle the nose of what stops beside something comes, m."""
+    said = subject.scene_object
+    last = (subject.plan.motion, *said.then)[-1]
+    if kind != "beside" or not (last.end_pace == 0.0 or (said.then and last.kind == "stand")):
+        return 0.0
+    reach = float(subject.half[0]) - 0.1 * subject.models[0].length
+    return math.copysign(reach, math.cos(subject.plan.yaw))
 
 
 def _share_gates(group: ObjectGroup, subject: ObjectGroup) -> None:
@@ -275,3 +285,25 @@ INVERSE = {"behind": "front", "front": "behind", "left of": "right of", "right o
 
 def _shift(place: Float64Array, x: float, y: float) -> Float64Array:
     return np.asarray(place + np.array([x, y, 0.0]))
+
+
+_WAYS = {"left": -1.0, "right": 1.0}
+
+
+def side_offset(
+    group: ObjectGroup, objects: Sequence[SceneObject], build: Callable[[int], ObjectGroup]
+) -> float:
+    """How far to the right of the middle a group stands, m; nearer where both sides are taken.
+
+    Args:
+        group: what is "on the left" or "on the right", or neither.
+        objects: all objects of the prompt.
+        build: gives the group of one of them, by its number.
+    """
+    way = _WAYS.get(group.scene_object.side or "", 0.0)
+    sides = [one.side for one in objects]
+    if not way or not _WAYS.keys() <= set(sides):
+        return way * 2.0 * group.size_m
+    midst = [build(index) for index, side in enumerate(sides) if side == "centre"]
+    room = sum(float(one.half[0]) for one in midst)
+    return way * (float(group.half[0]) + 0.4 * group.size_m + 1.3 * room)

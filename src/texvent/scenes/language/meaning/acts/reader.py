@@ -274,7 +274,8 @@ class ActReader:
         if verb.relation is not None and verb.kind:
             if set(targets) <= set(subjects):
                 return self._do_to_each_other(clause, verb, subjects)
-            movers = self._give(clause, verb, subjects)
+            way = None if verb.relation == "towards" else verb.direction  # not to the camera
+            movers = self._give(clause, replace(verb, direction=way), subjects)
             if movers:
                 self._draft.relate(verb.relation, movers, targets, verb.way)
             return movers

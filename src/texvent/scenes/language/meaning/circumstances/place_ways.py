@@ -80,8 +80,9 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     is_led = False
     for index in scope.movers:
         motions = draft.objects[index].motions
-        is_bound = draft.noun(index).habitat == "ground"
-        if is_bound and motions and motions[-1].kind in _ON_LAND:
+        kind = motions[-1].kind if motions else ""
+        is_bound = draft.noun(index).habitat == "ground" or kind == "crawl"
+        if is_bound and kind in _ON_LAND:
             motions[-1] = replace(motions[-1], shore=way[0], direction=way[1])
             is_led = True
     return is_led

@@ -169,6 +169,7 @@ class CircumstanceReader:
         group = referent.group
         if group.owner is not None:
             self._read_owner(group.owner, referent)
+        self.read_adverbs(group.sides, Scope(referent.things, []))
         if referent.is_things:
             inner = Scope(list(listed or referent.things), [], has_verb=False)
         elif referent.kind in ("unknown", "part"):
