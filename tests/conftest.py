@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import shutil
@@ -73,6 +74,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     # pytest-xdist gives each worker one half of the list, and lets it work from its beginning.
     split = max(0, len(items) // 2 - len(groups[0]))
     items[:] = groups[0] + rest[:split] + groups[1] + rest[split:]
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """Spare the collector of cycles what stays to the end: it took a tenth of the suite's time."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(50_000, 20, 50)
 
 
 @pytest.fixture(scope="session")

@@ -16,7 +16,7 @@ from texvent.sensor import SensorSize
         "a cat jumps off a table", "two balls roll off a table", "a cup falls off a table",
         "boxes fall off a conveyor belt", "a cat jumps onto a sofa", "a bird flies off a fence",
         "a ball rolls into a box", "a cat jumps out of a box", "a rabbit jumps out of a hat",
-        "a ball rolls down a ramp", "a ball bounces down the stairs", "a robot walks up stairs",
+        "a ball rolls down a ramp", "a ball bounces down the stairs", "a dog walks up stairs",
         "a dog runs through a hoop", "a train enters a tunnel", "an apple falls from a tree",
     ],
 )  # fmt: skip

@@ -16,6 +16,7 @@ from texvent.generate.seen_words.picture import Picture
 from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
 from texvent.scenes.language.vocabulary.motion import (
     DIRECTIONS,
+    FLOWING,
     GETTING,
     PACE_ADJECTIVES,
     PACES,
@@ -77,6 +78,7 @@ _GETTING = re.compile(
     r"(stand|stood|get|got|sit|sat|lie|lying|lay|kneel|knelt|crouch|squat|climb)\w* (up|down)"
 )
 _TAKING_OFF = re.compile(r"(t[ao]k|lift|blast)\w* ?off|launch\w*")
+_FLOWS = re.compile(r"(flow|run|stream|gush|trickle)\w*")
 _LANDING = re.compile(r"land(s|ed|ing)?|touch\w* down|settle\w*")
 _ENDS = re.compile(r"onto|into|off|out of")
 _TO_A_SIDE = frozenset(word for way in ("left", "right", "towards", "away", "across")
@@ -142,8 +144,11 @@ class _Judge:
             index = self._find_doer(claim)
             if index is not None and not self._moves(index):
                 return f"{self.description.objects[index].noun} {HARDLY}"
+            is_flow = self.description.surroundings.place in FLOWING and (
+                _FLOWS.fullmatch(claim.word) is not None
+            )
             is_seen = self._is_camera_moving() or self.picture.scene.particles.kinds
-            return None if is_seen else NOTHING_MOVES
+            return None if is_seen or is_flow else NOTHING_MOVES
         sense = judge_sense(claim, self.description)
         if sense is not None:
             return sense

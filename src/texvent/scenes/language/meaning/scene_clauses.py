@@ -12,7 +12,7 @@ from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.motion import FLOWING, Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 
@@ -20,8 +20,6 @@ _SUN = {"set": "dusk", "rise": "dawn"}
 _OF_WATER = ("drip", "pour", "spray", "splash", "fountain")
 _SWITCHES = ("switch", "turn", "go", "flick", "click", "toggle")
 _FLOWS = frozenset({"run", "flow", "gush", "trickle", "stream", "come", "shoot"})
-_FLOWING = frozenset({"river"})
-"""Places whose water goes one way."""
 _COVERS = frozenset({"cover", "blanket", "fill", "shroud", "envelop", "hide", "surround"})
 _SPILLS = frozenset({"pour", "drip", "leak", "spill", "splash"})
 _OUT_OF = ("from", "out of")
@@ -99,7 +97,7 @@ class SceneClauses:
         if word is not None:
             able = [one for one in subjects if not _is_steady(word, one)]
             shown = self._read_scene_verb(word, {one.kind for one in able})
-            shown |= word.lemma in _FLOWS and all(one.value in _FLOWING for one in able)
+            shown |= word.lemma in _FLOWS and all(one.value in FLOWING for one in able)
             shown |= self._covers_place(clause, word, able)
             word.is_used = word.is_used or shown
         for group in clause.complements:

@@ -320,9 +320,14 @@ def _runs_into(path: CameraPath, actors: Sequence[Actor]) -> bool:
     return False
 
 
+_ABOVE_WATER = 0.2
+"""How far down one looks on a river where there is nothing else, radians."""
+
+
 def _look_around(description: SceneDescription, place: str, duration_s: float) -> CameraPath:
     """A camera in a place where the prompt names no object."""
-    elevation = ELEVATIONS.get(description.shot.view or "", 0.06)
+    usual = _ABOVE_WATER if place == "river" else 0.06
+    elevation = ELEVATIONS.get(description.shot.view or "", usual)
     distance = 16.0 if elevation < 0.5 else 24.0
     empty = Framing(np.array([0.0, 0.0, 2.0]), 0.0, elevation, distance, 1.0)
     if is_room(place):

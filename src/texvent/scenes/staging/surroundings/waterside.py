@@ -49,8 +49,8 @@ def water_line(
         or actor.object_index in waders
     ]
     distance = path.framing.distance_m
-    if goes_over_shore:
-        # It is met half way.
+    if goes_over_shore or not actors:
+        # It is met half way, or all that there is to see.
         gap = half_width if place == "river" else 0.0
     elif not swimmers:
         gap = _GAP * distance + (half_width if place == "river" else 0.0) + 1.0
