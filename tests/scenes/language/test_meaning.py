@@ -391,3 +391,38 @@ def test_ways_to_a_place_lead_over_its_shore_or_are_reported(prompt, shore, lost
     assert motion is not None
     assert motion.shore == shore
     assert description.not_understood == lost
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kind"),
+    [
+        ("a humanoid robot waves", "wave"),
+        ("a robot picks up a box", "pick up"),
+        ("a robot pours coffee into a cup", "pour"),
+        ("a red robot dances", "dance"),
+    ],
+)
+def test_a_robot_with_a_persons_shape_does_what_people_do(prompt: str, kind: str) -> None:
+    description = parse_prompt(prompt)
+    motion = description.objects[0].motion
+    assert description.objects[0].noun == "robot"
+    assert motion is not None
+    assert (motion.kind, description.not_understood) == (kind, ())
+
+
+@pytest.mark.parametrize(
+    ("prompt", "lost"),
+    [
+        ("a river flows through a forest", ()),
+        ("a lake flows", ("flows",)),
+        ("fog covers a harbor", ()),
+        ("snow covers a car", ("covers",)),
+        ("a calm lake", ()),
+        ("a calm forest", ("calm",)),
+        ("a quiet street", ()),
+    ],
+)
+def test_what_places_and_weather_do_is_said_of_them_alone(
+    prompt: str, lost: tuple[str, ...]
+) -> None:
+    assert parse_prompt(prompt).not_understood == lost
