@@ -426,3 +426,24 @@ def test_what_places_and_weather_do_is_said_of_them_alone(
     prompt: str, lost: tuple[str, ...]
 ) -> None:
     assert parse_prompt(prompt).not_understood == lost
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kind"),
+    [
+        ("curtains move in the wind", "sway"),
+        ("a tree shakes in the breeze", "sway"),
+        ("a man moves in the wind", "walk"),
+    ],
+)
+def test_what_stands_moves_in_the_wind_by_swaying(prompt: str, kind: str) -> None:
+    description = parse_prompt(prompt)
+    motion = description.objects[0].motion
+    assert motion is not None
+    assert motion.kind == kind
+    assert "in" not in description.not_understood
+
+
+def test_a_camera_still_moves_in() -> None:
+    for prompt in ("the camera moves in on a car", "the camera moves in"):
+        assert [move.kind for move in parse_prompt(prompt + ", a car").shot.moves] == ["dolly"]

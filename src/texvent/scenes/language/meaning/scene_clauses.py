@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence, Set
 
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.circumstances.reader import WINDS, CircumstanceReader
+from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.clause_rewrites import BURSTS, POPS
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB
-from texvent.scenes.language.vocabulary.motion import FLOWING, Verb
+from texvent.scenes.language.vocabulary.motion import FLOWING, WINDS, Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 

@@ -340,6 +340,8 @@ SHORE_WAYS: dict[str, tuple[str, str]] = {
 lies behind the land."""
 SHORES = frozenset({"sea", "lake", "river", "swimming pool", "harbour"})
 """Places with water beside land, or that become one."""
+WINDS = frozenset({"wind", "breeze", "gust", "gusts", "winds"})
+"""Nouns of moving air."""
 FLOWING = frozenset({"river"})
 """Places whose water goes one way."""
 NO_WAYS = frozenset(

@@ -38,7 +38,7 @@ MAX_BODIES = 60
 SIZES: dict[float, tuple[str, ...]] = {
     0.4: ("tiny", "miniature"),
     0.5: ("toy", "baby"),
-    0.65: ("small", "little"),
+    0.65: ("small", "little", "low"),
     0.7: ("young",),
     0.8: ("short",),
     1.4: ("big", "large"),

@@ -116,7 +116,10 @@ def _leave_way(window: Sequence[Token], length: int, known: Lexicon) -> int:
         return length
     longer, meanings = known.find([token.text for token in window[1:]])
     is_way = any(one.role in (Role.DIRECTION, Role.RELATION) for one in meanings)
-    return 1 if is_way and longer > length else length
+    is_in = window[1].text == "in" and len(window) > length  # "moves in the wind"
+    after = known.find([window[length].text])[1] if is_in else []
+    is_within = any(one.pos is Pos.DETERMINER for one in after)
+    return 1 if is_within or (is_way and longer > length) else length
 
 
 def _is_noun(meanings: Sequence[Meaning]) -> bool:

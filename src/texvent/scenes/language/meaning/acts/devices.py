@@ -103,7 +103,7 @@ def take_handled(draft: Draft, clause: Clause, subjects: Sequence[int]) -> None:
 
 
 _BLOCKS = ("cube", "box")
-_OPENING_VERBS = {"open": "open", "close": "close", "shut": "close"}
+_OPENING_VERBS = {"open": "open", "close": "close", "shut": "close", "slam": "close"}
 _LEAF_VERBS = frozenset({"swing", "slide", "creak", "fly", "slam", "pop", "flip", "move"})
 
 

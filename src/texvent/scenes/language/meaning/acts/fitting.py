@@ -10,7 +10,7 @@ from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.motion import WINDS, Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.machine_acts import COLLAPSE, HANG, PULSE
@@ -30,6 +30,7 @@ _DOLLS = frozenset({"toy robot", "doll", "teddy bear"})
 """Figures without joints, which slide where they walk."""
 _TOPPLING = frozenset({"domino", "bowling pin"})
 """What falls over where it stands."""
+_BLOWN = frozenset({"move", "stir", "blow", "dance", "shake"})
 _BY_ITSELF = ("rise", "sink", "land")
 _OUT_OF = ("into", "in", "from", "off", "through", "under", "towards", "toward")
 
@@ -41,6 +42,8 @@ def fit_verb(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     drives; a man who rises does not take off, a keeper who dives does not swim, a batter who swings
     at a ball hangs on no rope, and a plane that taxis stays on the ground.
     """
+    if verb.base in _BLOWN and noun.habitat == "fixed" and _is_windy(clause):
+        return replace(verb, kind="sway")
     other = _choose_manoeuvre(verb, noun, clause) or _choose_own(verb, noun)
     other = other or _choose_kind(verb, noun, clause)
     other = other or _choose_other(verb, noun)
@@ -310,3 +313,9 @@ def is_plain_past(word: Word) -> bool:
     if word.meaning.form is not VerbForm.PAST or not isinstance(verb, Verb):
         return False
     return bool(verb.kind) and verb.act is None and verb.object_kind is None
+
+
+def _is_windy(clause: Clause) -> bool:
+    """As in "curtains move in the wind"."""
+    groups = [group for phrase in clause.phrases for group in phrase.groups]
+    return any(group.head is not None and group.head.text in WINDS for group in groups)

@@ -26,6 +26,7 @@ from texvent.scenes.language.meaning.referents.resolver import OWNERS, Referents
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE
+from texvent.scenes.language.vocabulary.motion import WINDS
 from texvent.scenes.language.vocabulary.objects import CHANGES, LIKENESSES, LIQUIDS
 from texvent.scenes.language.vocabulary.scene import LIGHT_PREPOSITIONS, PLACE_PREPOSITIONS, SPELT
 from texvent.scenes.language.words.english import Pos
@@ -36,10 +37,6 @@ from texvent.scenes.models.effects import EFFECTS
 _OF_THINGS = (Role.DIRECTION, Role.PACE, Role.SIDE, Role.STILL)
 """Roles of adverbs that say something of the clause's objects."""
 _MOTION_BY_PREPOSITION = {"across": "across", "up": "up", "down": "down"}
-
-
-WINDS = frozenset({"wind", "breeze", "gust", "gusts", "winds"})
-"""Nouns of moving air."""
 
 
 class CircumstanceReader:
