@@ -112,7 +112,12 @@ def _build_shell(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfi
     shell = Material(paint(colour, seed, "shell", kind.shells))
     garments = [(name, shell if hue is None else Material(hue)) for name, hue in kind.garments]
     return Outfit(
-        *(shell for _ in ("skin", "hair", "shirt", "legs", "shins", "shoes")),
+        skin=shell,
+        hair=shell,
+        shirt=shell,
+        legs=shell,
+        shins=shell,
+        shoes=shell,
         hat=shell,
         garments=garments,
         bulk=kind.bulk,
