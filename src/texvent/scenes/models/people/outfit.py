@@ -110,7 +110,6 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfi
 def _build_shell(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfit:
     """All surfaces of one material."""
     shell = Material(paint(colour, seed, "shell", kind.shells))
-    garments = [(name, shell if hue is None else Material(hue)) for name, hue in kind.garments]
     return Outfit(
         skin=shell,
         hair=shell,
@@ -119,6 +118,6 @@ def _build_shell(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfi
         shins=shell,
         shoes=shell,
         hat=shell,
-        garments=garments,
+        garments=[(name, shell) for name, _ in kind.garments],
         bulk=kind.bulk,
     )
