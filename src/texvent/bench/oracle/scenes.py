@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import lru_cache, partial
 from typing import TypeAlias
 
 import numpy as np
@@ -67,8 +67,14 @@ def panning_texture(
     noise: ValueNoise, size: SensorSize, seconds: float, velocity: tuple[float, float]
 ) -> Float64Array:
     """A texture of `DARK` to `DARK · RANGE` that moves at a constant velocity, px/s."""
-    x = np.arange(size.width, dtype=np.float64) - velocity[0] * seconds
-    y = np.arange(size.height, dtype=np.float64) - velocity[1] * seconds
+    return _shifted(noise, size, velocity[0] * seconds, velocity[1] * seconds).copy()
+
+
+@lru_cache(maxsize=1)
+def _shifted(noise: ValueNoise, size: SensorSize, right: float, down: float) -> Float64Array:
+    """The texture shifted, px; at rest it is drawn once."""
+    x = np.arange(size.width, dtype=np.float64) - right
+    y = np.arange(size.height, dtype=np.float64) - down
     level = np.clip(0.5 + CONTRAST * (noise.sample(x, y) - 0.5), 0.0, 1.0)
     return np.asarray(DARK * RANGE**level)
 
