@@ -40,7 +40,7 @@ COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test fuzz test-torch test-app test-dataset test-notebooks test-gpl docs linkcheck dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test fuzz test-torch test-app test-dataset test-docs test-gpl docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -49,7 +49,7 @@ help:
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
 	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
-	@echo "make test-notebooks the displays and progress bars in a kernel, in $(DOCS_VENV)"
+	@echo "make test-docs     the snippets of README.md and docs/, displays and progress bars in a kernel, in $(DOCS_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
 	@echo "make docs         the documentation site, in $(DOCS_OUT)/html"
 	@echo "make linkcheck    links of the site to other hosts; needs the network"
@@ -83,8 +83,8 @@ test-dataset: $(DATASET_VENV)/.dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -m dataset tests/dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io
 
-test-notebooks: $(DOCS_VENV)/.docs-test
-	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks
+test-docs: $(DOCS_VENV)/.docs-test
+	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks tests/contract
 
 test-gpl: $(GPL_VENV)/.gpl
 	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io tests/dataset/loading

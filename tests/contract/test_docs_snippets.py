@@ -29,6 +29,7 @@ def blocks(page: Path) -> list[tuple[str, str]]:
     ]
 
 
+@pytest.mark.docs
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if blocks(page)], ids=lambda page: str(page.relative_to(ROOT))
 )

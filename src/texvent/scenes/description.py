@@ -33,7 +33,7 @@ class ObjectMotion:
     for "stops"), or a gesture such as "wave" or "clap"."""
     direction: str | None = None
     """"left", "right", "towards", "away", "forward", "backward", "up", "down", "across", "circle",
-    "to and fro", "up and down", "around", "clockwise" or "counter-clockwise"; None = not
+    "eight", "to and fro", "up and down", "around", "clockwise" or "counter-clockwise"; None = not
     stated."""
     pace: float = 1.0
     """Multiple of the usual speed."""

@@ -46,8 +46,16 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
     "construction site": ("crane", "excavator", "worker", "traffic cone"),
     "indoor": (
         "table", "chair", "sofa", "bed", "cup", "bottle", "clock", "candle", "lamp", "fan",
-        "basketball", "pendulum", "bookshelf", "tennis ball",
+        "basketball", "pendulum", "bookshelf", "tennis ball", "spiral disc", "zoetrope",
+        "marble run", "watch movement", "filament printer", "ironing board", "goldfish bowl",
+        "gift", "pancake", "popcorn", "fried egg", "noodles", "steak", "sushi", "croissant",
+        "trophy", "medal", "dartboard", "bowling pin", "pool cue", "ping-pong paddle", "yarn ball",
     ),
+    "laboratory": (
+        "lab bench", "flask", "beaker", "test tube", "petri dish", "centrifuge", "bunsen burner",
+        "prism", "double pendulum", "tuning fork", "led matrix",
+    ),
+    "gym": ("punching bag", "dumbbell", "barbell", "boxing glove"),
     "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket", "hand"),
     "forest": ("bear", "wolf", "fox", "deer"),
     "grass": ("tent",),
@@ -69,7 +77,8 @@ _FIELDS = ("wheat field", "soil")
 """Where vehicles of farms are that work, on no road."""
 _FARM_VEHICLES = frozenset({"tractor"})
 _DIVERS = ("scuba diver",)
-_SEA_BED = ("rock", "seaweed", "coral", "anchor", "chest", "treasure chest", "starfish", "crab")
+_SEA_BED = ("rock", "seaweed", "coral", "anchor", "chest", "treasure chest", "starfish", "crab",
+            "arch", "ruin", "statue", "coral branch", "anemone")  # fmt: skip
 """What is under water beside what swims there."""
 _UNREMARKABLE = "plain"
 """The place that needs no note where the program chose it: bare ground."""

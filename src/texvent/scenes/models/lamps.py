@@ -103,6 +103,7 @@ LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
     "lighthouse": (Lamp(3000.0, (1.0, 0.0, -0.03), 9.0, 0.8, boost=3.0, is_single=True,
                         turns_hz=0.2, haze_m=70.0),),
     "led": (Lamp(0.014, is_single=True, boost=1.2),),
+    "led matrix": (Lamp(0.05, is_single=True, glows=False, boost=1.2),),
     **dict.fromkeys(("circuit board", "router", "printer", "video camera", "oven", "microwave"),
                     (_STATUS,)),
     **dict.fromkeys(("robot", "mobile robot", "robot vacuum", "toy robot", "microscope"),

@@ -29,6 +29,7 @@ def choose_levels(
         "air": 1.5,
         "water": 0.0,
         "clear": 8.0 if place in _HIGH_PLACES else 0.0,
+        "laser dot": 0.0,
     }
     if place == "underwater":
         levels["water"] = 0.9

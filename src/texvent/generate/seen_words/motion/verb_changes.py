@@ -100,6 +100,15 @@ def _circles(picture: Picture, actor: Actor) -> str | None:
     return f"{actor.noun.name} goes no round"
 
 
+def _eights(picture: Picture, actor: Actor) -> str | None:
+    """Its way turns to the one side and to the other, seen from above."""
+    times = np.linspace(0.0, picture.views[-1].time_s, INSTANTS)
+    ways = np.diff(np.array([actor.middle(float(time_s)) for time_s in times])[:, :2], axis=0)
+    turns = np.diff(np.unwrap(np.arctan2(ways[:, 1], ways[:, 0])))
+    least = 0.5 * min(turns[turns > 0.0].sum(), -turns[turns < 0.0].sum())
+    return None if least >= 0.5 * LEAST_ROUND_RAD else f"{actor.noun.name} makes no eight"
+
+
 def _hangs(picture: Picture, actor: Actor) -> str | None:
     low = part_boxes(actor, 0.5 * picture.views[-1].time_s).hull[0]
     return None if low[2] > HUNG_M else f"{actor.noun.name} stands on the ground"
@@ -128,6 +137,7 @@ def _list_forms() -> dict[str, Callable[[Picture, Actor], str | None]]:
             for form, _ in list_verb_forms(head):
                 found[" ".join((form, *tail))] = check
     found |= dict.fromkeys(DIRECTIONS["circle"], _circles)
+    found |= dict.fromkeys(DIRECTIONS["eight"], _eights)
     return {word: check for word, check in found.items() if word not in _PARTICIPLES}
 
 

@@ -110,7 +110,8 @@ class CameraReader:
             self._framing = word.meaning.value
         elif word.role is Role.CAMERA_MOVE:
             kind, direction = word.meaning.value
-            self._add(CameraMove(kind, direction))
+            means = TRAVEL_MEANS.get(word.lemma) if kind == "travel" else None
+            self._add(CameraMove(kind, direction, means=means))
         else:
             return False
         word.is_used = True

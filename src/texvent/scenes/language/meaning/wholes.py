@@ -19,7 +19,8 @@ def _words(text: str) -> frozenset[str]:
 _OF_PEOPLE = _words("hair beard skin ponytail braid moustache")
 """Parts that are shown with people; of arms and legs there are activities."""
 _OF_ANIMALS = _words(
-    "fur feather head leg tail paw hoof fin mane beak ear eye nose claw jaw blade rotor"
+    "fur feather head leg tail paw hoof fin mane beak ear eye nose claw jaw blade rotor tongue"
+    " whisker horn antler snout trunk"
 )
 """Parts of animals, and of what flies like one."""
 _OF_THINGS = _words(

@@ -131,6 +131,7 @@ VIEWS: dict[str, tuple[str, ...]] = {
         *_shots("aerial", "drone", "bird eye", "helicopter", "high angle",
                 endings=(*_SHOTS, "drone shot", "drone footage", "photography"))[1:],
         "aerial", "bird eye", "from above", "seen from above", "high angle", "from a drone",
+        "from drone", "from drones", "from the air", "from helicopter",
         "by a drone", "from a high angle", "from high above",
          "from a height", "from high up", "from a helicopter", "elevated view",
         "elevated shot", "elevated angle",

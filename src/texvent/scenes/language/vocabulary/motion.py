@@ -232,6 +232,10 @@ DIRECTIONS: dict[str, tuple[str, ...]] = {
         "by the camera", "past the viewer", "sideways",
     ),
     "circle": ("in circles", "in a circle", "around in circles"),
+    "eight": ("in a figure eight", "in figure eights", "in a figure of eight", "a figure eight",
+              "figure eights", "in a figure 8", "a figure 8", "in figure 8s"),
+    "opposite": ("in opposite directions", "opposite ways", "in different directions",
+                 "in both directions", "in opposite direction"),
     "to and fro": ("back and forth", "to and fro", "side to side", "from side to side"),
     "up and down": ("up and down",),
 }  # fmt: skip

@@ -183,6 +183,7 @@ SENSES: dict[str, tuple[Sense, ...]] = {
                " wagon toy fortune skateboard unicycle"),
     ),
     "piste": (_sense("fencer fencing sabre foil epee duel"),),
+    "flyover": (_sense("car traffic highway road truck bus concrete lorry train metro", "bridge"),),
     "rotor": (_sense("centrifuge brake engine motor turbine"),),
     "bubble": (_sense("gum chewing glass molten blowpipe boil champagne soda beer speech aquarium"
                       " diver scuba"),),

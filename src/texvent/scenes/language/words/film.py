@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 from texvent.scenes.language.vocabulary.film import FRAMING_ADJECTIVES
 from texvent.scenes.language.words.english import Pos, VerbForm
@@ -51,6 +51,13 @@ _LOOKING = frozenset({"look", "point", "film", "capture", "reveal", "track", "sh
 _LOOK = frozenset({"look", "point", "face", "aim", "angle", "peer", "gaze"})
 _STRAIGHT = frozenset({"straight", "directly", "vertically"})
 _HEIGHTS = frozenset({"down", "up", "high", "low"})
+_WAYS_TO_SEE = frozenset(
+    {"street", "road", "alley", "alleyway", "lane", "avenue", "boulevard", "highway", "motorway",
+     "path", "trail", "track", "tracks", "corridor", "hallway", "aisle", "tunnel", "runway",
+     "platform", "canal", "hall", "driveway"}
+)  # fmt: skip
+"""What a camera looks along that "looks down" it."""
+_OF_GROUPS = frozenset({Pos.DETERMINER, Pos.ADJECTIVE, Pos.NOUN, Pos.NUMBER})
 _LIT = frozenset({"lit", "lamp", "lamps", "spotlight", "spotlights", "beam", "beams", "backlit",
                   "lighted", "illuminated", "shining", "shines", "sun"})  # fmt: skip
 _OF_SCENE_TOO = frozenset(
@@ -176,6 +183,10 @@ def _read_looks(words: Sequence[Word]) -> None:
             before, is_straight = sentence[-3], sentence[-2]
         else:
             is_straight = None
+        if before.lemma in _LOOK and _is_along(words[index + 1 :]):
+            _silence(before)
+            _silence(word)
+            continue
         if before.lemma in _LOOK and word.text in ("down", "up"):
             view = "low" if word.text == "up" else "top" if is_straight else "aerial"
             for one in (before, *([is_straight] if is_straight else [])):
@@ -189,6 +200,12 @@ def _read_looks(words: Sequence[Word]) -> None:
         else:
             continue
         word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, view), ()
+
+
+def _is_along(after: Sequence[Word]) -> bool:
+    """As in "looks down a narrow street", unlike "looks down at a street"."""
+    group = list(takewhile(lambda one: one.pos in _OF_GROUPS, after))
+    return bool(group) and group[-1].text.split()[-1] in _WAYS_TO_SEE
 
 
 def _ends(words: Sequence[Word], index: int) -> bool:

@@ -202,10 +202,12 @@ class _Tagger(ReadSoFar):
         self, index: int, others: set[Pos] | frozenset[Pos], after: frozenset[Pos]
     ) -> Pos | None:
         """A past participle before its noun: "a parked car", "painted walls"."""
-        if after & NOMINAL:
-            return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
         rest = [one for one in self._candidates[index] if one.pos in others]
         known = [one for one in rest if one.role is not Role.UNKNOWN]
+        if Pos.NOUN in {one.pos for one in known} and after and self._ends_group(index):
+            return Pos.NOUN  # "an LED blinks"
+        if after & NOMINAL:
+            return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
         return (known or rest)[0].pos if rest else Pos.VERB
 
     def _after_noun(self, index: int, verb: Meaning) -> Pos | None:

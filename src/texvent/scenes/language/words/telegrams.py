@@ -31,6 +31,8 @@ _PASSIVE = frozenset(
 """Motions of what does not go by itself."""
 _CUTTING = frozenset({"cut", "knock", "shuffle"})
 """What only people do to a thing that stands alone before it: "bread cutting"."""
+_GOING = frozenset({"drive", "walk", "cycle", "bike", "run", "fly"})
+_FORWARD = ("travel", "forward")
 _VAGUE = frozenset({"exit", "entry", "move", "pass", "release", "start", "test", "show"})
 """Nouns that do not say what the thing before them does: "tunnel exit"."""
 
@@ -43,11 +45,13 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
     2. A part of the body that acts is a person who does: "head nodding".
     3. A material before a verb is the thing: "glass shattering".
     4. What is done to the thing before it comes before the thing: "page turning".
+    5. Who goes through a place that nobody is named in is the camera: "night driving".
     """
     found: list[Word] = []
     for part in _cut(words):
         _name_material(part)
         _give_body(part, known)
+        _let_camera_go(part)
         found.extend(_bring_forward(_turn_into_verb(part)))
     return found
 
@@ -153,6 +157,18 @@ def _give_body(part: Sequence[Word], known: Lexicon) -> None:
     is_part = word.lemma in _OF_PEOPLE and word.role in (Role.PART, Role.UNKNOWN)
     if is_bare and is_part and verb.pos is Pos.VERB and verb.role in _OF_VERBS:
         word.meaning = Meaning(Role.NOUN, Pos.NOUN, _PERSON, is_substitute=True)
+
+
+_SURROUNDINGS = (Role.PLACE, Role.ROAD, Role.LIGHT, Role.LIGHTING, Role.WEATHER, Role.SNOW)
+
+
+def _let_camera_go(part: Sequence[Word]) -> None:
+    if any(one.role is Role.NOUN or one.pos in _FINITE - {Pos.VERB} for one in part):
+        return
+    for before, verb in pairwise(part):
+        is_going = verb.meaning.form is VerbForm.ING and verb.lemma in _GOING
+        if before.role in _SURROUNDINGS and before.pos is not Pos.PREPOSITION and is_going:
+            verb.meaning, verb.others = Meaning(Role.CAMERA_MOVE, Pos.ADJUNCT, _FORWARD), ()
 
 
 def _name_material(part: Sequence[Word]) -> None:

@@ -64,7 +64,7 @@ THING_KINDS: dict[str, str] = {
         telephone pole, utility pole, telegraph pole, radio tower, cell tower,
         transmission tower, power line, mast, power lines""",
     "bridge": """
-        steel arch bridge, suspension bridge, drawbridge, flyover, cable bridge, railway
+        steel arch bridge, suspension bridge, drawbridge, road flyover, cable bridge, railway
         bridge""",
     "stone bridge": "aqueduct, footbridge, viaduct",
     "fence": "worm fence, chainlink fence, railing, palisade, wooden fence, handrail",

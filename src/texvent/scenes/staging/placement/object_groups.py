@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.trajectories.choose_trajectory import MotionPlan
 from texvent.scenes.staging.trajectories.manoeuvres import sample_places
+from texvent.scenes.staging.trajectories.stunts import EIGHT
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GAP_M = 0.25
@@ -95,7 +96,7 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
     """Metres from one copy to the next, along the heading and across it."""
     length = max(model.length for model in models)
     width = max(model.width for model in models)
-    if plan.motion.direction == "circle":
+    if plan.motion.direction in ("circle", "eight"):
         return 4.0 * max(length, width), 4.0 * max(length, width)
     if noun.motion == "drive":
         return 1.45 * length + 0.5, max(width + 0.9, 2.9)
@@ -129,9 +130,34 @@ def half_extents_over_clip(
         places = sample_places(plan.path, plan.duration_s)
         return np.asarray(half + spread + 0.5 * np.ptp(places, axis=0))
     travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
-    if plan.motion.direction == "circle":
-        travel = np.array([1.3, 1.3, 0.0]) * max(model.length, model.width)
+    if plan.motion.direction in ("circle", "eight"):
+        share = 1.3 if plan.motion.direction == "circle" else EIGHT
+        travel = np.array([share, share, 0.0]) * max(model.length, model.width)
     return np.asarray(half + spread + travel)
+
+
+OVERTAKEN = 0.4
+"""Speed of what is overtaken, as a share of what overtakes it."""
+
+
+def slow_overtaken(group: ObjectGroup, faster: ObjectGroup) -> None:
+    """Let what is overtaken go the same way, slower, unless the prompt says how it goes."""
+    if not (faster.plan.is_path and group.plan.is_path):
+        return
+    motion = group.plan.motion
+    if motion.direction is None and motion.speed_m_s is None:
+        speed = OVERTAKEN * faster.plan.speed_m_s
+        group.plan = replace(group.plan, yaw=faster.plan.yaw, speed_m_s=speed)
+        group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+
+
+def hurry_leader(leader: ObjectGroup, follower: ObjectGroup) -> None:
+    """Let what is followed be as fast as its follower, unless the prompt says how fast."""
+    motion, speed = leader.plan.motion, follower.plan.speed_m_s
+    is_said = motion.speed_m_s is not None or motion.pace != 1.0
+    if leader.plan.path is None and not is_said and leader.plan.speed_m_s < speed:
+        leader.plan = replace(leader.plan, speed_m_s=speed)
+        leader.half = half_extents_over_clip(leader.models, leader.offsets, leader.plan)
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:

@@ -34,9 +34,11 @@ from texvent.scenes.staging.placement.formation import form_up
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     half_extents_over_clip,
+    hurry_leader,
     overlap,
     part_in_midst,
     place_copies,
+    slow_overtaken,
 )
 from texvent.scenes.staging.placement.spatial_relations import (
     INVERSE,
@@ -61,8 +63,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
 ON_TARGET = frozenset({"at", "on", "in", "above", "around", "under", "between", "follow"})
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
-OVERTAKEN = 0.4
-"""Speed of what is overtaken, as a share of what overtakes it."""
 _POOL_RAD_S = 1.8
 BELT_M_S = 0.22
 """Speed of what lies on a conveyor belt."""
@@ -184,25 +184,18 @@ class ObjectPlacer:
         """
         for relation in self._description.relations:
             partner = None
-            if group.index in relation.targets and relation.kind in ("overtake", "past"):
-                self._slow_down(group, self.groups.get(relation.subject))
+            faster = self.groups.get(relation.subject)
+            if group.index in relation.targets and relation.kind in ("overtake", "past") and faster:
+                slow_overtaken(group, faster)
             if relation.subject == group.index and relation.kind == "follow":
                 partner = self.groups.get(relation.targets[0])
             elif group.index in relation.targets and relation.kind == "with":
                 partner = self.groups.get(relation.subject)
             if partner is not None and partner.plan.is_path and group.plan.is_path:
+                if relation.kind == "follow":
+                    hurry_leader(partner, group)
                 group.plan = replace(partner.plan, motion=group.plan.motion)
                 group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
-
-    def _slow_down(self, group: ObjectGroup, faster: ObjectGroup | None) -> None:
-        if faster is None or not (faster.plan.is_path and group.plan.is_path):
-            return
-        motion = group.plan.motion
-        if motion.direction is not None or motion.speed_m_s is not None:
-            return
-        speed = OVERTAKEN * faster.plan.speed_m_s
-        group.plan = replace(group.plan, yaw=faster.plan.yaw, speed_m_s=speed)
-        group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
 
     def _choose_goal(self, group: ObjectGroup, related: list[Relation]) -> Goal:
         """Where the prompt wants a group."""

@@ -44,6 +44,7 @@ from texvent.scenes.staging.trajectories.stunts import (
     STAYING,
     WINGED,
     build_drift,
+    build_eight,
     build_flip,
     build_leap,
     build_lift,
@@ -102,7 +103,7 @@ class MotionPlan:
     @property
     def is_path(self) -> bool:
         """Whether it goes from one place to another along a straight line."""
-        is_straight = self.motion.direction not in ("circle", "to and fro", "up and down")
+        is_straight = self.motion.direction not in ("circle", "eight", "to and fro", "up and down")
         return self.path is None and self.motion.kind in PATH_KINDS and is_straight
 
     @property
@@ -270,6 +271,9 @@ def choose_trajectory(
         pace = 0.0 if plan.motion.speed_m_s is not None else plan.motion.pace / plan.duration_s
         circle = build_round(model, home, phase, plan.speed_m_s, pace)
         return replace(circle, activity=_activity(kind), lean_rad=0.35 * (kind in _LEANING))
+    if kind in PATH_KINDS and direction == "eight":
+        eight = build_eight(model, home, plan.yaw, plan.motion.pace, plan.duration_s)
+        return replace(eight, activity=_activity(kind), lean_rad=0.35 * (kind in _LEANING))
     if direction in ("to and fro", "up and down") and kind != "sway":
         reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
         is_flat = model.length < 0.3 * min(model.width, model.height)

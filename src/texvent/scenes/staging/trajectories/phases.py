@@ -210,6 +210,8 @@ class _Builder:
             self._turn(motion, span)
         elif is_path and motion.direction == "circle":
             self._circle(motion, span)
+        elif is_path and motion.direction == "eight":
+            self._eight(motion, span)
         elif is_path or motion.kind in _GOING:
             self._go(motion, span)
         elif motion.kind in ("zigzag", "change lane", "park"):
@@ -299,6 +301,12 @@ class _Builder:
         turning = 0.45 * span
         self._arc(turning, speed, turn, _activity(motion))
         return turning
+
+    def _eight(self, motion: ObjectMotion, span: float) -> None:
+        """Round to the left, then round to the right."""
+        self._start(self._speed(motion))
+        for sign in (1.0, -1.0):
+            self._arc(0.5 * span, self._speed(motion), sign * 2.0 * math.pi, _activity(motion))
 
     def _circle(self, motion: ObjectMotion, span: float) -> None:
         speed = self._speed(motion)

@@ -16,6 +16,7 @@ from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
     Circle,
+    FigureEight,
     Trajectory,
     Vector,
     ahead,
@@ -217,3 +218,15 @@ def build_round(
     radius = 1.3 * max(model.length, model.width)
     rate = speed_m_s / radius
     return Circle(home, radius, max(rate, min(ROUND_RAD_S, ROUND_RAD * clips_per_s)), phase)
+
+
+EIGHT_S = 2.0
+"""Seconds that a figure of eight takes at least."""
+EIGHT = 1.6
+"""Half its length, in lengths of what goes along it."""
+
+
+def build_eight(model: Model, home: Vector, yaw: float, pace: float, duration_s: float) -> FigureEight:
+    """Along a figure of eight about its home, once in the clip or in `EIGHT_S` at a usual pace."""
+    rate = 2.0 * math.pi * pace / max(duration_s, EIGHT_S)
+    return FigureEight(home, EIGHT * max(model.length, model.width), yaw, rate)

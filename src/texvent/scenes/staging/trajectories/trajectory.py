@@ -207,6 +207,43 @@ class Circle:
 
 
 @dataclass(frozen=True)
+class FigureEight:
+    """Goes along an eight that lies on its side, at a constant rate, facing along its path.
+
+    The curve is Gerono's lemniscate: x = a sin u, y = a sin u cos u.
+    """
+
+    centre: Vector
+    half_m: float
+    """From its middle to either end."""
+    yaw: float
+    """Heading of its long axis."""
+    rate_rad_s: float
+    """Of u; a round takes 2 pi."""
+    phase: float = 0.0
+    activity: str = "move"
+    lean_rad: float = 0.0
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        u = self.phase + self.rate_rad_s * time_s
+        along, aside = self.half_m * math.sin(u), 0.5 * self.half_m * math.sin(2.0 * u)
+        ahead_m, aside_m = self.half_m * math.cos(u), self.half_m * math.cos(2.0 * u)
+        cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
+        speed = self.rate_rad_s * math.hypot(ahead_m, aside_m)
+        x, y, z = self.centre
+        return BodyState(
+            (x + along * cosine - aside * sine, y + along * sine + aside * cosine, z),
+            self.yaw + math.atan2(aside_m, ahead_m),
+            # It leans into the bend: to the one side in one half, to the other in the other.
+            roll=self.lean_rad * math.sin(u),
+            distance_m=speed * time_s,
+            speed_m_s=speed,
+            activity=self.activity,
+        )
+
+
+@dataclass(frozen=True)
 class Riding:
     """Sits at a fixed place on another body and goes where that goes."""
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
+from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.meaning.draft import Draft
@@ -81,6 +83,19 @@ def place_among(draft: Draft, word: Word, things: Sequence[int]) -> None:
     are_clouds = all(draft.noun(index).name == "cloud" for index in things)
     if word.text in _IN_CLOUDS and are_clouds and not word.relations:
         word.is_used, word.is_lost = False, True
+
+
+def part_ways(draft: Draft, scope: Scope) -> bool:
+    """As in "two cars drive in opposite directions": half of them each way; whether it is so."""
+    movers = list(scope.movers)
+    if len(movers) == 1:
+        movers = draft.split(movers[0])
+    moving = [one for one in movers if draft.objects[one].motions[-1:] and
+              draft.objects[one].motions[-1].is_moving]  # fmt: skip
+    for index, way in zip(moving, itertools.cycle(("right", "left")), strict=False):
+        motions = draft.objects[index].motions
+        motions[-1] = replace(motions[-1], direction=way)
+    return len(moving) > 1
 
 
 def be_followed(draft: Draft, followers: Sequence[int], scope: Scope) -> bool:

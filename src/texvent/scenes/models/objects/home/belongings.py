@@ -288,7 +288,7 @@ _ROOM = placed("indoor", (
             emission=2.5), (0.0, 0.0, 0.08), (0.13, 0.13, 0.13))],
         ("hanging lamp", "pendant light", "ceiling lamp", "ceiling light")),
     thing("laser dot", ((1.0, 0.02, 0.02),), lambda p: [
-        ball(Material(p.colour, emission=4.0), (0.0, 0.0, 0.0), (0.07, 0.07, 0.07))],
+        ball(Material(p.colour, emission=4.0), (0.0, 0.0, 0.0), (0.10, 0.10, 0.10))],
         ("laser point", "laser spot", "red laser dot"), goes=("air", "slide", 0.5)),
     thing("tilting platform", ((0.45, 0.30, 0.16),), lambda p: [
         box(p, (0.0, 0.0, 0.52), (1.2, 1.2, 0.06)), post(IRON, (0.0, 0.0, 0.25),

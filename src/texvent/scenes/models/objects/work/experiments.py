@@ -142,7 +142,7 @@ _SCIENCE = (
             (0.02 + 0.0075 * k) * math.sin(0.45 * k)), 0.016, 0.012, 0.012)
             for k in range(30))], 0.34), spinning("x", 1.1, (0.0, 0.0, 0.34))),)),
     thing("led matrix", ((1.0, 0.05, 0.03),), _matrix, ("led array", "led panel",
-        "dot matrix display", "led board", "led display")),
+        "dot matrix display", "led board", "led display", "led grid", "led wall")),
     thing("double pendulum", (BRASS.colour,), lambda p: [rod(IRON, (-0.1, 0.0, 0.0), (-0.1, 0.0,
         1.0), 0.02), post(IRON, (-0.1, 0.0, 0.02), (0.4, 0.4, 0.04)),
         rod(IRON, (-0.1, 0.0, 0.98), (0.03, 0.0, 0.98), 0.02)], ("chaotic pendulum",), moving=(
