@@ -320,9 +320,9 @@ class ProceduralGenerator:
         self._accepted(description.report())  # before the scene is built
         nouns, duration_s = self._shown_nouns(description), self.config.duration
 
-        def stage(take: Take) -> ComposedScene:
+        def stage(described: SceneDescription, take: Take) -> ComposedScene:
             scene = compose_scene(
-                description, seed=self.seed, size=self.size, duration_s=duration_s, nouns=nouns,
+                described, seed=self.seed, size=self.size, duration_s=duration_s, nouns=nouns,
                 take=take,
             )  # fmt: skip
             return replace(scene, has_highlights=self.config.hdr)

@@ -14,7 +14,7 @@ from texvent.generate.seen_words.courses import judge_goals, list_walkers_in_air
 from texvent.generate.seen_words.faces import judge_face
 from texvent.generate.seen_words.motion.verbs import judge_verbs
 from texvent.generate.seen_words.people import is_portrait, judge_head
-from texvent.generate.seen_words.picture import Picture, View
+from texvent.generate.seen_words.picture import Picture, View, uneven_times
 from texvent.generate.seen_words.things import judge_outline
 from texvent.generate.seen_words.words import judge_words
 from texvent.generate.sights import Glimpse, Sight
@@ -34,8 +34,6 @@ from texvent.sensor import SensorSize
 
 INSTANTS = 9
 """Instants of the clip at which it is looked for things."""
-UNEVEN = 0.05
-"""Share of the clip by which they are moved."""
 NO_ROOM = "no room for it"
 """Why an object without a body is not shown."""
 MOST_POINTS = 4000
@@ -212,7 +210,7 @@ def look_for_things(
     marks: Counter[str] = Counter()
     points = image_points(size)
     views: list[View] = []
-    for time_s in _choose_instants(duration_s):
+    for time_s in uneven_times(0.0, duration_s, INSTANTS):
         view = _look(scene, float(time_s), size, points, sights)
         marks |= _count_marks(scene, view, points, scenery)
         if views:
@@ -237,12 +235,6 @@ def look_for_things(
 
 def _least(mark: str) -> float:
     return LEAST_GROUND if mark in (WATER, ROAD, "mountain") else LEAST_MARK
-
-
-def _choose_instants(duration_s: float) -> Float64Array:
-    """Instants with uneven gaps, s: what repeats itself is at another point of its round."""
-    even = np.linspace(0.0, 1.0, INSTANTS)
-    return np.asarray(duration_s * (even + UNEVEN * np.sin(2.0 * np.pi * even)))
 
 
 def _look(

@@ -26,6 +26,10 @@ HEAVY, LIGHT = 0.03, 0.02
 """Share of the picture that heavy rain changes at least, and a drizzle at most."""
 LEAST_BEND = 0.03
 """Way of a bending road from the straight line between its ends, in picture widths."""
+FAST_HZ = 10.0
+"""Rate above which a flicker is not told from one still to the next."""
+BRIGHT = 0.9
+"""Share of the levels of a lamp, and of a picture, below the one that tells how bright it is."""
 GLOWING = 0.9
 """Level of the brightest point of a lamp that is lit."""
 _ALL_VIEWS = range(9)
@@ -82,20 +86,25 @@ def _judge_rain(picture: Picture, description: SceneDescription, claim: Claim) -
 
 
 def _judge_flicker(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
-    """The light, the lamp that is named, or what it lights, is brighter from still to still."""
-    lamps = {description.objects[index].noun for index in claim.things}
-    if lamps and not lamps & set(LAMPS):
+    """The light, the lamp that is named, or what it lights, is brighter from still to still.
+
+    What flickers faster than stills can tell is seen by a sensor wherever the lamp is.
+    """
+    lamps = [description.objects[index] for index in claim.things]
+    if lamps and not {lamp.noun for lamp in lamps} & set(LAMPS):
         return None  # an eye that blinks
+    if any((lamp.blink_hz or 0.0) > FAST_HZ for lamp in lamps):
+        return None
     levels: list[float] = []
     whole: list[float] = []
     for number in _ALL_VIEWS:
         colours = picture.colours(number)
-        whole.append(float(colours.mean()))
+        whole.append(float(np.quantile(colours, BRIGHT)))
         where = np.ones(len(colours), dtype=np.bool_)
         if claim.things:
             own = [one for index in claim.things for one in copies_of(picture, index)]
             where = np.isin(picture.views[number].instance, own)
-        levels += [float(colours[where].mean())] if where.any() else []
+        levels += [float(np.quantile(colours[where], BRIGHT))] if where.any() else []
     change = max(np.ptp(levels), np.ptp(whole)) if levels else 0.0
     return None if change >= VISIBLE else "no change of light to be seen"
 

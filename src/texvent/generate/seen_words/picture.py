@@ -30,6 +30,16 @@ VISIBLE = 0.06
 """Difference of a coded level, as a share of white, that is seen at once."""
 
 
+UNEVEN = 0.05
+"""Share of the time by which uneven instants are moved."""
+
+
+def uneven_times(start_s: float, end_s: float, count: int) -> Float64Array:
+    """[count] instants with uneven gaps: what repeats itself is at another point of its round."""
+    even = np.linspace(0.0, 1.0, count)
+    return np.asarray(start_s + (end_s - start_s) * (even + UNEVEN * np.sin(2.0 * np.pi * even)))
+
+
 class View(NamedTuple):
     """What the camera sees at an instant."""
 

@@ -56,7 +56,8 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
         "prism", "double pendulum", "tuning fork", "led matrix",
     ),
     "gym": ("punching bag", "dumbbell", "barbell", "boxing glove"),
-    "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket", "hand"),
+    "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket", "hand",
+              "siemens star", "dotted disc"),
     "forest": ("bear", "wolf", "fox", "deer"),
     "grass": ("tent",),
     "square": ("skateboarder",),
@@ -303,6 +304,7 @@ def _choose_usual(members: Sequence[Noun], *, rests: bool, is_wet: bool) -> str:
         is_on_ground = place in _NO_GROUND and any(one.habitat == "ground" for one in members)
         if place and not is_on_ground and not (is_outdoors and place in _INSIDE):
             return place
-    if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
+    flyers = [noun for noun in members if noun.name != "cloud"] or members
+    if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in flyers):
         return "grass" if rests else "sky"
     return "grass"

@@ -358,8 +358,15 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         shot = replace(description.shot, moves=(CameraMove("travel"),))
         note = "nothing moves in the prompt, so the camera flies on"
         return replace(description, shot=shot, notes=(*description.notes, note))
+    return let_sway(description, "nothing moves in the prompt")
+
+
+def let_sway(
+    description: SceneDescription, reason: str = "hardly anything moves in the picture"
+) -> SceneDescription:
+    """The description with a camera that sways, and a note why."""
     shot = replace(description.shot, moves=(SWAY,))
-    note = "nothing moves in the prompt, so the camera sways a little, as in a hand"
+    note = f"{reason}, so the camera sways a little, as in a hand"
     return replace(description, shot=shot, notes=(*description.notes, note))
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.generate.seen_words.picture import Picture
+from texvent.generate.seen_words.picture import Picture, uneven_times
 from texvent.scenes.projection import project
 from texvent.scenes.scene import Camera, Float64Array, Primitives
 from texvent.sensor import SensorSize
@@ -53,7 +53,7 @@ def measure_motion(
     Returns:
         Id → what it does; those of which no view shows a part are left out.
     """
-    times = np.linspace(start_s, end_s, SAMPLES)
+    times = uneven_times(start_s, end_s, SAMPLES)
     camera = picture.scene.camera(start_s)
     frames = [picture.scene.primitives(float(t)) for t in times]
     seen = _list_seen(picture)

@@ -66,6 +66,7 @@ class ClauseMeaning:
     ) -> None:
         self._draft = Draft(nouns)
         self._referents = Referents(self._draft)
+        self._before: Clause | None = None
         self._camera = CameraReader(self._draft, is_carried=is_carried, means=means)
         self._surroundings = SurroundingsReader()
         self._acts = ActReader(self._draft)
@@ -117,7 +118,8 @@ class ClauseMeaning:
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
         take_host(clause, self._draft.nouns)
-        take_wholes(clause, self._draft.nouns)
+        take_wholes(clause, self._draft.nouns, self._before)
+        self._before = clause
         turn_views(clause)
         turn_effects(clause)
         turn_active(clause)

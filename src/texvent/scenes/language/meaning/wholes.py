@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
-from texvent.scenes.language.words.lexicon import Role
-from texvent.scenes.language.words.word import Word
+from texvent.scenes.language.meaning.referents.resolver import find_head
+from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.lexicon import Meaning, Role
+from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.wrapped.opening import OPENING
 
@@ -46,6 +50,8 @@ _OWN_PARTS: Mapping[str, frozenset[str]] = {
                    " insect dragonfly moth pigeon hummingbird swan goose"),
 }  # fmt: skip
 """Part that is a thing by itself, or food → last words of the things of which it is a part."""
+_DISCS = _words("disc disk")
+_DOTTED = "dotted disc"
 _MARKS = _words("dot spot mark")
 """What things have on them, which is not drawn."""
 _ALONE = _words("wheel propeller barrel mirror lens gripper")
@@ -54,7 +60,7 @@ _TURNING = _words("spin rotate turn revolve whirl move run")
 _OPENING = _words("open close shut")
 
 
-def take_wholes(clause: Clause, nouns: Mapping[str, Noun]) -> None:
+def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None) -> None:
     """As in "bumps into a chair leg": into a chair; the clause changes.
 
     The whole does what its part does if that is how it works: it opens by its door, and a fan turns
@@ -63,6 +69,7 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun]) -> None:
     Args:
         clause: any clause.
         nouns: the objects that can be shown, by name.
+        before: the clause before it.
     """
     verb = clause.verb.lemma if clause.verb is not None else ""
     _drop_marks(clause)
@@ -71,7 +78,9 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun]) -> None:
         if whole is not None and _name(group.head_word) not in _ALONE:
             _show_whole(group, whole)
     for at, group in enumerate(clause.subjects):
-        owner = _find_owner(group, nouns)
+        if group.head is not None:
+            find_head(group)
+        owner = _find_owner(group, nouns) or _find_host(clause, group, before, nouns)
         whole = _find_whole(group, nouns) if owner is None else _find_noun(owner.head, nouns)
         if whole is None:
             continue
@@ -83,17 +92,37 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun]) -> None:
             _show_whole(group, whole)
         else:
             part.shown_as, clause.subjects[at] = whole.name, owner
-        if not is_by_part:
+        if _is_rotor(_name(part), whole) and verb in _TURNING:
+            _let_stand(clause)
+        elif not is_by_part:
             _lose_verb(clause)
 
 
+def _is_rotor(part: str, whole: Noun) -> bool:
+    """Rotors of what flies turn at rest, too."""
+    return part in ("rotor", "blade", "propeller") and whole.name in ("helicopter", "drone")
+
+
+def _let_stand(clause: Clause) -> None:
+    if clause.verb is not None:
+        form = clause.verb.meaning.form
+        clause.verb.meaning = Meaning(Role.VERB, Pos.VERB, Verb("stand", "stand"), form)
+
+
 def _drop_marks(clause: Clause) -> None:
-    """As in "a black disc with a white dot": the dot is on the disc, no second disc beside it."""
-    for phrases in (clause.phrases, *(one.phrases for one in clause.subjects + clause.objects)):
+    """As in "a cup with a white dot": no disc beside it; a disc with a dot is one that is drawn."""
+    for group in (None, *clause.subjects, *clause.objects):
+        phrases = clause.phrases if group is None else group.phrases
         for phrase in list(phrases):
-            heads = [_name(group.head) for group in phrase.groups if group.head is not None]
-            if phrase.preposition.text == "with" and _MARKS.issuperset(heads):
-                phrases.remove(phrase)
+            heads = [_name(one.head) for one in phrase.groups if one.head is not None]
+            if phrase.preposition.text != "with" or not _MARKS.issuperset(heads):
+                continue
+            phrases.remove(phrase)
+            marked = group or (clause.subjects[0] if len(clause.subjects) == 1 else None)
+            if marked is not None and marked.head is not None and _name(marked.head) in _DISCS:
+                disc = replace(marked.head.meaning, role=Role.NOUN, value=_DOTTED)
+                marked.head.meaning, marked.head.others = disc, ()
+                mark_used([phrase.preposition, *(word for one in phrase.groups for word in one.words)])
 
 
 def _list_others(clause: Clause) -> Iterator[NounGroup]:
@@ -130,6 +159,29 @@ def _find_owner(group: NounGroup, nouns: Mapping[str, Noun]) -> NounGroup | None
     part = _name(group.head)
     is_alone = part not in _OWN_PARTS and group.head.read_as(Role.NOUN) is not None
     return owner if not is_alone and _is_part(part, _name(owner.head), noun) else None
+
+
+def _find_host(
+    clause: Clause, group: NounGroup, before: Clause | None, nouns: Mapping[str, Noun]
+) -> NounGroup | None:
+    """As in "a fan with four blades spinning": the fan, where it does that by its blades."""
+    if group.head is None or clause.verb is None or before is None:
+        return None
+    part = _name(group.head)
+    for host in before.subjects:
+        noun = _find_noun(host.head, nouns)
+        if noun is not None and noun.name == _DOTTED and part in _MARKS:
+            return host
+        has_it = any(
+            one.preposition.text == "with" and group in one.groups for one in host.phrases
+        )
+        if noun is None or host.head is None or not has_it:
+            continue
+        if _is_part(part, _name(host.head), noun) and _works_by_part(
+            part, clause.verb.lemma, noun
+        ):
+            return host
+    return None
 
 
 def _find_noun(word: Word | None, nouns: Mapping[str, Noun]) -> Noun | None:

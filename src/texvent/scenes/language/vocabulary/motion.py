@@ -55,7 +55,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
              3.0: ("shiver",)},
     "dance": {1.0: ("dance",)},
     "jump": {1.0: ("jump",), 0.7: ("hop",), 0.8: ("skip",), 1.2: ("leap",)},
-    "work": {1.0: ("flap", "work", "operate", "beat", "pulse", "throb", "pulsate")},
+    "work": {1.0: ("flap", "work", "tick", "operate", "beat", "pulse", "throb", "pulsate")},
     "stand": {
         1.0: ("park", "wait", "rest", "stay", "pause", "pose", "stand", "hang", "remain",
                "perch", "idle"),
@@ -280,7 +280,7 @@ UNITS: dict[tuple[str, float], tuple[str, ...]] = {
     ("speed", 1.0): ("m / s", "mps", "meters per second", "metres per second"),
     ("speed", 0.514444): ("knots",),
     ("rate", 1.0): ("hz", "hertz", "revolutions per second", "turns per second"),
-    ("rate", 1000.0): ("khz",),
+    ("rate", 1000.0): ("khz", "kilohertz"),
     ("rate", 1 / 60): ("rpm", "revolutions per minute"),
     ("time", 1.0): ("second", "sec"),
     ("time", 0.001): ("ms", "millisecond"),
@@ -289,7 +289,7 @@ UNITS: dict[tuple[str, float], tuple[str, ...]] = {
 
 WORK_RATES_HZ: dict[str, float] = {
     "spinning disc": 0.7, "grating": 0.6, "spinning top": 3.57, "gyroscope": 4.0,
-    "fidget spinner": 3.0,
+    "fidget spinner": 3.0, "fan": 3.37, "ceiling fan": 1.3, "dotted disc": 2.3, "spiral disc": 1.1,
     "propeller": 2.24, "pinwheel": 0.9, "hard disk": 2.0, "disco ball": 0.25, "globe": 0.25,
     "roulette wheel": 0.6, "record player": 0.55, "merry-go-round": 0.12, "ferris wheel": 0.05,
     "washing machine": 0.67,

@@ -38,7 +38,7 @@ _TEXT = """
     daisy chain, bicycle chain lock, feather boa, boa scarf, hair slide, mud slide, landslide,
     slide rule, slide show, microscope slide, hair pin, rolling mill, pepper mill, saw mill,
     sawmill, coffee mill, steel mill, tread mill, paper mill, rock star, movie star, film star,
-    paper helicopter, 3d printer, butterfly stroke,
+    paper helicopter, butterfly stroke,
     breast stroke, back stroke,
     side stroke, brush stroke, heat stroke, sun stroke,
     parking space, living space, tight space, narrow space, small space, open space,

@@ -92,8 +92,10 @@ SENSES: dict[str, tuple[Sense, ...]] = {
                       " griddle crepe"),),
     "bulb": (_sense("tulip onion soil daffodil garlic sprout"),),
     "ball": (_sense("waltz gown masked debutante"),),
-    "tank": (_sense("fish water goldfish aquarium oil gas fuel propane septic shark octopus reef"
-                    " diver oxygen scuba fill"),),
+    "tank": (
+        _sense("fish goldfish aquarium octopus reef turtle jellyfish bubble", "aquarium"),
+        _sense("water oil gas fuel propane septic shark diver oxygen scuba fill"),
+    ),
     "train": (_sense("bride gown wedding veil"),),
     "pupil": (_sense("iris dilate eyelash eyelid"),),
     "pen": (_sense("pig sheep cow goat hen chicken lamb calf piglet farmer livestock"),),
@@ -184,6 +186,8 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     ),
     "piste": (_sense("fencer fencing sabre foil epee duel"),),
     "flyover": (_sense("car traffic highway road truck bus concrete lorry train metro", "bridge"),),
+    "robot": (_sense("drive wheel wheeled differential odometry", "mobile robot"),),
+    "bag": (_sense("boxer punch boxing kickboxer heavy", "punching bag"),),
     "rotor": (_sense("centrifuge brake engine motor turbine"),),
     "bubble": (_sense("gum chewing glass molten blowpipe boil champagne soda beer speech aquarium"
                       " diver scuba"),),

@@ -204,8 +204,9 @@ class _Tagger(ReadSoFar):
         """A past participle before its noun: "a parked car", "painted walls"."""
         rest = [one for one in self._candidates[index] if one.pos in others]
         known = [one for one in rest if one.role is not Role.UNKNOWN]
-        if Pos.NOUN in {one.pos for one in known} and after and self._ends_group(index):
-            return Pos.NOUN  # "an LED blinks"
+        is_noun = Pos.NOUN in {one.pos for one in known} and bool(after)
+        if is_noun and (self._is_gerund(index + 1) or self._ends_group(index)):
+            return Pos.NOUN  # "an LED blinks", "LED blinking"
         if after & NOMINAL:
             return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
         return (known or rest)[0].pos if rest else Pos.VERB
@@ -287,6 +288,9 @@ class _Tagger(ReadSoFar):
             return Pos.NOUN
         rest = [pos for pos in by_pos if pos is not Pos.VERB]
         return rest[0] if rest else Pos.VERB
+
+    def _is_gerund(self, index: int) -> bool:
+        return any(one.form is VerbForm.ING for one in self._candidates[index])
 
     def _ends_group(self, index: int) -> bool:
         """Whether what follows is rather a verb: "the red leaves"."""

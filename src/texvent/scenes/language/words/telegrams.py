@@ -45,14 +45,15 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
     2. A part of the body that acts is a person who does: "head nodding".
     3. A material before a verb is the thing: "glass shattering".
     4. What is done to the thing before it comes before the thing: "page turning".
-    5. Who goes through a place that nobody is named in is the camera: "night driving".
+    5. A rate at the end is that of the thing before it: "blinking LED 200 Hz".
+    6. Who goes through a place that nobody is named in is the camera: "night driving".
     """
     found: list[Word] = []
     for part in _cut(words):
         _name_material(part)
         _give_body(part, known)
         _let_camera_go(part)
-        found.extend(_bring_forward(_turn_into_verb(part)))
+        found.extend(_bring_forward(_turn_into_verb(_move_rate(part))))
     return found
 
 
@@ -65,6 +66,18 @@ def _cut(words: Sequence[Word]) -> Iterator[list[Word]]:
             yield part
             part = []
     yield part
+
+
+def _move_rate(part: list[Word]) -> list[Word]:
+    words = [word for word in part if word.pos is not Pos.SIGN]
+    if len(words) < 3 or any(word.pos is Pos.PREPOSITION for word in words):
+        return part
+    *things, number, unit = words
+    is_rate = unit.role is Role.UNIT and unit.meaning.value[0] == "rate"
+    if not is_rate or number.pos is not Pos.NUMBER or things[-1].pos is not Pos.NOUN:
+        return part
+    first = 1 if things[0].pos is Pos.DETERMINER else 0
+    return [*things[:first], number, unit, *things[first:], *part[len(words) :]]
 
 
 def _turn_into_verb(part: list[Word]) -> list[Word]:

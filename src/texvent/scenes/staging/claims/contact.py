@@ -33,6 +33,9 @@ _SLIM = 1.5
 _TALL_M = 1.3
 """Height from which a vehicle has a roof, or a rider of its own."""
 
+_FALLING = 201
+"""Instants of which the one is found at which what bounces touches the ground."""
+
 Holds = Callable[[Actor, Actor, float], bool]
 """Whether a relation holds between two bodies at an instant, s."""
 
@@ -53,10 +56,18 @@ def holds_for_all(
     times = np.linspace(0.0, duration_s, _INSTANTS)
     for subject in subjects:
         own = times if subject.is_mover or any(t.is_mover for t in targets) else times[:1]
+        if subject.is_mover and not always:
+            own = np.append(own, _lowest(subject, duration_s))
         found = (any(holds(subject, target, float(t)) for target in targets) for t in own)
         if not (all(found) if always else any(found)):
             return False
     return True
+
+
+def _lowest(actor: Actor, duration_s: float) -> float:
+    """When a body is lowest, s."""
+    times = np.linspace(0.0, duration_s, _FALLING)
+    return float(min(times, key=lambda t: actor.trajectory.at(float(t)).position[2]))
 
 
 def is_on(subject: Actor, target: Actor, time_s: float) -> bool:

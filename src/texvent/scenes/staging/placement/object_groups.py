@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from texvent.scenes.description import SceneObject
+from texvent.scenes.models.people.activities import HAND_NOUNS
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
@@ -72,7 +73,8 @@ def place_copies(
     tall = max(model.height for model in models)
     along, across = _spacing(models, plan, noun)
     is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
-    is_driven, is_deep = noun.motion == "drive", is_centred(noun) and not is_lifting
+    is_deep = is_centred(noun) and not is_lifting and noun.name not in HAND_NOUNS
+    is_driven = noun.motion == "drive"
     columns = _count_columns(count, is_driven)
     in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
     offsets: list[Vector] = []
@@ -100,6 +102,8 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
         return 4.0 * max(length, width), 4.0 * max(length, width)
     if noun.motion == "drive":
         return 1.45 * length + 0.5, max(width + 0.9, 2.9)
+    if noun.name in HAND_NOUNS:
+        return 1.3 * width, 1.3 * width
     across = 1.4 * width + 0.4
     if is_centred(noun):
         return 0.8 * length + 0.3, across
@@ -130,9 +134,11 @@ def half_extents_over_clip(
         places = sample_places(plan.path, plan.duration_s)
         return np.asarray(half + spread + 0.5 * np.ptp(places, axis=0))
     travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
-    if plan.motion.direction in ("circle", "eight"):
-        share = 1.3 if plan.motion.direction == "circle" else EIGHT
-        travel = np.array([share, share, 0.0]) * max(model.length, model.width)
+    if plan.motion.direction == "circle":
+        travel = np.array([1.3, 1.3, 0.0]) * max(model.length, model.width)
+    elif plan.motion.direction == "eight":
+        eight = np.array([cosine + 0.5 * sine, sine + 0.5 * cosine, 0.0])
+        travel = EIGHT * max(model.length, model.width) * eight
     return np.asarray(half + spread + travel)
 
 

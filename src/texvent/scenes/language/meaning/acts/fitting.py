@@ -152,7 +152,13 @@ def _choose_other(verb: Verb, noun: Noun) -> Verb | None:
         return replace(verb, kind="work")
     if verb.kind in ("zigzag", "run") and noun.motion == "roll":
         return replace(verb, kind="move")
+    if verb.kind == "drive" and noun.name in WHEELED:
+        return replace(verb, kind="move")
     return None
+
+
+WHEELED = frozenset({"mobile robot", "robot vacuum", "toy car", "toy train", "wheelchair"})
+"""What rolls on wheels of its own and is no vehicle of roads."""
 
 
 def _climbs(verb: Verb, noun: Noun, objects: set[str]) -> bool:

@@ -21,6 +21,7 @@ from texvent.scenes.language.meaning.acts.fitting import (
     MANOEUVRES,
     PAW,
     SEEN_AS_SAID,
+    WHEELED,
     choose_act,
     fall_over,
     fit_moving,
@@ -384,6 +385,7 @@ class ActReader:
                 added.append(index)
                 is_same = verb.relation == "follow" or fitting.kind in MANOEUVRES
                 is_same |= verb.base in SEEN_AS_SAID
+                is_same |= verb.kind == "drive" and noun.name in WHEELED
                 throw_up_earth(self._draft, fitting.kind, verb, index)
                 if fitting is not verb and not is_same:
                     word.shown_as = noun.motion if fitting.kind == "move" else fitting.kind

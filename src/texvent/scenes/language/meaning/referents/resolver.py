@@ -137,7 +137,7 @@ class Referents(Antecedents):
             return self._read_pronoun(group, head)
         if head.pos is Pos.NEGATION or head.text in NOBODY:
             return self._exclude(group, PERSON)
-        head = _find_head(group)
+        head = find_head(group)
         if head.is_viewpoint:
             head.is_used, head.shown_as = True, "the camera's view from it"
             return Referent("camera", group, attributes=read_attributes(group.modifiers))
@@ -286,7 +286,8 @@ class Referents(Antecedents):
             return Referent("camera", group, attributes=attributes)
         is_bare = group.determiner is None and group.owner is None and attributes.number is None
         is_plural = attributes.is_many or meaning.is_plural or is_drinks
-        is_plural = is_plural or (meaning.can_be_both and is_bare)
+        names_one = head.text == noun and noun.endswith("s")  # "random dots", "scissors"
+        is_plural = is_plural or (meaning.can_be_both and is_bare and not names_one)
         said = name_kind(head) if meaning.is_substitute else None
         is_either = meaning.can_be_both and not attributes.is_many
         index = self._recall(group, noun, None if is_either else is_plural, attributes, said)
@@ -381,7 +382,7 @@ def name_kind(head: Word) -> str:
     return next((one.lemma for one in list_readings(last) if one.pos is Pos.NOUN), last)
 
 
-def _find_head(group: NounGroup) -> Word:
+def find_head(group: NounGroup) -> Word:
     """Its head; the noun before it where the last word names nothing: "a fireworks finale"."""
     head = group.head_word
     readings = list_readings(head.text)

@@ -126,14 +126,19 @@ def _gear(y: float, z: float, r: float) -> Draw:
     return draw
 
 
+def _contrasting(p: Material) -> Material:
+    """Black on what is bright, white on what is dark."""
+    return INK if max(p.colour) > 0.25 else PALE
+
+
 _SCIENCE = (
     thing("siemens star", (PALE.colour,), lambda p: [*_stand(IRON, 0.3), *_lifted([disc(p, (0.0,
         0.0), 0.26, 0.02),
         *_wedges(16, 0.25, 0.012)], 0.34)], ("siemens star chart", "star chart",
             "resolution chart")),
     thing("dotted disc", (PALE.colour,), lambda p: _stand(IRON, 0.3), (),
-        moving=(Moving(lambda p: _lifted([disc(p, (0.0, 0.0), 0.26, 0.02), *(disc(INK,
-            (r * math.cos(a), r * math.sin(a)), 0.03, 0.012, 0.012)
+        moving=(Moving(lambda p: _lifted([disc(p, (0.0, 0.0), 0.26, 0.02),
+            *(disc(_contrasting(p), (r * math.cos(a), r * math.sin(a)), 0.03, 0.012, 0.012)
             for r, a in ((0.20, 0.0), (0.12, 2.0), (0.18, 4.1)))], 0.34), spinning("x", 2.3,
                 (0.0, 0.0, 0.34))),)),
     thing("spiral disc", (PALE.colour,), lambda p: _stand(IRON, 0.3), ("hypnotic spiral",
@@ -188,7 +193,7 @@ _SCIENCE = (
         0.05,
         0.4), box(SILVER, (0.0, 0.0, 0.08), (0.36, 0.36, 0.02)),
         peak(Material((0.75, 0.30, 0.02)), (0.0, 0.0, 0.17), (0.16, 0.16, 0.16))],
-            (), moving=(Moving(lambda p: [
+            ("3d printer",), moving=(Moving(lambda p: [
             box(RED_PAINT, (0.0, 0.0, 0.32), (0.08, 0.10, 0.10)), peak(BRASS, (0.0, 0.0, 0.26),
                 (0.03, 0.03, 0.03))], lambda pose: shift(y=0.14 * math.sin(2.0 * pose.time_s))),)),
 )  # fmt: skip
