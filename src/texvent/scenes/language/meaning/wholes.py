@@ -122,7 +122,9 @@ def _drop_marks(clause: Clause) -> None:
             if marked is not None and marked.head is not None and _name(marked.head) in _DISCS:
                 disc = replace(marked.head.meaning, role=Role.NOUN, value=_DOTTED)
                 marked.head.meaning, marked.head.others = disc, ()
-                mark_used([phrase.preposition, *(word for one in phrase.groups for word in one.words)])
+                mark_used(
+                    [phrase.preposition, *(word for one in phrase.groups for word in one.words)]
+                )
 
 
 def _list_others(clause: Clause) -> Iterator[NounGroup]:
@@ -172,14 +174,10 @@ def _find_host(
         noun = _find_noun(host.head, nouns)
         if noun is not None and noun.name == _DOTTED and part in _MARKS:
             return host
-        has_it = any(
-            one.preposition.text == "with" and group in one.groups for one in host.phrases
-        )
+        has_it = any(one.preposition.text == "with" and group in one.groups for one in host.phrases)
         if noun is None or host.head is None or not has_it:
             continue
-        if _is_part(part, _name(host.head), noun) and _works_by_part(
-            part, clause.verb.lemma, noun
-        ):
+        if _is_part(part, _name(host.head), noun) and _works_by_part(part, clause.verb.lemma, noun):
             return host
     return None
 

@@ -226,7 +226,9 @@ EIGHT = 1.6
 """Half its length, in lengths of what goes along it."""
 
 
-def build_eight(model: Model, home: Vector, yaw: float, pace: float, duration_s: float) -> FigureEight:
+def build_eight(
+    model: Model, home: Vector, yaw: float, pace: float, duration_s: float
+) -> FigureEight:
     """Along a figure of eight about its home, once in the clip or in `EIGHT_S` at a usual pace."""
     rate = 2.0 * math.pi * pace / max(duration_s, EIGHT_S)
     return FigureEight(home, EIGHT * max(model.length, model.width), yaw, rate)

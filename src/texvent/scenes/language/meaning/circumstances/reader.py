@@ -10,7 +10,11 @@ from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
-from texvent.scenes.language.meaning.circumstances.courses import name_course, part_ways, place_among
+from texvent.scenes.language.meaning.circumstances.courses import (
+    name_course,
+    part_ways,
+    place_among,
+)
 from texvent.scenes.language.meaning.circumstances.effects import add_effect
 from texvent.scenes.language.meaning.circumstances.parts import PartReader
 from texvent.scenes.language.meaning.circumstances.place_ways import go_to
