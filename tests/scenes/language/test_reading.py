@@ -464,7 +464,7 @@ def test_a_stated_rate_is_kept_by_what_spins_by_itself(noun: str, own_hz: float)
 
 
 def test_a_rate_that_is_not_shown_is_reported() -> None:
-    assert {"300", "rpm"} <= set(parse_prompt("a fan rotates at 300 rpm").not_understood)
+    assert {"300", "rpm"} <= set(parse_prompt("a windmill turns at 300 rpm").not_understood)
 
 
 @pytest.mark.parametrize(

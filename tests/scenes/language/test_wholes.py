@@ -15,7 +15,7 @@ from texvent.scenes.language.parser import parse_prompt
         ("the hands of a clock turn", "clock", "work", "hands", ()),
         ("the door of a fridge opens", "refrigerator", "open", "door", ()),
         ("washing machine drum spins", "washing machine", "work", "drum", ()),
-        ("helicopter blades spinning", "helicopter", "fly", "blades", ("spinning",)),
+        ("helicopter blades spinning", "helicopter", "stand", "blades", ()),
         ("a cat's tail twitches", "cat", "walk", "tail", ("twitches",)),
         ("a woman's hair blows", "woman", "walk", "hair", ("blows",)),
         ("a printer head moves", "printer", "stand", "head", ("moves",)),

@@ -29,7 +29,7 @@ LEAST_BEND = 0.03
 FAST_HZ = 10.0
 """Rate above which a flicker is not told from one still to the next."""
 BRIGHT = 0.9
-"""Share of the levels of a lamp, and of a picture, below the one that tells how bright it is."""
+"""Share of the levels of a lamp below the one that tells how bright it is."""
 GLOWING = 0.9
 """Level of the brightest point of a lamp that is lit."""
 _ALL_VIEWS = range(9)
@@ -99,7 +99,7 @@ def _judge_flicker(picture: Picture, description: SceneDescription, claim: Claim
     whole: list[float] = []
     for number in _ALL_VIEWS:
         colours = picture.colours(number)
-        whole.append(float(np.quantile(colours, BRIGHT)))
+        whole.append(float(colours.mean()))
         where = np.ones(len(colours), dtype=np.bool_)
         if claim.things:
             own = [one for index in claim.things for one in copies_of(picture, index)]

@@ -45,7 +45,7 @@ def complete_description(
     place = choose_place(description, nouns, cues)
     description = report_place(description, place)
     said = replace(description.surroundings, place=place)
-    description = go_along(_give_usual_work(replace(description, surroundings=said)))
+    description = _give_usual_work(replace(description, surroundings=said))
     objects = description.objects
     is_active = any(relation.kind in ACTIVE for relation in description.relations)
     if (
@@ -54,8 +54,10 @@ def complete_description(
         or description.effects
         or any(_is_moving(scene_object) for scene_object in objects)
     ):
-        return _park(_rest_the_others(_run_in_place(description)), nouns)
-    return _park(_rest_the_others(_set_in_motion(description, nouns)), nouns)
+        description = _run_in_place(description)
+    else:
+        description = _set_in_motion(description, nouns)
+    return _park(_rest_the_others(go_along(description)), nouns)
 
 
 _IN_THE_DARK = frozenset({"lightning", "stage lights", "lasers", "blinking lights", "fireworks"})
@@ -170,6 +172,7 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
         for index in claim.things
         if claim.word.removesuffix("s") in _RIDERS
     }
+    ridden |= {one.subject for one in description.relations if one.kind == "collide"}
     objects = list(description.objects)
     for index, one in enumerate(objects):
         is_parked = one.noun in HAS_RIDER and one.motion == STANDING and not one.then

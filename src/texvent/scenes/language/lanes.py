@@ -1,4 +1,4 @@
-"""In a corridor or an alley one comes along it, and is seen along it."""
+"""In a corridor, an alley or a tunnel one comes along it, and is seen along it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion, SceneDescription
 
-LANES = frozenset({"corridor", "hospital corridor", "school hallway", "alley"})
+LANES = frozenset({"corridor", "hospital corridor", "school hallway", "alley", "road tunnel"})
 """Places between two walls."""
 _GOING = frozenset(
     {"walk", "run", "move", "drive", "crawl", "roll", "slide", "skate", "cycle", "dance"}

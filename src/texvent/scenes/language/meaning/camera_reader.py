@@ -125,6 +125,8 @@ class CameraReader:
                 self.read_word(word)
                 if word.role is Role.CAMERA_MOVE and before is not None:
                     self.pace(before)
+            elif before is not None and before.role is Role.CAMERA_MOVE:
+                self.pace(word)
             before = word
 
     def pace(self, word: Word) -> None:

@@ -224,10 +224,11 @@ def take_partners(clause: Clause) -> None:
     """As in "crashes into a wall", "collide with each other": what they meet is the object."""
     if clause.verb is not None and clause.verb.lemma in _WRITING and not clause.is_passive:
         _take_board(clause)
+    _turn_into_hit(clause)
     verb = clause.verb.meaning.value if clause.verb is not None else None
     prepositions: tuple[str, ...] = ()
     if isinstance(verb, Verb) and verb.act == "collide":
-        prepositions = ("into", "with", "against")
+        prepositions = ("into", "with", "against", "off")
     elif clause.verb is not None and clause.verb.lemma in LOOKS and not clause.objects:
         prepositions = LOOKS_TO
     elif clause.verb is not None and clause.verb.lemma in HANDWORK:
@@ -243,6 +244,32 @@ def take_partners(clause: Clause) -> None:
             phrase.preposition.is_used, phrase.preposition.is_lost = is_whole, not is_whole
             clause.objects.extend(phrase.groups)
             clause.phrases.remove(phrase)
+
+
+_GOING_INTO = frozenset({"roll", "slide", "drive", "fly", "walk", "run", "bounce", "skate"})
+_SOLID = frozenset(
+    {"wall", "fence", "pole", "post", "lamppost", "pillar", "column", "rock", "boulder", "iceberg",
+     "barrier", "target", "dartboard", "hydrant", "window", "mirror", "tree", "trunk"}
+)  # fmt: skip
+"""What one does not get into."""
+_VEHICLES = frozenset({"car", "bus", "truck", "van", "lorry", "train", "bicycle", "motorcycle"})
+
+
+def _turn_into_hit(clause: Clause) -> None:
+    """As in "rolls into a wall", "bounces off a wall", "drives into a tree": it meets it."""
+    verb = clause.verb.meaning.value if clause.verb is not None else None
+    if not isinstance(verb, Verb) or verb.kind not in _GOING_INTO or clause.negation is not None:
+        return
+    for phrase in clause.phrases:
+        heads = {group.head_word.lemma.split()[-1] for group in phrase.groups if group.head}
+        is_met = phrase.preposition.text == "into" and verb.kind != "bounce"
+        if verb.kind == "bounce":
+            is_met = phrase.preposition.text in ("off", "against")
+        solids = _SOLID | _VEHICLES if verb.kind in ("drive", "slide", "roll") else _SOLID
+        if is_met and heads & solids:
+            meant = replace(verb, act="collide", relation=None)
+            clause.verb_word.meaning = replace(clause.verb_word.meaning, value=meant)
+            return
 
 
 def turn_views(clause: Clause) -> None:

@@ -71,6 +71,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
 VERBS: tuple[Verb, ...] = (
     Verb("come", "move", direction="towards"),
     Verb("approach", "move", direction="towards", relation="towards"),
+    Verb("oncome", "move", direction="towards"),
     Verb("leave", "leave"),
     Verb("exit", "leave"),
     Verb("depart", "move", 0.0, direction="away", end_pace=1.0),

@@ -236,6 +236,11 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "mine": (_sense("land explode coal gold miner"),),
     "press": (_sense("bench barbell weightlifter conference journalist"),),
     "leaf": (_sense("rosetta latte espresso gold table"),),
+    "tunnel": (
+        _sense("train locomotive railway rail tram leave exit emerge enter into mouth out", "tunnel"),
+        _sense("in inside within through along down drive driving ride dashcam lamp light traffic",
+               "road tunnel"),
+    ),
     "mouth": (_sense("river cave tunnel"),),
     "face": (_sense("wave surfer cliff rock clock watch dial"),),
     "foot": (_sense("mountain stairs hill bed"),),

@@ -56,6 +56,7 @@ def cut_tokens(
         length = _split_particle(window, length, known)
         length = _leave_way(window, length, known)
         length = _leave_head(window, length, known)
+        length = _leave_walker(window, length)
         meanings = known.find([token.text for token in window[:length]])[1] if length else []
         joined = _count_joined(window, length, known)
         if joined:
@@ -110,6 +111,13 @@ def _leave_head(window: Sequence[Token], length: int, known: Lexicon) -> int:
     return length
 
 
+def _leave_walker(window: Sequence[Token], length: int) -> int:
+    """As in "a pedestrian crossing the street": who crosses it, and no crosswalk."""
+    if length != 2 or window[1].text != "crossing" or window[0].text != "pedestrian":
+        return length
+    return 1 if len(window) > 2 and window[2].text in _CROSSED else length
+
+
 def _leave_way(window: Sequence[Token], length: int, known: Lexicon) -> int:
     """As in "moves back and forth", "moves in front of a house": no "moves back", "moves in"."""
     if length != 2:
@@ -140,6 +148,11 @@ def _split_particle(window: Sequence[Token], length: int, known: Lexicon) -> int
     return 1 if opens_group and not takes_object else length
 
 
+_CROSSED = frozenset(
+    {"the", "a", "an", "in", "from", "at", "left", "right", "road", "street", "roads", "streets",
+     "before", "slowly", "quickly", "during", "while"}
+)  # fmt: skip
+"""Words after "crossing" that tell what is crossed, or how."""
 _GOES_ON = frozenset({"seat", "row", "door", "window", "yard", "porch", "cover", "garden"})
 """Words after which "from the back", "from the front" are no views."""
 _PARTICLES = frozenset({"up", "down", "over", "around", "off", "through", "by"})

@@ -153,9 +153,14 @@ def _read_move(words: Sequence[Word], begin: int, end: int) -> None:
 
 def _direct_moves(words: Sequence[Word]) -> None:
     """As in "a slow pan left", "the aerial shot rises": its direction; what has a verb."""
-    for index, word in enumerate(words[:-1]):
+    for index, word in enumerate(words):
         if word.pos is not Pos.ADJUNCT or word.role not in (Role.CAMERA_MOVE, Role.VIEW):
             continue
+        pace = words[index - 1].read_as(Role.PACE) if index else None
+        if pace is not None and word.role is Role.CAMERA_MOVE:
+            words[index - 1].meaning = replace(pace, pos=Pos.ADVERB)
+        if word is words[-1]:
+            return
         coming = words[index + 1]
         is_finite = coming.meaning.form is VerbForm.THIRD or coming.role is Role.FUNCTION
         if coming.pos is Pos.VERB and is_finite and coming.text.endswith("s"):

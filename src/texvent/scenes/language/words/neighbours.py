@@ -25,6 +25,7 @@ _ANOTHER = frozenset({"another", "next", "other", "the other", "second", "the se
 def read_neighbours(words: Sequence[Word]) -> None:
     """Change the readings of words that their neighbours decide."""
     _forget_game(words)
+    _forget_axis(words)
     for number, word in enumerate(words):
         before = words[number - 1] if number else None
         after = words[number + 1] if number + 1 < len(words) else None
@@ -51,6 +52,23 @@ def _forget_game(words: Sequence[Word]) -> None:
 _OF_HANDS = ("hand", "fist", "gesture")
 _GAMES = (["rock", "paper", "scissors"], ["rock", "scissors", "paper"],
           ["scissors", "paper", "rock"])  # fmt: skip
+
+
+def _forget_axis(words: Sequence[Word]) -> None:
+    """As in "spins around its own axis": it just spins."""
+    for number, word in enumerate(words):
+        if word.text not in ("axis", "axes"):
+            continue
+        first = number
+        while first and words[first - 1].text in _OF_AXES:
+            first -= 1
+        if first and words[first - 1].text in ("around", "about", "round", "on"):
+            for one in words[first - 1 : number + 1]:
+                one.meaning, one.others = Meaning(Role.FUNCTION, Pos.ADVERB), ()
+                one.is_used = True
+
+
+_OF_AXES = ("its", "their", "own", "an", "the", "his", "her")
 
 
 def _leads_away(verb: Word, after: Word | None) -> bool:

@@ -191,12 +191,18 @@ class _Tagger(ReadSoFar):
             return Pos.NOUN  # "warm lighting"
         if before in _OPENS_NOUN:
             if after & NOMINAL and not after & {Pos.PREPOSITION}:
-                return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
+                is_verb = verb.role is not Role.UNKNOWN and not self._is_known(index, Pos.ADJECTIVE)
+                return Pos.ADJECTIVE if Pos.ADJECTIVE in others and not is_verb else Pos.VERB
             return Pos.NOUN if Pos.NOUN in others else Pos.VERB
         if before is Pos.NOUN and Pos.NOUN in others and verb.role is Role.UNKNOWN:
             is_head = after & {Pos.VERB, Pos.AUXILIARY} and not after & {Pos.NOUN}
             return Pos.NOUN if is_head else Pos.VERB
         return Pos.VERB
+
+    def _is_known(self, index: int, pos: Pos) -> bool:
+        """Whether the lexicon has it as that part of speech."""
+        options = self._candidates[index]
+        return any(one.pos is pos and one.role is not Role.UNKNOWN for one in options)
 
     def _attribute(
         self, index: int, others: set[Pos] | frozenset[Pos], after: frozenset[Pos]

@@ -32,6 +32,8 @@ _PASSIVE = frozenset(
 _CUTTING = frozenset({"cut", "knock", "shuffle"})
 """What only people do to a thing that stands alone before it: "bread cutting"."""
 _GOING = frozenset({"drive", "walk", "cycle", "bike", "run", "fly"})
+_DRIFTING = frozenset({"drift", "scroll", "pan", "slide", "rotate"})
+"""What a place does before a camera that pans: "a drifting star field"."""
 _FORWARD = ("travel", "forward")
 _VAGUE = frozenset({"exit", "entry", "move", "pass", "release", "start", "test", "show"})
 """Nouns that do not say what the thing before them does: "tunnel exit"."""
@@ -46,7 +48,8 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
     3. A material before a verb is the thing: "glass shattering".
     4. What is done to the thing before it comes before the thing: "page turning".
     5. A rate at the end is that of the thing before it: "blinking LED 200 Hz".
-    6. Who goes through a place that nobody is named in is the camera: "night driving".
+    6. Who goes through a place that nobody is named in is the camera: "night driving"; before a
+       camera that pans it drifts: "star field drifting".
     """
     found: list[Word] = []
     for part in _cut(words):
@@ -173,15 +176,24 @@ def _give_body(part: Sequence[Word], known: Lexicon) -> None:
 
 
 _SURROUNDINGS = (Role.PLACE, Role.ROAD, Role.LIGHT, Role.LIGHTING, Role.WEATHER, Role.SNOW)
+_DRIVEN_THROUGH = "tunnel"
+"""A thing, and a place where one drives through it."""
 
 
 def _let_camera_go(part: Sequence[Word]) -> None:
-    if any(one.role is Role.NOUN or one.pos in _FINITE - {Pos.VERB} for one in part):
+    if any(_is_thing(one) or one.pos in _FINITE - {Pos.VERB} for one in part):
         return
     for before, verb in pairwise(part):
+        if before.role is Role.PLACE and before.pos is Pos.NOUN and verb.lemma in _DRIFTING:
+            verb.meaning, verb.others = Meaning(Role.CAMERA_MOVE, Pos.ADJUNCT, ("pan", None)), ()
         is_going = verb.meaning.form is VerbForm.ING and verb.lemma in _GOING
-        if before.role in _SURROUNDINGS and before.pos is not Pos.PREPOSITION and is_going:
+        is_around = before.role in _SURROUNDINGS or before.lemma == _DRIVEN_THROUGH
+        if is_around and before.pos is not Pos.PREPOSITION and is_going:
             verb.meaning, verb.others = Meaning(Role.CAMERA_MOVE, Pos.ADJUNCT, _FORWARD), ()
+
+
+def _is_thing(word: Word) -> bool:
+    return word.role is Role.NOUN and word.lemma != _DRIVEN_THROUGH
 
 
 def _name_material(part: Sequence[Word]) -> None:

@@ -68,16 +68,22 @@ def _drums(t: float) -> Posture:
                    right_leg=Leg((0.40, 0.18, ANKLE)))  # fmt: skip
 
 
+_KEYS: Point = (0.49, 0.13, 0.74)
+"""Where the hands are over the keys of a piano, a keyboard or a laptop, m."""
+
+
 def _keys(rate_hz: float, wide: float) -> Movement:
-    """Seated, both hands on keys."""
+    """Seated, both hands go over the keys and strike them in turn."""
+    x, y, z = _KEYS
 
     def move(t: float) -> Posture:
         def arm(phase: float) -> Arm:
-            tap = 0.06 * swing(t, rate_hz, phase)
+            strike = 0.05 * (1.0 + swing(t, rate_hz, phase))
             across = wide * swing(t, 0.5, phase)
-            return Arm((0.44, -0.06 + across, -0.30 + tap), _DOWN)
+            back = 0.04 * swing(t, 1.3, phase)
+            return Arm((x + back, y + across, z + strike), _DOWN, True)
 
-        return replace(_SEATED, lean=0.10, nod=0.15 + 0.08 * swing(t, 0.7), left=arm(0.0),
+        return replace(_SEATED, lean=0.12, nod=0.15 + 0.08 * swing(t, 0.7), left=arm(0.0),
                        right=arm(0.5))  # fmt: skip
 
     return move
@@ -266,7 +272,7 @@ DAILY: Mapping[str, Movement] = MappingProxyType(
     {
         "sit": _sit, "sit on ground": _sit_on_ground, "lie": _lie, "kneel": _kneel,
         "crouch": _crouch, "play guitar": _guitar, "play drums": _drums,
-        "play piano": _keys(1.7, 0.16), "type": _keys(1.7, 0.10), "play violin": _violin,
+        "play piano": _keys(1.7, 0.12), "type": _keys(2.3, 0.06), "play violin": _violin,
         "play flute": _flute, "play trumpet": _trumpet, "write": _write, "read": _read,
         "eat": _eat, "drink": _drink, "phone": _phone, "text": _text, "photograph": _photograph,
         "sing": _sing, "dig": _dig,

@@ -5,9 +5,20 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
+
+from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.attached import FreeFlight, Switched, with_middle
 from texvent.scenes.staging.acts.striking import contact_time
+from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
+from texvent.scenes.staging.trajectories.trajectory import (
+    Rolling,
+    Stationary,
+    Trajectory,
+    Vector,
+)
 
 _TURN_ROUND_S = 0.08
 """How long the speed takes to change at the contact."""
@@ -15,6 +26,23 @@ _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
 """Usual motion → share of the speed with which such a body goes back."""
 _LENGTHS = (1.0, 2.0)
 """Least and most of its own length that a body covers before the contact."""
+_FLOWN_LENGTHS, _FLOWN_SHARE = 2.5, 0.5
+"""Way of what flies: lengths of its own, or a share of the size of what it hits if that is more."""
+_BOUNCED = 0.3
+"""Share of its speed with which what flies falls back."""
+_THROUGH_AIR = ("air", "fixed")
+"""Habitats of what comes through the air: what cannot go by itself was thrown."""
+_STICKS = frozenset({"arrow", "dart", "spear", "knife", "axe"})
+"""What stays in what it hits."""
+_STUCK = 0.12
+"""Share of its length by which it does."""
+_THIN = 0.6
+"""Share of its width up to which what is hit has a front: a wall, a target."""
+_ASLANT = 0.55
+"""Angle to the picture of the way to such a front, rad."""
+_TALL = 3.0
+"""From so many heights of its own on a ball flies against what stands."""
+_HALVINGS = 20
 
 
 def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Actor]:
@@ -26,22 +54,23 @@ def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Act
         duration_s: length of the clip, s.
     """
     contact_s = contact_time(duration_s, 0.5)
+    if not _moves(subject) and _moves(other):
+        still, mover = _run_into(other, subject, contact_s)
+        return still, mover
+    if not _moves(other):
+        still, mover = _run_into(subject, other, contact_s)
+        return mover, still
     first, second = subject.trajectory.at(0.0).position, other.trajectory.at(0.0).position
     if second[0] < first[0]:
         right, left = collide(other, subject, duration_s)
         return left, right
-    is_fixed = (not _moves(subject) and _moves(other), not _moves(other))
     touch_x, depth = 0.5 * (first[0] + second[0]), 0.5 * (first[1] + second[1])
-    if is_fixed[0]:
-        touch_x, depth = float(subject.corners(0.0)[:, 0].max()), first[1]
-    elif is_fixed[1] and _moves(subject):
-        touch_x, depth = float(other.corners(0.0)[:, 0].min()), second[1]
-    is_fixed = (is_fixed[0], is_fixed[1] and _moves(subject))
     bodies = []
-    for actor, stays, side in ((subject, is_fixed[0], -1.0), (other, is_fixed[1], 1.0)):
+    for actor, side in ((subject, -1.0), (other, 1.0)):
         home = actor.trajectory.at(0.0)
         touching = (touch_x + side * 0.5 * actor.model.length, depth, home.position[2])
-        bodies.append(actor if stays else _run_up(actor, touching, -side, contact_s))
+        path = _run_up(actor, touching, 0.0 if side < 0.0 else math.pi, contact_s)
+        bodies.append(_moving(actor, path))
     return bodies[0], bodies[1]
 
 
@@ -49,18 +78,82 @@ def _moves(actor: Actor) -> bool:
     return actor.noun.habitat != "fixed"
 
 
-def _run_up(
-    actor: Actor, touching: tuple[float, float, float], way: float, contact_s: float
-) -> Actor:
-    """Along the image to where it touches, with a way of 1 to the right, and a little back."""
+def _run_into(mover: Actor, still: Actor, contact_s: float) -> tuple[Actor, Actor]:
+    """What stands, its front to what comes, and what comes: it rolls back, falls off or sticks."""
+    home, place = mover.trajectory.at(0.0), still.trajectory.at(0.0)
+    is_from_left = home.position[0] <= place.position[0]
+    yaw = 0.0 if is_from_left else math.pi
+    if still.model.length < _THIN * still.model.width:
+        yaw = _ASLANT if is_from_left else math.pi - _ASLANT
+        still = replace(still, trajectory=Stationary(place.position, yaw + math.pi))
+    low, high = part_boxes(still, 0.0).hull
+    middle = 0.5 * (low + high)
+    is_flying = _comes_flying(mover, still)
+    lift = 0.0 if mover.is_centred else 0.5 * mover.model.height
+    goal = (float(middle[0]), float(middle[1]),
+            float(middle[2]) - lift if is_flying else home.position[2])  # fmt: skip
+    heading = np.array([math.cos(yaw), math.sin(yaw), 0.0])
+    touching = _find_contact(mover, still, np.array(goal), heading, yaw)
+    if not is_flying:
+        return still, _moving(mover, _run_up(mover, _vector(touching), yaw, contact_s))
+    if mover.noun.name in _STICKS:
+        touching = touching + _STUCK * mover.model.length * heading
+    length = max(_FLOWN_LENGTHS * mover.model.length, _FLOWN_SHARE * still.size_m)
+    speed = length / contact_s
+    pieces = (Piece(contact_s, speed), Piece(0.1, 0.0, ramp_s=1e-3))
+    start = _vector(touching - length * heading)
+    path: Trajectory = SteeredPath(start, yaw, pieces, initial_speed_m_s=speed)
+    if mover.noun.name not in _STICKS:
+        rest = 0.5 * mover.model.height
+        at_contact = with_middle(path.at(0.0), _vector(touching + [0.0, 0.0, lift]), lift)
+        back = _vector(-_BOUNCED * speed * heading + [0.0, 0.0, 0.3])
+        path = Switched(path, FreeFlight(at_contact, contact_s, back, lift, rest, -3.0), contact_s)
+    return still, _moving(mover, path)
+
+
+def _comes_flying(mover: Actor, still: Actor) -> bool:
+    """Whether it comes through the air; a ball does against what is tall, but not if it rolls."""
+    if mover.noun.motion == "roll":
+        is_tall = still.model.height > _TALL * mover.model.height
+        return is_tall and not isinstance(mover.trajectory, Rolling)
+    return mover.noun.habitat in _THROUGH_AIR
+
+
+def _find_contact(
+    mover: Actor, still: Actor, goal: Float64Array, heading: Float64Array, yaw: float
+) -> Float64Array:
+    """Where the mover first touches what stands on a straight way to a place in it, m."""
+    other = part_boxes(still, 0.0)
+    near, far = 0.0, 0.5 * mover.size_m + float(np.linalg.norm(other.hull[1] - other.hull[0]))
+    for _ in range(_HALVINGS):
+        between = 0.5 * (near + far)
+        placed = replace(mover, trajectory=Stationary(_vector(goal - between * heading), yaw))
+        if gap(part_boxes(placed, 0.0), other) > 0.0:
+            far = between
+        else:
+            near = between
+    return np.asarray(goal - far * heading)
+
+
+def _vector(point: Float64Array) -> Vector:
+    x, y, z = (float(value) for value in point)
+    return (x, y, z)
+
+
+def _moving(actor: Actor, path: Trajectory) -> Actor:
+    return replace(actor, trajectory=path, is_mover=True, lead_m=0.0, props=())
+
+
+def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> SteeredPath:
+    """Along the ground to where it touches, and a little back."""
     length = actor.model.length
     usual = actor.noun.speed_m_s or length / contact_s
     speed = min(max(usual * contact_s, _LENGTHS[0] * length), _LENGTHS[1] * length) / contact_s
-    back = speed * _REBOUND.get(actor.noun.motion, 0.0)
-    start = (touching[0] - way * speed * contact_s, touching[1], touching[2])
-    path = SteeredPath(
+    back, way = speed * _REBOUND.get(actor.noun.motion, 0.0), speed * contact_s
+    start = (touching[0] - way * math.cos(yaw), touching[1] - way * math.sin(yaw), touching[2])
+    return SteeredPath(
         start,
-        0.0 if way > 0.0 else math.pi,
+        yaw,
         (
             Piece(contact_s, speed),
             Piece(0.25, -back, ramp_s=_TURN_ROUND_S),
@@ -69,4 +162,3 @@ def _run_up(
         ),
         initial_speed_m_s=speed,
     )
-    return replace(actor, trajectory=path, is_mover=True, lead_m=0.0, props=())

@@ -84,7 +84,8 @@ def settle_motions(
             objects[target] = _still(objects[target])
         elif relation.kind in ("work on", "give", "collide"):
             works = relation.kind != "collide"
-            objects[subject] = objects[subject] if works else _still(objects[subject])
+            if not works and (objects[subject].motion or STANDING).kind != "roll":
+                objects[subject] = _still(objects[subject])
             objects[target] = _opened_or_still(objects[target])
         elif ACTS[relation.kind].is_single:
             way = _choose_way(objects[subject], objects[target], seed, subject)

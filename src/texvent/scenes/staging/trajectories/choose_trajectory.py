@@ -67,6 +67,8 @@ in view and large; a speed stated in numbers is not."""
 MIN_LENGTHS_PER_S = 0.35
 """A usual speed of small things is at least this many lengths per second: a snail gets on."""
 SMALL_M = 2.5
+THROWN_LENGTHS_PER_S = 8.0
+"""Of what is thrown, within bounds."""
 RUN_FACTOR = 2.2
 """Running over walking speed."""
 FLAT, _WIDE = 0.62, 0.7
@@ -205,6 +207,8 @@ def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> 
     if stated is not None:
         return stated
     speed = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
+    if motion.kind == "throw":
+        return min(max(THROWN_LENGTHS_PER_S * max(model.length, model.height), 0.6), 4.0)
     if motion.kind == "run" and noun.motion == "walk":
         speed *= RUN_FACTOR
     # What flies has no road to be compared with: slower, it can be shown larger.
@@ -389,12 +393,14 @@ def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
             (x, y, z + height), z, yaw=plan.yaw, restitution=0.3, start_s=wait, pivot_m=pivot
         )
     travel = plan.travel_m
+    span = max(model.length, model.height)
     start = (
         x - 0.5 * travel * math.cos(plan.yaw),
         y - 0.5 * travel * math.sin(plan.yaw),
-        z + max(1.0, model.height),
+        z + min(max(1.0, model.height), 4.0 * span),
     )
-    up = 0.5 * GRAVITY_M_S2 * min(0.55 * plan.duration_s, 1.0)
+    up = min(0.5 * GRAVITY_M_S2 * min(0.55 * plan.duration_s, 1.0),
+             math.sqrt(2.0 * GRAVITY_M_S2 * (0.2 + 4.0 * span)))  # fmt: skip
     along = travel / plan.duration_s
     return Bounce(
         start, z, up, along, plan.yaw, 0.6, tumble_rad_s=along / max(pivot, 0.05), pivot_m=pivot

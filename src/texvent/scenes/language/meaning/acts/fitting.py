@@ -306,10 +306,10 @@ def choose_act(verb: Verb, doer: Noun, target: Noun, target_m: float = 0.0) -> s
         return "ride" if is_living(doer) and is_mount and not is_driven else None
     if act == "wear":
         return "wear" if is_living(doer) and target.name in WEARABLE else None
+    if act == "hit" and not (is_person(doer) or is_hand(doer)):
+        return "collide"
     if is_living(doer) or is_hand(doer):
         return act if act in _ACTED_BY_LIVING else None
-    if act == "hit":
-        return "collide"
     return act if act in _ACTED_BY_ANYTHING else None
 
 

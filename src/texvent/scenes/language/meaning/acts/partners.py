@@ -103,6 +103,8 @@ def collide(draft: Draft, clause: Clause, subjects: list[int], targets: list[int
     draft.relations.append(Relation("collide", subjects[0], (target,)))
     for index in subjects:
         item = draft.objects[index]
+        if clause.verb_word.lemma == "roll" and not item.motions:
+            item.motions.append(ObjectMotion("roll"))
         ways = [one.direction for one in item.motions if one.direction is not None]
         if ways:
             draft.note(f"the {item.noun} may go another way than {ways[-1]}: to the hit")

@@ -1,4 +1,4 @@
-"""What closes a place off: walls of corridors and alleys, parapets of roofs, rails of balconies.
+"""What closes a place off: walls of corridors, alleys and tunnels, parapets of roofs, rails of balconies.
 
 Walls on both sides stand along x, which is where the camera looks: doors are from a little behind
 it on. What is right across the view spans y.
@@ -24,8 +24,9 @@ from texvent.scenes.models.shapes import box, post, rod
 
 LONG_M = 40.0
 """Of walls along the view, and across it."""
-CORRIDOR_M, ALLEY_M = 1.7, 2.3
+CORRIDOR_M, ALLEY_M, TUNNEL_M = 1.7, 2.3, 4.8
 """From the middle to each wall."""
+TUNNEL_LONG_M = 240.0
 
 
 def _door(p: Material, x: float, y: float, side: float) -> list[ModelPart]:
@@ -103,6 +104,37 @@ def _alley(p: Material) -> list[ModelPart]:
     return parts
 
 
+def _tunnel(p: Material) -> list[ModelPart]:
+    """A road between two walls of panels under a vault, with lamps in two rows."""
+    concrete, panel = mottled(p.colour, contrast=0.2, scale=3.0), plaster((0.60, 0.60, 0.55))
+    dark, line = Material((0.13, 0.13, 0.13)), Material((0.62, 0.62, 0.58))
+    sign = Material((0.05, 0.42, 0.16), emission=0.25)
+    long = TUNNEL_LONG_M
+    parts = [box(concrete, (0.0, 0.0, 6.0), (long, 2.0 * TUNNEL_M - 1.6, 0.4))]
+    for s in (1.0, -1.0):
+        side = s * TUNNEL_M
+        parts += [
+            box(panel, (0.0, side + 0.3 * s, 1.7), (long, 0.6, 2.6)),
+            box(dark, (0.0, side + 0.25 * s, 0.25), (long, 0.7, 0.5)),
+            box(toned(panel, 0.5), (0.0, side + 0.28 * s, 3.06), (long, 0.6, 0.14)),
+            box(concrete, (0.0, side + 0.3 * s, 4.5), (long, 0.6, 3.0)),
+            box(concrete, (0.0, side - 0.5 * s, 5.55), (long, 1.0, 0.6)),
+            box(toned(concrete, 1.2), (0.0, side - 0.35 * s, 0.08), (long, 0.7, 0.16)),
+            box(line, (0.0, side - 0.95 * s, 0.012), (long, 0.14, 0.01)),
+        ]
+        for k in range(round(long / 6.0)):
+            x = 6.0 * k - 0.5 * long + 3.0
+            parts.append(box(BULB, (x, side - 1.7 * s, 5.74), (1.6, 0.3, 0.12)))
+            parts.append(box(toned(panel, 0.55), (x, side - 0.01 * s, 1.7), (0.06, 0.04, 2.6)))
+        for k in range(round(long / 24.0)):
+            x = 24.0 * k - 0.5 * long + (8.0 if s > 0.0 else 20.0)
+            parts.append(box(dark, (x, side - 0.02 * s, 1.2), (1.3, 0.1, 2.2)))
+            parts.append(box(sign, (x, side - 0.06 * s, 2.65), (0.9, 0.14, 0.4)))
+    for k in range(round(long / 6.0)):
+        parts.append(box(line, (6.0 * k - 0.5 * long, 0.0, 0.012), (2.4, 0.14, 0.01)))
+    return parts
+
+
 def _parapet(p: Material) -> list[ModelPart]:
     """The low wall around a flat roof."""
     return [
@@ -138,6 +170,7 @@ NOUNS = (
     thing("ward walls", ((0.62, 0.66, 0.66),), _ward),
     thing("locker walls", ((0.05, 0.18, 0.36), (0.40, 0.06, 0.05)), _lockers),
     thing("alley walls", ((0.34, 0.13, 0.08), (0.30, 0.20, 0.14)), _alley),
+    thing("tunnel walls", ((0.40, 0.39, 0.37), (0.33, 0.31, 0.28)), _tunnel),
     thing("roof parapet", ((0.46, 0.44, 0.41),), _parapet),
     thing("roof unit", ((0.58, 0.59, 0.60),), _roof_unit),
     thing("balcony rail", ((0.10, 0.10, 0.11),), _balcony_rail),

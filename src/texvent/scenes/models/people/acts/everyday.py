@@ -124,7 +124,7 @@ EVERYDAY_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         "open umbrella": _open_umbrella,
         "blow out": _blow_out,
         "turn steering wheel": _steer,
-        "type on keyboard": DAILY["play piano"],
+        "type on keyboard": DAILY["type"],
         "shoot basket": _shoot,
     }
 )
