@@ -237,7 +237,8 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "press": (_sense("bench barbell weightlifter conference journalist"),),
     "leaf": (_sense("rosetta latte espresso gold table"),),
     "tunnel": (
-        _sense("train locomotive railway rail tram leave exit emerge enter into mouth out", "tunnel"),
+        _sense("train locomotive railway rail tram leave exit emerge enter into mouth out",
+               "tunnel"),
         _sense("in inside within through along down drive driving ride dashcam lamp light traffic",
                "road tunnel"),
     ),

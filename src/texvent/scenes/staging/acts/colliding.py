@@ -104,9 +104,9 @@ def _run_into(mover: Actor, still: Actor, contact_s: float) -> tuple[Actor, Acto
     start = _vector(touching - length * heading)
     path: Trajectory = SteeredPath(start, yaw, pieces, initial_speed_m_s=speed)
     if mover.noun.name not in _STICKS:
-        rest = 0.5 * mover.model.height
-        at_contact = with_middle(path.at(0.0), _vector(touching + [0.0, 0.0, lift]), lift)
-        back = _vector(-_BOUNCED * speed * heading + [0.0, 0.0, 0.3])
+        rest, up = 0.5 * mover.model.height, np.array([0.0, 0.0, lift])
+        at_contact = with_middle(path.at(0.0), _vector(touching + up), lift)
+        back = _vector(-_BOUNCED * speed * heading)
         path = Switched(path, FreeFlight(at_contact, contact_s, back, lift, rest, -3.0), contact_s)
     return still, _moving(mover, path)
 

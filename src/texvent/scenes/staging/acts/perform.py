@@ -83,9 +83,7 @@ def settle_motions(
                 objects[subject] = replace(objects[subject], motion=ObjectMotion("walk", way))
             objects[target] = _still(objects[target])
         elif relation.kind in ("work on", "give", "collide"):
-            works = relation.kind != "collide"
-            if not works and (objects[subject].motion or STANDING).kind != "roll":
-                objects[subject] = _still(objects[subject])
+            objects[subject] = _before_meeting(objects[subject], relation.kind)
             objects[target] = _opened_or_still(objects[target])
         elif ACTS[relation.kind].is_single:
             way = _choose_way(objects[subject], objects[target], seed, subject)
@@ -119,6 +117,12 @@ def _mounted(
     if is_aboard or (relation.kind == "on" and target in MOUNTS):
         return replace(relation, kind="ride")
     return relation
+
+
+def _before_meeting(one: SceneObject, kind: str) -> SceneObject:
+    """The way to what it meets is planned with that; what rolls there does not fly."""
+    rolls = one.motion is not None and one.motion.kind == "roll"
+    return one if rolls or kind != "collide" else _still(one)
 
 
 _IDLE = frozenset({"stand", "sit", "sail", "drive"})

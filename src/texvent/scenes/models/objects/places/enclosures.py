@@ -1,4 +1,4 @@
-"""What closes a place off: walls of corridors, alleys and tunnels, parapets of roofs, rails of balconies.
+"""What closes a place off: walls of corridors, alleys and tunnels, parapets, rails of balconies.
 
 Walls on both sides stand along x, which is where the camera looks: doors are from a little behind
 it on. What is right across the view spans y.
