@@ -28,7 +28,7 @@ LEAST_BEND = 0.03
 """Way of a bending road from the straight line between its ends, in picture widths."""
 FAST_HZ = 10.0
 """Rate above which a flicker is not told from one still to the next."""
-BRIGHT = 0.9
+BRIGHT = 0.75
 """Share of the levels of a lamp below the one that tells how bright it is."""
 GLOWING = 0.9
 """Level of the brightest point of a lamp that is lit."""

@@ -7,6 +7,7 @@ import numpy as np
 from texvent.generate.seen_words.light import changed_points
 from texvent.generate.seen_words.picture import Picture
 from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.effects import EFFECTS
 
 LEAST_EFFECT = 0.004
 """Share of the picture that an effect changes visibly."""
@@ -43,12 +44,16 @@ def _judge(
     if source is not None and (kind, description.objects[source].noun) in FLAMES:
         return "no more than a flame"
     seen = changed_points(picture, kind, source)
+    is_gone = EFFECTS[kind].ends_source
     if max(float(np.mean(where)) for where in seen.values()) < LEAST_EFFECT:
         return "hardly to be seen"
     if source is None:
         return None
     owners = [one for one, index in picture.scene.object_of.items() if index == source]
-    if not any(_is_beside(picture, number, where, owners) for number, where in seen.items()):
+    if not any(
+        _is_beside(picture, number, where, owners, is_gone=is_gone)
+        for number, where in seen.items()
+    ):
         return f"not at the {description.objects[source].noun}"
     return None
 
@@ -61,9 +66,17 @@ def judge_filling(picture: Picture, kind: str) -> str | None:
     return None if max(shares, default=0.0) >= FILLED else "fills little of the picture"
 
 
-def _is_beside(picture: Picture, number: int, where: np.ndarray, owners: list[int]) -> bool:
-    """Whether the effect is within a box around its thing, half as wide again on every side."""
+def _is_beside(
+    picture: Picture, number: int, where: np.ndarray, owners: list[int], *, is_gone: bool
+) -> bool:
+    """Whether the effect is within a box around its thing, half as wide again on every side.
+
+    What has burst is where it was when it was last seen.
+    """
     own = np.isin(picture.views[number].instance, owners)
+    while is_gone and number > 0 and not own.any():
+        number -= 1
+        own = np.isin(picture.views[number].instance, owners)
     if not own.any() or not where.any():
         return False
     low, high = picture.points[own].min(axis=0), picture.points[own].max(axis=0)

@@ -12,9 +12,9 @@ from texvent.scenes.description import (
     SceneDescription,
     SceneObject,
 )
-from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.default_place import choose_place, report_place
 from texvent.scenes.language.lanes import go_along
+from texvent.scenes.language.left_out import add_crew, add_sources, give_usual_work
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.objects.patterns import FACING
@@ -33,7 +33,7 @@ def complete_description(
     Objects that live in the air or water always move unless the prompt says that they rest. When
     nothing moves, objects that can move do what they usually do; when none can, the camera sways.
     """
-    description = _wheel_seats(_add_crew(description, nouns))
+    description = _wheel_seats(add_sources(add_crew(description, nouns)))
     description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
     objects = tuple(
         _decide_motion(scene_object, nouns[scene_object.noun])
@@ -45,7 +45,7 @@ def complete_description(
     place = choose_place(description, nouns, cues)
     description = report_place(description, place)
     said = replace(description.surroundings, place=place)
-    description = _give_usual_work(replace(description, surroundings=said))
+    description = give_usual_work(replace(description, surroundings=said))
     objects = description.objects
     is_active = any(relation.kind in ACTIVE for relation in description.relations)
     if (
@@ -76,50 +76,6 @@ def _darken(description: SceneDescription) -> SceneDescription:
     note = "it is dark, so that the light that changes is seen"
     light = replace(description.light, kind="night")
     return replace(description, light=light, notes=(*description.notes, note))
-
-
-_CREWS: dict[str, tuple[SceneObject, ...]] = {
-    "construction site": (
-        SceneObject("excavator", motion=ObjectMotion("work")),
-        SceneObject("crane", motion=ObjectMotion("work"), side="far"),
-        SceneObject("worker", 2, motion=ObjectMotion("walk")),
-        SceneObject("traffic cone", 4),
-    ),
-}
-"""Places with usual objects at work."""
-
-
-def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Add the usual objects of a place where the prompt names none."""
-    crew = _CREWS.get(description.surroundings.place or "", ())
-    shown = tuple(
-        scene_object
-        for scene_object in crew
-        if scene_object.noun in nouns and scene_object.noun not in description.absent
-    )
-    if description.objects or not shown:
-        return description
-    names = ", ".join(pluralise(t.noun) if t.count > 1 else t.noun for t in shown)
-    note = f"the {description.surroundings.place} is shown with: {names}"
-    return replace(description, objects=shown, notes=(*description.notes, note))
-
-
-def _give_usual_work(description: SceneDescription) -> SceneDescription:
-    """Give the usual objects of a place their usual motion, unless the prompt states one.
-
-    A crane that turns slowly in the distance would else count as all the motion there is.
-    """
-    crew = {
-        scene_object.noun: scene_object
-        for scene_object in _CREWS.get(description.surroundings.place or "", ())
-    }
-    objects = tuple(
-        replace(scene_object, motion=crew[scene_object.noun].motion)
-        if scene_object.motion is None and scene_object.noun in crew
-        else scene_object
-        for scene_object in description.objects
-    )
-    return replace(description, objects=objects)
 
 
 HAS_RIDER = frozenset({"bicycle", "motorcycle"})

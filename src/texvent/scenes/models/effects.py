@@ -94,7 +94,7 @@ EFFECTS: Mapping[str, EffectWords] = MappingProxyType({
         happens_once=True, needs_source=False,
     ),
     "drip": EffectWords(
-        ("drip", "water drop", "droplet", "drop", "drop of water", "water droplet", "raindrop"),
+        ("drip", "water drop", "droplet", "drop", "drop of water", "water droplet"),
         ("drip", "leak"), ("dripping", "leaking", "leaky"), needs_source=False,
     ),
     "pour": EffectWords(

@@ -138,15 +138,18 @@ _POURS = {**dict.fromkeys(("pour", "flow", "run", "spill", "stream", "trickle", 
 
 def turn_effects(clause: Clause) -> None:
     """As in "milk pours into a bowl", "a firework explodes", "popcorn pops": no thing does so."""
-    if clause.verb is None or clause.is_passive or clause.objects:
+    if clause.is_passive or clause.objects:
         return
-    lemma = clause.verb.lemma
     for group in clause.subjects:
-        head = group.head
+        head, lemma = group.head, clause.verb.lemma if clause.verb is not None else ""
         name = head.lemma.split()[-1] if head is not None else ""
+        popping = [word for word in group.modifiers if word.text == "popping"]
+        if popping and name == "popcorn":
+            lemma = "pop"
+            mark_used(popping)
         kind = _POURS.get(lemma) if name in LIQUID_COLOURS else None
         kind = "fireworks" if name.startswith("firework") and lemma in BURSTS else kind
-        kind = "popcorn" if name == "popcorn" and lemma in POPS and clause.phrases else kind
+        kind = "popcorn" if name == "popcorn" and lemma in POPS else kind
         if head is not None and kind is not None:
             head.meaning, head.others = Meaning(Role.EFFECT, Pos.NOUN, kind), ()
 

@@ -183,6 +183,7 @@ WEATHERS: dict[str, tuple[str, ...]] = {
     "fog": ("fog", "mist", "haze", "smog", "morning mist"),
     "rain": (
         "rain",
+        "raindrops",
         "rainstorm",
         "storm",
         "downpour",

@@ -36,7 +36,7 @@ _STICKS = frozenset({"arrow", "dart", "spear", "knife", "axe"})
 """What stays in what it hits."""
 _STUCK = 0.12
 """Share of its length by which it does."""
-_THIN = 0.6
+_THIN = 0.75
 """Share of its width up to which what is hit has a front: a wall, a target."""
 _ASLANT = 0.55
 """Angle to the picture of the way to such a front, rad."""

@@ -26,7 +26,8 @@ LONG_M = 40.0
 """Of walls along the view, and across it."""
 CORRIDOR_M, ALLEY_M, TUNNEL_M = 1.7, 2.3, 4.8
 """From the middle to each wall."""
-TUNNEL_LONG_M = 240.0
+TUNNEL_LONG_M, _BAYS = 128.0, 14
+"""Of a tunnel, and the lamps along it."""
 
 
 def _door(p: Material, x: float, y: float, side: float) -> list[ModelPart]:
@@ -105,7 +106,7 @@ def _alley(p: Material) -> list[ModelPart]:
 
 
 def _tunnel(p: Material) -> list[ModelPart]:
-    """A road between two walls of panels under a vault, with lamps in two rows."""
+    """A road between two walls of panels under a vault, with lamps in a row."""
     concrete, panel = mottled(p.colour, contrast=0.2, scale=3.0), plaster((0.60, 0.60, 0.55))
     dark, line = Material((0.13, 0.13, 0.13)), Material((0.62, 0.62, 0.58))
     sign = Material((0.05, 0.42, 0.16), emission=0.25)
@@ -122,16 +123,14 @@ def _tunnel(p: Material) -> list[ModelPart]:
             box(toned(concrete, 1.2), (0.0, side - 0.35 * s, 0.08), (long, 0.7, 0.16)),
             box(line, (0.0, side - 0.95 * s, 0.012), (long, 0.14, 0.01)),
         ]
-        for k in range(round(long / 6.0)):
-            x = 6.0 * k - 0.5 * long + 3.0
-            parts.append(box(BULB, (x, side - 1.7 * s, 5.74), (1.6, 0.3, 0.12)))
-            parts.append(box(toned(panel, 0.55), (x, side - 0.01 * s, 1.7), (0.06, 0.04, 2.6)))
-        for k in range(round(long / 24.0)):
-            x = 24.0 * k - 0.5 * long + (8.0 if s > 0.0 else 20.0)
+        for k in range(4):
+            x = 0.25 * long * (k - 1.5) + 10.0 * s
             parts.append(box(dark, (x, side - 0.02 * s, 1.2), (1.3, 0.1, 2.2)))
             parts.append(box(sign, (x, side - 0.06 * s, 2.65), (0.9, 0.14, 0.4)))
-    for k in range(round(long / 6.0)):
-        parts.append(box(line, (6.0 * k - 0.5 * long, 0.0, 0.012), (2.4, 0.14, 0.01)))
+    for k in range(_BAYS):
+        x = long * ((k + 0.5) / _BAYS - 0.5)
+        parts.append(box(BULB, (x, 0.0, 5.74), (2.8, 0.5, 0.12)))
+        parts.append(box(line, (x, 0.0, 0.012), (3.2, 0.14, 0.01)))
     return parts
 
 

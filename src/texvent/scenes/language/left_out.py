@@ -1,0 +1,73 @@
+"""Things that a prompt leaves out: who works at a site, and what drops and sparks come from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from texvent.scenes.description import ObjectMotion, SceneDescription, SceneObject
+from texvent.scenes.inflection import pluralise
+from texvent.scenes.models.protocol import Noun
+
+_CREWS: dict[str, tuple[SceneObject, ...]] = {
+    "construction site": (
+        SceneObject("excavator", motion=ObjectMotion("work")),
+        SceneObject("crane", motion=ObjectMotion("work"), side="far"),
+        SceneObject("worker", 2, motion=ObjectMotion("walk")),
+        SceneObject("traffic cone", 4),
+    ),
+}
+"""Places with usual objects at work."""
+
+
+def add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Add the usual objects of a place where the prompt names none."""
+    crew = _CREWS.get(description.surroundings.place or "", ())
+    shown = tuple(
+        scene_object
+        for scene_object in crew
+        if scene_object.noun in nouns and scene_object.noun not in description.absent
+    )
+    if description.objects or not shown:
+        return description
+    names = ", ".join(pluralise(t.noun) if t.count > 1 else t.noun for t in shown)
+    note = f"the {description.surroundings.place} is shown with: {names}"
+    return replace(description, objects=shown, notes=(*description.notes, note))
+
+
+_SOURCES = {"drip": "faucet", "sparks": "angle grinder", "popcorn": "frying pan"}
+"""Effect → what it comes from where the prompt names nothing."""
+
+
+def add_sources(description: SceneDescription) -> SceneDescription:
+    """Add what drops and sparks come from, where the prompt names no thing."""
+    first = description.effects[0] if description.effects else None
+    noun = _SOURCES.get(first.kind) if first is not None and first.source is None else None
+    is_told = description.objects or description.surroundings.place or noun in description.absent
+    if first is None or noun is None or is_told:
+        return description
+    note = f"no source of the {first.kind} is said: the {noun} is chosen"
+    return replace(
+        description,
+        objects=(SceneObject(noun),),
+        effects=(replace(first, source=0), *description.effects[1:]),
+        notes=(*description.notes, note),
+    )
+
+
+def give_usual_work(description: SceneDescription) -> SceneDescription:
+    """Give the usual objects of a place their usual motion, unless the prompt states one.
+
+    A crane that turns slowly in the distance would else count as all the motion there is.
+    """
+    crew = {
+        scene_object.noun: scene_object
+        for scene_object in _CREWS.get(description.surroundings.place or "", ())
+    }
+    objects = tuple(
+        replace(scene_object, motion=crew[scene_object.noun].motion)
+        if scene_object.motion is None and scene_object.noun in crew
+        else scene_object
+        for scene_object in description.objects
+    )
+    return replace(description, objects=objects)
