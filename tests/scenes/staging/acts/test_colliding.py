@@ -71,14 +71,15 @@ def test_what_cannot_go_flies_and_falls_off_but_a_ball_that_rolls_stays_down() -
     contact_s = contact_time(DURATION_S, 0.5)
     stone, window = stage(SceneObject("stone"), SceneObject("window"), target=1)
     heights = [middle(stone, time_s)[2] for time_s in (0.0, contact_s, DURATION_S)]
-    assert heights[0] == pytest.approx(heights[1]) and heights[1] > 0.5
+    assert heights[0] == pytest.approx(heights[1])
+    assert heights[1] > 0.5
     assert heights[2] == pytest.approx(0.5 * stone.model.height, abs=0.12)
     assert apart((stone, window), DURATION_S) > 0.0
     thrown, _ = stage(SceneObject("ball"), SceneObject("wall"), target=1)
     rolling = SceneObject("ball", motion=ObjectMotion("roll"))
     rolled, wall = stage(rolling, SceneObject("wall"), target=1)
     assert middle(thrown, 0.0)[2] > 0.5
-    assert {round(float(middle(rolled, t)[2]), 3) for t in (0.0, 0.5, contact_s)} == {0.11}
+    assert {round(float(middle(rolled, t)[2]), 3) for t in (0.0, 0.5, contact_s)} == {0.25}
     assert apart((rolled, wall), contact_s) == pytest.approx(0.0, abs=0.03)
 
 

@@ -46,6 +46,8 @@ _OWN_PARTS: Mapping[str, frozenset[str]] = {
     "arm": _words("excavator crane digger"),
     "key": _words("piano keyboard laptop"),
     "chain": _words("bicycle bike motorcycle"),
+    **dict.fromkeys(("headlight", "taillight"), _words(
+        "car van bus truck lorry taxi train tram motorcycle motorbike suv jeep tractor vehicle")),
     "wing": _words("bird butterfly bee eagle owl gull seagull airplane plane aircraft jet drone bat"
                    " insect dragonfly moth pigeon hummingbird swan goose"),
 }  # fmt: skip
@@ -58,6 +60,8 @@ _ALONE = _words("wheel propeller barrel mirror lens gripper")
 """Parts that are shown alone, unless the whole does what is said of them."""
 _TURNING = _words("spin rotate turn revolve whirl move run")
 _OPENING = _words("open close shut")
+_OF_FRONTS, _COMING = _words("headlight taillight"), _words("approach come pass drive move go")
+"""Parts that come with the whole, and what they do then."""
 
 
 def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None) -> None:
@@ -203,6 +207,8 @@ def _works_by_part(part: str, verb: str, whole: Noun) -> bool:
     """Whether the whole does what its part does."""
     if verb in _OPENING:
         return whole.name in OPENING and part in ("door", "lid", "drawer", "flap")
+    if part in _OF_FRONTS:
+        return verb in _COMING
     return whole.is_working and verb in _TURNING
 
 

@@ -44,7 +44,7 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
 
     1. A noun that is known as a verb alone is one after a thing: "a drone flip" is a drone that
        flips; "a javelin throw" is someone throwing a javelin.
-    2. A part of the body that acts is a person who does: "head nodding".
+    2. A part of the body that acts is a person who does: "head nodding"; headlights are a car's.
     3. A material before a verb is the thing: "glass shattering".
     4. What is done to the thing before it comes before the thing: "page turning".
     5. A rate at the end is that of the thing before it: "blinking LED 200 Hz".
@@ -55,6 +55,7 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
     for part in _cut(words):
         _name_material(part)
         _give_body(part, known)
+        _give_car(part)
         _let_camera_go(part)
         found.extend(_bring_forward(_turn_into_verb(_move_rate(part))))
     return found
@@ -173,6 +174,18 @@ def _give_body(part: Sequence[Word], known: Lexicon) -> None:
     is_part = word.lemma in _OF_PEOPLE and word.role in (Role.PART, Role.UNKNOWN)
     if is_bare and is_part and verb.pos is Pos.VERB and verb.role in _OF_VERBS:
         word.meaning = Meaning(Role.NOUN, Pos.NOUN, _PERSON, is_substitute=True)
+
+
+_CAR_LIGHTS = frozenset({"headlight", "tail light", "taillight", "brake light"})
+
+
+def _give_car(part: Sequence[Word]) -> None:
+    if any(word.role is Role.NOUN for word in part):
+        return
+    for word in part:
+        if word.lemma in _CAR_LIGHTS and word.pos is Pos.NOUN:
+            word.meaning, word.others = Meaning(Role.NOUN, Pos.NOUN, "car", is_substitute=True), ()
+            return
 
 
 _SURROUNDINGS = (Role.PLACE, Role.ROAD, Role.LIGHT, Role.LIGHTING, Role.WEATHER, Role.SNOW)

@@ -36,8 +36,10 @@ _STICKS = frozenset({"arrow", "dart", "spear", "knife", "axe"})
 """What stays in what it hits."""
 _STUCK = 0.12
 """Share of its length by which it does."""
-_THIN = 0.75
+_THIN = 0.6
 """Share of its width up to which what is hit has a front: a wall, a target."""
+_FRONTED = frozenset({"archery target"})
+"""What has one though it is not thin: its legs stand out behind."""
 _ASLANT = 0.55
 """Angle to the picture of the way to such a front, rad."""
 _TALL = 3.0
@@ -83,7 +85,7 @@ def _run_into(mover: Actor, still: Actor, contact_s: float) -> tuple[Actor, Acto
     home, place = mover.trajectory.at(0.0), still.trajectory.at(0.0)
     is_from_left = home.position[0] <= place.position[0]
     yaw = 0.0 if is_from_left else math.pi
-    if still.model.length < _THIN * still.model.width:
+    if still.noun.name in _FRONTED or still.model.length < _THIN * still.model.width:
         yaw = _ASLANT if is_from_left else math.pi - _ASLANT
         still = replace(still, trajectory=Stationary(place.position, yaw + math.pi))
     low, high = part_boxes(still, 0.0).hull
