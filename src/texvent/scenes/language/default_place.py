@@ -59,8 +59,13 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
     "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket", "hand",
               "siemens star", "dotted disc"),
     "forest": ("bear", "wolf", "fox", "deer"),
-    "grass": ("tent",),
+    "grass": ("tent", "golf ball", "golfer", "baseball", "baseball batter", "baseball player"),
     "square": ("skateboarder",),
+    "tennis court": ("tennis player",),
+    "basketball court": ("basketball player",),
+    "boxing hall": ("boxer",),
+    "stage": ("conductor", "ballerina", "flamenco dancer"),
+    "kitchen": ("chef",),
 }  # fmt: skip
 """Place → nouns that are usually found there; what is not listed is shown on grass."""
 

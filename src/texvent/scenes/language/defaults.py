@@ -333,6 +333,19 @@ _PARKED_IN = frozenset({"garage", "warehouse", "workshop", "museum", "driveway",
 """Places in which vehicles stand."""
 
 
+_USUAL_ACTS = {
+    "boxer": "box", "fencer": "fence", "archer": "archery", "golfer": "swing club",
+    "tennis player": "swing racket", "basketball player": "dribble",
+    "baseball player": "swing bat", "baseball batter": "swing bat", "cricketer": "swing bat",
+    "ballerina": "ballet",
+    "flamenco dancer": "dance", "photographer": "photograph", "singer": "sing",
+    "conductor": "conduct", "painter": "paint", "carpenter": "saw", "blacksmith": "forge",
+    "welder": "weld", "chef": "cook", "fisherman": "fish", "lumberjack": "chop wood",
+    "janitor": "mop", "miner": "dig",
+}  # fmt: skip
+"""Who is known by what they do → that, if nothing else moves."""
+
+
 def _usual_motion(description: SceneDescription, noun: Noun) -> str:
     """What it does if nothing else moves: people stay in a close shot, cars in a garage."""
     if noun.name in PERSON_NOUNS and description.surroundings.place == "space":
@@ -341,7 +354,7 @@ def _usual_motion(description: SceneDescription, noun: Noun) -> str:
         return "stand"
     if noun.motion == "drive" and description.surroundings.place in _PARKED_IN:
         return "stand"
-    return noun.motion
+    return _USUAL_ACTS.get(noun.name, noun.motion)
 
 
 def _rest_the_others(description: SceneDescription) -> SceneDescription:

@@ -91,7 +91,16 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "batter": (_sense("bowl whisk pancake cake dough flour spoon mix waffle oven muffin pan ladle"
                       " griddle crepe"),),
     "bulb": (_sense("tulip onion soil daffodil garlic sprout"),),
-    "ball": (_sense("waltz gown masked debutante"),),
+    "ball": (
+        _sense("waltz gown masked debutante"),
+        _sense("ping pong", "ping pong ball"),
+        _sense("tennis", "tennis ball"),
+        _sense("basketball dunk dribble hoop", "basketball"),
+        _sense("golf golfer putt", "golf ball"),
+        _sense("baseball batter inning", "baseball"),
+        _sense("volleyball", "volleyball"),
+        _sense("bowling", "bowling ball"),
+    ),
     "tank": (
         _sense("fish goldfish aquarium octopus reef turtle jellyfish bubble", "aquarium"),
         _sense("water oil gas fuel propane septic shark diver oxygen scuba fill"),

@@ -115,8 +115,8 @@ def _stands(noun: str, count: int, near: float, far: float, small: float = 0.95)
     return ScatterRule(noun, count, near, far, (small, 1.1), faces_camera=True)
 
 
-def _under(noun: str) -> ScatterRule:
-    return ScatterRule(noun, 1, 0.0, 0.0, (1.0, 1.0), is_under=True)
+def _under(noun: str, ahead_m: float = 0.0) -> ScatterRule:
+    return ScatterRule(noun, 1, 0.0, 0.0, (1.0, 1.0), is_under=True, ahead_m=ahead_m)
 
 
 def _both_sides(noun: str) -> tuple[ScatterRule, ...]:
@@ -220,7 +220,7 @@ BUILT_SCENERY: dict[str, tuple[ScatterRule, ...]] = {
                 ScatterRule("floodlight mast", 3, 1.6, 3.0), _stands("goal", 1, 0.6, 1.4, 1.0)),
     "running track": (_under("running lanes"), _stands("grandstand", 4, 1.2, 3.0),
                       ScatterRule("floodlight mast", 2, 1.6, 3.0)),
-    "tennis court": (_under("tennis court lines"), ScatterRule("garden fence", 6, 1.6, 3.0),
+    "tennis court": (_under("tennis court lines", 4.5), ScatterRule("garden fence", 6, 1.6, 3.0),
         ScatterRule("tree", 4, 2.2, 5.0),
                      _stands("bench", 2, 0.9, 1.6)),
     "farmyard": (_stands("barn", 2, 1.0, 2.5, 0.8), ScatterRule("hay bale", 5, 0.3, 1.4),

@@ -28,6 +28,8 @@ class ScatterRule:
     """Whether the place is known by it, so that it stands in view if it can."""
     is_under: bool = False
     """Whether it lies flat under what the camera looks at: the lines of a court."""
+    ahead_m: float = 0.0
+    """How far ahead of who would else stand in its middle it lies: of a court with a net."""
     is_afloat: bool = False
     """Whether it lies in the water beside the land."""
     encloses: bool = False

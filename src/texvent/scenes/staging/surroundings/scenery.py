@@ -77,6 +77,10 @@ class SceneryItem:
         return PlacedModel(parts, state.to_world(), instance)
 
 
+_FROM_NET_M = 1.2
+"""Who is nearer to the middle of a court than that stands in its net."""
+
+
 def scatter(
     rules: Sequence[ScatterRule],
     view: ViewClearance,
@@ -100,11 +104,12 @@ def scatter(
         The pieces that found a place; fewer than wanted where it is crowded.
     """
     items = list(taken)
-    bodies = list_bodies(actors)
+    everyone = list_bodies(actors)
     for rule in rules:
         noun = nouns.get(rule.noun)
         if noun is None:
             continue
+        bodies = _move_ahead(everyone, actors, rule.ahead_m) if rule.ahead_m else everyone
         for number in range(rule.count):
             colour = rule.colours[number % len(rule.colours)]
             model = noun.build(
@@ -133,6 +138,15 @@ def list_bodies(actors: Sequence[Actor]) -> Float64Array:
             x, y, _ = actor.middle(float(time_s))
             rows.append((x, y, radius))
     return np.array(rows, dtype=np.float64).reshape(-1, 3)
+
+
+def _move_ahead(bodies: Float64Array, actors: Sequence[Actor], ahead_m: float) -> Float64Array:
+    """Bodies that stand in their middle, moved to where the first one looks."""
+    away = np.linalg.norm(bodies[:, :2] - bodies[:, :2].mean(axis=0), axis=1)
+    if not len(bodies) or away.min() > _FROM_NET_M:
+        return bodies
+    yaw = actors[0].trajectory.at(0.0).yaw
+    return bodies + ahead_m * np.array([math.cos(yaw), math.sin(yaw), 0.0])
 
 
 def _find_place(

@@ -108,6 +108,16 @@ def tell_by_doings(draft: Draft, subjects: Sequence[Referent]) -> None:
                 head.shown_as = None if does else head.shown_as
 
 
+_DOINGS = {
+    "gymnast": "cartwheel", "acrobat": "flip", "weightlifter": "deadlift",
+    "powerlifter": "deadlift", "pianist": "play piano",
+    "cellist": "play cello", "harpist": "play harp", "trumpeter": "play trumpet",
+    "flutist": "play flute", "flautist": "play flute", "accordionist": "play accordion",
+    "yogi": "yoga", "chess player": "play chess", "typist": "type", "pedestrian": "walk",
+}  # fmt: skip
+"""Word for a person of which no verb is made → what the person does."""
+
+
 @lru_cache(maxsize=512)
 def find_doing(said: str) -> str | None:
     """The motion or activity of a person of that name; None if the name says none.
@@ -116,6 +126,8 @@ def find_doing(said: str) -> str | None:
         >>> find_doing("swimmer"), find_doing("surfer"), find_doing("waiter"), find_doing("worker")
         ('swim', 'surf', None, None)
     """
+    if said in _DOINGS:
+        return _DOINGS[said]
     if not said.endswith(_ENDINGS):
         return None
     stem = said[:-2]
