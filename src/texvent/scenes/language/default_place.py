@@ -59,7 +59,7 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
     "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket", "hand",
               "siemens star", "dotted disc"),
     "forest": ("bear", "wolf", "fox", "deer"),
-    "grass": ("tent", "golf ball", "golfer", "baseball", "baseball batter", "baseball player"),
+    "grass": ("tent",),
     "square": ("skateboarder",),
     "tennis court": ("tennis player",),
     "basketball court": ("basketball player",),
@@ -74,7 +74,8 @@ _OUTDOORS = frozenset(
     {"tree", "pine", "palm", "birch", "bush", "hedge", "house", "barn", "castle", "lighthouse",
      "car", "bus", "truck", "horse", "cow", "sheep", "street lamp", "fence", "bench", "tent",
      "temple", "church", "tractor", "taxi", "train", "tram", "steam locomotive", "bridge", "ship",
-     "airplane", "helicopter", "excavator", "waterfall", "tower", "volcano"}
+     "airplane", "helicopter", "excavator", "waterfall", "tower", "volcano", "golf club",
+     "golfer", "baseball bat", "baseball batter", "baseball player"}
 )  # fmt: skip
 """Nouns that are not found in a room."""
 _NEUTRAL = ("grass", "plain")

@@ -15,6 +15,7 @@ from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.machine_acts import COLLAPSE
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.pictures.checking import can_show, check_picture
 
@@ -97,6 +98,7 @@ class Attributes:
         if word.meaning.form is VerbForm.PAST and verb.object_kind:
             kind = verb.object_kind
         if kind and can_do(noun, kind):
+            kind = COLLAPSE if line_up(item, kind) else kind
             item.motions = [ObjectMotion(kind, verb.direction, verb.pace, end_pace=verb.end_pace)]
             word.is_used = True
 
@@ -109,6 +111,19 @@ class Attributes:
                     word.is_used = True
         if self.lit is not None and noun.name in LAMPS:
             item.is_lit, self.lit[1].is_used = self.lit[0], True
+
+
+def line_up(item: PartialObject, kind: str) -> bool:
+    """As in "dominoes fall", "falling dominoes": a row of them, unless the prompt counts them.
+
+    Returns:
+        Whether the object is a row now.
+    """
+    is_row = item.noun == "domino" and item.count > 1 and not item.is_counted
+    if is_row and kind in ("fall", "topple"):
+        item.noun, item.count = "domino row", 1
+        return True
+    return False
 
 
 def show_picture(item: PartialObject, picture: Picture) -> bool:

@@ -55,7 +55,8 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
              3.0: ("shiver",)},
     "dance": {1.0: ("dance",)},
     "jump": {1.0: ("jump",), 0.7: ("hop",), 0.8: ("skip",), 1.2: ("leap",)},
-    "work": {1.0: ("flap", "work", "tick", "operate", "beat", "pulse", "throb", "pulsate")},
+    "work": {1.0: ("flap", "work", "tick", "operate", "beat", "pulse", "throb", "pulsate",
+                   "print")},
     "stand": {
         1.0: ("park", "wait", "rest", "stay", "pause", "pose", "stand", "hang", "remain",
                "perch", "idle"),

@@ -19,7 +19,7 @@ from texvent.scenes.language.vocabulary.senses import (
     Sense,
 )
 from texvent.scenes.language.vocabulary.usual_senses import USUAL_SENSES
-from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.word import Word
 
@@ -51,7 +51,9 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
     for index, word in enumerate(words):
         follower = words[index + 1] if index + 1 < len(words) else None
         others = said - {word.lemma, word.text} if is_told else set()
-        if word.pos is Pos.VERB:
+        is_start = index == 0 and word.meaning.form is VerbForm.ING
+        is_attribute = is_start and follower is not None and follower.pos is Pos.NOUN
+        if word.pos is Pos.VERB and not is_attribute:
             _choose_verb(word, words[index + 1 :], others, known)
         if word.lemma in _BECOMING and follower is not None and follower.text in ("to", "into"):
             _forget_result(words[index + 2 :])

@@ -169,14 +169,6 @@ def _climbs(verb: Verb, noun: Noun, objects: set[str]) -> bool:
     return verb.base == "climb" and is_able and bool(objects & _HELD_ON_TO)
 
 
-def line_up(draft: Draft, verb: Verb, index: int) -> None:
-    """As in "dominoes fall": a row of them, unless the prompt counts them."""
-    item = draft.objects[index]
-    is_row = item.noun == "domino" and item.count > 1 and not item.is_counted
-    if is_row and verb.kind in ("fall", "topple"):
-        item.noun, item.count = "domino row", 1
-
-
 def fall_over(noun: Noun, motion: ObjectMotion, clause: Clause) -> ObjectMotion:
     """As in "a person falls": over, unless it is said from where; who bounces jumps."""
     is_from = any(phrase.preposition.text in _FROM_ABOVE for phrase in clause.phrases)

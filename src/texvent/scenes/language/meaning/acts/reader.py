@@ -29,7 +29,6 @@ from texvent.scenes.language.meaning.acts.fitting import (
     hang_up,
     has_phrase,
     is_played,
-    line_up,
     note_untouched,
     throw_up_earth,
 )
@@ -56,6 +55,7 @@ from texvent.scenes.language.meaning.acts.sequence import (
     set_off,
     stand,
 )
+from texvent.scenes.language.meaning.adjectives import line_up
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -360,7 +360,7 @@ class ActReader:
         word = clause.verb_word
         things = [find_mount(self._draft, index) for index in things]
         for index in things:
-            line_up(self._draft, verb, index)
+            line_up(self._draft.objects[index], verb.kind)
         nouns = [self._draft.noun(index) for index in things]
         is_by_itself = verb.kind in ("wave", "fly", "sway", "turn") and verb.base not in _UNSTEADY
         if is_by_itself and any(noun.is_working for noun in nouns):
