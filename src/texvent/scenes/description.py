@@ -235,6 +235,8 @@ class Surroundings:
     """Whether snow lies on the ground."""
     has_dust: bool = False
     """Whether dust flies up behind what moves on the ground."""
+    wave_height: float = 1.0
+    """Of waves on water, as `Environment.wave_height`."""
 
 
 @dataclass(frozen=True)

@@ -230,6 +230,8 @@ class Environment:
     """Material of a room's walls."""
     puffs: Float64Array = field(default_factory=lambda: np.zeros((0, PUFF_COLUMNS)))
     """[k, 19] translucent ellipsoids of smoke, steam, mist or flame; see `PUFF_COLUMNS`."""
+    wave_height: float = 1.0
+    """Of waves on water, as a multiple of what a light breeze makes; above 1 their crests foam."""
     has_stars: bool = True
     """Whether a dark sky has stars."""
     wall_colour: Colour = (0.75, 0.69, 0.61)

@@ -172,6 +172,8 @@ def _describe_surroundings(surroundings: Surroundings) -> str:
         words.append("snow on the ground")
     if surroundings.has_dust:
         words.append("dust")
+    if surroundings.wave_height > 1.0:
+        words.append("waves")
     return ", ".join(words)
 
 

@@ -112,7 +112,7 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     if claim.aspect == "clouds" and sky_share(picture) < LEAST_CLOUDED:
         return "hardly any sky in view"
     if claim.aspect != "place":
-        return None
+        return _judge_water(picture) if claim.aspect == "waves" else None
     fault = _find_lack(picture, claim)
     if fault is not None:
         return fault

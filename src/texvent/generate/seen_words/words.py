@@ -40,7 +40,8 @@ def judge_words(
     words = judge_courses(picture, description)
     qualities: dict[tuple[str, int], str] = {}
     for claim in description.claims:
-        if claim.word in _WAVES and claim.aspect == "name" and claim.motion is not None:
+        is_wave = claim.word in _WAVES and claim.aspect == "name" and claim.motion is not None
+        if is_wave and description.surroundings.wave_height <= 1.0:
             words.setdefault(claim.word, "the sea is calm")
         fault = judge_degree(picture, description, claim)
         if fault is None and claim.aspect == "relation":

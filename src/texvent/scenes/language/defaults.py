@@ -14,7 +14,12 @@ from texvent.scenes.description import (
 )
 from texvent.scenes.language.default_place import choose_place, report_place
 from texvent.scenes.language.lanes import go_along
-from texvent.scenes.language.left_out import add_crew, add_sources, give_usual_work
+from texvent.scenes.language.left_out import (
+    add_crew,
+    add_sources,
+    give_usual_work,
+    ride_waves,
+)
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.objects.patterns import FACING
@@ -33,7 +38,7 @@ def complete_description(
     Objects that live in the air or water always move unless the prompt says that they rest. When
     nothing moves, objects that can move do what they usually do; when none can, the camera sways.
     """
-    description = _wheel_seats(add_sources(add_crew(description, nouns)))
+    description = _wheel_seats(ride_waves(add_sources(add_crew(description, nouns))))
     description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
     objects = tuple(
         _decide_motion(scene_object, nouns[scene_object.noun])

@@ -71,3 +71,16 @@ def give_usual_work(description: SceneDescription) -> SceneDescription:
         for scene_object in description.objects
     )
     return replace(description, objects=objects)
+
+
+def ride_waves(description: SceneDescription) -> SceneDescription:
+    """As in "a surfer on a wave": surfs, unless the prompt says what else."""
+    if description.surroundings.wave_height <= 1.0:
+        return description
+    objects = tuple(
+        replace(one, motion=ObjectMotion("surf"))
+        if one.noun == "surfer" and one.motion is None
+        else one
+        for one in description.objects
+    )
+    return replace(description, objects=objects)

@@ -39,7 +39,7 @@ _OF_OBJECTS = {
 _OF_SCENE = {
     Role.LIGHT: "light", Role.LIGHTING: "lighting", Role.SHADE: "bright",
     Role.WEATHER: "weather", Role.CLOUDS: "clouds", Role.SNOW: "snow", Role.SKY: "sky",
-    Role.STEEP: "steep", Role.DUST: "dust",
+    Role.STEEP: "steep", Role.DUST: "dust", Role.WAVES: "waves",
     Role.FLICKER: "flicker", Role.SHADOW: "shadow", Role.EFFECT: "effect", Role.PLACE: "place",
     Role.ROAD: "road", Role.VIEW: "view", Role.FRAMING: "framing", Role.COLOUR: "colour",
     Role.STYLE: "style",

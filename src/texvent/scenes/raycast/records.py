@@ -78,6 +78,7 @@ INSTANT_RECORD = np.dtype(
         ("sky_top", "f8", 3),
         ("sky_horizon", "f8", 3),
         ("clouds", "f8"),
+        ("wave_height", "f8"),
         ("stars", "f8"),  # 0 by day .. 1 at night
         ("sun", "f8", 3),
         ("sun_colour", "f8", 3),
@@ -361,6 +362,7 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
         "sky_top",
         "sky_horizon",
         "clouds",
+        "wave_height",
         "sun_colour",
         "ambient",
         "fog_colour",

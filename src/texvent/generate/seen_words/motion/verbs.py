@@ -27,6 +27,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED
 from texvent.scenes.models.wrapped.opening import OPENS
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.attached import HeldAt
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.claims.bodies import part_boxes
 from texvent.scenes.staging.claims.contact import is_in, is_on
@@ -231,12 +232,21 @@ class _Judge:
                     continue
                 targets = [n for one in self.description.relations for n in one.targets
                            if one.kind == "work on" and one.subject == index]  # fmt: skip
+                targets = targets or self._list_held(index)
                 moves = [one for n in targets for one in self._measure(n, phase)]
                 least = LEAST_WAY if work.pattern in MOVED else LEAST_CHANGE
                 if not any(max(one.shift, one.change) >= least for one in moves):
                     noun = self.description.objects[targets[0]].noun if targets else "what is held"
                     return f"{noun} stays where it is"
         return None
+
+    def _list_held(self, index: int) -> list[int]:
+        """As in "lifts a barbell": what is in the hands of who does it."""
+        return [
+            one.object_index
+            for one in self.picture.scene.actors
+            if isinstance(one.trajectory, HeldAt) and one.trajectory.holder.object_index == index
+        ]
 
     def _judge_haste(self, claim: Claim, index: int) -> str | None:
         """Verbs such as "races" and "dashes" need something fast."""

@@ -26,6 +26,7 @@ from texvent.scenes.language.meaning.circumstances.effects import (
 )
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.clause_rewrites import (
+    drop_ground,
     list_brought,
     list_other_phrases,
     rewrite_objects,
@@ -205,6 +206,7 @@ class ClauseMeaning:
         self._referents.doers = things
         take_vessel(clause)
         take_climbed(clause)
+        drop_ground(clause)
         take_partners(clause)
         take_fellows(clause)
         take_receivers(clause)

@@ -249,6 +249,24 @@ def take_partners(clause: Clause) -> None:
             clause.phrases.remove(phrase)
 
 
+_UP = frozenset(
+    {"take off", "lift off", "rise", "launch", "pick", "pick up", "lift", "jump", "leap", "get up",
+     "stand up", "grab", "bounce"}
+)  # fmt: skip
+"""What begins on the ground anyway."""
+
+
+def drop_ground(clause: Clause) -> None:
+    """As in "takes off from the ground", "picks up a box from the floor": where things are."""
+    if clause.verb is None or base_form(clause.verb.lemma) not in _UP:
+        return
+    for phrase in list(clause.phrases):
+        heads = [group.head_word.text for group in phrase.groups]
+        if phrase.preposition.text in ("from", "off") and heads in (["ground"], ["floor"]):
+            mark_used([phrase.preposition, *(w for group in phrase.groups for w in group.words)])
+            clause.phrases.remove(phrase)
+
+
 _GOING_INTO = frozenset({"roll", "slide", "drive", "fly", "walk", "run", "bounce", "skate"})
 _SOLID = frozenset(
     {"wall", "fence", "pole", "post", "lamppost", "pillar", "column", "rock", "boulder", "iceberg",

@@ -5,7 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 OF_SCENE = frozenset(
-    {"place", "light", "weather", "sky", "snow", "dust", "shadow", "glow", "clouds", "flicker"}
+    {
+        "place",
+        "light",
+        "weather",
+        "sky",
+        "snow",
+        "dust",
+        "shadow",
+        "glow",
+        "clouds",
+        "flicker",
+        "waves",
+    }
 )
 """Kinds of referents that are no objects but their surroundings."""
 

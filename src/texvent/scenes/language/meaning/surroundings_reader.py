@@ -19,6 +19,9 @@ _ALIKE = ({"day", "sunny"}, {"day", "overcast"})
 _WATER = ("water", "waters")
 _CALM = ("calm", "tranquil", "placid")
 """What water is unless the prompt says waves."""
+_ROUGH = (*vocabulary_scene.ROUGH, "high", "heavy")
+_WAVY, _ROUGH_HEIGHT = 2.2, 3.0
+"""Height of waves that are said, and of a rough sea."""
 _WATERY = ("lake", "river", "beach", "underwater")
 """Places that have the water that is named after them."""
 _USUAL_HZ = {
@@ -50,6 +53,7 @@ class SurroundingsReader:
         self._is_empty = False
         self._has_dust = False
         self._has_snow = False
+        self._wave_height = 1.0
         self._light: str | None = None
         self._flicker_hz: float | None = None
         self._wave = "sine"
@@ -63,6 +67,7 @@ class SurroundingsReader:
             Role.CLOUDS: self._set_clouds,
             Role.SNOW: self._set_snow,
             Role.DUST: self._set_dust,
+            Role.WAVES: self._set_waves,
             Role.SHADOW: self._set_shadows,
             Role.STEEP: self._set_steep,
             Role.ROAD: self._set_road,
@@ -105,6 +110,9 @@ class SurroundingsReader:
             mark_used(colour[1])
         if is_used and self._place in SHORES:
             mark_used(word for word in one.attributes.words if word.text in _CALM)
+            rough = [word for word in one.attributes.words if word.text in _ROUGH]
+            self._wave_height = _ROUGH_HEIGHT if rough else self._wave_height
+            mark_used(rough)
         head = one.group.head
         meaning = head.read_as(Role.PLACE) if head is not None else None
         if not is_used or head is None or meaning is None:
@@ -188,6 +196,12 @@ class SurroundingsReader:
         self._has_dust = not is_negated
         return True
 
+    def _set_waves(self, _: object, is_negated: bool) -> bool:
+        if is_negated:
+            return True
+        self._wave_height = max(self._wave_height, _WAVY)
+        return True
+
     def _set_shadows(self, _: object, is_negated: bool) -> bool:
         self._shadows = not is_negated
         return True
@@ -234,7 +248,7 @@ class SurroundingsReader:
         if self._light is not None or self._flicker_hz is not None:
             mark_used(self._glows)
         surroundings = Surroundings(
-            place=self._place,
+            place=self._place or ("sea" if self._wave_height > 1.0 else None),
             colour=self._colour,
             sky=self._sky,
             weather=self._weather,
@@ -243,6 +257,7 @@ class SurroundingsReader:
             road=self._road,
             is_empty=self._is_empty,
             has_dust=self._has_dust,
+            wave_height=self._wave_height,
             has_snow=self._has_snow or self._weather == "snow",
         )
         return surroundings, Illumination(self._light, self._flicker_hz, self._wave, self._shadows)

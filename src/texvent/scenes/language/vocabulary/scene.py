@@ -8,7 +8,8 @@ PLACES: dict[str, tuple[str, ...]] = {
     "road": ("road", "lane", "asphalt", "country road", "paved road", "avenue road"),
     "dirt road": ("dirt road", "dirt track", "gravel road", "trail", "dirt path", "path", "mud"),
     "city": (
-        "city", "street", "town", "downtown", "urban", "sidewalk", "pavement",
+        "city", "skyline", "city skyline",
+        "street", "town", "downtown", "urban", "sidewalk", "pavement",
         "city street", "intersection", "crossing", "crossroads", "junction",
         "street crossing", "road junction", "street corner",
     ),
@@ -215,6 +216,16 @@ SNOWY = ("snow", "snowy", "snow covered", "winter", "wintry")
 """Words that mean snow on the ground."""
 
 STEEP = ("steep", "uphill", "downhill", "slope", "sloping", "hilly")
+WAVES = tuple(
+    f"{kind} {waves} {moving}".strip()
+    for kind in ("", "ocean", "sea", "water", "big", "high", "huge", "gentle", "small")
+    for waves in ("waves", "swell")
+    for moving in ("", "crash", "crashing", "break", "breaking", "roll", "rolling", "lap",
+                   "lapping", "wash", "washing", "move", "moving", "rise and fall")
+)  # fmt: skip
+"""Waves of water, with what they do."""
+ROUGH = ("rough", "choppy", "wavy", "turbulent", "raging")
+"""What water with waves is."""
 DUST = ("dust", "dust cloud", "dust clouds", "dust trail")
 
 SKY_WORDS = ("sky", "skies")

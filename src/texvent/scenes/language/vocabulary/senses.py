@@ -159,7 +159,10 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "tie": (_sense("railway railroad"),),
     "torch": (_sense("weld welder blowtorch propane"),),
     "trunk": (_sense("swim swimmer beach elephant mammoth car suitcase luggage"),),
-    "wave": (_sense("hair crowd stadium sound radio"),),
+    "wave": (
+        _sense("hair crowd stadium sound radio"),
+        _sense("surfer surf surfboard sea ocean beach boat ship shore seagull", "sea waves"),
+    ),
     "brush": (_sense(_CARWASH),),
     "calf": (_sense("muscle stretch tattoo cramp runner leg"),),
     "ice": (_sense("crushed fishmonger stall market glass cube drink cocktail bartender barman"

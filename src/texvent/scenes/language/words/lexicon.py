@@ -61,6 +61,7 @@ class Role(Enum):
     SNOW = auto()
     SKY = auto()
     STEEP = auto()
+    WAVES = auto()
     DUST = auto()
     FLICKER = auto()
     SHADOW = auto()
@@ -372,6 +373,8 @@ _WORDS: tuple[tuple[Role, Pos, Iterable[str]], ...] = (
     (Role.SNOW, Pos.NOUN, ("snow",)),
     (Role.SKY, Pos.NOUN, vocabulary_scene.SKY_WORDS),
     (Role.STEEP, Pos.ADJECTIVE, vocabulary_scene.STEEP),
+    (Role.WAVES, Pos.NOUN, vocabulary_scene.WAVES),
+    (Role.WAVES, Pos.ADJECTIVE, vocabulary_scene.ROUGH),
     (Role.DUST, Pos.NOUN, vocabulary_scene.DUST),
     (Role.SHADOW, Pos.NOUN, vocabulary_scene.SHADOW_WORDS),
     (Role.GLOW, Pos.NOUN, vocabulary_scene.GLOW_NOUNS),

@@ -130,8 +130,13 @@ class _Tagger(ReadSoFar):
         if self._goes_on(index, verb):
             return Pos.VERB
         noun = by_pos.get(Pos.NOUN)
-        is_noun = verb.role is Role.UNKNOWN and noun is not None and noun.role is not Role.UNKNOWN
-        if is_noun and self._before() in _OPENS_NOUN | {None, Pos.PREPOSITION, Pos.SIGN}:
+        is_noun = noun is not None and noun.role is not Role.UNKNOWN
+        is_known = is_noun or self._is_known(index, Pos.ADJECTIVE)
+        if (
+            verb.role is Role.UNKNOWN
+            and is_known
+            and self._before() in _OPENS_NOUN | {None, Pos.PREPOSITION, Pos.SIGN}
+        ):
             return None
         return self._verb_by_context(index, verb, others)
 

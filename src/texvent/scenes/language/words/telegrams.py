@@ -10,6 +10,7 @@ from itertools import pairwise
 from texvent.scenes.language.grammar.noun_groups import is_done_to_things
 from texvent.scenes.language.vocabulary.acts import JOBS
 from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.words.english import Pos, VerbForm, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.word import Word
@@ -56,6 +57,7 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
         _name_material(part)
         _give_body(part, known)
         _give_car(part)
+        _set_aside_film(part)
         _let_camera_go(part)
         found.extend(_bring_forward(_turn_into_verb(_move_rate(part))))
     return found
@@ -189,6 +191,15 @@ def _give_car(part: Sequence[Word]) -> None:
 
 
 _SURROUNDINGS = (Role.PLACE, Role.ROAD, Role.LIGHT, Role.LIGHTING, Role.WEATHER, Role.SNOW)
+
+
+def _set_aside_film(part: Sequence[Word]) -> None:
+    """As in "city timelapse": a city, and how it is filmed."""
+    for before, word in pairwise(part):
+        if word.text in TIMELAPSES and before.pos is Pos.NOUN:
+            word.meaning, word.others = replace(word.meaning, pos=Pos.ADJUNCT), ()
+
+
 _DRIVEN_THROUGH = "tunnel"
 """A thing, and a place where one drives through it."""
 

@@ -11,12 +11,15 @@ from texvent.scenes.raycast.shading.value_noise import detail_fade, smooth
 from texvent.scenes.raycast.vectors import along, dot, times, triple
 from texvent.scenes.scene import Colour
 
+FOAM_FROM, FOAM_STEEPNESS = 0.085, 5.0
+"""Sum of the waves' heights over their lengths, per wave height, from which on crests foam."""
+
 
 @jit(error_model="numpy", inner=True)
 def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -> Colour:
-    """Moving waves that mirror the sky; waves smaller than a pixel fade out."""
-    slope_x, slope_y = 0.0, 0.0
-    length, angle, strength = 9.0, 0.4, 0.042
+    """Moving waves that mirror the sky; waves smaller than a pixel fade out. High ones foam."""
+    slope_x, slope_y, crest = 0.0, 0.0, 0.0
+    length, angle, strength = 9.0, 0.4, 0.042 * instant.wave_height
     for _ in range(7):
         wave = 2.0 * math.pi / length
         cosine, sine = math.cos(angle), math.sin(angle)
@@ -26,6 +29,7 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
         )
         slope_x += size * cosine * math.cos(phase)
         slope_y += size * sine * math.cos(phase)
+        crest += size * math.sin(phase)
         length, angle, strength = 0.62 * length, angle + 2.4, 1.05 * strength
     scale = 1.0 / math.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
     normal = (-slope_x * scale, -slope_y * scale, scale)
@@ -42,6 +46,10 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
     colour = mix(water, sky_gradient(instant, up), mirror)
     half = along(triple(instant.sun), view, -1.0)
     shine = dot(half, normal) / math.sqrt(dot(half, half) + 1e-12)
+    if instant.wave_height > 1.0:
+        foam = 0.8 * smooth(FOAM_STEEPNESS * (crest - FOAM_FROM * instant.wave_height))
+        white = along(triple(instant.ambient), sun_colour, 0.6)
+        colour = mix(colour, white, foam)
     return along(colour, sun_colour, 0.5 * max(shine, 0.0) ** 60)
 
 

@@ -157,6 +157,7 @@ def build_environment(
         sky_top=_array(sky_top),
         sky_horizon=_array(horizon),
         clouds=clouds,
+        wave_height=said.wave_height,
         sun_direction=towards_light(_unit(lighting.sun_direction), looking, description.light),
         sun_colour=_array(_sun_colour(lighting, said.weather)),
         ambient=_array(lighting.ambient),

@@ -66,6 +66,8 @@ MAX_LENGTHS_PER_S = 0.95
 in view and large; a speed stated in numbers is not."""
 MIN_LENGTHS_PER_S = 0.35
 """A usual speed of small things is at least this many lengths per second: a snail gets on."""
+LEAST_SAILED = 0.15
+"""The same of ships, at 24 knots for 80 m: others are seen to rest."""
 SMALL_M = 2.5
 THROWN_LENGTHS_PER_S = 8.0
 """Of what is thrown, within bounds."""
@@ -214,6 +216,8 @@ def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> 
     # What flies has no road to be compared with: slower, it can be shown larger.
     most = MAX_LENGTHS_PER_S * (0.8 if noun.habitat == "air" else 1.0)
     size = max(model.length, model.height)
+    if noun.motion == "sail":
+        speed = max(speed, LEAST_SAILED * size)
     if size < SMALL_M and noun.speed_m_s > 0.0:
         speed = max(speed, MIN_LENGTHS_PER_S * size)
     return min(speed, most * size)

@@ -39,6 +39,18 @@ def _rise(draft: Draft, movers: Sequence[int]) -> bool:
     return bool(motions) and all(one and one[-1].kind == "rise" for one in motions)
 
 
+_OUT_OF = ("from", "out of")
+
+
+def _leap(draft: Draft, movers: Sequence[int]) -> bool:
+    """As in "a fish jumps out of the water": what lives there does so by itself."""
+    return bool(movers) and all(
+        draft.noun(index).habitat == "water"
+        and any(one.kind == "jump" for one in draft.objects[index].motions)
+        for index in movers
+    )
+
+
 def _wade(draft: Draft, members: Sequence[int]) -> None:
     """As in "stands in a lake": in the water, not on its shore."""
     for index in members:
@@ -71,6 +83,8 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     if word.text not in NO_WAYS or place in _OPEN or not (scope.movers or scope.subjects):
         return True
     if word.text in ("from", "off") and _rise(draft, scope.movers):
+        return True
+    if word.text in _OUT_OF and place in SHORES and _leap(draft, scope.movers):
         return True
     if scope.acted_on:
         return False  # "pulls a fish out of the water": not who pulls comes out

@@ -61,10 +61,12 @@ _KINDS = {
     Role.PICTURE: "picture", Role.FUNCTION: "function", Role.PLACE: "place", Role.LIGHT: "light",
     Role.WEATHER: "weather", Role.SKY: "sky", Role.SNOW: "snow", Role.DUST: "dust",
     Role.SHADOW: "shadow", Role.GLOW: "glow", Role.CLOUDS: "clouds", Role.STEEP: "place",
-    Role.FLICKER: "flicker", Role.CAMERA_MOVE: "camera", Role.VIEW: "camera",
+    Role.WAVES: "waves", Role.FLICKER: "flicker", Role.CAMERA_MOVE: "camera", Role.VIEW: "camera",
     Role.FRAMING: "camera",
 }  # fmt: skip
 """Role of a head → kind of referent."""
+_ONE_BARBELL = "weights"
+"""Of who lifts weights, one is shown."""
 _SHOWN = (Role.PLACE, Role.EFFECT)
 """Roles of nouns that are shown, but for things."""
 _LOCATIVE = frozenset(
@@ -285,7 +287,8 @@ class Referents(Antecedents):
             head.is_used, head.shown_as = True, "the camera's view from it"
             return Referent("camera", group, attributes=attributes)
         is_bare = group.determiner is None and group.owner is None and attributes.number is None
-        is_plural = attributes.is_many or meaning.is_plural or is_drinks
+        is_one = head.text == _ONE_BARBELL
+        is_plural = attributes.is_many or (meaning.is_plural and not is_one) or is_drinks
         names_one = head.text == noun and noun.endswith("s")  # "random dots", "scissors"
         is_plural = is_plural or (meaning.can_be_both and is_bare and not names_one)
         said = name_kind(head) if meaning.is_substitute else None
