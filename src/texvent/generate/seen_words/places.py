@@ -95,6 +95,8 @@ _TOWNS = ("city", "town", "downtown", "cityscape", "skyline", "city skyline")
 _TOWN_HOUSES = frozenset({"building", "house", "skyscraper", "wooden house"})
 LEAST_HILLS = 0.03
 """Share of the picture that hills cover by which a hilly land is told."""
+_OF_ROOFS, LEAST_ROOF = frozenset({"roof parapet", "roof unit"}), 0.03
+"""What stands on a roof, and the share of the picture by which that is told."""
 LEAST_TOWN = 0.03
 """Share of the picture that houses of the scenery cover by which a town is told."""
 _SHORES = ("beach", "shore", "coast", "seaside", "seashore", "shoreline", "coastline", "lakeside",
@@ -143,6 +145,8 @@ def _find_lack(picture: Picture, claim: Claim) -> str | None:
             return reason
     if claim.word in _TOWNS and not picture.scenery_share(_TOWN_HOUSES) >= LEAST_TOWN:
         return "hardly a house in view"
+    if claim.value == "rooftop" and picture.scenery_share(_OF_ROOFS) < LEAST_ROOF:
+        return "not told as a roof"
     needed = _NEEDS.get(claim.word)
     names = picture.seen_nouns(LEAST_TELLING) if needed or claim.value == "hills" else set()
     if needed is not None and not names & set(needed):

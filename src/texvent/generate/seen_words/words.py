@@ -98,7 +98,7 @@ def _judge_scene_word(
         return judge_move(picture, description, claim)
     if claim.aspect in ("view", "framing"):
         return judge_camera(picture, description, claim)
-    if claim.aspect in ("place", "steep", "clouds", "sky"):
+    if claim.aspect in ("place", "steep", "clouds", "sky", "waves"):
         return judge_place(picture, description, claim)
     if claim.aspect == "colour":
         return _judge_painted(picture, description, claim)

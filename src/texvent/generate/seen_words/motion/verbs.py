@@ -175,6 +175,8 @@ class _Judge:
                 return f"{noun} {HARDLY}"
             if phase.motion.kind == "work" and claim.word in _TO_A_SIDE:
                 return f"{noun} stays where it is"
+            if phase.motion.kind == "point" and claim.word in DIRECTIONS["towards"]:
+                return f"{noun} points to a side"
             moves = self._measure(index, phase)
             if not moves:
                 continue

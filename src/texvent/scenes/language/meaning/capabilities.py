@@ -26,6 +26,9 @@ _ROOTED = frozenset(
      "cliff", "windmill", "wind turbine", "power pylon", "water tower", "control tower"}
 )  # fmt: skip
 """What stays where it is, and is thrown, rolled and tilted by nothing."""
+_RIDES = frozenset({"roller coaster", "ferris wheel", "merry-go-round", "carousel"})
+"""What goes round in its place, and nowhere."""
+_GOING = frozenset({"move", "slide", "rise", "sink", "fall", "drive"})
 _OF_LOOSE_THINGS = frozenset({"throw", "roll", "bounce", "flip", "hover", "jump", "swing"})
 _TRAVELLER = frozenset({"turn", "reverse", "zigzag"})
 _ANIMAL = frozenset(
@@ -81,6 +84,8 @@ def can_do(noun: Noun, kind: str) -> bool:
         kind: an `ObjectMotion.kind`.
     """
     if noun.name in _ROOTED and kind in _OF_LOOSE_THINGS:
+        return False
+    if noun.name in _RIDES and kind in _GOING:
         return False
     if (
         kind in noun.acts

@@ -33,6 +33,9 @@ _CITY = 5
 _RIVER = 11
 _LAKE = 12
 _WATER = 30
+_BREAKERS_M, _ROLL_M_S = 6.0, 2.0
+"""From one line of foam to the next, and how fast they come."""
+_FOAM = (0.82, 0.84, 0.84)
 _FLOW_M_S = 0.9
 _DRIFT_M_S = 0.25
 
@@ -157,7 +160,23 @@ def _track(
 
 
 @jit(error_model="numpy", inner=True)
-def _water(world: World, strip: Strip, axes: Patch, view_up: float) -> Look:
+def _foam_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
+    """Share of foam on high waves: lines of it roll onto a shore, fewer far out."""
+    if instant.wave_height <= 1.0 or instant.ground != _LAKE:
+        return 0.0
+    far = max(strip[1], 0.0)
+    seaward = far + _ROLL_M_S * instant.time
+    place = (seaward + 3.0 * noise_2d(0.12 * strip[0], 0.0, 5)) / _BREAKERS_M
+    behind = place - math.floor(place)
+    patchy = noise_2d(0.5 * strip[0], 0.9 * seaward, 6)
+    sharp = _BREAKERS_M / max(feet[1], 0.5)
+    line = smooth((0.24 + 0.26 * patchy - behind) * min(sharp, 6.0) + 0.5)
+    near = math.exp(-far / (8.0 * instant.wave_height))
+    return 0.9 * near * (0.15 + (line - 0.15) * detail_fade(feet[1] / _BREAKERS_M))
+
+
+@jit(error_model="numpy", inner=True)
+def _water(world: World, strip: Strip, axes: Patch, view_up: float, foam: float) -> Look:
     """Rippled water that flows along the strip and mirrors the sky."""
     instant = world.instant[0]
     speed = _FLOW_M_S if instant.ground == _RIVER else _DRIFT_M_S
@@ -172,7 +191,7 @@ def _water(world: World, strip: Strip, axes: Patch, view_up: float) -> Look:
     bright = mix(deep, triple(instant.sky_horizon), 0.65)
     look = painted(sample, deep, bright, 1.0)
     # Ripples lie flat: their slopes turn what is mirrored, not the water's own shade.
-    return look[0], 0.0, 0.0
+    return mix(look[0], _FOAM, foam), 0.0, 0.0
 
 
 @jit(error_model="numpy", inner=True)
@@ -262,11 +281,12 @@ def strip_look(world: World, x: float, y: float, patch: Patch, axes: Patch, view
     feet = _feet(strip, patch)
     wet = _inside_share(instant, strip, feet[1])
     if wet >= 1.0:
-        return _water(world, strip, axes, view_up)
+        return _water(world, strip, axes, view_up, _foam_share(instant, strip, feet))
     land = land_look(world, x, y, axes)
     edge = strip[1] + 1.2 if instant.ground == _LAKE else instant.road[2] + 1.2 - abs(strip[1])
     bank = 0.6 * smooth(edge / 2.0)
     land = scaled(mix(land[0], (0.20, 0.155, 0.10), bank), 1.0 - 0.25 * bank), land[1], land[2]
     if wet <= 0.0:
         return land
-    return mixed(land, _water(world, strip, axes, view_up), wet)
+    foam = _foam_share(instant, strip, feet)
+    return mixed(land, _water(world, strip, axes, view_up, foam), wet)

@@ -19,7 +19,8 @@ FOAM_FROM, FOAM_STEEPNESS = 0.085, 5.0
 def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -> Colour:
     """Moving waves that mirror the sky; waves smaller than a pixel fade out. High ones foam."""
     slope_x, slope_y, crest = 0.0, 0.0, 0.0
-    length, angle, strength = 9.0, 0.4, 0.042 * instant.wave_height
+    length, angle = 9.0 * instant.wave_height, 0.4
+    strength = 0.042 * instant.wave_height
     for _ in range(7):
         wave = 2.0 * math.pi / length
         cosine, sine = math.cos(angle), math.sin(angle)
