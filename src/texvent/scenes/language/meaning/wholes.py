@@ -22,6 +22,8 @@ def _words(text: str) -> frozenset[str]:
 
 _OF_PEOPLE = _words("hair beard skin ponytail braid moustache")
 """Parts that are shown with people; of arms and legs there are activities."""
+_LIMBS = _words("hand finger fist arm foot leg head")
+"""Parts with which people do what they do: "a woman's hands knead dough"."""
 _OF_ANIMALS = _words(
     "fur feather head leg tail paw hoof fin mane beak ear eye nose claw jaw blade rotor tongue"
     " whisker horn antler snout trunk"
@@ -148,10 +150,10 @@ def _find_whole(group: NounGroup, nouns: Mapping[str, Noun]) -> Noun | None:
 
 def _is_part(part: str, whole: str, noun: Noun) -> bool:
     owners = _OWN_PARTS.get(part)
-    if owners is not None:
+    if owners is not None and not (is_person(noun) and part in _LIMBS):
         return whole in owners
     if is_person(noun):
-        return part in _OF_PEOPLE
+        return part in _OF_PEOPLE or part in _LIMBS
     return part in (_OF_ANIMALS if is_living(noun) else _OF_THINGS)
 
 
@@ -163,7 +165,8 @@ def _find_owner(group: NounGroup, nouns: Mapping[str, Noun]) -> NounGroup | None
     if owner is None or owner.head is None or group.head is None or noun is None:
         return None
     part = _name(group.head)
-    is_alone = part not in _OWN_PARTS and group.head.read_as(Role.NOUN) is not None
+    is_thing = group.head.read_as(Role.NOUN) is not None and not is_living(noun)
+    is_alone = part not in _OWN_PARTS and is_thing
     return owner if not is_alone and _is_part(part, _name(owner.head), noun) else None
 
 
@@ -209,6 +212,8 @@ def _works_by_part(part: str, verb: str, whole: Noun) -> bool:
         return whole.name in OPENING and part in ("door", "lid", "drawer", "flap")
     if part in _OF_FRONTS:
         return verb in _COMING
+    if is_person(whole) and part in _LIMBS:
+        return True
     return whole.is_working and verb in _TURNING
 
 

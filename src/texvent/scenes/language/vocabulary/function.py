@@ -66,6 +66,7 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
     Pos.ADVERB: (
         "also", "here", "how", "please", "quite", "really", "so", "too", "very", "why", "together",
         "somewhat", "almost", "again", "silently", "quietly", "loudly", "noisily",
+        "from a standstill", "from standstill", "from rest",
     ),
     Pos.VERB: (
         "show", "shows", "showing", "shown", "depicts", "depicting", "depict", "features",

@@ -73,6 +73,12 @@ VERBS: tuple[Verb, ...] = (
     Verb("come", "move", direction="towards"),
     Verb("approach", "move", direction="towards", relation="towards"),
     Verb("oncome", "move", direction="towards"),
+    *(
+        Verb(f"{base} {way} the {goal}", "move", direction="away")
+        for base in ("disappear", "vanish")
+        for way in ("in", "into", "over")
+        for goal in ("distance", "horizon")
+    ),
     Verb("leave", "leave"),
     Verb("exit", "leave"),
     Verb("depart", "move", 0.0, direction="away", end_pace=1.0),

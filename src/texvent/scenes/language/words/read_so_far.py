@@ -17,9 +17,13 @@ _PERCEIVED = frozenset({"watch", "see", "hear", "let", "make", "help", "film"})
 class ReadSoFar:
     """The readings chosen so far, and those that each word can have."""
 
-    def __init__(self, candidates: list[list[Meaning]], texts: list[str]) -> None:
+    def __init__(
+        self, candidates: list[list[Meaning]], texts: list[str], owners: frozenset[int]
+    ) -> None:
         self._candidates = candidates
         self._texts = texts
+        self._owners = owners
+        """Numbers of the words that end in a possessive 's."""
         self._chosen: list[Meaning] = []
         self._sentence_start = 0
         """Number of the first word of the sentence."""

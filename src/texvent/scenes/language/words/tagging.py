@@ -9,7 +9,7 @@ from texvent.scenes.language.words.english import Pos, VerbForm, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.read_so_far import NOMINAL, ReadSoFar
 from texvent.scenes.language.words.tokens import Token
-from texvent.scenes.language.words.word import Word
+from texvent.scenes.language.words.word import Word, is_possessive
 
 _OPENS_NOUN = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE})
 """After these a noun or one more adjective follows."""
@@ -30,7 +30,8 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
     tokens = [correct_token(token, known, notes) for token in tokens]
     spans = list(cut_tokens(tokens, known))
     texts = [" ".join(token.text for token in span) for span, _ in spans]
-    tagger = _Tagger([candidates for _, candidates in spans], texts)
+    owners = frozenset(number for number, (span, _) in enumerate(spans) if is_possessive(span[-1]))
+    tagger = _Tagger([candidates for _, candidates in spans], texts, owners)
     words: list[Word] = []
     for index, (span, candidates) in enumerate(spans):
         chosen = tagger.choose(index)
@@ -123,6 +124,8 @@ class _Tagger(ReadSoFar):
             return Pos.VERB
         if not others or self._before() is Pos.TO or self._is_of_camera(index, verb):
             return Pos.VERB
+        if index - 1 in self._owners and Pos.NOUN in others and verb.form is not VerbForm.ING:
+            return None  # "a woman's hands"
         adverb = by_pos.get(Pos.ADVERB)
         is_adverb = adverb is not None and adverb.role is not Role.UNKNOWN
         if is_adverb and (verb.role is Role.UNKNOWN or verb.form is VerbForm.PAST):

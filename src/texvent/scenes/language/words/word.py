@@ -71,9 +71,7 @@ class Word:
     @property
     def is_possessive(self) -> bool:
         """Whether it owns what follows: "the dog's tail"."""
-        written = self.tokens[-1].written.casefold()
-        is_owner = written.endswith(("'s", "’s", "s'", "s’"))
-        return is_owner and self.tokens[-1].text not in CONTRACTED
+        return is_possessive(self.tokens[-1])
 
     def read_as(self, role: Role) -> Meaning | None:
         """Its meaning in that role, if it can have it."""
@@ -95,3 +93,9 @@ def mark_used(words: Iterable[Word]) -> None:
     """These words had an effect."""
     for word in words:
         word.is_used = True
+
+
+def is_possessive(token: Token) -> bool:
+    """Whether a token owns what follows: "dog's" of "the dog's tail"."""
+    is_owner = token.written.casefold().endswith(("'s", "’s", "s'", "s’"))
+    return is_owner and token.text not in CONTRACTED

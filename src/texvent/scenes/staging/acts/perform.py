@@ -361,8 +361,8 @@ def _move_along(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]
 
 
 def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
-    if target.noun.name in GARMENTS and is_person(subject):
-        return subject, None
+    if target.noun.name in GARMENTS and (is_person(subject) or subject.noun.motion == "drive"):
+        return subject, None  # who rides a bicycle is of its model, in clothes of that
     wear = WORN.get(target.noun.name, Wear("crown"))
     if wear.place in ("foot", "hand"):
         side = "left" if target.instance % 2 else "right"

@@ -98,7 +98,8 @@ def take_handled(draft: Draft, clause: Clause, subjects: Sequence[int]) -> None:
             if word is group.head:
                 word.things = (doer,)
                 word.is_used = word.lemma == HANDLED[noun] or word.lemma in _BLOCKS
-                word.shown_as = None if word.is_used else HANDLED[noun]
+                is_one = word.is_used and not word.meaning.is_plural
+                word.shown_as = None if is_one else f"one {HANDLED[noun]}"
     clause.objects = []
 
 
