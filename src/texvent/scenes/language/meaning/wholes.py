@@ -89,6 +89,7 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None
         owner = _find_owner(group, nouns) or _find_host(clause, group, before, nouns)
         whole = _find_whole(group, nouns) if owner is None else _find_noun(owner.head, nouns)
         if whole is None:
+            _leave_owner(group)
             continue
         part = group.head_word
         is_by_part = _works_by_part(_name(part), verb, whole)
@@ -102,6 +103,14 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None
             _let_stand(clause)
         elif not is_by_part:
             _lose_verb(clause)
+
+
+def _leave_owner(group: NounGroup) -> None:
+    """As in "a car's wheel spins": a wheel does, and no car is there."""
+    if group.head is None or _name(group.head) not in _ALONE:
+        return
+    group.owner = None
+    group.phrases = [one for one in group.phrases if one.preposition.text != "of"]
 
 
 def _is_rotor(part: str, whole: Noun) -> bool:

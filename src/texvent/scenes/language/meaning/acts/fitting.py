@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import Effect, ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
-from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.vocabulary.motion import WINDS, Verb
@@ -303,6 +303,30 @@ def choose_act(verb: Verb, doer: Noun, target: Noun, target_m: float = 0.0) -> s
     if is_living(doer) or is_hand(doer):
         return act if act in _ACTED_BY_LIVING else None
     return act if act in _ACTED_BY_ANYTHING else None
+
+
+def fit_kind(verb: Verb, nouns: Sequence[Noun]) -> Verb:
+    """The verb as things like these do it: what works does so in its place, a wheel spins."""
+    is_working = any(noun.is_working for noun in nouns)
+    is_by_itself = verb.kind in ("wave", "fly", "sway", "turn") and verb.base not in _UNSTEADY
+    if is_by_itself and is_working:
+        return replace(verb, kind="work")
+    is_spun = all(not can_do(noun, "turn") and noun.name not in _LEAFED for noun in nouns)
+    if verb.kind == "turn" and nouns and is_spun:
+        return replace(verb, kind="spin", pace=0.5 * verb.pace)
+    if verb.kind == "swim" and nouns and all(noun.habitat == "air" for noun in nouns):
+        return replace(verb, kind="fly")
+    if verb.kind == "fly" and nouns and all(noun.motion == "swim" for noun in nouns):
+        return replace(verb, kind="swim")
+    if verb.base == "glide" and not any(noun.habitat == "air" for noun in nouns):
+        return replace(verb, kind="slide" if any(map(is_person, nouns)) else "move")
+    return verb
+
+
+_LEAFED = frozenset({"page", "book"})
+"""What does not spin where it turns."""
+_UNSTEADY = ("wobble", "rock", "tilt")
+"""How the whole of a thing moves that works in its place: a top, a metronome."""
 
 
 def is_plain_past(word: Word) -> bool:

@@ -24,6 +24,7 @@ from texvent.scenes.language.meaning.acts.fitting import (
     WHEELED,
     choose_act,
     fall_over,
+    fit_kind,
     fit_moving,
     fit_verb,
     hang_up,
@@ -362,15 +363,7 @@ class ActReader:
         for index in things:
             line_up(self._draft.objects[index], verb.kind)
         nouns = [self._draft.noun(index) for index in things]
-        is_by_itself = verb.kind in ("wave", "fly", "sway", "turn") and verb.base not in _UNSTEADY
-        if is_by_itself and any(noun.is_working for noun in nouns):
-            verb = replace(verb, kind="work")
-        if verb.kind == "swim" and nouns and all(noun.habitat == "air" for noun in nouns):
-            verb = replace(verb, kind="fly")
-        if verb.kind == "fly" and nouns and all(noun.motion == "swim" for noun in nouns):
-            verb = replace(verb, kind="swim")
-        if verb.base == "glide" and not any(noun.habitat == "air" for noun in nouns):
-            verb = replace(verb, kind="slide" if any(map(is_person, nouns)) else "move")
+        verb = fit_kind(verb, nouns)
         added = []
         for index in things:
             noun = self._draft.noun(index)
@@ -398,5 +391,3 @@ _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "pa
 _COMING = frozenset({"move", "bring"})
 _LINES = frozenset({"rope", "chain", "hose"})
 """What is pulled at, not along."""
-_UNSTEADY = ("wobble", "rock", "tilt")
-"""How the whole of a thing moves that works in its place: a top, a metronome."""
