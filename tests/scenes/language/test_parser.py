@@ -403,6 +403,9 @@ def test_any_text_is_read_and_every_word_is_understood_or_reported(text: str) ->
 
     for token in tokenize_prompt(text):
         is_word = not token.is_punctuation
+        corrected = f"'{token.written}' is read as"
+        if any(note.startswith(corrected) for note in description.notes):
+            continue
         if is_word and not token.is_number and token.text not in KNOWN_WORDS:
             assert token.text in reported
     for scene_object in description.objects:

@@ -261,7 +261,7 @@ def drop_ground(clause: Clause) -> None:
     if clause.verb is None or base_form(clause.verb.lemma) not in _UP:
         return
     for phrase in list(clause.phrases):
-        heads = [group.head_word.text for group in phrase.groups]
+        heads = [group.head.text for group in phrase.groups if group.head is not None]
         if phrase.preposition.text in ("from", "off") and heads in (["ground"], ["floor"]):
             mark_used([phrase.preposition, *(w for group in phrase.groups for w in group.words)])
             clause.phrases.remove(phrase)
