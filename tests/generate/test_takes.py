@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
+
 import pytest
 
+from texvent.errors import TexventWarning
 from texvent.generate import takes
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.description import CameraMove, SceneDescription, SceneObject, Shot
@@ -82,3 +85,18 @@ def test_more_words_are_shown_and_none_is_lost(monkeypatch):
     shown = set(generator.report(prompt).shown)
     monkeypatch.setattr(takes, "MOST", 0)
     assert shown > set(generator.report(prompt).shown)
+
+
+def test_a_camera_sways_before_what_hardly_changes_the_picture_unless_it_is_said_to_rest():
+    generator = ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE)
+    moves = {}
+    for prompt in ("a snail crawls on a table", "a snail crawls on a table, static camera"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", TexventWarning)
+            moves[prompt] = generator.generate(prompt).scene.camera_path.moves
+    swaying, resting = moves.values()
+    assert [move.kind for move in swaying] == ["handheld"]
+    assert [move.kind for move in resting] == ["static"]
+    assert not generator.generate("a dog runs left").scene.camera_path.moves
+    notes = generator.report("a snail crawls on a table").notes
+    assert any("so the camera sways" in note for note in notes)

@@ -132,3 +132,14 @@ def test_what_carries_the_camera_is_not_in_the_picture_and_the_camera_goes(promp
 def test_other_vehicles_of_a_dashcam_are_there() -> None:
     found = parse_prompt("Dashcam footage of a truck that overtakes on a highway.")
     assert [one.noun for one in found.objects] == ["truck"]
+
+
+def test_a_camera_move_has_the_pace_that_is_said_before_or_after_it() -> None:
+    slow, fast = (parse_prompt(f"a {pace} camera pan over a village").shot.moves[0]
+                  for pace in ("slow", "fast"))  # fmt: skip
+    assert slow.pace < 1.0 < fast.pace
+
+
+def test_who_looks_down_a_street_sees_along_it() -> None:
+    assert parse_prompt("the camera looks down a narrow street").shot.view is None
+    assert parse_prompt("the camera looks down at a street").shot.view == "aerial"

@@ -447,3 +447,76 @@ def test_what_stands_moves_in_the_wind_by_swaying(prompt: str, kind: str) -> Non
 def test_a_camera_still_moves_in() -> None:
     for prompt in ("the camera moves in on a car", "the camera moves in"):
         assert [move.kind for move in parse_prompt(prompt + ", a car").shot.moves] == ["dolly"]
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "a ball rolls into a wall", "a car drives into a tree", "a bicycle runs into a fence",
+        "a ball bounces off a wall", "an arrow hits a target", "a bird flies into a window",
+    ],
+)  # fmt: skip
+def test_what_goes_into_something_solid_meets_it(prompt: str) -> None:
+    description = parse_prompt(prompt)
+    assert [(one.kind, one.subject, one.targets) for one in description.relations] == [
+        ("collide", 0, (1,))
+    ]
+    assert not description.not_understood
+
+
+def test_a_pedestrian_who_crosses_is_no_crosswalk() -> None:
+    assert parse_prompt("a pedestrian crossing the street").objects[0].noun == "person"
+    assert parse_prompt("a car waits at a pedestrian crossing").objects[1].noun == "crosswalk"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("a car in a tunnel", "road tunnel"),
+        ("driving through a tunnel", "road tunnel"),
+        ("a man walks through a tunnel", "road tunnel"),
+        ("a train leaves a tunnel", "railway"),
+    ],
+)
+def test_one_is_in_a_tunnel_but_leaves_its_mouth(prompt: str, place: str) -> None:
+    description = parse_prompt(prompt)
+    assert description.surroundings.place == place
+    is_thing = any(one.noun == "tunnel" for one in description.objects)
+    assert is_thing == (place == "railway")
+
+
+def test_two_go_in_opposite_directions_and_one_makes_an_eight() -> None:
+    first, second = parse_prompt("a car and a bus drive in opposite directions").objects
+    assert first.motion is not None
+    assert second.motion is not None
+    assert {first.motion.direction, second.motion.direction} == {"left", "right"}
+    motion = parse_prompt("a drone flies in a figure of eight").objects[0].motion
+    assert motion is not None
+    assert motion.direction == "eight"
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["a cube spins around its axis", "a drone takes off from the ground",
+     "a person picks up a box from the floor", "a fish jumps out of the water",
+     "a car accelerates from a standstill"],
+)  # fmt: skip
+def test_what_goes_without_saying_is_no_fault(prompt: str) -> None:
+    assert not parse_prompt(prompt).not_understood
+
+
+def test_a_wheel_turns_and_a_robot_on_wheels_drives() -> None:
+    for prompt, kind in (("a wheel turns", "spin"), ("a mobile robot drives left", "roll")):
+        motion = parse_prompt(prompt).objects[0].motion
+        assert motion is not None
+        assert motion.kind == kind
+
+
+def test_rides_stay_where_they_are() -> None:
+    description = parse_prompt("a roller coaster goes down")
+    assert "goes" in description.not_understood
+
+
+def test_several_things_that_a_robot_arm_handles_are_shown_as_one() -> None:
+    said = {one.said: one.shown for one in parse_prompt("a robot arm sorts cubes").substituted}
+    assert said["cubes"] == "one block"

@@ -108,3 +108,57 @@ def test_a_game_that_is_named_is_shown_by_one_person_and_reported_so(
 
 def test_an_activity_alone_is_a_person_who_does_it() -> None:
     assert parse_prompt("squat").objects[0].noun == "person"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place", "means"),
+    [
+        ("night driving", "road", "drive"),
+        ("highway driving in rain", "motorway", "drive"),
+        ("forest walking", "forest", "walk"),
+        ("tunnel driving at night", "road tunnel", "drive"),
+    ],
+)
+def test_who_goes_through_a_place_is_the_camera(prompt: str, place: str, means: str) -> None:
+    description = parse_prompt(prompt)
+    (move,) = description.shot.moves
+    assert (move.kind, move.means) == ("travel", means)
+    assert (description.surroundings.place, description.objects) == (place, ())
+
+
+def test_a_place_drifts_before_a_camera_that_pans() -> None:
+    description = parse_prompt("star field drifting slowly")
+    (move,) = description.shot.moves
+    assert (move.kind, move.pace < 1.0) == ("pan", True)
+    assert not description.not_understood
+
+
+def test_a_rate_at_the_end_is_that_of_the_thing_before_it() -> None:
+    (led,) = parse_prompt("blinking LED 200 Hz").objects
+    assert led.blink_hz == 200.0
+    assert parse_prompt("an LED blinks at 5 kHz").objects[0].blink_hz == 5000.0
+
+
+def test_headlights_are_those_of_a_car() -> None:
+    description = parse_prompt("oncoming headlights at night")
+    (car,) = description.objects
+    assert car.motion is not None
+    assert (car.noun, car.motion.direction) == ("car", "towards")
+    assert [str(one) for one in description.substituted] == ["headlights → car"]
+    assert [one.noun for one in parse_prompt("the headlights of a truck").objects] == ["truck"]
+
+
+def test_a_time_lapse_is_of_what_stands_before_it() -> None:
+    description = parse_prompt("city skyline timelapse")
+    assert (description.surroundings.place, description.is_timelapse) == ("city", True)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "kind"),
+    [("falling dominoes", "domino row", "collapse"), ("rolling dice", "dice", "roll"),
+     ("3D printer printing", "filament printer", "work"), ("jet flyover", "airplane", "fly")],
+)  # fmt: skip
+def test_a_participle_first_or_last_is_what_the_thing_does(prompt, noun, kind) -> None:
+    (only,) = parse_prompt(prompt).objects
+    assert only.motion is not None
+    assert (only.noun, only.motion.kind) == (noun, kind)

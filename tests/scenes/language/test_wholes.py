@@ -52,3 +52,43 @@ def test_a_noun_of_what_happens_leaves_the_thing_before_it() -> None:
     assert parse_prompt("office corridor walkthrough").surroundings.place == "corridor"
     with pytest.raises(InputError, match="nothing in the prompt"):
         parse_prompt("snail mail")
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "kind"),
+    [
+        ("a woman's hands knead dough", "woman", "knead"),
+        ("a man's hand waves", "man", "wave"),
+        ("a man's head nods", "man", "nod"),
+    ],
+)
+def test_who_has_the_hands_does_it(prompt: str, noun: str, kind: str) -> None:
+    first = parse_prompt(prompt).objects[0]
+    assert first.motion is not None
+    assert (first.noun, first.motion.kind) == (noun, kind)
+
+
+@pytest.mark.parametrize("prompt", ["a car's wheel spins", "the propeller of a ship spins"])
+def test_a_part_that_is_a_thing_moves_alone_and_its_owner_is_reported(prompt: str) -> None:
+    description = parse_prompt(prompt)
+    (only,) = description.objects
+    assert only.noun in ("wheel", "propeller")
+    assert only.motion is not None
+    assert only.motion.kind in ("spin", "work")
+    assert set(description.not_understood) & {"car", "ship"}
+
+
+def test_blades_have_the_rate_of_the_fan_and_a_dot_is_on_its_disc() -> None:
+    (fan,) = parse_prompt("a fan with four blades spinning at 10 Hz").objects
+    assert fan.motion is not None
+    assert (fan.noun, fan.motion.kind) == ("fan", "work")
+    assert fan.motion.pace == pytest.approx(10.0 / 3.37, rel=0.01)
+    assert [one.noun for one in parse_prompt("a disc with a black dot rotates").objects] == [
+        "dotted disc"
+    ]
+
+
+def test_weights_are_one_barbell() -> None:
+    assert [(one.noun, one.count) for one in parse_prompt("a man lifts weights").objects] == [
+        ("man", 1), ("barbell", 1)
+    ]  # fmt: skip

@@ -23,6 +23,7 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
     Circle,
+    FigureEight,
     Riding,
     Rolling,
     Shuttle,
@@ -40,6 +41,7 @@ TRAJECTORIES: dict[str, Trajectory] = {
     "rolling": Rolling(Straight((0.0, 0.0, 0.0), 0.0, 2.0, 1.0), 0.25, 0.25),
     "shuttle": Shuttle((0.0, 0.0, 0.0), 0.5, 1.5, 2.0),
     "circle": Circle((0.0, 0.0, 1.0), 2.0, -1.5, 0.4, lean_rad=0.3),
+    "eight": FigureEight((0.0, 0.0, 1.0), 2.0, 0.4, 1.2, 0.3, lean_rad=0.3),
     "spin": Spin((0.0, 0.0, 0.0), 3.0),
     "bounce": Bounce((0.0, 0.0, 1.5), along_m_s=0.5),
     "throw": Bounce((0.0, 0.0, 1.0), 0.0, 4.0, 2.0, restitution=0.6, tumble_rad_s=3.0),
@@ -138,6 +140,25 @@ def test_a_circling_body_faces_along_its_path() -> None:
     step = np.subtract(circle.at(0.3 + 1e-6).position, circle.at(0.3).position)
     nose = rotation(circle.at(0.3).yaw, 0.0, 0.0) @ [1.0, 0.0, 0.0]
     np.testing.assert_allclose(step / np.linalg.norm(step), nose, atol=1e-5)
+
+
+def test_an_eight_closes_crosses_its_middle_and_is_faced_along() -> None:
+    eight = FigureEight((1.0, 2.0, 3.0), 2.0, 0.4, 1.2)
+    round_s = 2.0 * math.pi / 1.2
+    for time_s in (0.0, 0.5 * round_s, round_s):
+        assert eight.at(time_s).position == pytest.approx((1.0, 2.0, 3.0))
+    end = eight.at(0.25 * round_s).position
+    assert end == pytest.approx((1.0 + 2.0 * math.cos(0.4), 2.0 + 2.0 * math.sin(0.4), 3.0))
+    times = np.linspace(0.0, round_s, 4001)
+    places = np.array([eight.at(float(t)).position for t in times])
+    way = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
+    assert eight.at(round_s).distance_m == pytest.approx(way, rel=1e-3)
+    for time_s in (0.3, 1.7, 4.0):
+        state = eight.at(time_s)
+        step = np.subtract(eight.at(time_s + 1e-5).position, state.position)
+        assert math.atan2(step[1], step[0]) == pytest.approx(
+            math.remainder(state.yaw, 2.0 * math.pi), abs=1e-3
+        )
 
 
 def test_a_jump_reaches_its_height_and_lands() -> None:

@@ -46,7 +46,9 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
     Nouns in a sense that is not shown, and verbs with a particle, lose their meaning: "a tower of
     cards", "call out". The words change.
     """
-    is_told = sum(word.pos in (Pos.NOUN, Pos.VERB) for word in words) > 1
+    is_told = sum(
+        word.pos in (Pos.NOUN, Pos.VERB) or word.role is Role.CAMERA_MOVE for word in words
+    ) > 1  # fmt: skip
     said = {word.lemma for word in words} | {part for word in words for part in word.text.split()}
     for index, word in enumerate(words):
         follower = words[index + 1] if index + 1 < len(words) else None

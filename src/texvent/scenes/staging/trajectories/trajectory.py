@@ -206,6 +206,10 @@ class Circle:
         )
 
 
+_EIGHT_SPEED = 0.9704
+"""Mean over a round of the speed along an eight, over that of u times half its length."""
+
+
 @dataclass(frozen=True)
 class FigureEight:
     """Goes along an eight that lies on its side, at a constant rate, facing along its path.
@@ -230,14 +234,14 @@ class FigureEight:
         along, aside = self.half_m * math.sin(u), 0.5 * self.half_m * math.sin(2.0 * u)
         ahead_m, aside_m = self.half_m * math.cos(u), self.half_m * math.cos(2.0 * u)
         cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
-        speed = self.rate_rad_s * math.hypot(ahead_m, aside_m)
+        speed = abs(self.rate_rad_s) * math.hypot(ahead_m, aside_m)
         x, y, z = self.centre
         return BodyState(
             (x + along * cosine - aside * sine, y + along * sine + aside * cosine, z),
             self.yaw + math.atan2(aside_m, ahead_m),
             # It leans into the bend: to the one side in one half, to the other in the other.
             roll=self.lean_rad * math.sin(u),
-            distance_m=speed * time_s,
+            distance_m=_EIGHT_SPEED * abs(self.rate_rad_s) * self.half_m * time_s,
             speed_m_s=speed,
             activity=self.activity,
         )
