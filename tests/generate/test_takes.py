@@ -88,7 +88,7 @@ def test_more_words_are_shown_and_none_is_lost(monkeypatch):
 
 
 def test_a_camera_sways_before_what_hardly_changes_the_picture_unless_it_is_said_to_rest():
-    generator = ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE)
+    generator = ProceduralGenerator(ProceduralConfig(duration=2.0), size=SIZE)
     moves = {}
     for prompt in ("a snail crawls on a table", "a snail crawls on a table, static camera"):
         with warnings.catch_warnings():
