@@ -96,7 +96,7 @@ def test_a_camera_sways_before_what_hardly_changes_the_picture_unless_it_is_said
             moves[prompt] = generator.generate(prompt).scene.camera_path.moves
     swaying, resting = moves.values()
     assert [move.kind for move in swaying] == ["handheld"]
-    assert [move.kind for move in resting] == ["static"]
+    assert not resting
     assert not generator.generate("a dog runs left").scene.camera_path.moves
     notes = generator.report("a snail crawls on a table").notes
     assert any("so the camera sways" in note for note in notes)
