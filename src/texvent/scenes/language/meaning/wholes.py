@@ -44,6 +44,7 @@ _OWN_PARTS: Mapping[str, frozenset[str]] = {
     "turbine": _words("engine"),
     "drum": _words("machine washer dryer"),
     "hook": _words("crane"),
+    "beam": _words("lighthouse"),
     "bucket": _words("excavator loader digger"),
     "arm": _words("excavator crane digger"),
     "key": _words("piano keyboard laptop"),

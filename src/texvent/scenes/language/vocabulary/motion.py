@@ -108,6 +108,11 @@ VERBS: tuple[Verb, ...] = (
             "grind to a halt",
             "roll to a stop",
             "brake to a stop",
+            "brake suddenly",
+            "brake hard",
+            "brake abruptly",
+            "stop suddenly",
+            "stop abruptly",
         )
     ),
     *(Verb(base, "move", 1.6, end_pace=0.2) for base in ("slow down", "slow", "decelerate")),

@@ -96,7 +96,9 @@ THING_KINDS: dict[str, str] = {
     "flashlight": "headlamp, penlight",
     "clock": "analog clock, digital clock, timepiece, cuckoo clock, alarm clock",
     "watch": "stopwatch, smartwatch, pocket watch, digital watch",
-    "fan": "ventilator",
+    "fan": """
+        ventilator, industrial fan, desk fan, pedestal fan, floor fan, standing fan, exhaust fan,
+        cooling fan, computer fan, case fan, pc fan""",
     "radio": "cassette player, tape player, boombox, cd player, walkie talkie",
     "monitor": "computer, desktop computer, pc, crt screen, imac, oscilloscope",
     "tv": "home theater, plasma tv, entertainment center",

@@ -316,7 +316,8 @@ class CircumstanceReader:
         for index in scope.subjects if is_wind else ():
             item, noun = self._draft.objects[index], self._draft.noun(index)
             kinds = {motion.kind for motion in item.motions}
-            if kinds & {"work", "sway"} or (noun.is_working and not kinds):
+            is_blown = noun.name == "kite" and kinds <= {"fly", "hover", "float"}
+            if kinds & {"work", "sway"} or (noun.is_working and not kinds) or is_blown:
                 mark_used([word, *one.group.words[-1:]])
 
     def _read_worn_colour(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
