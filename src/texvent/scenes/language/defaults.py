@@ -348,7 +348,8 @@ _USUAL_ACTS = {
     "welder": "weld", "chef": "cook", "fisherman": "fish", "lumberjack": "chop wood",
     "janitor": "mop", "miner": "dig",
 }  # fmt: skip
-"""Who is known by what they do → that, if nothing else moves."""
+"""People with a model of their own, who are known by what they do → that, if nothing else moves.
+Words that are shown as any person are in `acts.doers`: nothing but the act tells who is meant."""
 
 
 def _usual_motion(description: SceneDescription, noun: Noun) -> str:

@@ -5,20 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 OF_SCENE = frozenset(
-    {
-        "place",
-        "light",
-        "weather",
-        "sky",
-        "snow",
-        "dust",
-        "shadow",
-        "glow",
-        "clouds",
-        "flicker",
-        "waves",
-    }
-)
+    {"place", "light", "weather", "sky", "snow", "dust", "shadow", "glow", "clouds", "flicker",
+     "waves"}
+)  # fmt: skip
 """Kinds of referents that are no objects but their surroundings."""
 
 

@@ -72,7 +72,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
 VERBS: tuple[Verb, ...] = (
     Verb("come", "move", direction="towards"),
     Verb("approach", "move", direction="towards", relation="towards"),
-    Verb("oncome", "move", direction="towards"),
+    Verb("oncome", "move", direction="towards"),  # "oncoming traffic"
     *(
         Verb(f"{base} {way} the {goal}", "move", direction="away")
         for base in ("disappear", "vanish")

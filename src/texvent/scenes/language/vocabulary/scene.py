@@ -220,7 +220,7 @@ SNOWY = ("snow", "snowy", "snow covered", "winter", "wintry")
 STEEP = ("steep", "uphill", "downhill", "slope", "sloping", "hilly")
 WAVES = tuple(
     f"{kind} {waves} {moving}".strip()
-    for kind in ("", "ocean", "sea", "water", "big", "high", "huge", "gentle", "small")
+    for kind in ("", "ocean", "sea", "water", "big", "high", "huge")
     for waves in ("waves", "swell")
     for moving in ("", "crash", "crashing", "break", "breaking", "roll", "rolling", "lap",
                    "lapping", "wash", "washing", "move", "moving", "rise and fall")

@@ -49,7 +49,7 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
     3. A material before a verb is the thing: "glass shattering".
     4. What is done to the thing before it comes before the thing: "page turning".
     5. A rate at the end is that of the thing before it: "blinking LED 200 Hz".
-    6. Who goes through a place that nobody is named in is the camera: "night driving"; before a
+    6. Who goes through a place without being named is the camera: "night driving"; before a
        camera that pans it drifts: "star field drifting".
     """
     found: list[Word] = []

@@ -10,7 +10,7 @@ import numpy as np
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.attached import FreeFlight, Switched, with_middle
-from texvent.scenes.staging.acts.striking import contact_time
+from texvent.scenes.staging.acts.striking import contact_time, heading_of, lift_of, vector
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
@@ -91,24 +91,24 @@ def _run_into(mover: Actor, still: Actor, contact_s: float) -> tuple[Actor, Acto
     low, high = part_boxes(still, 0.0).hull
     middle = 0.5 * (low + high)
     is_flying = _comes_flying(mover, still)
-    lift = 0.0 if mover.is_centred else 0.5 * mover.model.height
+    lift = lift_of(mover)
     goal = (float(middle[0]), float(middle[1]),
             float(middle[2]) - lift if is_flying else home.position[2])  # fmt: skip
-    heading = np.array([math.cos(yaw), math.sin(yaw), 0.0])
+    heading = heading_of(yaw)
     touching = _find_contact(mover, still, np.array(goal), heading, yaw)
     if not is_flying:
-        return still, _moving(mover, _run_up(mover, _vector(touching), yaw, contact_s))
+        return still, _moving(mover, _run_up(mover, vector(touching), yaw, contact_s))
     if mover.noun.name in _STICKS:
         touching = touching + _STUCK * mover.model.length * heading
     length = max(_FLOWN_LENGTHS * mover.model.length, _FLOWN_SHARE * still.size_m)
     speed = length / contact_s
     pieces = (Piece(contact_s, speed), Piece(0.1, 0.0, ramp_s=1e-3))
-    start = _vector(touching - length * heading)
+    start = vector(touching - length * heading)
     path: Trajectory = SteeredPath(start, yaw, pieces, initial_speed_m_s=speed)
     if mover.noun.name not in _STICKS:
         rest, up = 0.5 * mover.model.height, np.array([0.0, 0.0, lift])
-        at_contact = with_middle(path.at(0.0), _vector(touching + up), lift)
-        back = _vector(-_BOUNCED * speed * heading)
+        at_contact = with_middle(path.at(0.0), vector(touching + up), lift)
+        back = vector(-_BOUNCED * speed * heading)
         path = Switched(path, FreeFlight(at_contact, contact_s, back, lift, rest, -3.0), contact_s)
     return still, _moving(mover, path)
 
@@ -129,17 +129,12 @@ def _find_contact(
     near, far = 0.0, 0.5 * mover.size_m + float(np.linalg.norm(other.hull[1] - other.hull[0]))
     for _ in range(_HALVINGS):
         between = 0.5 * (near + far)
-        placed = replace(mover, trajectory=Stationary(_vector(goal - between * heading), yaw))
+        placed = replace(mover, trajectory=Stationary(vector(goal - between * heading), yaw))
         if gap(part_boxes(placed, 0.0), other) > 0.0:
             far = between
         else:
             near = between
     return np.asarray(goal - far * heading)
-
-
-def _vector(point: Float64Array) -> Vector:
-    x, y, z = (float(value) for value in point)
-    return (x, y, z)
 
 
 def _moving(actor: Actor, path: Trajectory) -> Actor:

@@ -92,8 +92,7 @@ def settle_motions(
             )
             objects[target] = _still(objects[target])
         elif relation.kind == "wear":
-            if objects[target].noun in IN_ITS_COLOUR and objects[target].colour is not None:
-                objects[subject] = replace(objects[subject], colour=objects[target].colour)
+            objects[subject] = _in_colour_of(objects[target], objects[subject], nouns)
             objects[target] = _still(objects[target])
         else:
             held = _still(objects[target])
@@ -117,6 +116,14 @@ def _mounted(
     if is_aboard or (relation.kind == "on" and target in MOUNTS):
         return replace(relation, kind="ride")
     return relation
+
+
+def _in_colour_of(
+    garment: SceneObject, wearer: SceneObject, nouns: Mapping[str, Noun]
+) -> SceneObject:
+    """Clothes are drawn by the colour of who wears them; that of a bicycle is its frame's."""
+    is_drawn = garment.noun in IN_ITS_COLOUR and nouns[wearer.noun].motion != "drive"
+    return replace(wearer, colour=garment.colour or wearer.colour) if is_drawn else wearer
 
 
 def _before_meeting(one: SceneObject, kind: str) -> SceneObject:

@@ -55,7 +55,7 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
     """A run-up, the foot meets the thing, the thing flies."""
     contact_s = contact_time(duration_s)
     home = subject.trajectory.at(0.0)
-    yaw, heading = home.yaw, _heading(home.yaw)
+    yaw, heading = home.yaw, heading_of(home.yaw)
     if is_person(subject):
         # The standing foot is in the middle of its stance, the other one in the air.
         stride = RUN_UP.stride * size_of(subject.model)
@@ -75,9 +75,9 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
         inset = radius - math.sqrt(max(radius**2 - (radius - min(tip[2], radius)) ** 2, 0.0))
     middle = np.array([tip[0], tip[1], home.position[2] + rest]) + (radius - inset) * heading
     speed = _speed(duration_s - contact_s)
-    start = with_middle(BodyState((0.0, 0.0, 0.0), yaw), _vector(middle), _lift(thing))
+    start = with_middle(BodyState((0.0, 0.0, 0.0), yaw), vector(middle), lift_of(thing))
     flight = FreeFlight(
-        start, contact_s, _vector(speed * heading + [0.0, 0.0, 0.45 * speed]), _lift(thing),
+        start, contact_s, vector(speed * heading + [0.0, 0.0, 0.45 * speed]), lift_of(thing),
         home.position[2] + rest, speed / max(rest, 0.05),
     )  # fmt: skip
     return subject, replace(thing, trajectory=flight, is_mover=True, lead_m=0.0)
@@ -94,23 +94,23 @@ def throw(
     anchor = "right hand" if is_person(subject) else "mouth"
     held = HeldAt(subject, anchor, _in_palm(thing))
     start = held.at(release_s)
-    heading = _heading(home.yaw)
+    heading = heading_of(home.yaw)
     rest = home.position[2] + _pivot(thing)
     if catcher is None:
         speed = _speed(duration_s - release_s)
         flight: Trajectory = FreeFlight(
-            start, release_s, _vector(speed * heading + [0.0, 0.0, 0.35 * speed]),
-            _lift(thing), rest, 6.0,
+            start, release_s, vector(speed * heading + [0.0, 0.0, 0.35 * speed]),
+            lift_of(thing), rest, 6.0,
         )  # fmt: skip
         path_of_thing: Trajectory = Switched(held, flight, release_s)
         return subject, replace(thing, trajectory=path_of_thing, is_mover=True, lead_m=0.0), None
     catch_s = min(release_s + _REACH_S, release_s + 0.75 * (duration_s - release_s))
     gap = 1.2 + 2.6 * (catch_s - release_s) + 0.5 * catcher.model.length
-    catcher = _stand_and_catch(catcher, _vector(np.array(home.position) + gap * heading),
+    catcher = _stand_and_catch(catcher, vector(np.array(home.position) + gap * heading),
                                home.yaw + math.pi, catch_s)  # fmt: skip
     caught = _held_by_catcher(catcher, thing)
-    arc = Arc(_vector(middle_of(start, _lift(thing))), caught.at(catch_s), release_s, catch_s,
-              _lift(thing), 1.0, start)  # fmt: skip
+    arc = Arc(vector(middle_of(start, lift_of(thing))), caught.at(catch_s), release_s, catch_s,
+              lift_of(thing), 1.0, start)  # fmt: skip
     whole = Switched(Switched(held, arc, release_s), caught, catch_s)
     return subject, replace(thing, trajectory=whole, is_mover=True, lead_m=0.0), catcher
 
@@ -122,8 +122,8 @@ def catch(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor
     subject = _stand_and_catch(subject, home.position, home.yaw, catch_s)
     caught = _held_by_catcher(subject, thing)
     end = caught.at(catch_s)
-    start = middle_of(end, _lift(thing)) + (0.8 + 1.8 * catch_s) * _heading(home.yaw)
-    arc = Arc(_vector(start - np.array([0.0, 0.0, 0.2])), end, 0.0, catch_s, _lift(thing), 1.0)
+    start = middle_of(end, lift_of(thing)) + (0.8 + 1.8 * catch_s) * heading_of(home.yaw)
+    arc = Arc(vector(start - np.array([0.0, 0.0, 0.2])), end, 0.0, catch_s, lift_of(thing), 1.0)
     whole = Switched(arc, caught, catch_s)
     return subject, replace(thing, trajectory=whole, is_mover=True, lead_m=0.0)
 
@@ -172,18 +172,18 @@ def hit(
     subject = replace(subject, trajectory=path, lead_m=0.0, is_mover=True, props=props)
     axes = subject.anchor("right hand", contact_s)
     spot = axes[:, 3] + swing.reach_m * axes[:, 2]
-    heading, rest = _heading(home.yaw), home.position[2] + _pivot(thing)
+    heading, rest = heading_of(home.yaw), home.position[2] + _pivot(thing)
     spot = spot + (0.5 * thing.model.length + 0.02) * heading
     spot[2] = rest if swing.is_teed else max(float(spot[2]), rest)
-    start = with_middle(BodyState((0.0, 0.0, 0.0), home.yaw), _vector(spot), _lift(thing))
+    start = with_middle(BodyState((0.0, 0.0, 0.0), home.yaw), vector(spot), lift_of(thing))
     speed = _speed(duration_s - contact_s)
     flight: Trajectory = FreeFlight(
-        start, contact_s, _vector(speed * heading + [0.0, 0.0, 0.45 * speed]), _lift(thing),
+        start, contact_s, vector(speed * heading + [0.0, 0.0, 0.45 * speed]), lift_of(thing),
         rest, 8.0,
     )  # fmt: skip
     if not swing.is_teed:
         far = spot + (1.0 + 1.6 * contact_s) * heading
-        arc = Arc(_vector(far), start, 0.0, contact_s, _lift(thing), -1.0)
+        arc = Arc(vector(far), start, 0.0, contact_s, lift_of(thing), -1.0)
         flight = Switched(arc, flight, contact_s)
     if tool is not None:
         held = HeldAt(subject, "right hand", along_tool(tool, 0.0))
@@ -236,7 +236,7 @@ def _pivot(thing: Actor) -> float:
     return 0.5 * thing.model.height
 
 
-def _lift(thing: Actor) -> float:
+def lift_of(thing: Actor) -> float:
     """Height of its middle above its origin, m."""
     return 0.0 if thing.is_centred else 0.5 * thing.model.height
 
@@ -245,9 +245,9 @@ def _speed(rest_s: float) -> float:
     return min(max(FLIGHT_M / max(rest_s, 0.1), 1.5), 7.0)
 
 
-def _heading(yaw: float) -> Float64Array:
+def heading_of(yaw: float) -> Float64Array:
     return np.array([math.cos(yaw), math.sin(yaw), 0.0])
 
 
-def _vector(values: Float64Array) -> Vector:
+def vector(values: Float64Array) -> Vector:
     return (float(values[0]), float(values[1]), float(values[2]))

@@ -142,8 +142,10 @@ def list_bodies(actors: Sequence[Actor]) -> Float64Array:
 
 def _move_ahead(bodies: Float64Array, actors: Sequence[Actor], ahead_m: float) -> Float64Array:
     """Bodies that stand in their middle, moved to where the first one looks."""
+    if not len(bodies):
+        return bodies
     away = np.linalg.norm(bodies[:, :2] - bodies[:, :2].mean(axis=0), axis=1)
-    if not len(bodies) or away.min() > _FROM_NET_M:
+    if away.min() > _FROM_NET_M:
         return bodies
     yaw = actors[0].trajectory.at(0.0).yaw
     return bodies + ahead_m * np.array([math.cos(yaw), math.sin(yaw), 0.0])
