@@ -246,8 +246,10 @@ def _speed(rest_s: float) -> float:
 
 
 def heading_of(yaw: float) -> Float64Array:
+    """The unit vector on the ground towards `yaw` (rad)."""
     return np.array([math.cos(yaw), math.sin(yaw), 0.0])
 
 
 def vector(values: Float64Array) -> Vector:
+    """Three numbers of an array as a tuple of floats."""
     return (float(values[0]), float(values[1]), float(values[2]))
