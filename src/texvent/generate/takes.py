@@ -20,7 +20,7 @@ from texvent.scenes.evidence import Evidence, report_on
 from texvent.scenes.language.defaults import let_sway
 from texvent.scenes.projection import project
 from texvent.scenes.report import PromptReport
-from texvent.scenes.staging.camera.camera_placement import choose_main
+from texvent.scenes.staging.camera.main_actor import choose_main
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.take import USUAL, Take
 from texvent.sensor import SensorSize

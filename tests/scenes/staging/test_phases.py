@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.staging.trajectories.phases import build_path, left_out, schedule
+from texvent.scenes.staging.trajectories.phases import build_path
+from texvent.scenes.staging.trajectories.schedule import left_out, schedule
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 
 KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "zigzag", "spin", "rise", "sink",

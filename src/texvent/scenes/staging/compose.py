@@ -22,8 +22,9 @@ from texvent.scenes.scene import (
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitives
 from texvent.scenes.staging.camera.camera_path import CameraPath
-from texvent.scenes.staging.camera.camera_placement import choose_main, place_camera
+from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
+from texvent.scenes.staging.camera.main_actor import choose_main
 from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.relations import list_not_shown
 from texvent.scenes.staging.claims.shots import list_moves_not_shown

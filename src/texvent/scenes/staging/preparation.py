@@ -11,7 +11,7 @@ from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.placement.spatial_relations import GATES
-from texvent.scenes.staging.trajectories.phases import left_out
+from texvent.scenes.staging.trajectories.schedule import left_out
 
 _PLACES_TO_GO = frozenset(
     {"drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "float"}

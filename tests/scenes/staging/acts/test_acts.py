@@ -326,6 +326,16 @@ def test_a_worn_shirt_is_the_colour_of_the_body_s_own() -> None:
     assert red.rgb in colours
 
 
+@pytest.mark.parametrize("cycle", ["bicycle", "motorcycle"])
+def test_a_rider_wears_what_the_prompt_says_and_the_frame_keeps_its_colour(cycle: str) -> None:
+    yellow, red = NamedColour("yellow", (0.8, 0.6, 0.02)), NamedColour("red", (0.6, 0.0, 0.0))
+    scene = stage(SceneObject(cycle, colour=red), SceneObject("jacket", colour=yellow),
+                  acts=(Relation("wear", 0, (1,)),))  # fmt: skip
+    (ridden,) = scene.actors
+    colours = {part.colour for part in ridden.place(0.0).parts}
+    assert {red.rgb, yellow.rgb} <= colours
+
+
 def test_who_plays_a_guitar_that_the_prompt_names_holds_that_one() -> None:
     player = SceneObject("man", motion=ObjectMotion("play guitar"))
     alone = stage(player, acts=())

@@ -14,7 +14,7 @@ from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.language.vocabulary.motion import PACE_ADJECTIVES, PACES
 from texvent.scenes.projection import project, ray_directions
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.camera.camera_placement import choose_main
+from texvent.scenes.staging.camera.main_actor import choose_main
 
 LEAST_SHIFT = 0.05
 """Way of a point over the clip, as a share of the picture's width, that is seen as the camera's."""

@@ -8,7 +8,7 @@ from texvent.generate.seen_words.picture import Picture
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.camera.camera_placement import choose_main
+from texvent.scenes.staging.camera.main_actor import choose_main
 
 _PARTS = {
     form: lemma

@@ -15,7 +15,7 @@ from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.projection import project
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.camera.camera_placement import choose_main
+from texvent.scenes.staging.camera.main_actor import choose_main
 
 STEEP_DOWN, SLANT_DOWN = 0.85, 0.3
 """Sine of the angle at which the camera looks down in a top view, and at least from the air."""

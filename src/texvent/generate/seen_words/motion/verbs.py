@@ -31,7 +31,8 @@ from texvent.scenes.staging.acts.attached import HeldAt
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.claims.bodies import part_boxes
 from texvent.scenes.staging.claims.contact import is_in, is_on
-from texvent.scenes.staging.trajectories.phases import PATH_KINDS, Phase, schedule
+from texvent.scenes.staging.trajectories.phases import PATH_KINDS
+from texvent.scenes.staging.trajectories.schedule import Phase, schedule
 
 LEAST_WAY = 0.25
 """Share of its size that what goes somewhere goes at least, or grows or shrinks by."""

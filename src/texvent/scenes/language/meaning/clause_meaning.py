@@ -313,7 +313,7 @@ class ClauseMeaning:
         is_done = is_done_to_effect(self._draft, clause, scope.subjects, [one])
         if one.kind == "unit":
             self._around.quantities.read(one, scope)
-        elif one.kind in OF_SCENE and not _is_water(one):
+        elif one.kind in OF_SCENE and not one.is_water:
             self._surroundings.read_referent(one, is_negated=False)
             if not is_done:
                 self._cross(one, clause, scope)
@@ -391,11 +391,6 @@ class ClauseMeaning:
     def _keep_subjects(self, things: Sequence[int]) -> None:
         if things:
             self._draft.subjects = list(things)
-
-
-def _is_water(one: Referent) -> bool:
-    """As in "splashing water": no place."""
-    return one.group.head is not None and one.group.head.text == "water"
 
 
 _OF_SURROUNDINGS = (Role.LIGHT, Role.WEATHER, Role.CLOUDS, Role.PLACE)

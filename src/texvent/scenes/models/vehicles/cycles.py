@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
@@ -18,7 +19,7 @@ from texvent.scenes.models.materials import (
     Material,
 )
 from texvent.scenes.models.people.figure import draw_arm, draw_head, draw_leg, draw_torso
-from texvent.scenes.models.people.outfit import ADULT, Outfit, dress_person
+from texvent.scenes.models.people.outfit import ADULT, Outfit, PersonKind, dress_person
 from texvent.scenes.models.people.posture import LOWER_ARM, UPPER_ARM
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, box, rod
@@ -27,16 +28,20 @@ from texvent.scenes.models.vehicles.wheels import Wheel, spoked_wheels, wheeled_
 from texvent.scenes.scene import Colour
 
 _FRAMES: tuple[Colour, ...] = (RED, (0.04, 0.14, 0.45), (0.05, 0.30, 0.12))
+_LEATHER: Colour = (0.035, 0.035, 0.04)
+_MOTORCYCLIST = PersonKind(
+    hair=_LEATHER, shirts=(_LEATHER,), trousers=_LEATHER, has_sleeves=True, gloves=_LEATHER
+)
 _GEAR = 0.45
 """Turns of the pedals per turn of the wheels."""
 
 
 def build_bicycle(
-    *, colour: Colour | None, scale: float, seed: int, has_rider: bool = True
+    rider: PersonKind | None, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a bicycle with a rider who pedals, or alone; `colour` is its frame."""
     frame = Material(paint(colour, seed, "frame", _FRAMES))
-    outfit = dress_person(ADULT, colour=None, seed=seed)
+    outfit = dress_person(rider or ADULT, colour=None, seed=seed)
     wheels = [Wheel((x, 0.0, 0.34), 0.34, 0.045) for x in (0.54, -0.54)]
     crank: Point = (-0.05, 0.0, 0.30)
     hips: Point = (-0.24, 0.0, 1.00)
@@ -51,7 +56,7 @@ def build_bicycle(
         rod(DARK, (grip[0], -0.26, grip[2]), (grip[0], 0.26, grip[2]), 0.022),
         ball(DARK, (-0.24, 0.0, 0.91), (0.28, 0.15, 0.08)),
     ]
-    if has_rider:
+    if rider is not None:
         rigid += _upper_body(outfit, hips, (0.10, 0.0, 1.44), grip)
 
     def articulate(pose: Pose) -> list[ModelPart]:
@@ -62,7 +67,7 @@ def build_bicycle(
             pedal: Point = (crank[0] + 0.17 * s, side * 0.11, crank[2] + 0.17 * c)
             parts.append(rod(STEEL, (crank[0], side * 0.08, crank[2]), pedal, 0.018))
             ankle = (pedal[0] - 0.04, pedal[1], pedal[2] + 0.10)
-            if has_rider:
+            if rider is not None:
                 parts += draw_leg(outfit, (hips[0], side * 0.09, hips[2]), ankle, pitch=0.15)
         return parts
 
@@ -70,12 +75,10 @@ def build_bicycle(
 
 
 def build_motorcycle(
-    *, colour: Colour | None, scale: float, seed: int, has_rider: bool = True
+    rider: PersonKind | None, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a motorcycle with a rider in a helmet, or alone; `colour` is its tank."""
     tank = Material(paint(colour, seed, "frame", _FRAMES))
-    leather = Material((0.035, 0.035, 0.04))
-    outfit = Outfit(DARK, leather, leather, leather, leather, DARK)
     wheels = [Wheel((x, 0.0, 0.33), 0.33, 0.16) for x in (0.76, -0.72)]
     hips: Point = (-0.30, 0.0, 0.86)
     grip: Point = (0.36, 0.0, 1.02)
@@ -93,8 +96,9 @@ def build_motorcycle(
         ball(HEADLIGHT, (0.60, 0.0, 0.88), (0.16, 0.22, 0.22)),
         ball(TAILLIGHT, (-1.00, 0.0, 0.78), (0.06, 0.16, 0.08)),
     ]
-    if not has_rider:
+    if rider is None:
         return wheeled_model(rigid, wheels, scale)
+    outfit = replace(dress_person(rider, colour=None, seed=seed), skin=DARK)
     rigid += [
         *_upper_body(outfit, hips, neck, grip, wide=0.30),
         ball(tank, (0.13, 0.0, 1.52), (0.30, 0.27, 0.31)),
@@ -121,13 +125,13 @@ def _upper_body(
 
 NOUNS = (
     Noun(
-        "bicycle", build_bicycle, "ground", 4.5, "drive",
+        "bicycle", partial(build_bicycle, ADULT), "ground", 4.5, "drive",
         ("bike", "cyclist", "bicyclist", "pushbike"),
     ),
     Noun(
-        "motorcycle", build_motorcycle, "ground", 11.0, "drive",
+        "motorcycle", partial(build_motorcycle, _MOTORCYCLIST), "ground", 11.0, "drive",
         ("motorbike", "motorcyclist", "biker"),
     ),
-    Noun("parked bicycle", partial(build_bicycle, has_rider=False), "fixed", 0.0, "stand"),
-    Noun("parked motorcycle", partial(build_motorcycle, has_rider=False), "fixed", 0.0, "stand"),
+    Noun("parked bicycle", partial(build_bicycle, None), "fixed", 0.0, "stand"),
+    Noun("parked motorcycle", partial(build_motorcycle, None), "fixed", 0.0, "stand"),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What a person or an animal has on the head, a shoulder, the back or the lap."""
+"""What a person holds, wears, or has on the head, a shoulder, the back or the lap."""
 
 from __future__ import annotations
 
@@ -9,9 +9,20 @@ from types import MappingProxyType
 
 import numpy as np
 
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.attached import HeldAt, Performed
-from texvent.scenes.staging.acts.holding import is_person, size_of
+from texvent.scenes.staging.acts.hand_work.working import WorkingAt
+from texvent.scenes.staging.acts.holding import (
+    GARMENTS,
+    WORN,
+    Hold,
+    Wear,
+    choose_hold,
+    is_person,
+    offset_of_worn,
+    place_in_hold,
+    size_of,
+)
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 
@@ -66,3 +77,41 @@ def put_on_body(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]
         subject = replace(subject, trajectory=path)
     target = replace(target, trajectory=held, is_mover=subject.is_mover, lead_m=0.0, extras=())
     return subject, target
+
+
+def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
+    """Both, the thing at its place on the body; None for clothes, which the body has on."""
+    if target.noun.name in GARMENTS and (is_person(subject) or subject.noun.motion == "drive"):
+        return subject, None  # who rides a bicycle is of its model, in clothes of that
+    place = WORN.get(target.noun.name, Wear("crown"))
+    if place.place in ("foot", "hand"):
+        side = "left" if target.instance % 2 else "right"
+        place = replace(place, place=f"{side} {place.place}")
+    held = HeldAt(subject, place.place, offset_of_worn(place, subject, target))
+    return subject, _carried(target, held, subject)
+
+
+_HANDS_FREE = frozenset({"stand", "move", "walk", "run", "sit", "sit on ground"})
+"""Activities that leave the hands to what they hold."""
+
+
+def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """Both, the thing in the hands of who holds it."""
+    works = isinstance(subject.trajectory, WorkingAt)
+    way: Hold = Hold("tool") if works else choose_hold(subject, target)
+    anchor, offset, is_upright, grips = place_in_hold(way, subject, target)
+    doing = subject.trajectory.at(0.0).activity
+    busy = works or doing not in _HANDS_FREE
+    if is_person(subject) and not busy and grips:
+        subject = replace(subject, trajectory=Performed(subject.trajectory, None, grips))
+    if is_person(subject) and not busy and way.activity and not subject.is_mover:
+        subject = replace(subject, trajectory=Performed(subject.trajectory, way.activity))
+    held = HeldAt(subject, anchor, offset, is_upright, "move" if way.style == "kite" else "stand")
+    target = _carried(target, held, subject)
+    if way.style == "kite":
+        target = replace(target, tether=Tether(subject, "right hand", (0.0, 0.0, 0.0), 0.008))
+    return subject, target
+
+
+def _carried(target: Actor, held: HeldAt, holder: Actor) -> Actor:
+    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0, extras=())

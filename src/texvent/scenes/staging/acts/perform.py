@@ -19,31 +19,23 @@ from texvent.scenes.models.wrapped.opening import OPENS
 from texvent.scenes.staging.actors import Actor, Tether, seeded
 from texvent.scenes.staging.acts import colliding, striking
 from texvent.scenes.staging.acts.acts import ACTS
-from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
+from texvent.scenes.staging.acts.attached import MovedAlong, Performed
 from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, load, stow
 from texvent.scenes.staging.acts.cargo import take_along
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.crews import put_to_work
 from texvent.scenes.staging.acts.facing import face_each_other, hand_over, look_at
-from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.acts.holding import (
-    GARMENTS,
     HELD_SCALE,
     IN_ITS_COLOUR,
-    WORN,
-    Hold,
-    Wear,
     arm_reach,
-    choose_hold,
     each_worn,
     is_person,
-    offset_of_worn,
-    place_in_hold,
     shoulder_height,
     size_of,
 )
 from texvent.scenes.staging.acts.named_props import name_all_props
-from texvent.scenes.staging.acts.on_body import ON_BODY, put_on_body
+from texvent.scenes.staging.acts.on_body import ON_BODY, hold, put_on_body, wear
 from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
 from texvent.scenes.staging.acts.transits.transit import go_over
 from texvent.scenes.staging.trajectories.trajectory import Vector
@@ -150,11 +142,11 @@ def _hit_with(objects: list[SceneObject], relations: list[Relation]) -> list[Rel
     for hit in relations:
         if hit.kind != "hit" or len(hit.targets) != 1:
             continue
-        for hold in relations:
-            is_tool = hold.kind == "hold" and objects[hold.targets[0]].noun in striking.TOOLS
-            if is_tool and hold.subject == hit.subject and hold in found and hit in found:
-                found.remove(hold)
-                found[found.index(hit)] = replace(hit, targets=hit.targets + hold.targets[:1])
+        for held in relations:
+            is_tool = held.kind == "hold" and objects[held.targets[0]].noun in striking.TOOLS
+            if is_tool and held.subject == hit.subject and held in found and hit in found:
+                found.remove(held)
+                found[found.index(hit)] = replace(hit, targets=hit.targets + held.targets[:1])
     return found
 
 
@@ -327,15 +319,19 @@ def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: f
     elif kind in ON_BODY:
         subject, target = put_on_body(kind, subject, target)
     elif kind == "wear":
-        subject, worn = _wear(subject, target)
+        subject, worn = wear(subject, target)
         cast.put(target_at, worn)
         return
     else:
-        subject, target = _hold(subject, target)
+        subject, target = hold(subject, target)
     cast.put(subject_at, subject)
     cast.put(target_at, target)
     if other_at is not None and other is not None:
         cast.put(other_at, other)
+
+
+_HITCH_M = 0.5
+"""Between a vehicle and what it tows."""
 
 
 def _move_along(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]:
@@ -365,40 +361,3 @@ def _move_along(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]
         end = (0.5 * model.length, 0.0, 0.5 * model.height - lift)
         target = replace(target, tether=Tether(subject, "right hand", end, 0.025))
     return subject, target
-
-
-def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
-    if target.noun.name in GARMENTS and (is_person(subject) or subject.noun.motion == "drive"):
-        return subject, None  # who rides a bicycle is of its model, in clothes of that
-    wear = WORN.get(target.noun.name, Wear("crown"))
-    if wear.place in ("foot", "hand"):
-        side = "left" if target.instance % 2 else "right"
-        wear = replace(wear, place=f"{side} {wear.place}")
-    held = HeldAt(subject, wear.place, offset_of_worn(wear, subject, target))
-    return subject, _carried(target, held, subject)
-
-
-_HITCH_M = 0.5
-"""Between a vehicle and what it tows."""
-_IDLE = frozenset({"stand", "move", "walk", "run", "sit", "sit on ground"})
-
-
-def _hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
-    works = isinstance(subject.trajectory, WorkingAt)
-    hold: Hold = Hold("tool") if works else choose_hold(subject, target)
-    anchor, offset, is_upright, grips = place_in_hold(hold, subject, target)
-    doing = subject.trajectory.at(0.0).activity
-    busy = works or doing not in _IDLE
-    if is_person(subject) and not busy and grips:
-        subject = replace(subject, trajectory=Performed(subject.trajectory, None, grips))
-    if is_person(subject) and not busy and hold.activity and not subject.is_mover:
-        subject = replace(subject, trajectory=Performed(subject.trajectory, hold.activity))
-    held = HeldAt(subject, anchor, offset, is_upright, "move" if hold.style == "kite" else "stand")
-    target = _carried(target, held, subject)
-    if hold.style == "kite":
-        target = replace(target, tether=Tether(subject, "right hand", (0.0, 0.0, 0.0), 0.008))
-    return subject, target
-
-
-def _carried(target: Actor, held: HeldAt, holder: Actor) -> Actor:
-    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0, extras=())

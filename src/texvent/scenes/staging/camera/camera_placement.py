@@ -23,6 +23,7 @@ from texvent.scenes.staging.camera.framed_points import (
 )
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.camera.main_actor import choose_main
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
 from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
@@ -359,22 +360,6 @@ def _travel(
     has_floor = place not in ("sky", "space")
     return CameraPath(framing, moves, duration_s, has_floor=has_floor, room_m=room,
                       journey=travel.journey)  # fmt: skip
-
-
-def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
-    """The object the camera is about: as said, or the first that moves or could."""
-    target = description.shot.target
-    for actor in actors:
-        if target is not None and actor.object_index == target:
-            return actor
-    if any(actor.enters or actor.leaves for actor in actors):
-        return next(actor for actor in actors if actor.enters or actor.leaves)
-    able = (actor for actor in actors if actor.is_mover or _is_able(actor))
-    return next(able, actors[0])
-
-
-def _is_able(actor: Actor) -> bool:
-    return actor.noun.speed_m_s > 0.0 and actor.noun.habitat != "fixed"
 
 
 def _plan_moves(

@@ -20,7 +20,8 @@ from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.surroundings.wading import find_water
 from texvent.scenes.staging.surroundings.waterside import WATERSIDE
-from texvent.scenes.staging.trajectories.phases import PATH_KINDS, Phase, schedule
+from texvent.scenes.staging.trajectories.phases import PATH_KINDS
+from texvent.scenes.staging.trajectories.schedule import Phase, schedule
 from texvent.scenes.wording import describe_motion
 
 _SAMPLES = 13

@@ -12,7 +12,7 @@ from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 from texvent.scenes.staging.placement.spatial_relations import GATES
-from texvent.scenes.staging.trajectories.choose_trajectory import MotionPlan
+from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 
 _SEEN = 1.8
 """What stands aside is in the picture from this many times as far ahead."""

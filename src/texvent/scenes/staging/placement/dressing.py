@@ -16,6 +16,7 @@ from texvent.scenes.staging.placement.at_table import draw_chair
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 
 _BOTH_HANDS = ("right hand", "left hand", "hands")
+_WITH_RIDER = frozenset({"bicycle", "motorcycle"})
 _BUSY: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("hold", "carry", "push", "throw", "catch", "hit"), _BOTH_HANDS),
     "pull": ("right hand",),
@@ -25,10 +26,10 @@ _BUSY: dict[str, tuple[str, ...]] = {
 
 
 def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
-    """The noun of an object, a person in what the prompt says that it wears."""
+    """The noun of an object, a person or a rider in what the prompt says that it wears."""
     objects = description.objects
     noun = nouns[objects[index].noun]
-    if noun.name not in PERSON_NOUNS:
+    if noun.name not in PERSON_NOUNS | _WITH_RIDER:
         return noun
     worn = [
         (objects[target].noun, colour.rgb if colour is not None else None)

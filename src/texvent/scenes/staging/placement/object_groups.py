@@ -12,8 +12,8 @@ from texvent.scenes.models.people.activities import HAND_NOUNS
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.trajectories.choose_trajectory import MotionPlan
 from texvent.scenes.staging.trajectories.manoeuvres import sample_places
+from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.stunts import EIGHT
 from texvent.scenes.staging.trajectories.trajectory import Vector
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
+from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.trajectories.manoeuvres import (
@@ -19,6 +19,7 @@ from texvent.scenes.staging.trajectories.manoeuvres import (
     sample_places,
     zigzag,
 )
+from texvent.scenes.staging.trajectories.schedule import Phase, schedule
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
 PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move",
@@ -59,20 +60,6 @@ _REACHED = {"sit down": "sit", "lie down": "lie", "stand up": "stand", "kneel do
 """Getting up and down after something else: the posture that the body goes over to."""
 
 
-@dataclass(frozen=True)
-class Phase:
-    """One motion and when it happens, s."""
-
-    motion: ObjectMotion
-    start_s: float
-    end_s: float
-
-    @property
-    def duration_s(self) -> float:
-        """Length of the phase, s."""
-        return self.end_s - self.start_s
-
-
 def needs_steering(motions: Sequence[ObjectMotion]) -> bool:
     """Whether these motions are a path of several pieces, not one simple movement."""
     first = motions[0]
@@ -83,37 +70,6 @@ def needs_steering(motions: Sequence[ObjectMotion]) -> bool:
         or first.kind in _STEERED_KINDS
         or (first.kind in PATH_KINDS and first.direction in _STEERED_DIRECTIONS)
     )
-
-
-def schedule(motions: Sequence[ObjectMotion], duration_s: float) -> list[Phase]:
-    """When each motion happens: where the prompt says so, else in even shares of the time.
-
-    Motions that would begin at the end of the clip or later are left out.
-    """
-    motions = list(motions)
-    if motions[0].start_s:
-        motions.insert(0, STANDING)
-    known = [motion.start_s for motion in motions]
-    starts = [0.0]
-    for number in range(1, len(motions)):
-        start = known[number]
-        if start is None:
-            later = next((n for n in range(number, len(known)) if known[n] is not None), len(known))
-            after = known[later] if later < len(known) else duration_s
-            start = starts[-1] + max((after or 0.0) - starts[-1], 0.0) / (later - number + 1)
-        starts.append(max(start, starts[-1]))
-    starts.append(duration_s)
-    times = [min(start, duration_s) for start in starts]
-    shown = [
-        Phase(motion, begin, max(end, begin))
-        for motion, begin, end in zip(motions, times, times[1:], strict=False)
-    ]
-    return [phase for phase in shown if phase.duration_s > 1e-6 * duration_s]
-
-
-def left_out(motions: Sequence[ObjectMotion], duration_s: float) -> list[ObjectMotion]:
-    """Motions that would begin when the clip is over."""
-    return [m for m in motions if m.start_s is not None and m.start_s >= duration_s]
 
 
 def least_radius(model: Model, noun: Noun) -> float:

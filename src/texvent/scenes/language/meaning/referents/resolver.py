@@ -23,7 +23,7 @@ from texvent.scenes.language.meaning.referents.parts_shown import (
     shows_part,
 )
 from texvent.scenes.language.meaning.referents.pronouns import OF_ONE_PERSON, Antecedents
-from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.referent import KIND_OF_ROLE, Referent
 from texvent.scenes.language.meaning.referents.senses import (
     RELATIVES,
     choose_pattern,
@@ -56,15 +56,6 @@ from texvent.scenes.models.people.work.verbs import HANDWORK
 PERSON = "person"
 OUR = ("our", "my")
 """Owners that make a vehicle the camera's: "our car leaves a tunnel"."""
-_KINDS = {
-    Role.CAMERA: "camera", Role.UNIT: "unit", Role.EFFECT: "effect", Role.PART: "part",
-    Role.PICTURE: "picture", Role.FUNCTION: "function", Role.PLACE: "place", Role.LIGHT: "light",
-    Role.WEATHER: "weather", Role.SKY: "sky", Role.SNOW: "snow", Role.DUST: "dust",
-    Role.SHADOW: "shadow", Role.GLOW: "glow", Role.CLOUDS: "clouds", Role.STEEP: "place",
-    Role.WAVES: "waves", Role.FLICKER: "flicker", Role.CAMERA_MOVE: "camera", Role.VIEW: "camera",
-    Role.FRAMING: "camera",
-}  # fmt: skip
-"""Role of a head → kind of referent."""
 _ONE_BARBELL = "weights"
 """Of who lifts weights, one is shown."""
 _SHOWN = (Role.PLACE, Role.EFFECT)
@@ -175,7 +166,7 @@ class Referents(Antecedents):
             # As in "a cat with no tail": the model has one all the same.
             head.is_lost = True
             return Referent("unknown", group, attributes=attributes)
-        kind = _KINDS.get(role, "unknown")
+        kind = KIND_OF_ROLE.get(role, "unknown")
         if kind == "function":
             head.is_used = True
         meaning = head.read_as(role)

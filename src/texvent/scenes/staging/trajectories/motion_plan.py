@@ -1,0 +1,217 @@
+"""What the motion of an object comes to: heading, speed, gesture and the room it takes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.scenes.description import ObjectMotion
+from texvent.scenes.models.objects.patterns import FACING
+from texvent.scenes.models.people.activities import (
+    ACTIVITIES,
+    HAND_GESTURES,
+    HAND_NOUNS,
+    ON_GROUND,
+    PERSON_NOUNS,
+)
+from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.staging.trajectories.phases import (
+    PATH_KINDS,
+    YAWS,
+    build_path,
+    needs_steering,
+)
+from texvent.scenes.staging.trajectories.steered_path import SteeredPath
+from texvent.scenes.staging.trajectories.stunts import (
+    WINGED,
+)
+
+MAX_LENGTHS_PER_S = 0.95
+"""A usual speed is kept below this many of the object's own lengths per second, so that it stays
+in view and large; a speed stated in numbers is not."""
+MIN_LENGTHS_PER_S = 0.35
+"""A usual speed of small things is at least this many lengths per second: a snail gets on."""
+LEAST_SAILED = 0.15
+"""The same of ships, at 24 knots for 80 m: others are seen to rest."""
+SMALL_M = 2.5
+THROWN_LENGTHS_PER_S = 8.0
+"""Of what is thrown, within bounds."""
+RUN_FACTOR = 2.2
+"""Running over walking speed."""
+FLAT, _WIDE = 0.62, 0.7
+"""Objects whose length is below this share of their width show their front to the camera; the
+second is for what slides: a board, a mirror."""
+
+
+@dataclass(frozen=True)
+class MotionPlan:
+    """What an object's motion comes to: heading, speed, and how much room it takes."""
+
+    motion: ObjectMotion
+    yaw: float
+    speed_m_s: float
+    duration_s: float
+    path: SteeredPath | None = None
+    """Its path about (0, 0), where it does more than one simple movement."""
+    gesture: str | None = None
+    """What a person or a hand does in its place: a name of `people.activities`."""
+    headroom_m: float = math.inf
+    """How high it may jump, m: a cage has a roof."""
+    is_wheel: bool = False
+    """Whether it spins about its axle."""
+    is_swimmer: bool = False
+    """Whether it lives in the water: it leaps out by a good part of its length."""
+    is_facing: bool = False
+    """Whether it shows its front to the camera while it moves: a board with a pattern."""
+    is_vehicle: bool = False  # rolls on wheels, not over and over
+    is_vessel: bool = False
+    is_winged: bool = False
+    """Whether it takes off and lands along the ground."""
+
+    @property
+    def is_path(self) -> bool:
+        """Whether it goes from one place to another along a straight line."""
+        is_straight = self.motion.direction not in ("circle", "eight", "to and fro", "up and down")
+        return self.path is None and self.motion.kind in PATH_KINDS and is_straight
+
+    @property
+    def travel_m(self) -> float:
+        """Metres covered in the clip along the heading."""
+        if self.is_path:
+            return self.speed_m_s * self.duration_s
+        if self.motion.kind == "throw" or self.motion.direction == "to and fro":
+            return 0.6 * self.speed_m_s * self.duration_s
+        return 0.0
+
+    @property
+    def climb(self) -> float:
+        """Metres up per metre along."""
+        slope = {"up": 0.45, "down": -0.45}.get(self.motion.direction or "", 0.0)
+        return slope if self.motion.kind in ("fly", "swim") else 0.0
+
+
+def plan_motion(
+    motions: Sequence[ObjectMotion],
+    noun: Noun,
+    model: Model,
+    duration_s: float,
+    rng: np.random.Generator,
+) -> MotionPlan:
+    """Heading and speed of a motion: said by the prompt, or usual for the noun.
+
+    Args:
+        motions: what the prompt says, in order; the first decides the heading.
+        noun: the object.
+        model: its model, for its size.
+        duration_s: length of the clip, s.
+        rng: decides between left and right where nothing is said.
+    """
+    motion = motions[0]
+    toss = rng.random()
+    default = "left" if toss < 0.5 else "right"
+    later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
+    direction = motion.direction or next(later, None) or default
+    is_steered = needs_steering(motions)
+    goes = motion.kind in PATH_KINDS or any(m.kind in _GOING for m in motions)
+    if motion.kind == "turn":
+        yaw = YAWS[default]  # "turns left" is to its own left
+    elif motion.kind == "change lane" and motion.direction not in YAWS:
+        yaw = YAWS["away"]  # so that it goes from side to side in the picture
+    elif noun.habitat == "fixed" and any(one.kind == "fall" for one in motions[1:]):
+        yaw = YAWS[default]  # what falls over does so to a side of the picture
+    elif not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
+        yaw = _face_camera(noun, model, motion, toss)
+    elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
+        yaw = YAWS[default]
+    else:
+        yaw = YAWS.get(direction, YAWS[default])
+    speed = _choose_speed(motions, noun, model)
+    if not is_steered:
+        pace = 1.0 if motion.speed_m_s is not None else motion.pace
+        gesture = choose_gesture(noun, motion)
+        is_wide = noun.name in FACING or model.length < _WIDE * model.width
+        is_facing = is_wide and noun.habitat == "fixed" and motion.kind == "slide"
+        return MotionPlan(
+            motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing,
+            is_wheel=noun.name == "wheel", is_swimmer=noun.habitat == "water",
+            is_vehicle=noun.motion == "drive", is_winged=noun.name in WINGED,
+            is_vessel=noun.motion == "sail",
+        )  # fmt: skip
+    path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
+    return MotionPlan(motion, path.yaw, speed, duration_s, path)
+
+
+def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
+    """The activity of a person or hand that stays in its place; None = it is no such thing."""
+    kinds = {**dict.fromkeys(PERSON_NOUNS, ACTIVITIES), **dict.fromkeys(HAND_NOUNS, HAND_GESTURES)}
+    known = kinds.get(noun.name)
+    if known is None or motion.kind in PATH_KINDS or motion.kind in ("jump", "spin", "fall"):
+        return None
+    handed = f"{motion.kind} {motion.direction}"
+    if handed in known:
+        return handed
+    if motion.kind in ON_GROUND and noun.name in PERSON_NOUNS:
+        return ON_GROUND[motion.kind]
+    return motion.kind if motion.kind in known else None
+
+
+def _is_seen_from_front(noun: Noun, motion: ObjectMotion) -> bool:
+    """Whether its direction says which hand, or where it leans, not which way the body faces."""
+    if motion.kind == "sway":
+        return True
+    gesture = choose_gesture(noun, motion)
+    return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)
+
+
+_GOING = PATH_KINDS | {"turn", "reverse", "zigzag", "enter", "leave", "appear"}
+
+
+def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> float:
+    """Speed at pace 1, or as stated, m/s."""
+    motion = motions[0]
+    stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
+    if stated is not None:
+        return stated
+    speed = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
+    if motion.kind == "throw":
+        return min(max(THROWN_LENGTHS_PER_S * max(model.length, model.height), 0.6), 4.0)
+    if motion.kind == "run" and noun.motion == "walk":
+        speed *= RUN_FACTOR
+    # What flies has no road to be compared with: slower, it can be shown larger.
+    most = MAX_LENGTHS_PER_S * (0.8 if noun.habitat == "air" else 1.0)
+    size = max(model.length, model.height)
+    if noun.motion == "sail":
+        speed = max(speed, LEAST_SAILED * size)
+    if size < SMALL_M and noun.speed_m_s > 0.0:
+        speed = max(speed, MIN_LENGTHS_PER_S * size)
+    return min(speed, most * size)
+
+
+def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) -> float:
+    """Heading of what stays in place: animals from the side, the rest facing the camera.
+
+    Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
+    """
+    tilt = 0.5 * (2.0 * toss - 1.0)
+    if motion.kind == "sway" and noun.habitat != "fixed" and noun.name not in PERSON_NOUNS:
+        return -0.5 * math.pi + math.copysign(0.6, tilt)
+    if (
+        noun.name in PERSON_NOUNS
+        and motion.kind in ACTIVITIES
+        and ACTIVITIES[motion.kind].is_sideways
+    ):
+        return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
+    if noun.name in ("bridge", "pier"):  # others go along it, from side to side of the picture
+        return 0.0
+    if noun.name in ("flag", "crane") or motion.kind == "roll over":
+        return 0.3 * tilt
+    if noun.name in FACING:
+        return -0.5 * math.pi
+    if model.length < FLAT * model.width or noun.name in PERSON_NOUNS:
+        return -0.5 * math.pi + 0.5 * tilt
+    if noun.habitat == "fixed":
+        return -0.5 * math.pi + math.copysign(0.45, tilt) + 0.3 * tilt
+    return (math.pi if toss < 0.5 else 0.0) + tilt
