@@ -18,7 +18,8 @@ from texvent.scenes.description import (
     Surroundings,
 )
 from texvent.scenes.language.meaning.circumstances.relations import WEAK_PREPOSITIONS
-from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS, RELATIONS, VERBS
+from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS, RELATIONS
+from texvent.scenes.language.vocabulary.verbs import VERBS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS

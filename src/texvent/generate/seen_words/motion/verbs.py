@@ -14,14 +14,8 @@ from texvent.generate.seen_words.motion.verb_senses import judge_sense
 from texvent.generate.seen_words.people import are_hands_hidden
 from texvent.generate.seen_words.picture import Picture
 from texvent.scenes.description import Claim, ObjectMotion, SceneDescription
-from texvent.scenes.language.vocabulary.motion import (
-    DIRECTIONS,
-    FLOWING,
-    GETTING,
-    PACE_ADJECTIVES,
-    PACES,
-    VERBS,
-)
+from texvent.scenes.language.vocabulary.motion import DIRECTIONS, FLOWING, PACE_ADJECTIVES, PACES
+from texvent.scenes.language.vocabulary.verbs import GETTING, VERBS
 from texvent.scenes.language.words.english import list_verb_forms
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.work.verbs import HANDWORK, MOVED

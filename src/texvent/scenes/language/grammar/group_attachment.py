@@ -6,7 +6,7 @@ from texvent.scenes.language.grammar.clause_state import ClauseState
 from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.vocabulary.acts import WEARABLE
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word

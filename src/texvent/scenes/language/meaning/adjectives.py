@@ -9,8 +9,8 @@ from texvent.scenes.description import NamedColour, ObjectMotion, Picture
 from texvent.scenes.language.meaning.capabilities import can_do
 from texvent.scenes.language.meaning.draft import PartialObject
 from texvent.scenes.language.vocabulary import objects as vocabulary_objects
-from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import DEFAULT_BLINK_HZ
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word

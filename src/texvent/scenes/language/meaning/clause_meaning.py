@@ -47,8 +47,8 @@ from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.meaning.wholes import take_wholes
 from texvent.scenes.language.vocabulary.film import TRAVEL_MEANS
-from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import WEATHER_VERBS
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used

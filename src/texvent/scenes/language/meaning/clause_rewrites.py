@@ -10,8 +10,8 @@ from texvent.scenes.language.meaning.acts.activities import base_form, find_acti
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.meaning.acts.looking import LOOKS, LOOKS_TO
 from texvent.scenes.language.vocabulary.acts import LIGHT_VERBS
-from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.named_acts import DONE, NAMED
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import mark_used

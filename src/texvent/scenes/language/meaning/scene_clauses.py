@@ -12,7 +12,8 @@ from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import EFFECT_BY_VERB
-from texvent.scenes.language.vocabulary.motion import FLOWING, WINDS, Verb
+from texvent.scenes.language.vocabulary.motion import FLOWING, WINDS
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 

@@ -158,10 +158,15 @@ _GOES_ON = frozenset({"seat", "row", "door", "window", "yard", "porch", "cover",
 _PARTICLES = frozenset({"up", "down", "over", "around", "off", "through", "by"})
 
 
+_INVENTORS = frozenset({"newton", "rubik"})
+"""Whose name is a part of a thing's: "Newton's cradle"."""
+
+
 def _stop_at_sign(window: Sequence[Token], length: int) -> int:
     """A possessive inside a phrase ends it: "a dog's tail" is not one word."""
     for index, token in enumerate(window[: max(length - 1, 0)]):
-        if token.written.casefold().endswith(("'s", "’s")) and token.text not in CONTRACTED:
+        is_owner = token.text not in CONTRACTED and token.text not in _INVENTORS
+        if is_owner and token.written.casefold().endswith(("'s", "’s")):
             return index + 1
     return length
 

@@ -14,6 +14,7 @@ from texvent.scenes.language.vocabulary import function as vocabulary_function
 from texvent.scenes.language.vocabulary import motion as vocabulary_motion
 from texvent.scenes.language.vocabulary import objects as vocabulary_objects
 from texvent.scenes.language.vocabulary import scene as vocabulary_scene
+from texvent.scenes.language.vocabulary import verbs as vocabulary_verbs
 from texvent.scenes.language.vocabulary.acts import (
     SIMILAR_ACTIVITIES,
     SIMILAR_GAITS,
@@ -116,7 +117,7 @@ class Lexicon:
                 else:
                     self._add_opaque(words)
         self._add_opaque(OPAQUE_COMPOUNDS)
-        for verb in vocabulary_motion.VERBS:
+        for verb in vocabulary_verbs.VERBS:
             for text, form in list_forms(verb.base):
                 self._add(text, Meaning(Role.VERB, Pos.VERB, verb, form))
         for text, meaning in (
@@ -198,7 +199,7 @@ class Lexicon:
 
 UNMEASURED = ("once", "upside down", "right side up", "inside out")
 """Adverbs that are reported: how often, and which side up."""
-_VERBS = frozenset(verb.base for verb in vocabulary_motion.VERBS)
+_VERBS = frozenset(verb.base for verb in vocabulary_verbs.VERBS)
 
 
 def _list_forms_of_noun(singular: str) -> tuple[str, ...]:
@@ -293,7 +294,7 @@ def _list_activity_nouns() -> Iterator[tuple[str, Meaning]]:
 
 def _list_nouns_of_verbs() -> Iterator[tuple[str, Meaning]]:
     """As "lane change": unknown as a thing, and a verb after one."""
-    verbs = {verb.base: verb for verb in vocabulary_motion.VERBS}
+    verbs = {verb.base: verb for verb in vocabulary_verbs.VERBS}
     for act in NAMED_BY_NOUN:
         verb = replace(verbs[act.verb], direction=act.direction or verbs[act.verb].direction)
         own = {text for text, _ in list_forms(act.verb)}

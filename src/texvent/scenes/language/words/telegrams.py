@@ -9,8 +9,8 @@ from itertools import pairwise
 
 from texvent.scenes.language.grammar.noun_groups import is_done_to_things
 from texvent.scenes.language.vocabulary.acts import JOBS
-from texvent.scenes.language.vocabulary.motion import Verb
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm, list_readings
 from texvent.scenes.language.words.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.words.word import Word

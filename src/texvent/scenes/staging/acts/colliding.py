@@ -115,6 +115,8 @@ def _run_into(mover: Actor, still: Actor, contact_s: float) -> tuple[Actor, Acto
 
 def _comes_flying(mover: Actor, still: Actor) -> bool:
     """Whether it comes through the air; a ball does against what is tall, but not if it rolls."""
+    if getattr(mover.model, "is_wheeled", False):
+        return False
     if mover.noun.motion == "roll":
         is_tall = still.model.height > _TALL * mover.model.height
         return is_tall and not isinstance(mover.trajectory, Rolling)

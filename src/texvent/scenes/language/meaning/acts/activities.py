@@ -15,7 +15,7 @@ from texvent.scenes.language.vocabulary.acts import (
     TAKEN_ACTS,
 )
 from texvent.scenes.language.vocabulary.function import DETERMINERS
-from texvent.scenes.language.vocabulary.motion import VERBS
+from texvent.scenes.language.vocabulary.verbs import VERBS
 from texvent.scenes.language.words.english import Pos, VerbForm, list_readings, list_verb_forms
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word

@@ -12,7 +12,7 @@ from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import WEARABLE
-from texvent.scenes.language.vocabulary.motion import VERBS
+from texvent.scenes.language.vocabulary.verbs import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.models.people.activities import ACTIVITIES
 

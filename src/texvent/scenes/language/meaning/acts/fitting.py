@@ -10,7 +10,8 @@ from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
-from texvent.scenes.language.vocabulary.motion import WINDS, Verb
+from texvent.scenes.language.vocabulary.motion import WINDS
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.machine_acts import COLLAPSE, HANG, PULSE

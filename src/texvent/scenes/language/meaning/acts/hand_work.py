@@ -11,7 +11,7 @@ from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import PERSON
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import SEATS

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word

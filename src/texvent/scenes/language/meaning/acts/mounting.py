@@ -7,7 +7,7 @@ from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.sequence import add_motion
 from texvent.scenes.language.meaning.capabilities import can_do, is_person
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.verbs import Verb
 
 RIDDEN_BY_VERB = {
     "cycle": "bicycle", "pedal": "bicycle", "bike": "bicycle", "bicycle": "bicycle",

@@ -14,8 +14,8 @@ from texvent.scenes.language.meaning.acts.sequence import name_kind
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.scope import Scope
-from texvent.scenes.language.vocabulary.motion import VERBS, Verb
 from texvent.scenes.language.vocabulary.named_acts import NAMED_BY_NOUN, NamedAct
+from texvent.scenes.language.vocabulary.verbs import VERBS, Verb
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used

@@ -61,7 +61,7 @@ from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_liv
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import OF_ONESELF
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS, shown_as

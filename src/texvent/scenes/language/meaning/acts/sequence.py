@@ -9,7 +9,7 @@ from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import OWNERS
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import VerbForm
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED

@@ -10,7 +10,7 @@ from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
-from texvent.scenes.language.vocabulary.motion import Verb
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.word import mark_used
 from texvent.scenes.models.effects import EFFECTS, LIQUID_COLOURS
 
