@@ -10,7 +10,7 @@ from texvent.scenes.language.meaning.acts.activities import base_form, find_acti
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.meaning.acts.looking import LOOKS, LOOKS_TO
 from texvent.scenes.language.vocabulary.acts import LIGHT_VERBS
-from texvent.scenes.language.vocabulary.named_acts import DONE, NAMED
+from texvent.scenes.language.vocabulary.named_acts import DONE, NAMED, SAME_AS_VERB
 from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
@@ -48,12 +48,12 @@ def rewrite_objects(clause: Clause) -> None:
 
 
 def take_named_act(clause: Clause) -> None:
-    """As in "does a wheelie", "makes a U-turn": the noun says what is done."""
+    """As in "does a wheelie", "makes a U-turn", "takes a turn": the noun says what is done."""
     if clause.verb is None or clause.verb.lemma not in DONE or len(clause.objects) != 1:
         return
     group = clause.objects[0]
     verb = group.head.read_as(Role.VERB) if group.head is not None else None
-    if group.head is None or verb is None or group.head.text not in NAMED:
+    if group.head is None or verb is None or group.head.text not in NAMED | SAME_AS_VERB:
         return
     form = clause.verb.meaning.form
     clause.verb.meaning = Meaning(Role.FUNCTION, Pos.AUXILIARY)

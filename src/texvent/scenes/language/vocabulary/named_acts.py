@@ -62,3 +62,8 @@ DONE = frozenset({"do", "make", "perform", "execute", "attempt", "complete", "ta
 """Verbs that say only that what their object names is done: "makes a U-turn"."""
 NAMED = frozenset(noun for act in NAMED_BY_NOUN for noun in act.nouns)
 """All of these nouns."""
+SAME_AS_VERB = frozenset(
+    {"turn", "spin", "roll", "flip", "jump", "hop", "leap", "bounce", "swing", "twirl", "dive",
+     "zigzag", "wobble", "slide", "skid"}
+)  # fmt: skip
+"""Nouns of what is done that are written as their verbs: "does a spin"."""

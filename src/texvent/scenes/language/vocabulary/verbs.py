@@ -144,7 +144,6 @@ VERBS: tuple[Verb, ...] = (
     Verb("veer", "turn", 1.2),
     Verb("bank", "turn"),
     Verb("change direction", "turn"),
-    *(Verb(f"{base} a turn", "turn") for base in ("take", "make")),
     Verb("turn around", "turn", direction="around"),
     Verb("make a u turn", "turn", direction="around"),
     *(Verb(base, "zigzag") for base in ("zigzag", "weave", "slalom", "snake")),

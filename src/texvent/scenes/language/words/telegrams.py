@@ -44,7 +44,7 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
     """The words of a prompt, read as a telegram where a part of it has no verb; the words change.
 
     1. A noun that is known as a verb alone is one after a thing: "a drone flip" is a drone that
-       flips; "a javelin throw" is someone throwing a javelin.
+       flips; "a javelin throw" is someone throwing a javelin; "a skater fast spin" spins fast.
     2. A part of the body that acts is a person who does: "head nodding"; headlights are a car's.
     3. A material before a verb is the thing: "glass shattering".
     4. What is done to the thing before it comes before the thing: "page turning".
@@ -59,7 +59,7 @@ def read_telegrams(words: Sequence[Word], known: Lexicon) -> list[Word]:
         _give_car(part)
         _set_aside_film(part)
         _let_camera_go(part)
-        found.extend(_bring_forward(_turn_into_verb(_move_rate(part))))
+        found.extend(_bring_forward(_turn_into_verb(_move_pace(_move_rate(part)))))
     return found
 
 
@@ -84,6 +84,19 @@ def _move_rate(part: list[Word]) -> list[Word]:
         return part
     first = 1 if things[0].pos is Pos.DETERMINER else 0
     return [*things[:first], number, unit, *things[first:], *part[len(words) :]]
+
+
+def _move_pace(part: list[Word]) -> list[Word]:
+    """As in "horse slow walk": the pace after what is done."""
+    for at in range(1, len(part) - 1):
+        thing, pace, act = part[at - 1 : at + 2]
+        adverb = next((one for one in (pace.meaning, *pace.others)
+                       if one.role is Role.PACE and one.pos is Pos.ADVERB), None)  # fmt: skip
+        is_after_thing = thing.role is Role.NOUN and thing.pos is Pos.NOUN
+        if adverb is not None and is_after_thing and _names_act(act):
+            pace.meaning = adverb
+            return [*part[:at], act, pace, *part[at + 2 :]]
+    return part
 
 
 def _turn_into_verb(part: list[Word]) -> list[Word]:
@@ -160,11 +173,14 @@ def _kind(verb: Meaning) -> str:
 
 def _is_named_act(part: Sequence[Word], at: int) -> bool:
     """Whether a word is a noun that only its verb is known of, directly after a thing."""
-    word = part[at]
-    if at == 0 or word.role is not Role.UNKNOWN or word.pos is not Pos.NOUN:
-        return False
-    is_verb = any(one.role in _OF_VERBS for one in word.others)
-    return is_verb and part[at - 1].role is Role.NOUN and part[at - 1].pos is Pos.NOUN
+    is_after_thing = at > 0 and part[at - 1].role is Role.NOUN and part[at - 1].pos is Pos.NOUN
+    return is_after_thing and _names_act(part[at])
+
+
+def _names_act(word: Word) -> bool:
+    """Whether it is a noun that only its verb is known of."""
+    is_noun = word.role is Role.UNKNOWN and word.pos is Pos.NOUN
+    return is_noun and any(one.role in _OF_VERBS for one in word.others)
 
 
 def _give_body(part: Sequence[Word], known: Lexicon) -> None:
