@@ -686,3 +686,40 @@ def test_a_noun_without_a_plural_form_is_many_where_nothing_stands_before_it(
     prompt: str, count: int
 ) -> None:
     assert [one.count for one in parse_prompt(prompt).objects] == [count]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "kind", "is_shown"),
+    [
+        ("a motorcycle roars past a tree", "drive", True),
+        ("a fox streaks across a field", "run", True),
+        ("a bus pulls away from a bus stop", "drive", True),
+        ("a van trundles along a road", "drive", True),
+        ("a school of fish changes direction", "turn", True),
+        ("a drone threads through a gate", "fly", True),
+        ("a man runs toward the lens", "run", True),
+        ("a newton's cradle swings", "work", True),
+        ("a dog in front of a gorblefrax runs", "run", False),
+    ],
+)
+def test_how_things_go(prompt: str, kind: str, is_shown: bool) -> None:
+    description = parse_prompt(prompt)
+    assert description.objects[0].motion is not None
+    assert description.objects[0].motion.kind == kind
+    assert (description.not_understood == ()) == is_shown
+
+
+@pytest.mark.parametrize(
+    ("prompt", "colour", "material"),
+    [
+        ("a ball made of steel rolls", None, "steel"),
+        ("a table made out of red plastic", "red", "plastic"),
+        ("two statues made from marble", None, "marble"),
+    ],
+)
+def test_a_thing_is_made_of_a_material(prompt: str, colour: str | None, material: str) -> None:
+    description = parse_prompt(prompt)
+    assert description.not_understood == ()
+    named = description.objects[0].colour
+    assert (named.name if named and named.name in prompt else None) in (colour, material)
+    assert any(one.word == material and one.aspect == "material" for one in description.claims)

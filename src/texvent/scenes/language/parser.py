@@ -17,6 +17,7 @@ from texvent.scenes.description import Illumination, SceneDescription, Substitut
 from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.grammar.companions import link_companions
+from texvent.scenes.language.grammar.made_of import bring_materials_forward
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
 from texvent.scenes.language.place_cues import find_cues, read_outsides
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
@@ -121,7 +122,7 @@ def _join(light: Illumination, said: Illumination) -> Illumination:
 
 def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], Illumination, list[str]]:
     """Words of a prompt with their senses, what they say of the light, and notes on them."""
-    words, notes = tag_words(tokenize_prompt(prompt), known)
+    words, notes = tag_words(bring_materials_forward(tokenize_prompt(prompt), known), known)
     if _is_foreign(words) or is_of_other_grammar(prompt):
         raise InputError(
             f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "

@@ -70,7 +70,8 @@ EFFECTS: Mapping[str, EffectWords] = MappingProxyType({
         ("smoking", "smoky"), needs_source=False,
     ),
     "steam": EffectWords(
-        ("steam", "vapour", "vapor", "water vapour", "water vapor", "condensation"), ("steam",),
+        ("steam", "vapour", "vapor", "water vapour", "water vapor", "condensation"),
+        ("steam", "boil", "simmer"),
         ("steaming", "steaming hot", "piping hot"), needs_source=False,
     ),
     "mist": EffectWords(

@@ -18,7 +18,8 @@ DIRECTIONS: dict[str, tuple[str, ...]] = {
     "left ": ("from the right", "from right", "in from the right"),
     "towards": (
         "towards the camera", "toward the camera", "towards us", "toward us", "towards the viewer",
-        "toward the viewer", "to the camera", "at the camera", "closer",
+        "toward the viewer", "to the camera", "at the camera", "closer", "towards the lens",
+        "toward the lens", "at the lens",
     ),
     "away": (
         "away", "away from the camera", "away from us", "away from the viewer", "into the distance",

@@ -146,6 +146,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("change direction", "turn"),
     Verb("turn around", "turn", direction="around"),
     Verb("make a u turn", "turn", direction="around"),
+    Verb("thread", "move"),
     *(Verb(base, "zigzag") for base in ("zigzag", "weave", "slalom", "snake")),
     *(Verb(f"{base} a wheelie", "wheelie") for base in ("do", "pop", "pull", "perform")),
     Verb("wheelie", "wheelie"),

@@ -13,7 +13,6 @@ from texvent.scenes.models.shapes import Point, ball, blade, limb, moved, shift,
 from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
 
-
 _OWL = Plumage(
     0.45, 2.3, 0.48, 2.4, 0.55, ((0.28, 0.17, 0.08),),
     (0.2, 0.13, 0.06), (0.28, 0.17, 0.08), (0.6, 0.45, 0.1),

@@ -74,7 +74,7 @@ WORK_KINDS: dict[str, str] = {
         inspection robot, exploration rover, robot car, tracked robot, robot platform""",
     "microscope": "electron microscope, stereo microscope",
     "magnifying glass": """
-        lens, glass lens, camera lens, optical lens, monocular, loupe glass, hand mirror""",
+        glass lens, camera lens, optical lens, monocular, loupe glass, hand mirror""",
     "test tube": """
         pipette rack, vial, glass vial, pipette, micropipette, test tube holder, row of vials,
         glass tube, syringe rack""",
@@ -175,7 +175,7 @@ WORK_KINDS: dict[str, str] = {
     "spinning top": "toy top, humming top",
     "sphere": """
         musket ball, cannonball, cannon ball, pellet, torus, ellipsoid, globe ball,
-        metal sphere, steel ball, dewdrop, bubble gum ball, pearl ball""",
+        dewdrop, bubble gum ball, pearl ball""",
     "cube": """
         cuboid, rectangular block, tetrahedron, polyhedron, sugar cube, metal cube, foam
         block, toy cube, metal block, workpiece, block of wood, wood block, voxel""",

@@ -38,7 +38,11 @@ def list_goals(clause: Clause) -> tuple[str, ...]:
         return ("into", "in", "onto", "on", "over", "to")
     heads = [group.head for phrase in clause.phrases for group in phrase.groups]
     nouns = [head.read_as(Role.NOUN) for head in heads if head is not None]
-    if clause.objects or any(one is None or one.value in SEATS for one in nouns):
+    if (
+        lemma in _BY_ITSELF
+        or clause.objects
+        or any(one is None or one.value in SEATS for one in nouns)
+    ):
         return ()
     return ("on", "at", "against") if lemma in _AT else ("on",)
 
@@ -67,6 +71,8 @@ def give_bodies(draft: Draft, clause: Clause, subjects: Sequence[Referent]) -> N
                         count.is_used, count.is_lost = False, True
 
 
+_BY_ITSELF = ("boil", "simmer")
+"""What things do as well: "a kettle boils on a stove"."""
 _STRUCK = ("hit", "strike")
 _WEIGHTS = frozenset({"barbell", "dumbbell", "kettlebell"})
 _BY_HAND = frozenset({*_STRUCK, "lift", "shake", "drop", "grab"})

@@ -290,7 +290,7 @@ class CircumstanceReader:
         is_read = self._surroundings.read_referent(one, is_negated=is_negated)
         is_covered = word.text.startswith("covered") and one.kind != "weather"
         is_unread = word.text == "facing" or (is_covered and bool(scope.subjects))
-        is_unread |= is_read and one.kind == "place" and not go_to(self._draft, word, one, scope)
+        is_unread |= _is_somewhere(one) and is_read and not go_to(self._draft, word, one, scope)
         word.is_used, word.is_lost = is_read and not is_unread, is_unread
         name_course(self._draft, word, one, scope)
         self._put_on_road(word, one, scope)
@@ -393,6 +393,11 @@ class CircumstanceReader:
             if is_person(self._draft.noun(index)):
                 return index
         return None
+
+
+def _is_somewhere(one: Referent) -> bool:
+    """A background is behind whatever is there."""
+    return one.kind == "place" and one.value != "plain"
 
 
 _ROADWAYS = frozenset({"road", "lane", "street", "highway", "roadway", "motorway"})
