@@ -205,7 +205,10 @@ def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         if relation.kind == "follow" and objects[target].motion is None and usual != "stand":
             objects[target] = replace(objects[target], motion=ObjectMotion(usual))
     aim = description.shot.target
-    if aim is not None and any(move.kind == "follow" for move in description.shot.moves):
+    follows = any(move.kind == "follow" for move in description.shot.moves)
+    if aim is None and follows:  # "tracking shot of a runner"
+        aim = next((n for n, one in enumerate(objects) if nouns[one.noun].speed_m_s > 0.0), None)
+    if aim is not None and follows:
         noun = nouns[objects[aim].noun]
         if objects[aim].motion is None and noun.speed_m_s > 0.0:
             objects[aim] = replace(objects[aim], motion=ObjectMotion(noun.motion))

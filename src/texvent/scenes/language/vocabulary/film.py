@@ -60,7 +60,9 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
                        "static shot", "locked off shot", "locked shot", "locked off", "tripod shot",
                        "locked down shot", "locked camera", "locked off camera", "fixed shot",
                        "still shot", "stationary shot", "static frame", "static view",
-                       "fixed frame", "fixed view", "unmoving camera"),
+                       "fixed frame", "fixed view", "unmoving camera",
+                       *(f"in front of {one} {still} camera" for one in ("a", "the")
+                         for still in ("fixed", "static", "still", "stationary"))),
 }  # fmt: skip
 """Camera move and direction → noun phrases for it."""
 CAMERA_VERBS: dict[tuple[str, str | None], tuple[str, ...]] = {
@@ -222,8 +224,9 @@ STYLE_NOUNS: dict[str, tuple[str, ...]] = {
         "ray tracing", "masterpiece", "aspect ratio", "16 9", "single take", "one take",
         "long take",
         "single shot", "continuous shot", "continuous take", "one shot", "uncut shot",
-        "telephoto lens", "zoom lens", "prime lens", "telephoto", "b roll", "cinematic style",
-        "prores", "film quality", "sharp focus", "deep focus",
+        "telephoto lens", "zoom lens", "prime lens", "long lens", "wide lens", "macro lens",
+        "telephoto", "b roll", "cinematic style", "prores", "film quality", "sharp focus",
+        "deep focus",
     ),
     "the lens blurs nothing": (
         "depth of field", "shallow depth of field", "narrow depth of field", "low depth of field",

@@ -79,6 +79,7 @@ def read_film_words(words: Sequence[Word]) -> list[str]:
     for begin, end in _list_fragments(words):
         _read_move(words, begin, end)
         _read_gear(words[begin:end])
+        _part_adjectives(words[begin:end])
         _read_views(words, begin, end)
         _frame_shots(words[begin:end])
     _read_looks(words)
@@ -92,6 +93,14 @@ def read_film_words(words: Sequence[Word]) -> list[str]:
                 "the camera's view from it",
             )
     return _read_styles(words)
+
+
+def _part_adjectives(words: Sequence[Word]) -> None:
+    """As in "static overhead camera", "a shaky close-up": how the camera moves, and a view."""
+    for word, after in pairwise(words):
+        is_move = word.role is Role.CAMERA_MOVE and word.pos is Pos.ADJECTIVE
+        if is_move and after.pos is Pos.ADJUNCT and is_film(after):
+            word.meaning = replace(word.meaning, pos=Pos.ADJUNCT)
 
 
 def _list_fragments(words: Sequence[Word]) -> Iterator[tuple[int, int]]:
