@@ -119,8 +119,11 @@ def _run_in_place(description: SceneDescription) -> SceneDescription:
     return replace(description, objects=tuple(objects))
 
 
+_IN_AIR = frozenset({"fly", "hover", "rise", "orbit", "sink"})
+
+
 def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Bicycles and motorcycles that only stand there have no rider."""
+    """Bicycles and motorcycles that only stand there have no rider; an owl that flies has wings."""
     ridden = {
         target
         for relation in description.relations
@@ -139,6 +142,9 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
         is_parked = one.noun in HAS_RIDER and one.motion == STANDING and not one.then
         if is_parked and index not in ridden and f"parked {one.noun}" in nouns:
             objects[index] = replace(one, noun=f"parked {one.noun}")
+        kinds = {motion.kind for motion in (one.motion, *one.then) if motion is not None}
+        if kinds & _IN_AIR and f"flying {one.noun}" in nouns:
+            objects[index] = replace(one, noun=f"flying {one.noun}")
     return replace(description, objects=tuple(objects))
 
 

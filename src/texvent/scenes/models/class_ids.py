@@ -175,7 +175,7 @@ _NOUNS: tuple[str, ...] = (
     "book stack",
     "vertical edge", "random dots", "barcode", "qr code", "april tag",
     "ceiling fan", "pendant lamp", "laser dot", "tilting platform", "ramp",
-    "tunnel walls",
+    "tunnel walls", "flying owl",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

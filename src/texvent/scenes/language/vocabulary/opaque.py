@@ -33,7 +33,7 @@ _TEXT = """
     cap, bottlecap, ice cap, gas cap, hub cap, knee cap, polar cap, brake shoe, snow
     shoe, shoe horn, shoe shop, shoe lace, shoe shiner, sock puppet, bell cote, alarm bell, bell
     boy, bell bottom, dumb waiter, cow bell, barbell squat, door knob, doorknob, trap door, cat
-    flap, train station, parking lot car, side car, dining car, street car, car seat, child seat,
+    flap, parking lot car, side car, dining car, street car, car seat, child seat,
     seat belt, safety belt, conveyor system, fan belt, chain mail, chain reaction, food chain,
     daisy chain, bicycle chain lock, feather boa, boa scarf, hair slide, mud slide, landslide,
     slide rule, slide show, microscope slide, hair pin, rolling mill, pepper mill, saw mill,

@@ -9,10 +9,11 @@ from texvent.scenes.models.animals.flying_birds import Plumage, build_flier
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import BLACK, Material, feathers, fur, shade, skin
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import Point, ball, blade, limb, moved, shift, spike, turn_x
+from texvent.scenes.models.shapes import Point, ball, blade, limb, moved, spike, turn_x
 from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
 
+_PLUMAGES: tuple[Colour, ...] = ((0.28, 0.17, 0.08), (0.62, 0.58, 0.52))
 _OWL = Plumage(
     0.45, 2.3, 0.48, 2.4, 0.55, ((0.28, 0.17, 0.08),),
     (0.2, 0.13, 0.06), (0.28, 0.17, 0.08), (0.6, 0.45, 0.1),
@@ -20,21 +21,12 @@ _OWL = Plumage(
 
 
 def build_owl(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make an owl that sits and turns its head, 0.4 m, or flies; `colour` is its plumage."""
-    hue = paint(colour, seed, "plumage", ((0.28, 0.17, 0.08), (0.62, 0.58, 0.52)))
+    """Make an owl that sits and turns its head, 0.4 m; `colour` is its plumage."""
+    hue = paint(colour, seed, "plumage", _PLUMAGES)
     coat, pale = feathers(hue), feathers(shade(hue, 1.6))
     start = fraction(seed, "look")
-    flier = build_flier(
-        replace(_OWL, wing=shade(hue, 0.8), head=hue), colour=hue, scale=1.0, seed=seed
-    )
 
     def articulate(pose: Pose) -> list[ModelPart]:
-        if pose.activity == "move":
-            face = [ball(pale, (0.17, 0.0, 0.03), (0.08, 0.17, 0.16)),
-                    ball(coat, (0.14, 0.0, 0.03), (0.15, 0.20, 0.19)),
-                    *(ball(Material(BLACK), (0.20, y, 0.05), (0.03, 0.04, 0.04))
-                      for y in (0.04, -0.04))]  # fmt: skip
-            return moved([*flier.parts(pose), *face], shift(z=0.2))
         look = 0.9 * math.sin(2.0 * math.pi * (0.3 * pose.time_s + start))
         c, s = math.cos(look), math.sin(look)
         parts = [
@@ -76,6 +68,20 @@ def build_owl(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedM
         return parts
 
     return ArticulatedModel([], scale=scale, articulate=articulate)
+
+
+def build_flying_owl(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Make an owl in flight, 1 m across; `colour` is its plumage."""
+    hue = paint(colour, seed, "plumage", _PLUMAGES)
+    coat, pale = feathers(hue), feathers(shade(hue, 1.6))
+    plumage = replace(_OWL, wing=shade(hue, 0.8), head=hue)
+    flier = build_flier(plumage, colour=hue, scale=1.0, seed=seed)
+    face = [
+        ball(pale, (0.17, 0.0, 0.03), (0.08, 0.17, 0.16)),
+        ball(coat, (0.14, 0.0, 0.03), (0.15, 0.20, 0.19)),
+        *(ball(Material(BLACK), (0.20, y, 0.05), (0.03, 0.04, 0.04)) for y in (0.04, -0.04)),
+    ]
+    return ArticulatedModel(face, scale=scale, articulate=flier.parts, is_centred=True)
 
 
 def build_fruit_bat(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
@@ -122,5 +128,6 @@ def build_fruit_bat(*, colour: Colour | None, scale: float, seed: int) -> Articu
 
 NOUNS = (
     Noun("owl", build_owl, "ground", 0.2, "walk"),
+    Noun("flying owl", build_flying_owl, "air", 3.0, "fly"),
     Noun("fruit bat", build_fruit_bat, "air", 2.5, "fly"),
 )

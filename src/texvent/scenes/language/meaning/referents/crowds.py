@@ -1,4 +1,4 @@
-"""Nouns that mean many things at once (traffic), and several nouns that mean one thing."""
+"""Words that mean many things at once: traffic, a busy street, drifting leaves."""
 
 from __future__ import annotations
 
@@ -39,15 +39,43 @@ def find_drifting(group: NounGroup, verb: str) -> str | None:
 
 def add_traffic(draft: Draft, head: Word) -> list[int]:
     """As in "highway traffic": vehicles that drive both ways; returns the new objects."""
-    kind = str((head.read_as(Role.NOUN) or head.meaning).value)
+    found = _add_vehicles(draft, str((head.read_as(Role.NOUN) or head.meaning).value))
+    head.is_used = bool(found)
+    return found
+
+
+def _add_vehicles(draft: Draft, kind: str) -> list[int]:
     found = []
     for noun, count, way in TRAFFIC[kind] if "car" in draft.nouns else ():
         motion = ObjectMotion("drive", way)
         index = draft.add(PartialObject(noun, count, count > 1, motions=[motion]))
         if index is not None:
             found.append(index)
-    head.is_used = bool(found)
     return found
+
+
+CROWDED = frozenset({"crowded", "busy", "bustling", "packed"})
+"""Adjectives of a place that is full of people, or of traffic."""
+_PASSERS = 6
+_ROADS = frozenset({"road", "motorway"})
+_EMPTY = frozenset({"sky", "space", "sea", "underwater", "lake", "river", "mountain", "forest"})
+
+
+def add_passers(draft: Draft, group: NounGroup) -> None:
+    """As in "a crowded square", "a busy road": people who walk there, or traffic."""
+    said = next((word for word in group.modifiers if word.text in CROWDED), None)
+    place = group.head_word.read_as(Role.PLACE)
+    if said is None or said.is_used or place is None or place.value in _EMPTY:
+        return
+    if place.value in _ROADS and "car" in draft.nouns:
+        found, shown = _add_vehicles(draft, "traffic"), "traffic"
+    elif "person" in draft.nouns:
+        walk = [ObjectMotion("walk")]
+        index = draft.add(PartialObject("person", _PASSERS, True, motions=walk))
+        found, shown = ([] if index is None else [index]), f"{_PASSERS} people who walk"
+    else:
+        return
+    said.is_used, said.shown_as = bool(found), shown
 
 
 def name_kind_before(group: NounGroup, noun: str) -> None:

@@ -10,6 +10,7 @@ from texvent.scenes.language.meaning.adjectives import Attributes, read_attribut
 from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.referents.crowds import (
+    add_passers,
     add_traffic,
     find_drifting,
     name_kind_before,
@@ -158,10 +159,11 @@ class Referents(Antecedents):
             return self._read_noun(group, attributes, preposition)
         return self._read_no_thing(group, role, attributes)
 
-    @staticmethod
-    def _read_no_thing(group: NounGroup, role: Role, attributes: Attributes) -> Referent:
+    def _read_no_thing(self, group: NounGroup, role: Role, attributes: Attributes) -> Referent:
         """A place, a light, a part ..."""
         head = group.head_word
+        if role is Role.PLACE and group.negation is None:
+            add_passers(self._draft, group)
         if role is Role.PART and group.negation is not None:
             # As in "a cat with no tail": the model has one all the same.
             head.is_lost = True
