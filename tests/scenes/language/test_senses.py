@@ -125,7 +125,7 @@ def test_what_stands_on_the_ground_is_not_in_the_sky() -> None:
         ("A skater grinds along a rail.", "rail"),
         ("Soldiers drill on a field.", "drill"),
         ("A man saw a bird.", "saw"),
-        ("A boxer throws a jab.", "throws"),
+        ("A boxer throws a party.", "throws"),
         ("A woman turns on a lamp.", "turns"),
         ("A teenager sits before a television; the screen turns green.", "screen"),
         ("A black sedan stops and its doors open.", "doors"),

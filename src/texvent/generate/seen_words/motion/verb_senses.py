@@ -94,7 +94,9 @@ def _judge_word(
         "touches nothing": is_hand and _BY_HAND.fullmatch(word) and is_alone,
         "flaps its wings": is_flier and _WINGS.fullmatch(word),
         "swims": _ON_LEGS.fullmatch(word) and is_afloat,
-        "with nothing": is_person and _AIRBORNE.fullmatch(word) and is_alone,
+        "with nothing": (
+            is_person and _AIRBORNE.fullmatch(word) and is_alone and "punch" not in kinds
+        ),
         "only slides": word.startswith("slip") and "slide" in kinds,
         "stands, on no seat": (
             _SITTING.fullmatch(word) and kinds & DONE_SEATED and not _has_seat(claim, description)

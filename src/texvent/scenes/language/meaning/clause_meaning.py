@@ -9,7 +9,7 @@ from texvent.scenes.description import SceneDescription
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.devices import take_handled
-from texvent.scenes.language.meaning.acts.doers import settle_doings, tell_by_doings
+from texvent.scenes.language.meaning.acts.doers import play_own, settle_doings, tell_by_doings
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.hand_work import give_bodies
 from texvent.scenes.language.meaning.acts.hosts import take_host
@@ -237,11 +237,12 @@ class ClauseMeaning:
                 word.is_lost = word.text.split()[0].rstrip("s") in _ASPECTS
                 word.is_used = not word.is_lost
         has_verb = clause.verb is not None
-        is_shown = has_verb and clause.verb is not None and clause.verb.is_used
+        is_shown = clause.verb is not None and clause.verb.is_used
+        is_shown = is_shown or play_own(self._draft, clause, subjects)
         has_object = bool(clause.objects) and not is_picture
         acted_on = tuple(i for one in objects if one.is_things for i in one.things)
         acted_on = () if self._acts.is_activity else acted_on
-        verb = clause.verb.lemma if clause.verb is not None else ""
+        verb = clause.verb_word.lemma if has_verb else ""
         scope = Scope(things, movers, is_lost, has_verb, is_shown, has_object, acted_on, verb)
         if has_verb and not is_shown:
             self._lose_verb([*things, *acted_on])
@@ -253,7 +254,7 @@ class ClauseMeaning:
         self._referents.has_body, self._referents.doers = False, []
         is_aside = clause.is_participle or clause.is_relative
         if not (is_aside and self._sentence == clause.sentence):
-            self._keep_subjects(things)
+            self._draft.subjects = list(things) or self._draft.subjects
             self._sentence = clause.sentence
 
     def _find_wholes(self, clause: Clause, objects: Sequence[Referent]) -> Sequence[Referent]:
@@ -346,7 +347,8 @@ class ClauseMeaning:
         self._around.read_adverbs(of_scene, Scope([], [], has_verb=False))
         for one in (*objects, *self._split_scene(others)):
             self._around.read_extra(one)
-        self._keep_subjects([index for one in named if one.is_things for index in one.things][:1])
+        things = [index for one in named if one.is_things for index in one.things]
+        self._draft.subjects = things[:1] or self._draft.subjects
 
     def _split_scene(self, subjects: Sequence[Referent]) -> list[Referent]:
         """Read the places and lights in a list of subjects; return the rest."""
@@ -387,10 +389,6 @@ class ClauseMeaning:
             link(group.modifiers, scope.subjects)
             for index in scope.subjects:
                 one.attributes.apply(self._draft.objects[index], self._draft.noun(index))
-
-    def _keep_subjects(self, things: Sequence[int]) -> None:
-        if things:
-            self._draft.subjects = list(things)
 
 
 _OF_SURROUNDINGS = (Role.LIGHT, Role.WEATHER, Role.CLOUDS, Role.PLACE)

@@ -331,8 +331,8 @@ PARTICLES: dict[str, frozenset[str]] = {
 }  # fmt: skip
 """Verb → particles with which it is none of what the word shows alone."""
 NO_OBJECT: dict[str, frozenset[str]] = {
-    "throw": _words("jab hook punch uppercut tantrum party shade light shadow kiss glance look fit"
-                    " cross combination spark sparks"),
+    "throw": _words("tantrum party shade light shadow kiss glance look fit"
+                    " cross spark sparks"),
     "run": _words("thumb hand finger fingertip palm eye brush tongue cloth comb errand business"),
     "turn": _words("switch tap faucet knob dial stove radio key corner"),
     "catch": _words("breath light eye glimpse sight cold fire attention sun sunlight train bus"),
@@ -351,7 +351,7 @@ NO_OBJECT: dict[str, frozenset[str]] = {
     "spin": _words("yarn web tale"),
     "drive": _words("nail ball screw stake"),
 }  # fmt: skip
-"""Verb → objects with which it is none of what it shows alone: "throws a jab"."""
+"""Verb → objects with which it is none of what it shows alone: "throws a party"."""
 IN_VESSELS = _words("""bottle cup glass mug jug pitcher kettle tap faucet sink hose bucket bowl pot
     pan vase jar basin bathtub tub teapot drink sip gulp pour fill refill boil kitchen tumbler
     thermos flask straw aquarium tank balloon towel shower sponge wash rinse splash splatter face

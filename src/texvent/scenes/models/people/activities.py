@@ -69,7 +69,8 @@ _SPORTS: dict[str, Activity] = {
     "push-up": seen_from_side("push-up", "do push-ups", "do pushups", "do press-ups"),
     "sit-up": seen_from_side("sit-up", "do sit-ups", "do situps", "do crunches"),
     "lift": Activity(("lift weights", "lift a weight", "lift a barbell", "do weightlifting")),
-    "punch": seen_from_side("punch", "throw punches"),
+    "punch": seen_from_side("punch", *done_to("throw|land|deliver", "punch|jab|hook|uppercut"
+                                              "|combination|straight right|left hook")),
     "box": seen_from_side("box", "shadow box"),
     "kick": seen_from_side("kick", near=("play football", "play soccer")),
     "throw": seen_from_side("throw", "toss", "pitch", "hurl"),

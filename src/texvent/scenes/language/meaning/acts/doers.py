@@ -8,12 +8,14 @@ from dataclasses import replace
 from functools import lru_cache
 
 from texvent.scenes.description import ObjectMotion
+from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.verbs import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
+from texvent.scenes.language.words.word import mark_used
 from texvent.scenes.models.people.activities import ACTIVITIES
 
 _ENDINGS = ("er", "or")
@@ -108,10 +110,42 @@ def tell_by_doings(draft: Draft, subjects: Sequence[Referent]) -> None:
                 head.shown_as = None if does else head.shown_as
 
 
+_MUSIC = frozenset(
+    {"solo", "melody", "tune", "song", "piece", "music", "fill", "roll", "riff", "chord", "scale",
+     "beat", "rhythm", "note", "concerto", "sonata", "serenade", "groove"}
+)  # fmt: skip
+"""What is played on any instrument."""
+
+
+def play_own(draft: Draft, clause: Clause, subjects: Sequence[Referent]) -> bool:
+    """As in "a drummer plays a solo": whether musicians play, each the own instrument."""
+    verb = clause.verb
+    heads = [group.head for group in clause.objects]
+    is_music = all(head is not None and head.lemma in _MUSIC for head in heads)
+    if verb is None or verb.lemma not in ("play", "perform") or not is_music:
+        return False
+    played = []
+    for one in subjects:
+        for index in one.things if one.is_things else ():
+            item = draft.objects[index]
+            doing = find_doing(item.said or draft.noun(index).name)
+            if doing is not None and doing.startswith("play "):
+                item.motions.append(ObjectMotion(doing))
+                played.append(index)
+                if one.group.head is not None and item.said:
+                    one.group.head.shown_as = None
+    if played:
+        words = [verb, *(head for head in heads if head is not None)]
+        mark_used(words)
+        draft.link_motion(words, played)
+    return bool(played)
+
+
 _DOINGS = {
     "gymnast": "cartwheel", "acrobat": "flip", "weightlifter": "deadlift",
     "powerlifter": "deadlift", "pianist": "play piano",
     "cellist": "play cello", "harpist": "play harp", "trumpeter": "play trumpet",
+    "guitarist": "play guitar", "violinist": "play violin", "fiddler": "play violin",
     "flutist": "play flute", "flautist": "play flute", "accordionist": "play accordion",
     "yogi": "yoga", "chess player": "play chess", "typist": "type", "pedestrian": "walk",
 }  # fmt: skip

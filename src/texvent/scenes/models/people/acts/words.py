@@ -193,6 +193,6 @@ ACTIVITY_NOUNS = (
     "high knee", "handstand", "headstand", "backflip", "deadlift", "cartwheel", "pushup", "pullup",
     "somersault", "pirouette", "pneumatic drill", "double bass", "bow and arrow", "sun screen",
     "rock paper scissors", "ok sign", "okay sign", "peace sign", "victory sign", "rock sign",
-    "shaka sign",
+    "shaka sign", "jab", "uppercut", "punch", "left hook", "right hook",
 )  # fmt: skip
 """Nouns of several words that name what is done, or with what."""
