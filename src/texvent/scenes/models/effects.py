@@ -60,8 +60,8 @@ EFFECTS: Mapping[str, EffectWords] = MappingProxyType({
     ),
     "blinking lights": EffectWords(needs_source=False),
     "beacon": EffectWords(
-        ("emergency light", "warning light", "siren light", "police light", "rotating light",
-         "siren"),
+        ("beacon", "warning beacon", "emergency light", "warning light", "siren light",
+         "police light", "rotating light", "siren"),
     ),
     "turn signal": EffectWords(("turn signal", "turn indicator", "blinker", "indicator light")),
     "hazard lights": EffectWords(("hazard light", "hazard warning light")),

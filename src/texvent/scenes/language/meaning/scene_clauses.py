@@ -42,6 +42,9 @@ _PLAIN_VERBS: dict[str, frozenset[str]] = {
 """Kind of what a clause is about → verbs that say nothing new of it: "rain falls"."""
 
 
+_FLASHING = frozenset({"lightning", "beacon", "lasers", "stage lights", "blinking lights",
+                       "fireworks", "hazard lights", "turn signal"})  # fmt: skip
+"""Effects that flash by themselves."""
 _OF_EFFECTS = _PLAIN_VERBS["effect"] | _FLOWS | BURSTS | POPS | _SPILLS
 
 
@@ -180,11 +183,10 @@ class SceneClauses:
                 if group.head is not None and group.head.text in WINDS:
                     mark_used([phrase.preposition, group.head])
         word = clause.verb
-        if (
-            word is not None
-            and any(added)
-            and (word.lemma in _OF_EFFECTS or isinstance(word.meaning.value, Verb))
-        ):
+        flashes = word is not None and word.role is Role.FLICKER and bool(kinds & _FLASHING)
+        is_theirs = word is not None and (word.lemma in _OF_EFFECTS or flashes
+                                          or isinstance(word.meaning.value, Verb))  # fmt: skip
+        if word is not None and any(added) and is_theirs:
             word.is_used = True
             for adverb in clause.adverbs:
                 adverb.is_used = adverb.is_used or adverb.text in ("up", "out", "down")

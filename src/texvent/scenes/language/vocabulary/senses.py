@@ -148,7 +148,8 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "slide": (_sense("microscope trombone hair rock mud snow projector"),),
     "spade": (_sense("card poker ace"),),
     "squash": (_sense("racket court player"),),
-    "stall": (_sense("horse toilet bathroom restroom shower stable"),),
+    "stall": (_sense("horse toilet bathroom restroom shower stable ballet theatre theater opera"
+                     " stage concert"),),
     "star": (
         _sense("movie film celebrity pop carpet sheriff"),
         _sense("satellite telescope planet galaxy milky constellation comet spaceship spacecraft"
@@ -175,7 +176,11 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "temple": (_sense("finger forehead gun headache massage"),),
     "seal": (_sense("envelope wax jar letter stamp airlock hatch"),),
     "bolt": (_sense("door gate lightning cloth crossbow"),),
-    "platform": (_sense("tilt wobble rock tip sway", "tilting platform"),),
+    "platform": (
+        _sense("tilt wobble rock tip sway", "tilting platform"),
+        _sense("trapeze acrobat circus diver diving dive gymnast jump bungee pool cliff swim"
+               " swimmer tower robot sensor turntable ball"),
+    ),
     "laser pointer": (_sense("move wall floor dot ceiling slide", "laser dot"),),
     "vessel": (_sense("blood vein artery"),),
     "bridge": (_sense("nose violin guitar gymnast dental"),),

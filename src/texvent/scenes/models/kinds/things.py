@@ -234,7 +234,6 @@ THING_KINDS: dict[str, str] = {
     "robot": "legged robot, cyborg",
     "conveyor belt": "assembly line, production line",
     "bus stop": "bus station",
-    "lighthouse": "beacon",
     "log cabin": "chalet",
     "branch": "stick",
     "hay bale": "haystack",

@@ -80,14 +80,22 @@ class BodyLights(PuffEffect):
         return np.asarray(self.places @ to_world[:, :3].T + to_world[:, 3])
 
 
+_WITH_SIREN = frozenset({"car", "suv", "van", "motorcycle", "sports car", "limousine"})
+_AMBER_HZ = 1.4
+
+
 def make_beacons(actor: Actor, colour: Colour | None) -> BodyLights:
-    """Two lights on top of a vehicle that flash in turn."""
+    """Two lights on top of a car that flash in turn; one amber light on trucks and machines."""
     model = actor.model
     low = -0.5 * model.height if actor.is_centred else 0.0
     y = 0.22 * model.width
     places = np.array([[0.0, y, low + 1.0 * model.height], [0.0, -y, low + 1.0 * model.height]])
     hues = np.array([colour or _BLUE] * 2)
     size = 0.07 * min(model.width, model.height)
+    if actor.noun.name not in _WITH_SIREN:
+        top = np.array([[0.0, 0.0, places[0, 2]]])
+        amber = np.array([colour or _AMBER])
+        return BodyLights(actor, top, np.array([0.0]), amber, size, _AMBER_HZ, intensity=6.0)
     return BodyLights(actor, places, np.array([0.0, 0.5]), hues, size, 2.0, intensity=6.0)
 
 

@@ -92,6 +92,8 @@ def add_effect(draft: Draft, one: Referent, scope: Scope, near: Sequence[int] = 
     flicker = one.attributes.flicker
     if kind == "string lights" and flicker is not None:
         kind, flicker.is_used = "blinking lights", True
+    elif kind == "beacon" and flicker is not None:
+        flicker.is_used = True
     draft.effects.append(Effect(kind, source, colour))
     if one.group.head is not None:
         one.group.head.is_used = True
