@@ -85,6 +85,11 @@ def _judge_rain(picture: Picture, description: SceneDescription, claim: Claim) -
     return "as usual rain" if max(shares) < HEAVY else None
 
 
+_ON_VEHICLES = frozenset({"beacon", "hazard lights", "turn signal"})
+_LAMP_POINTS = 8
+"""Points of the picture that a lamp on a vehicle covers at least, where one sees it flash."""
+
+
 def _judge_flicker(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """The light, the lamp that is named, or what it lights, is brighter from still to still.
 
@@ -95,6 +100,12 @@ def _judge_flicker(picture: Picture, description: SceneDescription, claim: Claim
         return None  # an eye that blinks
     if any((lamp.blink_hz or 0.0) > FAST_HZ for lamp in lamps):
         return None
+    if any(effect.kind in _ON_VEHICLES for effect in description.effects):
+        white = [
+            int((picture.colours(number).max(axis=1) >= GLOWING).sum()) for number in _ALL_VIEWS
+        ]
+        if np.ptp(white) >= _LAMP_POINTS:
+            return None
     levels: list[float] = []
     whole: list[float] = []
     for number in _ALL_VIEWS:

@@ -161,7 +161,7 @@ VERBS: tuple[Verb, ...] = (
             "merge",
         )
     ),
-    Verb("flip", "flip", object_kind="flip"),
+    *(Verb(base, "flip", object_kind="flip") for base in ("flip", "flip over")),
     Verb("skid", "slide"),
     Verb("roll over", "roll over"),
     Verb("taxi", "roll"),

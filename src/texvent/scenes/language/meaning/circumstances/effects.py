@@ -20,6 +20,7 @@ _OF_LIGHT_SHOWS = frozenset(
 )  # fmt: skip
 """What light shows and lightning do anyway."""
 
+_FLASHING = frozenset({"beacon", "turn signal", "hazard lights"})
 _OF_THINGS = frozenset({"steam", "smoke", "fire", "sparks", "splash", "drip"})
 """What comes from things where people have to do with them."""
 
@@ -92,7 +93,7 @@ def add_effect(draft: Draft, one: Referent, scope: Scope, near: Sequence[int] = 
     flicker = one.attributes.flicker
     if kind == "string lights" and flicker is not None:
         kind, flicker.is_used = "blinking lights", True
-    elif kind == "beacon" and flicker is not None:
+    elif kind in _FLASHING and flicker is not None:
         flicker.is_used = True
     draft.effects.append(Effect(kind, source, colour))
     if one.group.head is not None:
