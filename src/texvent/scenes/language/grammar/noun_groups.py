@@ -21,6 +21,7 @@ _BOTH = frozenset(
      "knock", "squash", "shuffle"}
 )  # fmt: skip
 """Verbs that are done to things, and that things do: "boiling water"."""
+_GOALS = frozenset({"into", "onto"})
 _PARTICIPLES = (VerbForm.ING, VerbForm.PAST)
 
 
@@ -115,9 +116,20 @@ def _is_attribute(words: Sequence[Word], at: int) -> bool:
     if word.pos is not Pos.VERB or word.meaning.form not in _PARTICIPLES:
         return False
     opens = at == 0 or words[at - 1].pos is Pos.SIGN
-    if opens and word.meaning.form is VerbForm.ING and is_done_to_things(word.lemma, word.meaning):
-        return False
+    if opens and word.meaning.form is VerbForm.ING:
+        if is_done_to_things(word.lemma, word.meaning) or _goes_into(words, at):
+            return False
     return _noun_follows(words, at + 1)
+
+
+def _goes_into(words: Sequence[Word], at: int) -> bool:
+    """Whether handwork brings something somewhere: "pouring coffee into a cup"."""
+    if words[at].lemma not in HANDWORK:
+        return False
+    at += 1
+    while at < len(words) and words[at].pos in (*_NOMINAL, Pos.DETERMINER):
+        at += 1
+    return at < len(words) and words[at].text in _GOALS
 
 
 def is_done_to_things(lemma: str, verb: Meaning) -> bool:
