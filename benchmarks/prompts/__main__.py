@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from benchmarks.prompts import coverage, score, sheet, structure, views
+from benchmarks.prompts import coverage, public, score, sheet, structure, views
 from texvent.errors import TexventError
 
 
@@ -31,6 +31,12 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("--no-events", action="store_true", help="stills and reports only: faster")
     one.add_argument("--again", action="store_true", help="draw what is there anew")
     one.set_defaults(run=sheet.run)
+    one = commands.add_parser("public", help="draw the prompts of VBench, Movie Gen and COCO")
+    one.add_argument("--vbench", type=Path, required=True, help="all_dimension.txt")
+    one.add_argument("--moviegen", type=Path, required=True, help="MovieGenVideoBench.txt")
+    one.add_argument("--coco", type=Path, required=True, help="captions_val2017.json")
+    one.add_argument("-o", "--out", type=Path, required=True, help="folder")
+    one.set_defaults(run=public.run)
     one = commands.add_parser("views", help="how often what prompts name is not in view")
     one.add_argument("prompts", type=Path, help=".csv with columns id, prompt, and perhaps style")
     one.add_argument("--json", type=Path, help="write what became of each object and word here")

@@ -1,0 +1,128 @@
+"""Prompts of public benchmarks, drawn by digest: nobody of this project wrote or chose them.
+
+* `short` (V): VBench, `prompts/all_dimension.txt` of its repository (Huang et al., CVPR 2024).
+* `detailed` (M): Movie Gen Video Bench, `benchmark/MovieGenVideoBench.txt` (Polyak et al., 2024),
+  prompts of 20 words or more. A third of those fill one template ("... taking a pleasant stroll in
+  ... during ..."), which is left out.
+* `caption` (K): COCO, `annotations/captions_val2017.json` (Chen et al., 2015).
+
+The files are not part of this repository; `public/digests.csv` holds what was drawn as SHA-256. The
+text before the first comma says which half a prompt belongs to, so that a subject of VBench, which
+stands there in ten styles, is in one half only. Within a half the first by digest are drawn.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import hashlib
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from benchmarks.prompts.sheet import Prompt
+from texvent.errors import InputError
+from texvent.io.atomic import atomic_file
+
+STYLES = {"short": "V", "detailed": "M", "caption": "K"}
+"""Letter of the ids of each style."""
+HALVES = ("development", "test")
+PER_HALF = 40
+"""Prompts of each style in a half."""
+_WORDS_OF_DETAIL = 20
+_TEMPLATE = "pleasant stroll"
+_DIGESTS = Path(__file__).parent / "public" / "digests.csv"
+
+
+def run(options: argparse.Namespace) -> None:
+    """Write development.csv and test.csv, and say whether they are the prompts that were graded.
+
+    Raises:
+        InputError: a file cannot be read, or holds fewer prompts than are drawn.
+    """
+    texts = {
+        "short": _lines(options.vbench),
+        "detailed": [one for one in _lines(options.moviegen) if _is_detailed(one)],
+        "caption": _captions(options.coco),
+    }
+    known = read_digests(_DIGESTS)
+    options.out.mkdir(parents=True, exist_ok=True)
+    for half in HALVES:
+        prompts = [one for style in STYLES for one in draw(texts[style], style, half)]
+        write_prompts(options.out / f"{half}.csv", prompts)
+        same = sum(known.get(one.id) == digest(one.prompt) for one in prompts)
+        print(f"{half}: {len(prompts)} prompts, {same} of them those that were graded")
+
+
+def draw(texts: Sequence[str], style: str, half: str) -> list[Prompt]:
+    """The prompts of one style and half; ids count on from the first half to the second.
+
+    Raises:
+        InputError: there are fewer than `PER_HALF`.
+    """
+    mine = sorted({one for one in texts if half_of(one) == half}, key=digest)
+    if len(mine) < PER_HALF:
+        raise InputError(
+            f"the {style} prompts of the {half} half are {len(mine)}; at least {PER_HALF} are "
+            "needed: is the file complete?"
+        )
+    first = 1 + PER_HALF * HALVES.index(half)
+    letter = STYLES[style]
+    return [
+        Prompt(f"{letter}{number:02d}", text, style)
+        for number, text in enumerate(mine[:PER_HALF], first)
+    ]
+
+
+def half_of(text: str) -> str:
+    """Which half a prompt belongs to: by the digest of what stands before its first comma."""
+    subject = text.split(",")[0].lower()
+    return HALVES[int(digest(f"half {subject}"), 16) % 2]
+
+
+def digest(text: str) -> str:
+    """SHA-256 of a text, in hexadecimal digits."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def read_digests(path: Path) -> dict[str, str]:
+    """Digest of each prompt that was graded, by its id."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return {row["id"]: row["sha256"] for row in csv.DictReader(file)}
+
+
+def write_prompts(path: Path, prompts: Sequence[Prompt]) -> None:
+    """A file that `sheet` reads."""
+    with (
+        atomic_file(path, overwrite=True) as part,
+        part.open("w", encoding="utf-8", newline="") as file,
+    ):
+        writer = csv.writer(file)
+        writer.writerow(["id", "style", "prompt"])
+        writer.writerows([one.id, one.style, one.prompt] for one in prompts)
+
+
+def _is_detailed(text: str) -> bool:
+    return len(text.split()) >= _WORDS_OF_DETAIL and _TEMPLATE not in text
+
+
+def _lines(path: Path) -> list[str]:
+    lines = (line.strip() for line in _read(path).splitlines())
+    return [line for line in lines if line]
+
+
+def _captions(path: Path) -> list[str]:
+    try:
+        annotations = json.loads(_read(path))["annotations"]
+        return [" ".join(one["caption"].split()) for one in annotations]
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(
+            f"{path} is no file of COCO captions: it needs annotations, each with a caption"
+        ) from error
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"cannot read {path}: {error}") from error
