@@ -252,9 +252,9 @@ def test_excluded_things_are_not_added() -> None:
     [
         ("a white vintage SUV drives left", "1 suv, white, drives left", ("vintage",)),
         (
-            "three shiny happy red cars stop",
+            "three shiny rugged red cars stop",
             "3 cars, red, drive, then stand still",
-            ("shiny", "happy"),
+            ("shiny", "rugged"),
         ),
         ("a red wug, a blue car", "1 car, blue, drives", ("red", "wug")),
     ],

@@ -19,6 +19,10 @@ from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.grammar.companions import link_companions
 from texvent.scenes.language.grammar.made_of import bring_materials_forward
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
+from texvent.scenes.language.phrases.mood_notes import note_moods
+from texvent.scenes.language.phrases.names import join_names
+from texvent.scenes.language.phrases.phrasings import plain_phrases
+from texvent.scenes.language.phrases.styles import set_styles_aside
 from texvent.scenes.language.place_cues import find_cues, read_outsides
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.word_claims import (
@@ -122,14 +126,15 @@ def _join(light: Illumination, said: Illumination) -> Illumination:
 
 def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], Illumination, list[str]]:
     """Words of a prompt with their senses, what they say of the light, and notes on them."""
-    words, notes = tag_words(bring_materials_forward(tokenize_prompt(prompt), known), known)
+    tokens = join_names(plain_phrases(set_styles_aside(tokenize_prompt(prompt))), known)
+    words, notes = tag_words(bring_materials_forward(tokens, known), known)
     if _is_foreign(words) or is_of_other_grammar(prompt):
         raise InputError(
             f"the prompt seems not to be English: {_shortened([word.text for word in words])}; "
             "write it in English, or use a model that takes any text (texvent generators)"
         )
     light = read_light_words(words)
-    notes += read_film_words(words)
+    notes += [*read_film_words(words), *note_moods(words)]
     words = read_telegrams(words, known)
     choose_senses(words, known)
     read_neighbours(words)
@@ -165,12 +170,12 @@ def _account(
     unread: dict[str, None] = {}
     for word in words:
         if word.shown_as is not None:
-            substituted[word.text] = Substitution(word.text, word.shown_as)
+            substituted[word.said] = Substitution(word.said, word.shown_as)
         elif is_unread(word):
             for token in word.tokens:
                 is_article = len(word.tokens) > 1 and token.text in ("the", "a")
-                if not token.is_punctuation and not is_article:
-                    unread[token.text] = None
+                if token.reported and not token.is_punctuation and not is_article:
+                    unread[token.reported] = None
         elif word.is_used and not is_silent(word) and says_something(word):
-            shown[f"no {word.text}" if word.is_absent else word.text] = None
+            shown[f"no {word.said}" if word.is_absent else word.said] = None
     return tuple(shown), tuple(substituted.values()), tuple(unread)

@@ -49,6 +49,8 @@ _OF_SCENE = {
 
 def says_something(word: Word) -> bool:
     """Whether a word that has an effect is worth a mention as shown: no mere grammar."""
+    if not word.said:
+        return False  # it belongs to a phrase that is reported with its first word
     if word.course:
         return True
     is_plain = word.pos is Pos.PREPOSITION or word.role is Role.VIEW
@@ -66,11 +68,11 @@ def list_claims(words: Sequence[Word], *, is_crowded: bool = False) -> tuple[Cla
         words: of the prompt, in order.
         is_crowded: whether it names `CROWDED` things or more.
     """
-    unread = tuple(dict.fromkeys(one.text for one in words if is_unread(one)))
+    unread = tuple(dict.fromkeys(one.said for one in words if is_unread(one)))
     everywhere = unread if len(unread) >= MANY_LOST else ()
     claims: list[Claim] = []
     for sentence in _cut_sentences(words):
-        lost = tuple(one.text for one in sentence if _changes_meaning(one))
+        lost = tuple(one.said for one in sentence if _changes_meaning(one))
         for word in sentence:
             if (word.is_used or word.shown_as is not None) and says_something(word):
                 claim = _claim(word, lost, is_crowded=is_crowded)
@@ -89,9 +91,9 @@ def _claim(word: Word, lost: tuple[str, ...], *, is_crowded: bool) -> Claim:
     """
     aspect = _aspect_of(word)
     is_of_sentence = aspect == "motion" or (is_crowded and aspect in _MISREAD)
-    own = tuple(one.text for one in word.companions if _changes_meaning(one))
+    own = tuple(one.said for one in word.companions if _changes_meaning(one))
     return Claim(
-        word.text,
+        word.said,
         aspect,
         word.things,
         word.relations,

@@ -116,9 +116,9 @@ def _is_attribute(words: Sequence[Word], at: int) -> bool:
     if word.pos is not Pos.VERB or word.meaning.form not in _PARTICIPLES:
         return False
     opens = at == 0 or words[at - 1].pos is Pos.SIGN
-    if opens and word.meaning.form is VerbForm.ING:
-        if is_done_to_things(word.lemma, word.meaning) or _goes_into(words, at):
-            return False
+    is_gerund = opens and word.meaning.form is VerbForm.ING
+    if is_gerund and (is_done_to_things(word.lemma, word.meaning) or _goes_into(words, at)):
+        return False
     return _noun_follows(words, at + 1)
 
 

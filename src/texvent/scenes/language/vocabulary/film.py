@@ -46,7 +46,9 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
                       "orbiting camera", "360 degree shot"),
     ("handheld", None): ("handheld", "hand held", "shaky", "camera shake", "handheld camera",
                          "hand held camera", "shaky camera", "shaky cam", "handheld footage",
-                         "handheld shot", "hand held shot", "handheld video"),
+                         "handheld shot", "hand held shot", "handheld video", "shaking effect",
+                         "intense shaking effect", "with an intense shaking effect",
+                         "with a shaking effect"),
     ("dutch", None): ("dutch angle", "dutch tilt", "canted angle", "tilted angle",
                       "tilted horizon", "dutch angle shot", "slanted angle", "oblique angle"),
     ("travel", "forward"): (
@@ -61,6 +63,9 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
                        "locked down shot", "locked camera", "locked off camera", "fixed shot",
                        "still shot", "stationary shot", "static frame", "static view",
                        "fixed frame", "fixed view", "unmoving camera",
+                       "steady and smooth perspective",
+                       "featuring a steady and smooth perspective", "steady perspective",
+                       "smooth and steady perspective",
                        *(f"in front of {one} {still} camera" for one in ("a", "the")
                          for still in ("fixed", "static", "still", "stationary"))),
 }  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from texvent.scenes.language.phrases.moods import MANNERS, MOODS
 from texvent.scenes.language.words.english import Pos
 
 DETERMINERS = (
@@ -50,23 +51,27 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
         "is", "are", "was", "were", "be", "been", "being", "am", "has", "have", "had", "having",
         "can", "could", "will", "would", "may", "might", "must", "should", "do", "does", "did",
         "gets", "get", "getting", "got", "begins to", "begin to", "starts to", "start to", "begins",
-        "starts", "keeps", "keep",
+        "starts", "keeps", "keep", "trying to", "tries to", "try to", "attempting to",
+        "attempts to", "beginning to", "starting to", "continues to", "continuing to",
+        "continue to",
     ),
     Pos.TO: ("to",),
     Pos.NOUN: (
         "scene", "shot", "view", "video", "clip", "footage", "image", "photo", "photograph",
         "picture", "frame", "sight", "kind", "sort", "type", "sequence", "recording", "example",
-        "viewpoint", "perspective", "angle", "motion", "gesture", "hand gesture",
+        "viewpoint", "perspective", "angle", "motion", "gesture", "hand gesture", "tableau",
+        "snapshot", "portrayal", "depiction",
     ),
     Pos.ADJECTIVE: (
         "beautiful", "nice", "photorealistic", "pretty", "realistic", "visible",
         "detailed", "high quality", "high resolution", "plain", "quiet", "silent", "noisy", "loud",
         "favourite", "favorite", "famous", "expensive", "cheap", "delicious", "tasty", "own",
+        *sorted(MOODS),
     ),
     Pos.ADVERB: (
         "also", "here", "how", "please", "quite", "really", "so", "too", "very", "why", "together",
         "somewhat", "almost", "again", "silently", "quietly", "loudly", "noisily",
-        "from a standstill", "from standstill", "from rest",
+        "from a standstill", "from standstill", "from rest", "extremely", *sorted(MANNERS),
     ),
     Pos.VERB: (
         "show", "shows", "showing", "shown", "depicts", "depicting", "depict", "features",

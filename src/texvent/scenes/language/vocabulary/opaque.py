@@ -53,8 +53,8 @@ _TEXT = """
     table, time table, timetable, multiplication table, table cloth, pool party,
     swimming pool ladder, fish ladder, step brother, spring water, spring flower season, spring
     onion, box spring, watch spring, hair spray, pepper spray, bug spray, tear gas, gasmask, death
-    mask, mouse pad, mousepad, mouse hole, cob web, web site, website, web page, spider man,
-    batman, ant hill, ant eater, bee line, elephant ear, elephant trunk, frog man, bullfight, bull
+    mask, mouse pad, mousepad, mouse hole, cob web, web site, website, web page,
+    ant hill, ant eater, bee line, elephant ear, elephant trunk, frog man, bullfight, bull
     ring, bull whip, horse power, horse hair, oxcart, dog ear, dog tag, dog collar, dog food, dog
     biscuit, cat food, cat scan, cat eye, lions gate, lion king, tiger lily, tiger balm, turtle
     neck, turtleneck, snail mail, snake skin, snakeskin, crocodile clip, alligator clip, alligator

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from texvent.scenes.language.words.english import (
     Pos,
@@ -17,7 +17,7 @@ from texvent.scenes.language.words.word import CONTRACTED
 
 def correct_token(token: Token, known: Lexicon, notes: list[str]) -> Token:
     """The word that a misspelt one stands for, with a note; any other token as it is."""
-    is_word = not (token.is_punctuation or token.is_number or token.picture)
+    is_word = not (token.is_punctuation or token.is_number or token.picture or token.sense)
     if not is_word or token.text in known.words:
         return token
     better = correct_spelling(token.text, known.words)
@@ -47,7 +47,7 @@ def cut_tokens(
     while start < len(tokens):
         window = tokens[start : start + known.longest]
         length, meanings = known.find([token.text for token in window])
-        if window[0].picture is not None:
+        if window[0].picture is not None or window[0].sense is not None:
             length = 0
         elif not any(one.role is Role.VIEW for one in meanings):
             length = _stop_at_sign(window, length)
@@ -126,7 +126,9 @@ def _leave_way(window: Sequence[Token], length: int, known: Lexicon) -> int:
     is_way = any(one.role in (Role.DIRECTION, Role.RELATION) for one in meanings)
     is_in = window[1].text == "in" and len(window) > length  # "moves in the wind"
     after = known.find([window[length].text])[1] if is_in else []
-    is_within = any(one.pos is Pos.DETERMINER for one in after)
+    own = known.find([token.text for token in window[:2]])[1]
+    is_move = any(one.role is Role.CAMERA_MOVE for one in own)  # "clouds moving in sky"
+    is_within = any(one.pos is Pos.DETERMINER or (is_move and one.pos is Pos.NOUN) for one in after)
     return 1 if is_within or (is_way and longer > length) else length
 
 
@@ -172,7 +174,9 @@ def _stop_at_sign(window: Sequence[Token], length: int) -> int:
 
 
 def _read_unspelt(token: Token) -> Meaning | None:
-    """The one reading of a picture, a number or a sign."""
+    """The one reading of a name, a style, a picture, a number or a sign."""
+    if token.sense is not None:
+        return _SENSES[token.sense[0]](token.sense[1])
     if token.picture is not None:
         return Meaning(Role.PICTURE, Pos.NOUN, token.picture)
     if token.is_number:
@@ -180,6 +184,14 @@ def _read_unspelt(token: Token) -> Meaning | None:
     if token.is_punctuation:
         return Meaning(Role.FUNCTION, Pos.SIGN, token.text)
     return None if token.text[0].isalpha() else Meaning(Role.UNKNOWN, Pos.ADVERB)
+
+
+_SENSES: dict[str, Callable[[str], Meaning]] = {
+    "thing": lambda noun: Meaning(Role.NOUN, Pos.NOUN, noun, is_substitute=True),
+    "place": lambda place: Meaning(Role.PLACE, Pos.NOUN, place, is_substitute=True),
+    "style": lambda reason: Meaning(Role.STYLE, Pos.ADJUNCT, reason),
+}
+"""Kind of a `Token.sense` → the reading with what it names."""
 
 
 def _complete(span: Sequence[Token], meanings: list[Meaning]) -> list[Meaning]:

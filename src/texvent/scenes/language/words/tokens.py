@@ -34,11 +34,21 @@ class Token:
     """What it names, if it is a picture's file, number of squares or text."""
     is_joined: bool = False
     """Whether a hyphen joins it to the next: "clay" in "clay-covered"."""
+    sense: tuple[str, str] | None = None
+    """What a name or a style means that is one token: "thing", "place" or "style", and which."""
+    said: str | None = None
+    """What the prompt has for it, where that is another phrase: "making its way" for "moving"."""
 
     @property
     def is_number(self) -> bool:
         """Whether it is written in digits; "3D" is none."""
-        return self.text[0].isdigit() and self.text != "3d" and self.picture is None
+        is_plain = self.picture is None and self.sense is None
+        return self.text[0].isdigit() and self.text != "3d" and is_plain
+
+    @property
+    def reported(self) -> str:
+        """What a report calls it."""
+        return self.text if self.said is None else self.said
 
     @property
     def value(self) -> float:

@@ -64,6 +64,11 @@ class Word:
         return " ".join(token.text for token in self.tokens)
 
     @property
+    def said(self) -> str:
+        """What a report calls it: its words, or the phrase of the prompt that they stand for."""
+        return " ".join(token.reported for token in self.tokens if token.reported)
+
+    @property
     def written(self) -> str:
         """Its words as the prompt has them."""
         return " ".join(token.written for token in self.tokens)

@@ -1,0 +1,209 @@
+"""Set phrases as the plain words that they mean: "on the top of" is "on", "makes its way" "moves".
+
+The tokens keep what the prompt has for them (`Token.said`), so that reports name that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+
+from texvent.scenes.language.phrases.moods import MOODS
+from texvent.scenes.language.words.english import Pos, VerbForm, list_readings, list_verb_forms
+from texvent.scenes.language.words.tokens import Token
+
+_PHRASES: dict[str, tuple[str, ...]] = {
+    "on top of": (
+        "on the top of", "at the top of", "in the top of", "up on top of", "at top of",
+        "on the very top of", "atop of",
+    ),
+    "under": ("on the bottom of", "on the underside of"),
+    "inside": ("inside of", "in side of", "on the inside of", "in the inside of"),
+    "outside": ("outside of",),
+    "in": ("in the middle of", "in the midst of", "in the center of", "in the centre of"),
+    "in traffic": (
+        "in traffic during rush hour", "in rush hour traffic", "in heavy traffic",
+        "in busy traffic",
+    ),
+    "in front of": ("in the front of", "at the front of", "out in front of"),
+    "behind": ("at the back of", "in the rear of"),
+    "near": ("nearby to", "close by to", "in the vicinity of"),
+    "along": ("along side of", "along the side of"),
+    "alongside": ("along side",),
+    "next to": ("right next to", "next too", "by the side of"),
+    "in the background": ("in the back ground", "in background", "in the backround"),
+    "in the foreground": ("in foreground",),
+    "slow motion": (
+        "super slow motion", "extreme slow motion", "ultra slow motion", "very slow motion",
+        "slo mo", "super slo mo",
+    ),
+    "four people": ("two couples",),
+    "six people": ("three couples",),
+    "waiting in traffic": (
+        "stuck in traffic", "caught in traffic", "stuck in traffic during rush hour",
+        "stuck in rush hour traffic", "stuck in heavy traffic",
+    ),
+    "about to": (
+        "getting ready to", "gets ready to", "get ready to", "preparing to", "prepares to",
+        "prepare to", "gearing up to", "just about to",
+    ),
+    "full of": ("filled up with", "brimming with", "overflowing with", "jam packed with"),
+    "with": (
+        "topped with", "topped off with", "adorned with", "equipped with", "laden with",
+        "stocked with", "garnished with", "furnished with", "accompanied by", "complete with",
+        "that has", "which has", "that have", "which have", "that includes", "that include",
+        "that contains", "that contain", "that features", "along with", "together with",
+    ),
+}  # fmt: skip
+"""Plain words → phrases for them."""
+_LYING = ("laying", "lying")
+_MISSPELT = {"siting": "sitting"}
+_WATERS = frozenset({"ocean", "sea", "pool", "river", "lake", "pond", "tank", "aquarium"})
+"""What has a bottom on which things lie: there "on the bottom of" is no "under"."""
+_OUTINGS = {"walk": "walk", "stroll": "stroll", "run": "run", "jog": "jog", "swim": "swim",
+            "nap": "sleep", "bow": "bow", "leap": "leap", "jump": "jump", "dive": "dive",
+            "hike": "hike"}  # fmt: skip
+"""What one takes → the verb for it: "takes a walk"."""
+_TAKING = {form: kind for base in ("take", "have") for form, kind in list_verb_forms(base)}
+_OWN = frozenset({"its", "their", "his", "her", "it's", "it", "our"})
+_SUBJECTLESS = frozenset({"it", "they", "he", "she", "we", "i", "you", "who", "that", "which"})
+_HAVING = frozenset({"has", "have", "featuring", "including", "includes", "contains"})
+_OF_FILM = frozenset({"scene", "shot", "view", "video", "clip", "footage", "image", "photo",
+                      "picture", "camera"})  # fmt: skip
+_OPENS_GROUP = frozenset({"a", "an", "the", "some", "several", "many", "various", "multiple", "its",
+                          "their", "his", "her", "no", "lots", "very"})  # fmt: skip
+
+
+def plain_phrases(tokens: Sequence[Token]) -> list[Token]:
+    """The tokens with set phrases replaced by the plain words that they mean."""
+    found: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        replaced = _replace(tokens, at)
+        if replaced is None:
+            found.append(tokens[at])
+            at += 1
+            continue
+        length, new = replaced
+        found.extend(new)
+        at += length
+    return found
+
+
+def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """Number of tokens that a phrase takes, and what it becomes; None where none begins."""
+    rules = (_replace_fixed, _drop_being, _go_the_way, _take_outing, _have, _lie)
+    return next((one for rule in rules if (one := rule(tokens, at)) is not None), None)
+
+
+def _stand_for(tokens: Sequence[Token], text: str) -> list[Token]:
+    """Tokens of the plain words; the first is reported as what the prompt has."""
+    said = " ".join(token.text for token in tokens)
+    first, *rest = text.split()
+    written = " ".join(token.written for token in tokens)
+    return [Token(first, written, said=said), *(Token(one, one, said="") for one in rest)]
+
+
+def _replace_fixed(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    table = _by_words()
+    for length in range(min(_LONGEST, len(tokens) - at), 0, -1):
+        plain = table.get(tuple(token.text for token in tokens[at : at + length]))
+        if plain is None or any(token.picture for token in tokens[at : at + length]):
+            continue
+        coming = {token.text for token in tokens[at + length : at + length + 3]}
+        if plain == "under" and coming & _WATERS:
+            return None
+        return length, _stand_for(tokens[at : at + length], plain)
+    return None
+
+
+def _drop_being(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "There is a dog on the lawn": the sentence only names what is there."""
+    if [token.text for token in tokens[at : at + 1]] != ["there"] or at + 2 >= len(tokens):
+        return None
+    is_open = at == 0 or tokens[at - 1].is_punctuation or tokens[at - 1].text in ("and", "where")
+    is_being = tokens[at + 1].text in ("is", "are", "was", "were", "s")
+    is_denied = tokens[at + 2].text in ("no", "not", "nothing", "nobody", "none", "never")
+    return (2, []) if is_open and is_being and not is_denied else None
+
+
+def _go_the_way(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "makes its way", "make their way": moves."""
+    texts = [token.text for token in tokens[at : at + 3]]
+    if len(texts) < 3 or texts[1] not in _OWN or texts[2] != "way":
+        return None
+    form = _form_of(texts[0], ("make", "work", "wind", "pick"))
+    return None if form is None else (3, _stand_for(tokens[at : at + 3], _inflect("move", form)))
+
+
+def _take_outing(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "taking a peaceful walk": walking."""
+    form = _TAKING.get(tokens[at].text)
+    if form is None or at + 2 >= len(tokens) or tokens[at + 1].text not in ("a", "an"):
+        return None
+    length = 4 if tokens[at + 2].text in MOODS else 3
+    last = tokens[at + length - 1].text if at + length <= len(tokens) else ""
+    if last not in _OUTINGS:
+        return None
+    return length, _stand_for(tokens[at : at + length], _inflect(_OUTINGS[last], form))
+
+
+def _have(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "A room has two windows": a room with them."""
+    if tokens[at].text not in _HAVING or at == 0 or at + 1 >= len(tokens):
+        return None
+    before, after = tokens[at - 1].text, tokens[at + 1].text
+    if before in _SUBJECTLESS or before in _OF_FILM or not _is_noun(before):
+        return None
+    return (1, _stand_for(tokens[at : at + 1], "with")) if after in _OPENS_GROUP else None
+
+
+def _lie(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "a dog laying on a rug": lying; "laying bricks" is something else."""
+    text = tokens[at].text
+    if text in _MISSPELT:
+        return 1, _stand_for(tokens[at : at + 1], _MISSPELT[text])
+    if text != _LYING[0]:
+        return None
+    after = tokens[at + 1].text if at + 1 < len(tokens) else "."
+    return (1, _stand_for(tokens[at : at + 1], _LYING[1])) if _is_after_lying(after) else None
+
+
+def _is_after_lying(word: str) -> bool:
+    return not word[0].isalnum() or word in _AFTER_LYING
+
+
+_AFTER_LYING = frozenset(
+    {"on", "in", "under", "next", "beside", "near", "down", "by", "across", "at", "atop", "inside",
+     "against", "around", "over", "between", "behind", "with", "and", "while", "there", "together",
+     "outside", "asleep", "upon", "alongside", "out", "still", "beneath", "flat", "comfortably"}
+)  # fmt: skip
+
+
+def _is_noun(word: str) -> bool:
+    readings = list_readings(word)
+    return not readings or any(one.pos is Pos.NOUN for one in readings)
+
+
+def _form_of(word: str, bases: Sequence[str]) -> VerbForm | None:
+    return next(
+        (form for base in bases for text, form in list_verb_forms(base) if text == word), None
+    )
+
+
+def _inflect(base: str, form: VerbForm) -> str:
+    return next((text for text, one in list_verb_forms(base) if one is form), base)
+
+
+def _list_phrases() -> Iterator[tuple[tuple[str, ...], str]]:
+    for plain, phrases in _PHRASES.items():
+        for phrase in phrases:
+            yield tuple(phrase.split()), plain
+
+
+_LONGEST = max(len(words) for words, _ in _list_phrases())
+
+
+@lru_cache(maxsize=1)
+def _by_words() -> dict[tuple[str, ...], str]:
+    return dict(_list_phrases())

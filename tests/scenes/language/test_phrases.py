@@ -1,0 +1,99 @@
+"""Set phrases, names and styles."""
+
+import pytest
+
+from texvent.scenes.language.parser import parse_prompt
+
+
+def first_of(prompt: str) -> str:
+    return parse_prompt(prompt).summary()[0]
+
+
+def styles_of(prompt: str) -> dict[str, str]:
+    return {one.word: one.value for one in parse_prompt(prompt).claims if one.aspect == "style"}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first", "style"),
+    [
+        ("a dog runs on a beach, oil painting", "1 dog, runs", "oil painting"),
+        ("a dog runs on a beach, in steampunk style", "1 dog, runs", "steampunk style"),
+        ("an oil painting of a dog that runs", "1 dog, runs", "oil painting"),
+        ("a dog runs on a beach by Monet, in the style of Japan", "1 dog, runs", "by monet"),
+        ("a dog runs on a beach, Van Gogh style", "1 dog, runs", "van gogh style"),
+        ("a red bus drives left, black and white", "1 bus, red, drives left", "black and white"),
+        ("a black and white photo of a bus", "1 bus, drives", "black and white"),
+    ],
+)
+def test_a_style_is_said_once_and_takes_nothing_from_the_sentence(
+    prompt: str, first: str, style: str
+) -> None:
+    assert first_of(prompt) == first
+    assert style in styles_of(prompt)
+    assert parse_prompt(prompt).not_understood == ()
+    assert all(one.noun not in ("picture frame", "poster") for one in parse_prompt(prompt).objects)
+
+
+@pytest.mark.parametrize(
+    "prompt", ["a painting of a horse on a wall", "a black and white dog", "the oil painting"]
+)
+def test_pictures_that_hang_and_colours_of_things_are_no_styles(prompt: str) -> None:
+    assert not styles_of(prompt)
+
+
+def test_an_unusual_frame_of_the_prompt_changes_nothing() -> None:
+    description = parse_prompt("A serene tableau of in the desert, a camel walks")
+    assert description.surroundings.place == "desert"
+    assert first_of("A serene tableau of in the desert, a camel walks") == "1 camel, walks"
+
+
+def test_words_of_mood_are_noted_and_do_not_take_the_verb() -> None:
+    description = parse_prompt("a cute happy dog runs joyfully")
+    assert description.not_understood == ()
+    assert "words of mood change nothing here: cute, happy, joyfully" in description.notes
+    assert not any(one.lost for one in description.claims)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first", "said"),
+    [
+        ("Anna Berg reads a book", "1 woman, reads", ("anna berg", "woman")),
+        ("Mr. Berg walks", "1 man, walks", ("mr berg", "man")),
+        ("Zorblax Quimby is waving", "1 person, waves", ("zorblax quimby", "person")),
+        ("a car drives through Lisbon", "1 car, drives", ("lisbon", "city")),
+    ],
+)
+def test_names_are_persons_and_cities(prompt: str, first: str, said: tuple[str, str]) -> None:
+    description = parse_prompt(prompt)
+    assert description.summary()[0] == first
+    assert [(one.said, one.shown) for one in description.substituted] == [said]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first"),
+    [
+        ("a cup on the top of a box", "1 cup, stands still, on 1 box"),
+        ("a cup on the bottom of a table", "1 cup, stands still, under 1 table"),
+        ("a cat sits inside of a box", "1 cat, sits, in 1 box"),
+        ("There are two red cars in a garage", "2 cars, red, stand still"),
+        ("a dog laying on a rug", "1 dog, lies, on 1 rug"),
+        ("a horse taking a peaceful walk", "1 horse, walks"),
+        ("a bus making its way down a road", "1 bus, drives"),
+        ("a table has a cup and a plate on it", "1 table, stands still"),
+        ("a wall that has two signs on it", "1 wall, stands still, with 2 signs"),
+        ("two couples walk", "4 people, walk"),
+    ],
+)
+def test_set_phrases_are_read_as_the_plain_words_they_mean(prompt: str, first: str) -> None:
+    assert first_of(prompt) == first
+    assert parse_prompt(prompt).not_understood == ()
+
+
+def test_a_set_phrase_is_reported_as_the_prompt_has_it() -> None:
+    assert "making its way" in parse_prompt("a bus making its way down a road").shown
+
+
+def test_what_is_only_prepared_is_not_done() -> None:
+    description = parse_prompt("a man preparing to swing a bat")
+    assert "swing" in description.not_understood
+    assert description.summary()[0] == "1 man, stands still"
