@@ -91,3 +91,42 @@ def test_a_table_is_added_only_inside_and_noted() -> None:
     assert "a table is added, on which is: tomato" in inside.notes
     outside = set_on_table(parse_prompt("A woman stands in a field. Three tomatoes."), NOUNS)
     assert "table" not in {one.noun for one in outside.objects}
+
+
+def test_what_is_seen_at_sunset_is_outdoors() -> None:
+    assert parse_prompt("A toy robot slides at sunset.").surroundings.place == "grass"
+    assert parse_prompt("A cat on a sofa at sunset.").surroundings.place in ENCLOSED
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place", "backdrops"),
+    [
+        ("a bus on a mountain road", "road", ("mountain",)),
+        ("a mountain lake", "lake", ("mountain",)),
+        ("a village in the mountains", "village", ("mountain",)),
+        ("a farm with mountain peaks", "farmyard", ("mountain",)),
+        ("snow-capped mountains behind a lake", "lake", ("mountain",)),
+        ("a misty mountain valley", "mountain", ()),
+        ("rugged mountains", "mountain", ()),
+        ("a desert with sand dunes", "dunes", ()),
+    ],
+)
+def test_mountains_stand_behind_other_places(prompt, place, backdrops) -> None:
+    said = parse_prompt(prompt)
+    assert (said.surroundings.place, said.surroundings.backdrops) == (place, backdrops)
+    assert set(said.not_understood) <= {"behind"}
+
+
+def test_counted_mountains_are_things() -> None:
+    assert parse_prompt("two mountains").objects[0].count == 2
+
+
+def test_snow_lies_around_mountains_that_are_not_just_capped() -> None:
+    assert parse_prompt("snowy mountains").surroundings.has_snow
+    assert parse_prompt("a snowy mountain behind a house").surroundings.has_snow
+    assert not parse_prompt("snow-capped mountains").surroundings.has_snow
+
+
+def test_one_stands_in_front_of_mountains_and_is_not_seen_behind_them() -> None:
+    assert not parse_prompt("a barn in front of mountains").not_understood
+    assert parse_prompt("a car drives behind the mountains").not_understood == ("behind",)

@@ -183,6 +183,10 @@ def without(kind: str, source: int | None) -> Callable[[ComposedScene], Composed
     return change
 
 
+_BRIGHTER = 1.35
+"""Ratio of coded levels by which snow is told from rock."""
+
+
 def judge_snow(picture: Picture) -> str | None:
     """Why snow on the ground is not seen, or None."""
     shares = []
@@ -192,6 +196,24 @@ def judge_snow(picture: Picture) -> str | None:
         white = (np.ptp(pixels, axis=1) < 0.16) & (pixels.min(axis=1) > 0.35)
         shares.append(float(white.sum()) / len(ground))
     return None if max(shares) >= 0.05 else "no white ground in view"
+
+
+def capped_share(picture: Picture, noun: str) -> float:
+    """Share of what shows a noun that is much brighter than most of it, such as snow on rock."""
+    scenery = picture.scene.list_scenery()
+    shares = [0.0]
+    for number in USUAL:
+        view = picture.views[number]
+        nouns = [
+            picture.scene.class_names.get(int(view.owner[one]), "")
+            or (scenery[one] if one < len(scenery) else "")
+            for one in range(len(view.owner))
+        ]
+        wanted = [one for one, name in enumerate(nouns) if name == noun]
+        luma = picture.colours(number)[np.isin(view.number, wanted)].mean(axis=1)
+        if len(luma):
+            shares.append(float(np.mean(luma > _BRIGHTER * np.median(luma))))
+    return max(shares)
 
 
 def changed_points(picture: Picture, kind: str, source: int | None) -> dict[int, np.ndarray]:

@@ -8,12 +8,18 @@ from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.courses import judge_courses
 from texvent.generate.seen_words.degrees import judge_degree
 from texvent.generate.seen_words.effects import FILLING, judge_effects, judge_filling
-from texvent.generate.seen_words.light import judge_light, judge_snow, judge_weather
+from texvent.generate.seen_words.light import (
+    capped_share,
+    judge_light,
+    judge_snow,
+    judge_weather,
+)
 from texvent.generate.seen_words.picture import USUAL, Picture
 from texvent.generate.seen_words.places import judge_place
 from texvent.generate.seen_words.positions import judge_position
 from texvent.generate.seen_words.things import judge_thing
 from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.language.vocabulary.scene import SNOW_CAPPED
 from texvent.scenes.raycast.trace import GROUND
 from texvent.scenes.staging.surroundings.places import is_room
 
@@ -22,6 +28,8 @@ _OF_SCENE = ("light", "weather", "effect", "dust")
 _WAVES = ("wave", "waves")
 """What a surfer is said to ride."""
 _LEAST_PAINTED = 0.05
+_LEAST_CAPPED = 0.04
+"""Share of the mountains in view that is snow, where they are said to be capped."""
 
 
 def judge_words(
@@ -127,6 +135,9 @@ def _judge_effect(
 
 
 def _judge_snow(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    if claim.word in SNOW_CAPPED:
+        is_capped = capped_share(picture, "mountain") >= _LEAST_CAPPED
+        return None if is_capped else "no white top in view"
     is_of_mountains = claim.word.startswith("snow") and claim.word != "snow"
     if is_of_mountains and "mountain" in description.surroundings.backdrops:
         return "the mountains are bare"

@@ -17,6 +17,7 @@ from texvent.scenes.language.vocabulary.place_cues import (
     INDOOR_CUES,
     KITCHEN_ACTS,
     OUTDOOR_CUES,
+    OUTDOOR_LIGHTS,
     OUTSIDE,
     OWN_GROUND,
 )
@@ -102,7 +103,9 @@ def find_cues(words: Sequence[Word], *, is_outside: bool) -> PlaceCues:
     said -= {word.lemma for word in words if word.role is Role.CAMERA} & _LOOKED_OUT_OF
     is_fair = any(word.role in (Role.WEATHER, Role.SKY, Role.CLOUDS) for word in words)
     is_fair = is_fair or any(
-        word.role is Role.LIGHT and word.meaning.value in ("sunny", "moonlight") for word in words
+        word.role is Role.LIGHT
+        and (word.meaning.value in ("sunny", "moonlight") or word.lemma in OUTDOOR_LIGHTS)
+        for word in words
     )
     if "window" in said:
         # As in "rain on a window": seen from either side.

@@ -57,6 +57,8 @@ from texvent.scenes.models.protocol import Noun
 
 POSTER = "poster"
 """What shows a picture for which no surface is named."""
+_SNOWY = "mountain"
+"""What has snow on top, and around it where that is said."""
 
 
 class ClauseMeaning:
@@ -96,6 +98,9 @@ class ClauseMeaning:
         draft = self._draft
         settle_doings(draft)
         lose_owners(draft, self._referents.named)
+        for one in self._referents.named:
+            if one.is_things and draft.noun(one.things[0]).name == _SNOWY:
+                self._surroundings.read_snow_on(one)
         surroundings, light = self._surroundings.build()
         if surroundings.place == "sky" and any(map(self._is_grounded, draft.objects)):
             surroundings = replace(surroundings, place=None)

@@ -20,6 +20,8 @@ _WATER = ("water", "waters")
 _CALM = ("calm", "tranquil", "placid")
 """What water is unless the prompt says waves."""
 _ROUGH = (*vocabulary_scene.ROUGH, "high", "heavy")
+_ROCKY = dict.fromkeys(("mountain", "canyon", "cliffs"), ("rocky", "rugged", "stony"))
+"""Place → what it is anyway."""
 _WAVY, _ROUGH_HEIGHT = 2.2, 3.0
 """Height of waves that are said, and of a rough sea."""
 _WATERY = ("lake", "river", "beach", "underwater")
@@ -31,7 +33,9 @@ _USUAL_HZ = {
 }
 _BACKDROPS = ("mountain", "forest", "city")
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "lake", "river", "sand", "beach",
-                "snow", "mountain")  # fmt: skip
+                "snow", "mountain", "village", "farmyard", "park", "harbour", "vineyard",
+                "wheat field", "cornfield", "railway", "motorway", "runway")  # fmt: skip
+"""Places behind which mountains, a forest or a city may stand."""
 _ROADS = ("road", "dirt road", "city")
 _SCENE_ROLES = frozenset(
     {Role.WEATHER, Role.CLOUDS, Role.SNOW, Role.STEEP, Role.DUST, Role.FLICKER, Role.SHADOW,
@@ -113,6 +117,8 @@ class SurroundingsReader:
             rough = [word for word in one.attributes.words if word.text in _ROUGH]
             self._wave_height = _ROUGH_HEIGHT if rough else self._wave_height
             mark_used(rough)
+        if is_used and str(one.value) in _ROCKY:
+            mark_used(word for word in one.attributes.words if word.text in _ROCKY[str(one.value)])
         head = one.group.head
         meaning = head.read_as(Role.PLACE) if head is not None else None
         if not is_used or head is None or meaning is None:
@@ -131,17 +137,31 @@ class SurroundingsReader:
                 if word.role is Role.SHADE and not (word.text == "dark" and kind == "place"):
                     continue
                 self.read(word, is_negated=False)
-            elif word.role is Role.VERB and kind == "place":
-                continue
+            elif kind == "place" and not word.is_used:
+                self._read_backdrop(word)
+
+    def _read_backdrop(self, word: Word) -> None:
+        """As in "a mountain road", though a mountain is a thing, too."""
+        meaning = word.read_as(Role.PLACE)
+        if meaning is not None and meaning.value in _BACKDROPS and not meaning.is_substitute:
+            word.is_used = self.read_place(str(meaning.value), None)[0]
+
+    def read_snow_on(self, one: Referent) -> None:
+        """As in "snowy mountains": there is snow on the ground, too, unless it caps them."""
+        for word in one.attributes.words:
+            if word.role is Role.SNOW:
+                self.read(word, is_negated=False)
 
     def read_place(self, place: str, colour: NamedColour | None) -> tuple[bool, bool]:
         """Take a place and its stated colour; return which of the two had an effect."""
         if self._place is None or self._place == "sky":
             self._place = place
-        elif place in _BACKDROPS and self._place in _OPEN_PLACES:
+        elif place in _BACKDROPS and self._place in _OPEN_PLACES and place != self._place:
             self._add_backdrop(place)
         elif self._place in _BACKDROPS and place in _OPEN_PLACES:
             self._add_backdrop(self._place)
+            self._place = place
+        elif (self._place, place) == ("desert", "dunes"):
             self._place = place
         elif place not in (self._place, "sky"):
             return False, False
@@ -188,8 +208,9 @@ class SurroundingsReader:
         self._clouds = 0.0 if is_negated or not isinstance(said, float) else said
         return True
 
-    def _set_snow(self, _: object, is_negated: bool) -> bool:
-        self._has_snow = not is_negated
+    def _set_snow(self, said: object, is_negated: bool) -> bool:
+        if said not in vocabulary_scene.SNOW_CAPPED:
+            self._has_snow = not is_negated
         return True
 
     def _set_dust(self, _: object, is_negated: bool) -> bool:

@@ -52,7 +52,7 @@ BUILT_PLACES: dict[str, tuple[str, ...]] = {
     "square": ("square", "town square", "city square", "plaza", "piazza", "market square",
                "village square", "public square"),
     "beach": ("beach", "shore", "coast", "seashore", "sea shore", "seaside", "shoreline",
-              "coastline", "sandy beach", "sandy shore", "water edge"),
+              "coastline", "sandy beach", "sandy shore", "water edge", "tropical beach"),
     "school hallway": ("school hallway", "school corridor", "locker room", "changing room"),
     "airport hall": ("airport terminal", "terminal", "airport hall", "departure hall",
                      "arrivals hall", "departure lounge", "check in hall", "airport lounge",

@@ -77,6 +77,10 @@ OUTDOOR_CUES: dict[str, frozenset[str]] = {
     },
 }
 """Outdoor place → nouns that are found there or in places like it, the most telling first."""
+OUTDOOR_LIGHTS = _words("sunset sunrise dusk dawn sundown daybreak twilight") | {
+    "golden hour", "setting sun", "rising sun", "night sky"
+}  # fmt: skip
+"""Lights that are seen under the sky."""
 FIELD_ACTS: dict[str, frozenset[str]] = {
     "soil": _words("plough plow harrow till sow"),
     "wheat field": _words("harvest reap thresh"),

@@ -28,6 +28,7 @@ PLACES: dict[str, tuple[str, ...]] = {
              "winter landscape", "snow covered landscape", "snow landscape"),
     "mountain": (
         "mountain", "mountain slope", "mountain side", "mountainside", "alps", "valley", "slope",
+        "mountain range", "mountain peak", "mountain landscape", "mountain valley",
     ),
     "indoor": ("room", "house interior", "interior", "hall", "floor"),
     "living room": ("living room", "lounge", "sitting room"),
@@ -216,6 +217,8 @@ CLOUDS: dict[float, tuple[str, ...]] = {
 
 SNOWY = ("snow", "snowy", "snow covered", "winter", "wintry")
 """Words that mean snow on the ground."""
+SNOW_CAPPED = ("snow capped", "snowcapped", "snow topped", "snow peaked")
+"""What mountains are anyway."""
 
 STEEP = ("steep", "uphill", "downhill", "slope", "sloping", "hilly")
 WAVES = tuple(

@@ -370,7 +370,7 @@ _WORDS: tuple[tuple[Role, Pos, Iterable[str]], ...] = (
     (Role.SHADE, Pos.ADJECTIVE, vocabulary_objects.SHADES),
     (Role.STILL, Pos.ADVERB, vocabulary_motion.STILL_WORDS),
     (Role.PART, Pos.NOUN, vocabulary_scene.PART_WORDS),
-    (Role.SNOW, Pos.ADJECTIVE, vocabulary_scene.SNOWY),
+    (Role.SNOW, Pos.ADJECTIVE, (*vocabulary_scene.SNOWY, *vocabulary_scene.SNOW_CAPPED)),
     (Role.SNOW, Pos.NOUN, ("snow",)),
     (Role.SKY, Pos.NOUN, vocabulary_scene.SKY_WORDS),
     (Role.STEEP, Pos.ADJECTIVE, vocabulary_scene.STEEP),

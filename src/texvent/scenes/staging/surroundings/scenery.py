@@ -44,6 +44,8 @@ class ViewClearance:
 
 _BANK_M = 1.0
 """Land that scenery leaves free beside water, m."""
+_FAR_SHORE_M = 100.0
+"""What stands further away than that may stand beyond the water."""
 _USUAL_DISTANCE_M = 16.0
 _IN_VIEW = 0.42
 """Half of what the image shows, but for its edges, as a multiple of the distance at focal 1."""
@@ -182,7 +184,8 @@ def _find_place(
         item = SceneryItem(
             rule.noun, model, (float(spot[0]), float(spot[1])), _face(rule, view, rng, -forward)
         )
-        if _is_free(item, view, bodies, items, is_afloat=rule.is_afloat):
+        is_across = rule.is_metres and rule.near >= _FAR_SHORE_M
+        if _is_free(item, view, bodies, items, is_afloat=rule.is_afloat, is_across=is_across):
             return item
     return None
 
@@ -268,7 +271,9 @@ def _is_free(
     items: Sequence[SceneryItem],
     *,
     is_afloat: bool = False,
+    is_across: bool = False,
 ) -> bool:
+    """Whether an item has room, hides nothing, and stands where it may: afloat, across water."""
     spot, radius = np.array(item.position), item.radius_m
     if view.road_half_width is not None:
         clear = view.road_half_width + radius + 0.4
@@ -279,7 +284,8 @@ def _is_free(
         return False
     if is_afloat and not (view.has_shore and view.road.across(spot) > radius + 0.5):
         return False
-    if view.has_shore and not is_afloat and view.road.across(spot) > -radius - _BANK_M:
+    is_ashore = is_afloat or is_across
+    if view.has_shore and not is_ashore and view.road.across(spot) > -radius - _BANK_M:
         return False
     if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < bodies[:, 2] + radius + 0.4):
         return False

@@ -29,6 +29,8 @@ _WIDE = frozenset({"lake", "sea", "harbour", "mountain"})
 _ATOP = frozenset({"on", "atop", "on top of", "upon"})
 _TOPS = frozenset({"ridge", "cliff", "summit", "peak", "hilltop", "mountaintop", "mountain"})
 """Mountains stand around; nobody is on them."""
+_IN_THE_BACK = frozenset({"mountain"})
+"""What the scene is in front of anyway."""
 _BESIDE = frozenset({"beside", "next to", "near", "by", "alongside"})
 _ROAD_WORDS = frozenset({"road", "street", "highway", "lane", "motorway", "roadway"})
 _ALL_ROUND = frozenset({"plain", "underwater", "sky", "space"})
@@ -66,7 +68,8 @@ def name_course(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
 def _is_elsewhere(preposition: str, place: str, head: str, scope: Scope) -> bool:
     """As in "behind a hill", "runs around a lake", "a goat on a ridge": not amid what is there."""
     if preposition in _ASIDE:
-        return place not in _ALL_ROUND
+        is_before = preposition == "in front of" or not scope.subjects
+        return place not in _ALL_ROUND and not (is_before and head in _IN_THE_BACK)
     if preposition == "around":
         return place in _WIDE and bool(scope.movers)
     return preposition in _ATOP and place == "mountain" and head in _TOPS and bool(scope.subjects)

@@ -68,6 +68,8 @@ _LOCATIVE = frozenset(
 """Prepositions after which a mountain is a place to be, not an object to look at."""
 
 
+_RANGES = frozenset({"mountains", "peaks", "mountain peaks"})
+"""Plurals that stand all around, unless they are counted."""
 _OUTSIDE = frozenset({"above", "past", "around", "over", "towards", "toward", "from", "to", "at"})
 """Prepositions after which a building is looked at from outside."""
 _AROUND = ("surrounded by", "among", "amongst", "amid", "lined with", "lined by")
@@ -193,7 +195,8 @@ class Referents(Antecedents):
                 return Role.PLACE
             if place.value == "indoor" and preposition in _OUTSIDE:
                 return Role.NOUN
-            is_around = preposition in _AROUND and place.value == "mountain"
+            is_range = head.text in _RANGES and not read_attributes(group.modifiers).is_many
+            is_around = is_range or (preposition in _AROUND and place.value == "mountain")
             return Role.PLACE if is_around or preposition in _LOCATIVE else Role.NOUN
         if is_thing and self.has_body and head.lemma in BODY_PARTS:
             return Role.PART
