@@ -723,3 +723,31 @@ def test_a_thing_is_made_of_a_material(prompt: str, colour: str | None, material
     named = description.objects[0].colour
     assert (named.name if named and named.name in prompt else None) in (colour, material)
     assert any(one.word == material and one.aspect == "material" for one in description.claims)
+
+
+def test_what_gains_speed_accelerates():
+    for verb in ("accelerates to gain speed", "picks up speed", "gathers speed"):
+        motion = parse_prompt(f"a truck {verb}").objects[0].motion
+        assert motion is not None
+        assert (motion.pace, motion.end_pace) == (0.5, 1.8)
+
+
+def test_what_pulls_into_a_place_comes_to_rest_there():
+    said = parse_prompt("a truck pulls into a parking lot")
+    assert said.surroundings.place == "parking lot"
+    assert said.objects[0].motion is not None
+    assert said.objects[0].motion.end_pace == 0.0
+
+
+def test_boats_that_are_moored_lie_still():
+    for verb in ("docked", "moored", "anchored"):
+        said = parse_prompt(f"two boats {verb} in a harbour")
+        assert not said.not_understood
+        assert said.objects[0].motion is not None
+        assert not said.objects[0].motion.is_moving
+
+
+def test_what_leans_on_something_stands_at_it():
+    said = parse_prompt("a bicycle leans against a wall")
+    assert [one.kind for one in said.relations] == ["beside"]
+    assert [(one.said, one.shown) for one in said.substituted] == [("leans", "stand")]

@@ -129,7 +129,7 @@ SIMILAR_MOTIONS: dict[str, tuple[str, ...]] = {
     "run": ("play",),
     "drive": ("plow", "plough"),
     "change lane": ("cut in",),
-    "stand": ("freeze",),
+    "stand": ("freeze", "lean"),
     "jump": ("bob", "breach"),
     "sit": ("crouch", "squat", "curl up", "watch", "stare", "lean", "relax", "lounge",
             "hide"),

@@ -64,7 +64,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
                    "print", "clack")},
     "stand": {
         1.0: ("park", "wait", "rest", "stay", "pause", "pose", "stand", "hang", "remain",
-               "perch", "idle"),
+               "perch", "idle", "moor", "anchor", "dock"),
     },
     "sit": {1.0: ("sit",)},
     "lie": {1.0: ("lie", "doze", "sleep")},
@@ -94,7 +94,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("exit", "leave"),
     Verb("depart", "move", 0.0, direction="away", end_pace=1.0),
     *(Verb(f"pull {way}", "move", 0.0, end_pace=1.0) for way in ("away", "off", "forward")),
-    *(Verb(f"pull {way}", "move", 1.0, end_pace=0.0) for way in ("over", "up", "in")),
+    *(Verb(f"pull {way}", "move", 1.0, end_pace=0.0) for way in ("over", "up", "in", "into")),
     *(Verb(f"drive {way}", "move", direction="away") for way in ("off", "away")),
     Verb("retreat", "move", direction="away"),
     Verb("recede", "move", direction="away"),
@@ -113,8 +113,17 @@ VERBS: tuple[Verb, ...] = (
     ),
     Verb("cross", "move", direction="across", relation="on"),
     Verb("traverse", "move", direction="across", relation="on"),
-    Verb("accelerate", "move", 0.5, end_pace=1.8),
-    Verb("speed up", "move", 0.5, end_pace=1.8),
+    *(
+        Verb(base, "move", 0.5, end_pace=1.8)
+        for base in (
+            "accelerate",
+            "speed up",
+            "gain speed",
+            "pick up speed",
+            "gather speed",
+            "accelerate to gain speed",
+        )
+    ),
     *(
         Verb(base, "move", 1.8, end_pace=0.0)
         for base in (
