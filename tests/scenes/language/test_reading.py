@@ -751,3 +751,16 @@ def test_what_leans_on_something_stands_at_it():
     said = parse_prompt("a bicycle leans against a wall")
     assert [one.kind for one in said.relations] == ["beside"]
     assert [(one.said, one.shown) for one in said.substituted] == [("leans", "stand")]
+
+
+def test_things_sit_where_they_are():
+    assert not parse_prompt("a vase sitting on a table").substituted
+    assert not parse_prompt("a train sits beside a platform").substituted
+    assert parse_prompt("a doll sits on a chair").substituted
+
+
+@pytest.mark.parametrize("noun", ["bear", "horse", "wolf", "lizard"])
+def test_a_colour_before_an_animal_is_its_colour(noun):
+    said = parse_prompt(f"a white {noun} walks")
+    assert said.objects[0].colour is not None
+    assert not said.substituted

@@ -357,8 +357,8 @@ def animal_noun(
 NOUNS = (
     animal_noun("dog", DOG, 1.6),
     animal_noun("cat", CAT, 1.0, ("kitty",)),
-    animal_noun("fox", FOX, 1.4),
-    animal_noun("wolf", WOLF, 1.8),
+    animal_noun("fox", FOX, 1.4, ("red fox",)),
+    animal_noun("wolf", WOLF, 1.8, ("grey wolf", "gray wolf")),
     animal_noun("horse", HORSE, 2.0, ("stallion", "mare")),
     animal_noun("zebra", ZEBRA, 1.8),
     animal_noun("cow", COW, 1.1, (), ("cattle",)),

@@ -37,20 +37,20 @@ ANIMAL_KINDS: dict[str, str] = {
     "cat": """
         persian cat, egyptian cat, maine coon, british shorthair, house cat, tomcat,
         stray cat, calico cat, sphynx, bengal cat, pussycat""",
-    "fox": "red fox, kit fox, arctic fox, grey fox, gray fox, fennec, vixen",
+    "fox": "kit fox, arctic fox, fennec, vixen",
     "wolf": """
-        timber wolf, grey wolf, gray wolf, white wolf, red wolf, coyote, jackal,
+        timber wolf, red wolf, coyote, jackal,
         werewolf, hyena""",
     "lion": "african lion, cougar, puma, mountain lion",
     "tiger": "tigress, siberian tiger, bengal tiger",
     "cheetah": "snow leopard, lynx, bobcat, serval",
     "bear": """
-        black bear, american black bear, sloth bear, grizzly bear, grizzly, spectacled
+        american black bear, sloth bear, grizzly bear, grizzly, spectacled
         bear, kodiak, anteater, wombat""",
     "polar bear": "ice bear",
     "horse": """
         racehorse, mustang, sorrel, thoroughbred, arabian horse, draft horse, workhorse,
-        wild horse, racing horse, white horse, carthorse, warhorse, palomino, appaloosa,
+        wild horse, racing horse, carthorse, warhorse, palomino, appaloosa,
         clydesdale""",
     "donkey": "mule, burro, ass",
     "cow": "heifer, water buffalo, dairy cow, yak, holstein, longhorn",
@@ -80,7 +80,7 @@ ANIMAL_KINDS: dict[str, str] = {
     "crocodile": "african crocodile, american alligator, caiman, nile crocodile, alligator",
     "lizard": """
         gecko, banded gecko, iguana, common iguana, chameleon, african chameleon, american
-        chameleon, whiptail, agama, alligator lizard, green lizard, gila monster, komodo
+        chameleon, whiptail, agama, alligator lizard, gila monster, komodo
         dragon, salamander, european fire salamander, spotted salamander, newt, common
         newt, eft, skink, monitor lizard""",
     "frog": "tailed frog, treefrog, tadpole frog, toad, tree frog, bullfrog",
@@ -88,7 +88,7 @@ ANIMAL_KINDS: dict[str, str] = {
         cobra, indian cobra, python, rock python, boa, boa constrictor, viper, adder,
         horned viper, rattlesnake, diamondback, sidewinder, mamba, green mamba, garter
         snake, king snake, grass snake, thunder snake, ringneck snake, hognose snake,
-        green snake, water snake, vine snake, night snake, sea snake, anaconda, serpent,
+        water snake, vine snake, night snake, sea snake, anaconda, serpent,
         eel""",
     "turtle": """
         tortoise, loggerhead, leatherback, leatherback turtle, mud turtle, terrapin, box
@@ -145,7 +145,7 @@ ANIMAL_KINDS: dict[str, str] = {
     "spider": """
         black and gold garden spider, barn spider, jumping spider, garden spider, black widow, wolf
         spider, harvestman, daddy longlegs, tick, mite, arachnid, tarantula""",
-    "ant": "fire ant, red ant, termite, worker ant",
+    "ant": "fire ant, termite, worker ant",
     "beetle": """
         ground beetle, tiger beetle, long horned beetle, leaf beetle, dung beetle,
         rhinoceros beetle, weevil, stag beetle, scarab, cockroach, bug, june bug,

@@ -27,7 +27,7 @@ _HELD_ON_TO = frozenset({"ladder", "wall", "tree", "rope", "pole", "fence", "cli
 """What is climbed with hands and feet."""
 _STAIRS = frozenset({"stair", "stairs", "staircase", "stairway"})
 _WAY = {"descend": "down"}
-_DOLLS = frozenset({"toy robot", "doll", "teddy bear"})
+DOLLS = frozenset({"toy robot", "doll", "teddy bear"})
 """Figures without joints, which slide where they walk."""
 _TOPPLING = frozenset({"domino", "bowling pin"})
 """What falls over where it stands."""
@@ -124,7 +124,7 @@ def _choose_kind(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
         return replace(verb, kind="climb", pace=1.0, direction=_WAY.get(verb.base))
     if noun.name in _TOPPLING and verb.kind == "fall":
         return replace(verb, kind="topple")
-    if noun.name in _DOLLS and verb.kind in ("walk", "run"):
+    if noun.name in DOLLS and verb.kind in ("walk", "run"):
         return replace(verb, kind="slide", pace=0.5 * verb.pace)
     if verb.base in _STEPS and (is_on_ground or noun.motion == "roll"):
         return replace(verb, kind="move")
