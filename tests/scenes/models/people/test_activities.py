@@ -233,3 +233,11 @@ def test_what_roles_hold_is_of_roles_and_is_left_out_where_the_act_has_it() -> N
     assert set(HOLDS) <= PERSON_NOUNS
     skiing = {prop.anchor for prop in PROPS["ski"]}
     assert {prop.anchor for prop in HOLDS["skier"]} == skiing
+
+
+def test_who_flies_is_stretched_out_in_the_air():
+    joints = person.pose_joints(Pose(0.3, 2.0, 3.0, "fly"))
+    hips, ankles = np.array(joints.hips), np.array(joints.ankles)
+    hands = np.array(joints.hands)
+    assert np.abs(hips[:, 2] - ankles[:, 2]).max() < 0.25
+    assert hands[:, 0].max() > hips[:, 0].max() + 0.8  # one hand is ahead of all

@@ -288,6 +288,19 @@ def _swim(t: float) -> Posture:
                    right_leg=leg(0.5))  # fmt: skip
 
 
+def _fly(t: float) -> Posture:
+    """Stretched out in the air, one arm ahead, legs trailing."""
+    sway = swing(t, 0.4)
+
+    def leg(side: float) -> Leg:
+        return Leg((-0.84, 0.09, HIP - 0.10 + 0.03 * side * sway), (0.0, 0.1, -1.0), 1.3)
+
+    return Posture(hips=(0.0, 0.0, HIP), lean=1.40, tilt=0.06 * sway, nod=-0.9,
+                   left=Arm((0.05, 0.06, 0.62), (-0.6, 0.8, 0.0)),
+                   right=Arm((0.05, 0.10, -0.60), (-0.6, 0.8, 0.0)),
+                   left_leg=leg(1.0), right_leg=leg(-1.0))  # fmt: skip
+
+
 BOARD_STANCE = 0.09
 """Height of the soles of who stands on a board, m."""
 
@@ -349,7 +362,7 @@ SPORTS: Mapping[str, Movement] = MappingProxyType(
         "catch": repeated(catch, 1.9, 0.9), "swing bat": repeated(swing_bat, 2.0, 0.9),
         "swing racket": repeated(swing_racket, 1.7, 0.85),
         "swing club": repeated(swing_club, 2.4, 1.2), "dribble": _dribble, "juggle": _juggle,
-        "climb": _climb, "swim": _swim, "surf": _board, "skate": _board, "snowboard": _board,
+        "climb": _climb, "swim": _swim, "fly": _fly, "surf": _board, "skate": _board, "snowboard": _board,
         "ski": _ski, "row": _row,
     }
 )  # fmt: skip

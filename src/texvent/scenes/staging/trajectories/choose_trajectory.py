@@ -107,7 +107,7 @@ def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:
 
 
 def _activity(kind: str) -> str:
-    if kind in TRAVELLING:
+    if kind in TRAVELLING or kind == "fly":
         return kind
     return "stand" if kind == "slide" else "move"
 

@@ -355,6 +355,6 @@ class _Builder:
 
 
 def _activity(motion: ObjectMotion) -> str:
-    if motion.kind in TRAVELLING:
+    if motion.kind in TRAVELLING or motion.kind == "fly":
         return motion.kind
     return "stand" if motion.kind == "slide" else "move"
