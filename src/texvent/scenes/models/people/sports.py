@@ -362,8 +362,8 @@ SPORTS: Mapping[str, Movement] = MappingProxyType(
         "catch": repeated(catch, 1.9, 0.9), "swing bat": repeated(swing_bat, 2.0, 0.9),
         "swing racket": repeated(swing_racket, 1.7, 0.85),
         "swing club": repeated(swing_club, 2.4, 1.2), "dribble": _dribble, "juggle": _juggle,
-        "climb": _climb, "swim": _swim, "fly": _fly, "surf": _board, "skate": _board, "snowboard": _board,
-        "ski": _ski, "row": _row,
+        "climb": _climb, "swim": _swim, "fly": _fly, "surf": _board, "skate": _board,
+        "snowboard": _board, "ski": _ski, "row": _row,
     }
 )  # fmt: skip
 """Activity → posture of the whole body over time."""
