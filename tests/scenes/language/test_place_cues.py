@@ -130,3 +130,23 @@ def test_snow_lies_around_mountains_that_are_not_just_capped() -> None:
 def test_one_stands_in_front_of_mountains_and_is_not_seen_behind_them() -> None:
     assert not parse_prompt("a barn in front of mountains").not_understood
     assert parse_prompt("a car drives behind the mountains").not_understood == ("behind",)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("restaurant", "restaurant"),
+        ("an office with two chairs", "office"),
+        ("indoor swimming pool", "pool hall"),
+        ("golf course", "golf course"),
+        ("a bakery", "bakery"),
+    ],
+)
+def test_a_place_that_the_prompt_is_all_about_is_the_scene(prompt: str, place: str) -> None:
+    assert parse_prompt(prompt).surroundings.place == place
+
+
+@pytest.mark.parametrize("prompt", ["the library", "a barn", "a dog in front of a library"])
+def test_a_building_that_is_looked_at_stays_a_thing(prompt: str) -> None:
+    nouns = {one.noun for one in parse_prompt(prompt).objects}
+    assert nouns & {"building", "barn"}

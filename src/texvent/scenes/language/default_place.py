@@ -66,6 +66,7 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
     "boxing hall": ("boxer",),
     "stage": ("conductor", "ballerina", "flamenco dancer"),
     "kitchen": ("chef",),
+    "sea": ("iceberg",),
 }  # fmt: skip
 """Place → nouns that are usually found there; what is not listed is shown on grass."""
 

@@ -23,7 +23,7 @@ from texvent.scenes.language.phrases.mood_notes import note_moods
 from texvent.scenes.language.phrases.names import join_names
 from texvent.scenes.language.phrases.phrasings import plain_phrases
 from texvent.scenes.language.phrases.styles import set_styles_aside
-from texvent.scenes.language.place_cues import find_cues, read_outsides
+from texvent.scenes.language.place_cues import find_cues, read_outsides, read_titles
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.word_claims import (
     CROWDED,
@@ -80,6 +80,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     is_carried = mark_viewpoints(words)
     mark_standpoints(words)
     cues = find_cues(words, is_outside=read_outsides(words))
+    read_titles(words)
     meaning = ClauseMeaning(
         nouns, is_carried=is_carried, means=find_means(words) if is_carried else None
     )

@@ -82,6 +82,39 @@ def read_outsides(words: Sequence[Word]) -> bool:
     return is_any
 
 
+def read_titles(words: Sequence[Word]) -> None:
+    """Read a place that is all the prompt is about as that place, not as a building.
+
+    As in "restaurant", "an office with two desks". The words change.
+    """
+    for index, word in enumerate(words):
+        place = word.read_as(Role.PLACE)
+        thing = word.read_as(Role.NOUN)
+        is_title = thing is not None and thing.is_substitute
+        is_title = is_title and place is not None and place.value in _TITLES
+        if place is None or place.is_substitute or not is_title:
+            if word.pos in _BEFORE_TITLE or word.text in _TITLE_WORDS:
+                continue
+            return
+        if index and words[0].text == "the" and "of" not in [one.text for one in words[:index]]:
+            return
+        after = words[index + 1] if index + 1 < len(words) else None
+        if after is None or after.text in _AFTER_TITLE or not after.text.isalpha():
+            word.meaning = place
+            word.others = tuple(one for one in word.others if one is not thing)
+        return
+
+
+_TITLES = (ENCLOSED - {"hospital room", "museum", "church hall", "indoor", "stage"}) | {
+    "museum", "campus", "baseball field", "golf course"}  # fmt: skip
+"""Places that a prompt may be about as a whole; hospitals and churches are known from outside."""
+_BEFORE_TITLE = (Pos.DETERMINER, Pos.ADJECTIVE, Pos.NUMBER)
+_TITLE_WORDS = frozenset({"indoor", "inside", "interior", "view", "of", "a", "an", "the", "in",
+                          "photo", "picture", "image", "video", "scene"})  # fmt: skip
+_AFTER_TITLE = frozenset({"with", "filled", "full", "interior", "that", "in", "at", "by", "during",
+                          "under"})  # fmt: skip
+
+
 def _is_outside(words: Sequence[Word], index: int) -> bool:
     for word in reversed(words[max(index - _FARTHEST, 0) : index]):
         if word.text in OUTSIDE or (word.pos is Pos.VERB and word.lemma in APPROACHES):

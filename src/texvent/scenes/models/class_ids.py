@@ -176,6 +176,11 @@ _NOUNS: tuple[str, ...] = (
     "vertical edge", "random dots", "barcode", "qr code", "april tag",
     "ceiling fan", "pendant lamp", "laser dot", "tilting platform", "ramp",
     "tunnel walls", "flying owl",
+    "kitchen cabinet", "kitchen counter", "kitchen sink", "shower curtain", "wash stand",
+    "computer desk", "bread shelf", "medicine shelf", "food counter", "canteen table",
+    "cinema seats", "film screen", "mixing desk", "mansion", "palace", "golf green",
+    "sand bunker", "flower bed", "skyscraper", "factory building", "hospital building", "shop",
+    "scrap heap", "baseball diamond", "glacier front", "race kerb", "start arch", "pool basin",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

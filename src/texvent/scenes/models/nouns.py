@@ -47,6 +47,7 @@ from texvent.scenes.models.objects.home import (
 )
 from texvent.scenes.models.objects.kitchen import appliances, dishes, food, tableware
 from texvent.scenes.models.objects.outdoors import (
+    estates,
     flowing,
     landmarks,
     street_furniture,
@@ -54,7 +55,7 @@ from texvent.scenes.models.objects.outdoors import (
     vegetation,
     wild,
 )
-from texvent.scenes.models.objects.places import enclosures, grounds, halls, rooms
+from texvent.scenes.models.objects.places import enclosures, grounds, halls, interiors, rooms
 from texvent.scenes.models.objects.play import music, toppling
 from texvent.scenes.models.objects.play import toys as playthings
 from texvent.scenes.models.objects.sport import balls, equipment, gear
@@ -152,6 +153,8 @@ _MODULES = (
     tales,
     halls,
     enclosures,
+    interiors,
+    estates,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}

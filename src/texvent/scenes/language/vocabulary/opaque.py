@@ -93,7 +93,7 @@ _TEXT = """
     play pen, light pen, globe artichoke, snow globe shaker, domino effect, card trick,
     chess clock, dice game, toy
     shop window, doll face, paper doll, gate way, gateway,
-    flood gate, gate keeper, water gate, fire gate, golf course, golf bag, football pitch, net
+    flood gate, gate keeper, water gate, fire gate, golf bag, football pitch, net
     curtain, bow and arrow game, arrow head, arrowhead, dart frog, poison dart frog, bus bar, toad
     stool, nut shell, nutshell, shell script, bomb shell, shell suit, eggshell paint, bone china,
     bone marrow, wish bone, back bone, backbone, jaw bone, collar bone, fish bone, trombone slide,

@@ -6,13 +6,14 @@ ROOMS = frozenset(
     {"indoor", "living room", "kitchen", "bedroom", "gym", "classroom", "bathroom", "ballroom",
      "stage", "operating theatre", "hospital room", "train carriage", "cave", "boxing hall",
      "basketball court", "ice rink", "corridor", "hospital corridor",
-     "school hallway", "airport hall", "storeroom"}
+     "school hallway", "airport hall", "storeroom", "cafeteria", "recording studio", "nursery",
+     "pool hall"}
 )  # fmt: skip
 """Enclosed places that are not known by their outside."""
 BUILDINGS = frozenset(
     {"office", "workshop", "warehouse", "laboratory", "museum", "church hall", "subway station",
      "supermarket", "library", "restaurant", "bar", "nightclub", "factory", "garage", "car wash",
-     "prison", "bowling alley"}
+     "prison", "bowling alley", "pharmacy", "bakery", "cinema", "science museum"}
 )  # fmt: skip
 """Enclosed places that are buildings to look at from outside."""
 ENCLOSED = ROOMS | BUILDINGS

@@ -49,24 +49,23 @@ PLACES: dict[str, tuple[str, ...]] = {
 """Place → words for it, in the singular (regular plurals are understood too)."""
 
 PLACE_KINDS: dict[str, tuple[str, ...]] = {
-    "road": ("race track", "racetrack"),
     "city": (
-        "avenue", "london", "paris", "new york", "tokyo", "campus",
+        "avenue", "london", "paris", "new york", "tokyo",
         "boulevard", "promenade", "high street", "main street",
         "bus station", "railroad crossing", "railway crossing",
     ),
     "square": ("courtyard", "cloister"),
     "church hall": ("church",),
     "grass": (
-        "orchard", "zoo", "golf course", "riverbank", "campsite", "campground", "picnic area",
+        "orchard", "zoo", "riverbank", "picnic area",
         "clearing",
     ),
     "soil": ("farmland", "vegetable patch", "crop field"),
     "sand": ("island", "oasis", "sandpit", "sandbox"),
-    "snow": ("glacier", "ice", "frozen lake", "tundra"),
-    "mountain": ("cliff", "ridge", "summit", "peak"),
+    "snow": ("ice", "frozen lake", "tundra"),
+    "mountain": ("ridge", "summit", "peak"),
     "sea": ("bay", "lagoon", "fjord"),
-    "lake": ("water hole", "waterhole", "swamp", "marsh"),
+    "lake": ("water hole", "waterhole"),
     "river": ("rapids", "ditch", "white water", "whitewater", "white water rapids"),
     "forest": ("park trail", "bamboo grove", "swamp forest"),
     "indoor": (
@@ -75,8 +74,8 @@ PLACE_KINDS: dict[str, tuple[str, ...]] = {
     ),
     "storeroom": ("attic", "basement", "cellar", "loft", "pantry", "shed interior"),
     "living room": ("dining room", "conservatory", "apartment", "flat", "hotel lobby"),
-    "kitchen": ("bakery", "restaurant kitchen", "canteen"),
-    "bedroom": ("hotel room", "nursery", "dormitory"),
+    "kitchen": ("restaurant kitchen",),
+    "bedroom": ("hotel room", "dormitory"),
     "office": ("study", "home office", "conference room", "meeting room", "control room",
         "server room", "call center", "reception", "open plan office", "school", "waiting room"),
     "workshop": ("forge",),

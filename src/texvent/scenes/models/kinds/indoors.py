@@ -58,10 +58,11 @@ INDOOR_KINDS: dict[str, str] = {
     "shelf": """
         spice rack, wine rack, shoe rack, towel rack, plate rack, server rack, storage
         rack, pantry""",
-    "wardrobe": "medicine cabinet, kitchen cabinet, filing cabinet, file cabinet, storage cabinet",
+    "wardrobe": "medicine cabinet, filing cabinet, file cabinet, storage cabinet",
     "desk": """
-        countertop, kitchen counter, kitchen island, worktop, reception desk, checkout
+        reception desk, checkout
         counter, bar  check in desk, work table, drafting table""",
+    "bar counter": "bar",
     "table": "poker table, tabletop, folding table, patio table, trestle table, bistro table",
     "clock": "kitchen timer, timer, barometer",
     "picture frame": """
@@ -124,7 +125,7 @@ INDOOR_KINDS: dict[str, str] = {
     "vase": "planter, flower vase, porcelain vase, pottery, clay pot, ceramic pot",
     "bouquet": """
         flower bouquet, bunch of flowers, bunch of roses, floral arrangement, wreath,
-        flower bed, flowerbed, ikebana""",
+        ikebana""",
     "pillow": "throw pillow, beanbag cushion, sandbag neck pillow",
     "candle": "birthday candle, tea light, tealight, candle stub",
     "star": "ornament star, paper star",

@@ -5,12 +5,16 @@ from __future__ import annotations
 OUTDOOR_KINDS: dict[str, str] = {
     "building": """
         apartment building, apartment tower, motel, police station, fire station, post
-        office, town hall, courthouse, power plant, nuclear power plant, nuclear plant,
+        office, town hall, courthouse,
         parking garage, government building, mansion block, facade, tower building,
         office tower, high rise building, department store, shopping mall, shopping
         centre, shopping center, airport terminal, embassy, inn, casino, headquarters,
+        apartment complex, condo""",
+    "shop": """
         convenience store, corner shop, bookstore, cafe building, laundromat, pharmacy,
-        storefront, shop front, apartment complex, condo""",
+        drugstore, bakery, store, restaurant, cafe, coffee shop, pizzeria, butcher shop,
+        barber shop""",
+    "factory building": "nuclear power plant, nuclear plant, refinery",
     "house": """
         townhouse, farm house, guest house, ranch house, beach house, summer house,
         gazebo, gingerbread house, dollhouse, doll house, holiday home""",

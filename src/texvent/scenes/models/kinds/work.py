@@ -96,7 +96,7 @@ WORK_KINDS: dict[str, str] = {
     "radio": """
         multimeter, tape recorder, amplifier radio, two way radio, geiger counter,
         voltmeter, cassette recorder, guitar amp, effects pedal, intercom, car radio,
-        baby monitor, mixing desk, mixing console, dj deck, dj booth, dj controller""",
+        baby monitor, mixing console, dj deck, dj booth, dj controller""",
     "cd": "lp, vinyl, vinyl disc, film reel, disc record, laserdisc",
     "music keyboard": "keyboard piano, piano keys, piano keyboard, midi keyboard, keytar",
     "microphone": """

@@ -213,7 +213,7 @@ NOUNS = (
     fixed_noun("house", build_house, ("home",)),
     fixed_noun(
         "building", build_high_rise,
-        ("skyscraper", "high-rise", "tower block"),
+        ("tower block",),
     ),
     fixed_noun("barn", build_barn),
     working_noun("windmill", build_windmill, ()),

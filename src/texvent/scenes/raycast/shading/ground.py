@@ -20,6 +20,8 @@ _FRAME_M = 0.05
 _FRAME = (0.70, 0.69, 0.66)
 _DARK_FRAME = (0.10, 0.06, 0.035)
 _SKIRTING = (0.3, 0.24, 0.2)
+_CEILING = (1.7, 1.69, 1.64)
+"""White, and lit from below by what floor and walls send back, which is not traced."""
 
 
 @jit(error_model="numpy", inner=True)
@@ -93,13 +95,12 @@ def wall_look(
     axes = patch_axes((right[a], right[b], down[a], down[b]))
     side = -1.0 if face == 2 or point[face] > 0.0 else 1.0
     if face == 2:
-        plain = (0.8, 0.8, 0.78)
         sample = sample_material(instant, _PLASTER, point[0], point[1], axes, 1.0)
-        look = painted(sample, plain, scaled(plain, 0.8), 1.0)
+        look = painted(sample, _CEILING, scaled(_CEILING, 0.9), 1.0)
         return look[0], (-look[1], -look[2], -1.0)
     plain = triple(instant.wall_colour)
     sample = sample_material(instant, instant.wall_surface, point[a], point[b], axes, 1.0)
-    look = painted(sample, plain, scaled(plain, 0.72), 1.0)
+    look = painted(sample, plain, scaled(plain, 0.82), 1.0)
     feet = (abs(right[a]) + abs(down[a]), abs(right[2]) + abs(down[2]), 0.0)
     colour = look[0]
     if instant.wall_surface not in (_STONE, _CLOTH):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from texvent.scenes.scene import Colour, Ground, Texture
 from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance, room
+from texvent.scenes.staging.surroundings.more_places import MORE_GROUNDS, MORE_SCENERY
 from texvent.scenes.staging.surroundings.scatter_rule import ScatterRule, along_walls
 
 _MEADOW: tuple[Colour, Colour] = ((0.055, 0.14, 0.022), (0.13, 0.21, 0.045))
@@ -106,6 +107,7 @@ BUILT_GROUNDS: dict[str, GroundAppearance] = {
     "arena": GroundAppearance(Ground.SAND, (0.44, 0.32, 0.19), (0.52, 0.39, 0.24)),
     "ski slope": GroundAppearance(Ground.SNOW, (0.66, 0.70, 0.75), (0.76, 0.79, 0.83)),
     "village": GroundAppearance(Ground.DIRT_ROAD, (0.07, 0.12, 0.03), (0.34, 0.22, 0.12), 2.4),
+    **MORE_GROUNDS,
 }  # fmt: skip
 """Ground of every place of `vocabulary.built_places`."""
 
@@ -269,6 +271,7 @@ BUILT_SCENERY: dict[str, tuple[ScatterRule, ...]] = {
                   ScatterRule("pine", 9, 0.6, 3.0, (0.7, 1.2))),
     "village": (_stands("wooden house", 4, 0.8, 2.6, 0.9), _stands("garden fence", 4, 0.4, 1.2),
                 ScatterRule("tree", 4, 0.8, 3.0), ScatterRule("church", 1, 1.8, 3.0, (0.9, 1.0))),
+    **MORE_SCENERY,
 }  # fmt: skip
 """Place → what stands around there."""
 

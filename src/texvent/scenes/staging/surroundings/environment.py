@@ -55,6 +55,10 @@ _FOG_SIGHT = 3.0
 """In fog, sight (to 37 %) in camera distances."""
 
 
+_CLOUDED = 0.5
+"""Clouds of a sky with nothing else in it."""
+
+
 @dataclass(frozen=True)
 class AnimatedEnvironment:
     """The surroundings as a function of time: all fixed, but for flicker, waves and clouds."""
@@ -208,6 +212,7 @@ def _choose_sky(
     least = [usual if said.clouds is None else said.clouds]
     least += [0.5] * description.is_timelapse + [0.9] * has_lightning
     least += [0.8] * (said.weather in ("rain", "snow"))
+    least += [_CLOUDED] * (said.place == "sky" and not description.objects and said.clouds is None)
     return top, horizon, max(least)
 
 

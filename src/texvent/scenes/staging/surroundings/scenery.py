@@ -287,18 +287,25 @@ def _is_free(
     is_ashore = is_afloat or is_across
     if view.has_shore and not is_ashore and view.road.across(spot) > -radius - _BANK_M:
         return False
-    if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < bodies[:, 2] + radius + 0.4):
+    # What stands at a wall is as deep as it is long, not as it is wide.
+    deep = 0.5 * item.model.length + 0.3 if item.is_at_wall else radius
+    near = bodies[:, 2] + min(deep, radius) + 0.4
+    if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < near):
         return False
     for other in items:
         if not other.is_flat and np.hypot(*(spot - other.position)) < 0.8 * (
             radius + other.radius_m
         ):
             return False
-    return not _hides(spot, radius, view)
+    return not _hides(spot, (radius, min(deep, radius)), view)
 
 
-def _hides(spot: Float64Array, radius: float, view: ViewClearance) -> bool:
-    """Whether a round object there stands before something the camera must see."""
+def _hides(spot: Float64Array, radii: tuple[float, float], view: ViewClearance) -> bool:
+    """Whether an object there stands before something the camera must see.
+
+    `radii` are its radius, and that of what it takes of the view.
+    """
+    radius, narrow = radii
     for camera, points in zip(view.cameras, view.points, strict=True):
         start = camera.position[:2]
         if np.hypot(*(spot - start)) < radius + 1.0:
@@ -309,6 +316,6 @@ def _hides(spot: Float64Array, radius: float, view: ViewClearance) -> bool:
         lengths = np.maximum(np.hypot(rays[:, 0], rays[:, 1]), 1e-9)
         along = np.clip((rays @ (spot - start)) / lengths**2, 0.0, 1.0)
         nearest = start + along[:, None] * rays
-        if np.any(np.hypot(*(nearest - spot).T) < radius + 0.15):
+        if np.any(np.hypot(*(nearest - spot).T) < narrow + 0.15):
             return True
     return False

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from texvent.scenes.scene import Colour
 from texvent.scenes.staging.surroundings.built_places import BUILT_SCENERY
+from texvent.scenes.staging.surroundings.more_places import REEF
 from texvent.scenes.staging.surroundings.scatter_rule import ScatterRule
 from texvent.scenes.staging.surroundings.scatter_rule import along_walls as _along_walls
 
 __all__ = ["BACKDROPS", "SCENERY", "ScatterRule"]
 
-_PINK: Colour = (0.75, 0.25, 0.30)
-_CORAL: tuple[Colour, ...] = (_PINK, (0.80, 0.40, 0.12), (0.55, 0.20, 0.50), (0.75, 0.65, 0.20))
 _DRY: Colour = (0.25, 0.22, 0.06)
 
 _MOUNTAINS = ScatterRule("mountain", 7, 190.0, 330.0, (0.9, 1.5), is_metres=True)
@@ -43,10 +42,7 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
         ScatterRule("tree", 8, 0.35, 2.5, (0.9, 1.4)),
         ScatterRule("bush", 5, 0.2, 1.0, (0.5, 1.0)),
     ),
-    "underwater": (
-        ScatterRule("rock", 6, 0.2, 1.4, (0.5, 1.5), fits_view=True),
-        ScatterRule("bush", 8, 0.15, 1.2, (0.3, 0.8), _CORAL, fits_view=True),
-    ),
+    "underwater": REEF,
     "sand": (ScatterRule("palm", 3, 0.7, 2.5), ScatterRule("rock", 4, 0.3, 2.0, (0.4, 1.0))),
     "snow": (ScatterRule("pine", 8, 0.7, 3.5, (0.7, 1.2)),),
     "mountain": (
@@ -74,16 +70,16 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
         ("chest of drawers", 1), ("bookshelf", 1), ("potted plant", 2), ("grandfather clock", 1),
     ),
     "kitchen": _along_walls(
-        ("refrigerator", 1), ("oven", 1), ("sink", 1), ("chest of drawers", 2),
-        ("washing machine", 1), ("shelf", 1), ("table", 1), ("chair", 2),
+        ("kitchen cabinet", 2), ("refrigerator", 1), ("oven", 1), ("kitchen sink", 1),
+        ("kitchen cabinet", 1), ("table", 1), ("chair", 2),
     ),
     "bedroom": _along_walls(
         ("bed", 1), ("wardrobe", 1), ("lamp", 1), ("chest of drawers", 1), ("large painting", 1),
         ("bookshelf", 1), ("chair", 1),
     ),
     "office": _along_walls(
-        ("desk", 2), ("office chair", 2), ("bookshelf", 2), ("wardrobe", 1), ("potted plant", 1),
-        ("whiteboard", 1), ("chair", 2),
+        ("computer desk", 3), ("bookshelf", 2), ("whiteboard", 1), ("potted plant", 1),
+        ("office chair", 1), ("wardrobe", 1),
     ),
     "workshop": _along_walls(
         ("desk", 2), ("chest", 1), ("shelf", 2), ("ladder", 1), ("box", 3), ("barrel", 2),

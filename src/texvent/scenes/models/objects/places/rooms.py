@@ -254,7 +254,7 @@ NOUNS = (
         *(part for k in range(9) for z in (1.27, 1.72) for part in (
             post(_GOODS[(k + int(z * 3)) % 4], (-0.28, -1.3 + 0.32 * k, z + 0.13), (0.09, 0.09,
                 0.26)),))],
-        ("bar", "saloon bar")),
+        ("saloon bar",)),
     thing("factory machine", ((0.10, 0.30, 0.32),), lambda p: [
         box(p, (0.0, 0.0, 0.9), (1.2, 2.2, 1.8)), box(GREY_PLASTIC, (0.61, -0.4, 1.1), (0.02,
             0.9, 0.8)),
