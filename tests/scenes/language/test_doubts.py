@@ -20,8 +20,13 @@ def doubts(prompt: str) -> dict[str, tuple[str, ...]]:
     [
         ("a red car drives left past two trees", {}),
         ("a dog swats at a ball", {"ball": ("swats",)}),
-        ("a dog sits beside a wug chair", {"sits": ("wug",), "chair": ("wug",)}),
-        ("a man runs slowly past a wug", {"runs": ("past", "wug"), "slowly": ("past", "wug")}),
+        ("a dog sits beside a wug chair", {"chair": ("wug",)}),
+        ("a man runs slowly past a wug", {"runs": ("past",), "slowly": ("past",)}),
+        ("a dog runs beside a wug", {}),
+        ("a dog stands on a wug", {}),  # what rests does so whatever it rests on
+        ("a man reaches for a cup beside a tree", {"cup": ("reaches",)}),
+        ("a dog sits on a tiled chair", {}),  # how it looks, not what it is
+        ("a camel walks through the Zorbland desert", {}),
         ("a dog runs. A cat swats", {}),
         ("an ironic dog runs", {}),  # an adjective changes neither noun nor verb
     ],

@@ -1,31 +1,69 @@
-"""Which words a noun goes with: where one of them is lost, the noun may mean something else."""
+"""Which words a noun or a verb goes with: where one of them is lost, it may mean something else."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
+from texvent.scenes.language.vocabulary.verbs import Verb
+from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.word import Word
+
+_DONE_TO = frozenset({"at", "for"})
+"""Prepositions before what a verb is done to: "swats at a fly", "reaches for a cup"."""
+_PARTICLES = frozenset(
+    {"out", "off", "up", "down", "away", "over", "back", "through", "apart", "along", "past",
+     "across", "into", "onto", "out of", "off of", "around", "towards", "toward"}
+)  # fmt: skip
+"""Words after a verb that can make another one of it: "hangs out", "runs over"."""
+_AT_REST = frozenset({"stand", "sit", "lie"})
+"""Motions of verbs that mean the same with whatever is around: "stands on a grate"."""
 
 
 def link_companions(clauses: Sequence[Clause]) -> None:
-    """Note at every noun of these clauses which words it goes with; the words change.
+    """Note at nouns and verbs of these clauses which words they go with; the words change.
 
-    * What a verb is done to goes with the verb: "swats at a fly".
-    * A noun goes with the words before it in its group: "passenger seat".
+    * What a verb is done to goes with the verb, and the verb with it: "swats at a fly".
+    * A verb goes with the particle after it: "hangs out", and so do its pace and its way. What
+      rests does so whatever it rests on.
+    * A noun goes with the nouns and gerunds before it in its group: "passenger seat". Participles
+      and adverbs ("a tiled wall") say how it looks, not what it is.
     """
     for clause in clauses:
-        done_to = list(clause.objects)
-        for phrase in clause.phrases:
+        phrases = [one for phrase in clause.phrases for one in phrase.groups]
+        if clause.verb is not None:
+            _link_verb(clause, clause.verb)
+        for group in _all_groups([*clause.subjects, *clause.objects, *phrases]):
+            _add(group, filter(_names_another, group.modifiers))
+        for group in _all_groups(clause.complements):
+            _add(group, filter(_names_another, group.modifiers))
+
+
+def _link_verb(clause: Clause, verb: Word) -> None:
+    done_to = list(clause.objects)
+    for phrase in clause.phrases:
+        if phrase.preposition.text in _DONE_TO:
             done_to.extend(phrase.groups)
-        verb = [clause.verb] if clause.verb is not None else []
-        for group in done_to:
-            _add(group, verb)
-        for group in _all_groups([*clause.subjects, *done_to, *clause.complements]):
-            _add(group, group.modifiers)
+    for group in done_to:
+        _add(group, [verb])
+    objects = [word for group in clause.objects for word in group.words if word.pos is Pos.NOUN]
+    particles = [word for word in clause.adverbs if word.text in _PARTICLES]
+    particles += [one.preposition for one in clause.phrases if one.preposition.text in _PARTICLES]
+    value = verb.meaning.value
+    is_at_rest = isinstance(value, Verb) and value.kind in _AT_REST and value.base != "hang"
+    own = objects if is_at_rest else [*objects, *particles]
+    for word in (verb, *clause.adverbs):
+        word.companions = (*word.companions, *(one for one in own if one is not word))
 
 
-def _add(group: NounGroup, words: Sequence[Word]) -> None:
+def _names_another(word: Word) -> bool:
+    """Whether a word before a noun can make it another thing: "store display", "parking meter"."""
+    if word.pos is Pos.NOUN:
+        return not word.is_name
+    return word.pos is Pos.VERB and word.meaning.form is VerbForm.ING
+
+
+def _add(group: NounGroup, words: Iterable[Word]) -> None:
     if group.head is not None:
         group.head.companions = (*group.head.companions, *words)
 

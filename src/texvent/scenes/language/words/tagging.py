@@ -27,7 +27,10 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
         The words, and a note for each spelling that was corrected.
     """
     notes: list[str] = []
-    tokens = [correct_token(token, known, notes) for token in tokens]
+    tokens = [
+        token if _is_written_as_name(tokens, number) else correct_token(token, known, notes)
+        for number, token in enumerate(tokens)
+    ]
     spans = list(cut_tokens(tokens, known))
     texts = [" ".join(token.text for token in span) for span, _ in spans]
     owners = frozenset(number for number, (span, _) in enumerate(spans) if is_possessive(span[-1]))
@@ -39,7 +42,16 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
         text = texts[index]
         lemma = next((one.lemma for one in list_readings(text) if one.pos is chosen.pos), text)
         words.append(Word(tuple(span), chosen, lemma, others=others))
+    for word, before in zip(words[1:], words, strict=False):
+        is_unknown = word.role is Role.UNKNOWN and word.pos is Pos.NOUN
+        word.is_name = is_unknown and _is_written_as_name([before.tokens[-1], word.tokens[0]], 1)
     return words, notes
+
+
+def _is_written_as_name(tokens: Sequence[Token], number: int) -> bool:
+    """Whether a word inside a sentence has a capital letter: "along the Seine"."""
+    is_inside = number > 0 and tokens[number - 1].text not in (".", "!", "?", ":")
+    return is_inside and tokens[number].written[:1].isupper()
 
 
 class _Tagger(ReadSoFar):

@@ -45,6 +45,8 @@ class Word:
     companions: tuple[Word, ...] = ()
     """Words that it goes with: where one of them is lost, it may mean something else."""
 
+    is_name: bool = False
+    """Whether it is a name that no dictionary lists: "Arizona" of "the Arizona desert"."""
     has_other_sense: bool = False
     """Whether its lemma is that of another word, which it means here: "ski" of "carves"."""
 
