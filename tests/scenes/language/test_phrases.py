@@ -97,3 +97,47 @@ def test_what_is_only_prepared_is_not_done() -> None:
     description = parse_prompt("a man preparing to swing a bat")
     assert "swing" in description.not_understood
     assert description.summary()[0] == "1 man, stands still"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first"),
+    [
+        ("a suit case on a table", "1 suitcase, stands still, on 1 table"),
+        ("a green house beside a tree", "1 house, green, stands still, beside 1 tree"),
+        ("a truck turning a corner", "1 truck, turns"),
+        ("a cow bending down to drink water from a lake", "1 cow, drinks"),
+        ("a man with a long coat wearing a hat", "1 man, walks, wearing 1 coat, wearing 1 hat"),
+        ("a boat with dolphins jumping", "1 boat, sails, with 3 dolphins"),
+        ("a group of people windsurfing", "5 people, stand still"),
+    ],
+)
+def test_who_and_what_is_meant_in_captions(prompt: str, first: str) -> None:
+    assert first_of(prompt) == first
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("a goat in a deep rocky canyon", "canyon"),
+        ("an indoor museum", "museum"),
+        ("a goat on top of a snowy hill", "hills"),
+        ("a man stands next to some water", "beach"),
+        ("a dog lies on the floor in a kitchen", "kitchen"),
+        ("busy highway at night", "motorway"),
+    ],
+)
+def test_what_a_place_is_anyway_costs_no_word(prompt: str, place: str) -> None:
+    description = parse_prompt(prompt)
+    assert description.surroundings.place == place
+    assert description.not_understood == ()
+
+
+def test_snow_on_a_thing_lies_all_around_it() -> None:
+    assert parse_prompt("a snow covered tree").surroundings.has_snow
+    assert parse_prompt("a foggy lighthouse").surroundings.weather == "fog"
+
+
+def test_a_name_is_not_corrected_to_a_word() -> None:
+    description = parse_prompt("a boat sails along the Seine river")
+    assert description.not_understood == ("seine",)
+    assert not any(claim.lost for claim in description.claims)

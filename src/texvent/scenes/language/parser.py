@@ -19,6 +19,8 @@ from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.grammar.companions import link_companions
 from texvent.scenes.language.grammar.made_of import bring_materials_forward
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
+from texvent.scenes.language.phrases.compounds import join_compounds
+from texvent.scenes.language.phrases.inherent import read_inherent
 from texvent.scenes.language.phrases.mood_notes import note_moods
 from texvent.scenes.language.phrases.names import join_names
 from texvent.scenes.language.phrases.phrasings import plain_phrases
@@ -88,7 +90,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     link_companions(clauses)
     for clause in clauses:
         meaning.read(clause)
-    description = meaning.build(prompt)
+    description = meaning.build(prompt, words)
     shown, substituted, unread = _account(words)
     if not meaning.is_anything_shown:
         raise InputError(
@@ -127,7 +129,8 @@ def _join(light: Illumination, said: Illumination) -> Illumination:
 
 def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], Illumination, list[str]]:
     """Words of a prompt with their senses, what they say of the light, and notes on them."""
-    tokens = join_names(plain_phrases(set_styles_aside(tokenize_prompt(prompt))), known)
+    tokens = plain_phrases(set_styles_aside(tokenize_prompt(prompt)))
+    tokens = join_compounds(join_names(tokens, known), known)
     words, notes = tag_words(bring_materials_forward(tokens, known), known)
     if _is_foreign(words) or is_of_other_grammar(prompt):
         raise InputError(
@@ -139,6 +142,7 @@ def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], Illumination, 
     words = read_telegrams(words, known)
     choose_senses(words, known)
     read_neighbours(words)
+    read_inherent(words)
     return words, light, notes
 
 

@@ -267,6 +267,7 @@ class _ClauseReader(GroupAttachment):
             subject = self._last
             self._close()
             self._clause.subjects = [subject] if subject is not None else []
+            self._clause.hosts, self._clause.hosts_by = list(clause.subjects), "with"
             clause = self._clause
         if clause.verb is None:
             clause.is_participle = is_participle and not clause.auxiliaries

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 
 _DONE_TO = frozenset({"at", "for"})
@@ -18,6 +19,10 @@ _PARTICLES = frozenset(
 """Words after a verb that can make another one of it: "hangs out", "runs over"."""
 _AT_REST = frozenset({"stand", "sit", "lie"})
 """Motions of verbs that mean the same with whatever is around: "stands on a grate"."""
+
+_WHO = frozenset({"woman", "man", "boy", "girl", "male", "female", "child", "adult", "lady", "baby",
+                  "kid", "teenager"})  # fmt: skip
+"""Nouns before a noun that say who that is: "a woman tennis player"."""
 
 
 def link_companions(clauses: Sequence[Clause]) -> None:
@@ -43,7 +48,7 @@ def _link_verb(clause: Clause, verb: Word) -> None:
     done_to = list(clause.objects)
     for phrase in clause.phrases:
         if phrase.preposition.text in _DONE_TO:
-            done_to.extend(phrase.groups)
+            done_to.extend(one for one in phrase.groups if not _is_place(one))
     for group in done_to:
         _add(group, [verb])
     objects = [word for group in clause.objects for word in group.words if word.pos is Pos.NOUN]
@@ -56,10 +61,14 @@ def _link_verb(clause: Clause, verb: Word) -> None:
         word.companions = (*word.companions, *(one for one in own if one is not word))
 
 
+def _is_place(group: NounGroup) -> bool:
+    return group.head is not None and group.head.role is Role.PLACE
+
+
 def _names_another(word: Word) -> bool:
     """Whether a word before a noun can make it another thing: "store display", "parking meter"."""
     if word.pos is Pos.NOUN:
-        return not word.is_name
+        return not word.is_name and word.lemma not in _WHO
     return word.pos is Pos.VERB and word.meaning.form is VerbForm.ING
 
 

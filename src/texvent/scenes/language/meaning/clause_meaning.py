@@ -57,8 +57,6 @@ from texvent.scenes.models.protocol import Noun
 
 POSTER = "poster"
 """What shows a picture for which no surface is named."""
-_SNOWY = "mountain"
-"""What has snow on top, and around it where that is said."""
 
 
 class ClauseMeaning:
@@ -93,14 +91,12 @@ class ClauseMeaning:
             or self._draft.absent
         )  # fmt: skip
 
-    def build(self, prompt: str) -> SceneDescription:
-        """The description, before defaults are filled in."""
+    def build(self, prompt: str, words: Sequence[Word]) -> SceneDescription:
+        """The description, before defaults are filled in; `words`: those of the prompt."""
         draft = self._draft
         settle_doings(draft)
         lose_owners(draft, self._referents.named)
-        for one in self._referents.named:
-            if one.is_things and draft.noun(one.things[0]).name == _SNOWY:
-                self._surroundings.read_snow_on(one)
+        self._surroundings.read_weather_of_things(words if draft.objects else ())
         surroundings, light = self._surroundings.build()
         if surroundings.place == "sky" and any(map(self._is_grounded, draft.objects)):
             surroundings = replace(surroundings, place=None)

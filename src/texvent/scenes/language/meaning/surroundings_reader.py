@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 from texvent.scenes.description import Illumination, NamedColour, Surroundings
 from texvent.scenes.language.meaning.adjectives import Attributes
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary import scene as vocabulary_scene
 from texvent.scenes.language.vocabulary.motion import SHORES
+from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
 
@@ -146,12 +148,6 @@ class SurroundingsReader:
         if meaning is not None and meaning.value in _BACKDROPS and not meaning.is_substitute:
             word.is_used = self.read_place(str(meaning.value), None)[0]
 
-    def read_snow_on(self, one: Referent) -> None:
-        """As in "snowy mountains": there is snow on the ground, too, unless it caps them."""
-        for word in one.attributes.words:
-            if word.role is Role.SNOW:
-                self.read(word, is_negated=False)
-
     def read_place(self, place: str, colour: NamedColour | None) -> tuple[bool, bool]:
         """Take a place and its stated colour; return which of the two had an effect."""
         if self._place is None or self._place == "sky":
@@ -203,6 +199,14 @@ class SurroundingsReader:
         is_used = read is not None and read(said, is_negated)
         word.is_used = word.is_used or is_used
         return is_used
+
+    def read_weather_of_things(self, words: Sequence[Word]) -> None:
+        """As in "snowy mountains", "a foggy lighthouse": it is all around them."""
+        for word, after in pairwise(words):
+            is_of_thing = after.role is Role.NOUN or after.pos is Pos.ADJECTIVE
+            is_weather = word.role in (Role.SNOW, Role.WEATHER) and word.pos is Pos.ADJECTIVE
+            if is_weather and is_of_thing and not word.is_used:
+                self.read(word, is_negated=False)
 
     def _set_clouds(self, said: object, is_negated: bool) -> bool:
         self._clouds = 0.0 if is_negated or not isinstance(said, float) else said

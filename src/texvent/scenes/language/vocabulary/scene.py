@@ -293,7 +293,7 @@ PLACE_PREPOSITIONS = frozenset(
      "up", "around", "near", "onto", "within", "throughout", "above", "upon", "next to", "beside",
      "from", "to", "towards", "toward", "off", "under", "of", "against", "facing", "with",
      "in front of", "behind", "during", "out of", "among", "surrounded by", "between", "amid",
-     "beneath", "below"}
+     "beneath", "below", "on top of", "atop"}
 )  # fmt: skip
 """Prepositions after which a place is where the scene is."""
 LIGHT_PREPOSITIONS = frozenset(

@@ -211,6 +211,9 @@ def _complete(span: Sequence[Token], meanings: list[Meaning]) -> list[Meaning]:
             both = one.pos is Pos.NOUN and token.text.endswith("s") and not one.is_plural
             found.append(Meaning(Role.UNKNOWN, one.pos, None, one.form, one.is_plural, both))
             listed.add(one.pos)
+    is_gerund = token.text.endswith("ing") and token.text not in _THINGS_IN_ING
+    if listed == {Pos.NOUN} and is_gerund and not meanings and len(token.text) > _SHORTEST_GERUND:
+        found.append(Meaning(Role.UNKNOWN, Pos.VERB, None, VerbForm.ING))  # "windsurfing"
     if not found:
         found.append(Meaning(Role.UNKNOWN, Pos.NOUN))
         if token.text.endswith("ing"):
@@ -218,6 +221,13 @@ def _complete(span: Sequence[Token], meanings: list[Meaning]) -> list[Meaning]:
     return found
 
 
+_SHORTEST_GERUND = 6
+_THINGS_IN_ING = frozenset(
+    {"clothing", "earring", "ceiling", "evening", "morning", "lightning", "sibling", "dumpling",
+     "awning", "wedding", "pudding", "herring", "starling", "duckling", "gosling", "sapling",
+     "seedling", "yearling", "offspring", "shilling", "foundling", "hamstring", "mainspring"}
+)  # fmt: skip
+"""Nouns that no verb is behind."""
 _CLOSED = frozenset(
     {Pos.DETERMINER, Pos.PRONOUN, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.AUXILIARY, Pos.TO,
      Pos.RELATIVE, Pos.NEGATION, Pos.PREPOSITION, Pos.ADJUNCT}

@@ -197,6 +197,9 @@ class _Tagger(ReadSoFar):
             return self._after_noun(index, verb)
         if before in (Pos.CONJUNCTION, Pos.SIGN, Pos.SUBORDINATOR, Pos.ADVERB):
             return self._coordinated(index, verb, others)
+        is_attribute = Pos.ADJECTIVE in others and after & NOMINAL and not after & _ONLY_OPENS
+        if before is None and is_attribute and verb.role is Role.UNKNOWN:
+            return Pos.ADJECTIVE  # "busy street"
         is_order = before is None and verb.form is VerbForm.BASE and Pos.NOUN not in others
         return Pos.VERB if is_order and not after & {Pos.VERB, Pos.AUXILIARY} else None
 
@@ -304,7 +307,8 @@ class _Tagger(ReadSoFar):
         if is_colour and self._chosen and self._chosen[-1].form is VerbForm.PAST:
             return Pos.ADJECTIVE
         if Pos.ADJECTIVE in by_pos and Pos.NOUN in by_pos:
-            if after & {Pos.NOUN, Pos.ADJECTIVE} and not self._ends_group(index):
+            is_attribute = after & {Pos.NOUN, Pos.ADJECTIVE} and not self._ends_group(index)
+            if is_attribute or (before in _OPENS_NOUN and self._participle_follows(index)):
                 return Pos.ADJECTIVE
             return Pos.NOUN if before is not Pos.AUXILIARY else Pos.ADJECTIVE
         if Pos.ADVERB in by_pos and Pos.ADJECTIVE in by_pos:
@@ -314,6 +318,12 @@ class _Tagger(ReadSoFar):
             return Pos.NOUN
         rest = [pos for pos in by_pos if pos is not Pos.VERB]
         return rest[0] if rest else Pos.VERB
+
+    def _participle_follows(self, index: int) -> bool:
+        """As in "the high elevated peaks": a past participle and its noun come next."""
+        coming = self._candidates[index + 1] if index + 1 < len(self._candidates) else []
+        is_past = any(one.form is VerbForm.PAST for one in coming)
+        return is_past and Pos.NOUN in self._after(index, 2)
 
     def _is_gerund(self, index: int) -> bool:
         return any(one.form is VerbForm.ING for one in self._candidates[index])

@@ -56,6 +56,8 @@ def _can_do_it(group: NounGroup, verb: Word, clause: Clause, nouns: Mapping[str,
     if head is None or head.pos is Pos.PRONOUN:
         return True
     noun = _find(group, nouns)
+    if clause.hosts_by == "with" and (noun is None or head.role is Role.PART):
+        return not _is_of_bodies(verb)  # "a man with a beard wearing a suit"
     if noun is None or head.role in _LIFELESS:
         is_there = clause.hosts_by in _THERE
         return not is_there or (head.role is Role.UNKNOWN and not _is_of_bodies(verb))
