@@ -30,6 +30,7 @@ from texvent.scenes.raycast.visibility import count_unoccluded
 from texvent.scenes.scene import Float64Array, Scene, Shape
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.compose import ComposedScene
+from texvent.scenes.staging.placement.at_wall import list_at_wall
 from texvent.sensor import SensorSize
 
 INSTANTS = 9
@@ -158,6 +159,7 @@ def _list_extras(
              for i in one.targets}  # fmt: skip
     found = [note for noun, note in _EXTRAS.items() if noun in said - laden]
     bound = {one.subject for one in description.relations if one.kind in ("on", "in", "with")}
+    bound |= {*list_at_wall(description, description.surroundings.place or "grass")}
     found += [
         f"the {one.noun} stands free, in no wall"
         for index, one in enumerate(description.objects)

@@ -294,6 +294,10 @@ def report_place(description: SceneDescription, place: str) -> SceneDescription:
     return description
 
 
+_OF_BATHROOMS = frozenset({"toilet", "bathtub", "shower", "shower curtain", "wash stand"})
+"""Nouns that tell whose sink it is."""
+
+
 def _choose_usual(members: Sequence[Noun], *, rests: bool, is_wet: bool) -> str:
     if not members:
         return "grass"
@@ -305,6 +309,8 @@ def _choose_usual(members: Sequence[Noun], *, rests: bool, is_wet: bool) -> str:
     is_outdoors = (is_wet and not is_seen_through) or any(
         noun.name in _OUTDOORS for noun in members
     )
+    if _OF_BATHROOMS.intersection(noun.name for noun in members) and not is_outdoors:
+        return "bathroom"
     for noun in members:
         usual = [place for place, found in _USUAL_PLACES.items() if noun.name in found]
         place = usual[0] if usual else noun.place

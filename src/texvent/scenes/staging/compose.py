@@ -36,6 +36,7 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
+from texvent.scenes.staging.placement.at_wall import stand_before_wall
 from texvent.scenes.staging.placement.fitting import enlarge_again, enlarge_small
 from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
@@ -252,11 +253,19 @@ def _set_camera(
         queued = queue_in_lanes(placed, 0.5 * half)
         return lay_crosswalks(description, queued, half, duration_s)
 
+    def film(cast: Sequence[Actor]) -> CameraPath:
+        return place_camera(
+            description, cast, place, seed=seed, aspect=aspect, duration_s=duration_s,
+            travel=travel, take=take,
+        )  # fmt: skip
+
     actors = stand(placer.place_all())
-    path = place_camera(
-        description, actors, place, seed=seed, aspect=aspect, duration_s=duration_s, travel=travel,
-        take=take,
-    )  # fmt: skip
+    fitted = stand_before_wall(
+        description, placer.groups, lambda shifts: stand(placer.move(shifts)), film, place
+    )
+    if fitted is not None and travel is None:
+        return fitted
+    path = film(actors)
     if actors and PLACES[place].ground is not Ground.NONE:
         subject = None if travel else choose_main(description, actors).object_index
         shifts = find_shifts(

@@ -5,7 +5,7 @@ from __future__ import annotations
 BUILT_PLACES: dict[str, tuple[str, ...]] = {
     "laboratory": ("laboratory", "lab", "research lab", "chemistry lab", "science lab"),
     "classroom": ("classroom", "school room", "lecture hall", "lecture room"),
-    "bathroom": ("bathroom", "washroom", "restroom", "shower room"),
+    "bathroom": ("bathroom", "bath room", "washroom", "restroom", "shower room"),
     "museum": ("museum", "gallery", "art gallery", "exhibition hall"),
     "church hall": ("church interior", "cathedral interior", "nave", "inside a church"),
     "ballroom": ("ballroom", "dance hall", "palace hall"),

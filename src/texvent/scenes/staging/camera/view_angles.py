@@ -9,6 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.placement.at_wall import list_at_wall
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
 
@@ -57,6 +58,8 @@ def choose_angles(
         azimuth = state.yaw + math.copysign(0.5, wander)
     if not is_tied and any(rule.encloses for rule in SCENERY.get(place, ())):
         azimuth = math.copysign(_BETWEEN_WALLS, wander)
+    if list_at_wall(description, place):
+        azimuth = 0.5 * wander
     view = description.shot.view
     if view in _BEARINGS:
         azimuth = _face(view, state.yaw)

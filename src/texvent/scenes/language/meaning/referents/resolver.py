@@ -76,7 +76,7 @@ _AROUND = ("surrounded by", "among", "amongst", "amid", "lined with", "lined by"
 """Prepositions after which a bare plural means many."""
 
 
-_ONE_FLIGHT = frozenset({"stairs"})
+_ONE_FLIGHT = frozenset({"stairs", "kitchen cabinet", "kitchen counter"})
 """Nouns whose bare plural is one thing: "climbs stairs"."""
 
 
