@@ -12,6 +12,7 @@ from texvent.generate.seen_words.picture import USUAL, VISIBLE, Picture
 from texvent.generate.seen_words.things import copies_of, extent_of
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.projection import project
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.surroundings.road import RoadLine
@@ -122,6 +123,8 @@ def _judge_flicker(picture: Picture, description: SceneDescription, claim: Claim
 
 def _judge_glow(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """A lamp that is lit is the brightest there is: some of its points are about white."""
+    if any(description.objects[index].noun in PERSON_NOUNS for index in claim.things):
+        return None  # who shines shoes
     own = [one for index in claim.things for one in copies_of(picture, index)]
     for number in USUAL:
         where = np.isin(picture.views[number].instance, own)
@@ -132,8 +135,9 @@ def _judge_glow(picture: Picture, description: SceneDescription, claim: Claim) -
 
 def _judge_bend(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """The line of the road in the picture differs from a straight one, or does not."""
-    if description.surroundings.road == "crossing":
-        return None
+    is_done = any(description.objects[index].noun in PERSON_NOUNS for index in claim.things)
+    if description.surroundings.road == "crossing" or is_done:
+        return None  # who bends a bar is no road
     is_bent = max(_find_bend(picture, number) for number in USUAL) >= LEAST_BEND
     if claim.word == "straight":
         return "the road bends" if is_bent else None

@@ -23,16 +23,23 @@ _IN_WATER = ("swim", "surf")
 SHORE, BEACH = "lake", "beach"
 """Where what stands on land is beside a lake, or the sea: water with land before it."""
 _PLACE_OF_ACT = {"ski": "snow", "snowboard": "snow", "fish": SHORE,
-                 "park": "parking lot"}  # fmt: skip
+                 "park": "parking lot", "skydive": "sky", "snowboard trick": "snow",
+                 "ski trick": "snow", "ice skate": "ice rink"}  # fmt: skip
 """What people do in one place only → where."""
 _USUAL_PLACES_OF_ACTS: dict[str, tuple[str, ...]] = {
     "indoor": ("mop", "vacuum", "sweep", "iron", "type", "play piano", "play cello", "play harp",
-               "play video games", "play chess", "bowl", "tango"),
-    "kitchen": ("cook", "flip pan", "wash dishes"),
+               "play video games", "play chess", "bowl", "tango", "make pottery", "count money",
+               "shuffle cards", "play wii",
+               "type on keyboard", "arrange flowers", "get haircut",
+               "cut nails", "massage legs", "tie tie", "bandage arm",
+               "eat noodles", "eat cake", "eat meal", "eat salad", "blow out cake",
+               "lift trophy", "knit"),
+    "kitchen": ("cook", "flip pan", "wash dishes", "sharpen knife"),
     "bathroom": ("shave", "brush teeth", "wash face", "wash hair", "dry hair", "comb hair",
-                 "put on makeup", "put on lipstick"),
+                 "put on makeup", "put on lipstick", "wash hands", "take shower", "fill brows",
+                 "do laundry"),
     "gym": ("deadlift", "box", "pull-up", "plank", "push-up", "sit-up", "dunk"),
-    "square": ("skate",),
+    "square": ("skate", "skateboard trick", "roller skate"),
 }  # fmt: skip
 """Place → what people usually do there, where nothing else tells of a place."""
 _PLACE_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
@@ -120,7 +127,8 @@ def choose_place(
     if cues.outdoor == "space" and usual not in _NEUTRAL:
         return usual
     if cues.is_outdoors and cues.outdoor and (usual in ENCLOSED or is_open):
-        is_ashore = {nouns[one.noun].habitat for one in description.objects} <= {"ground", "fixed"}
+        found = {noun.habitat for noun in _list_members(description, nouns)}
+        is_ashore = found <= {"ground", "fixed"}
         return BEACH if cues.outdoor == "sea" and is_ashore else cues.outdoor
     if cues.is_indoors and cues.indoor and (usual not in ENCLOSED or usual == "indoor"):
         return cues.indoor

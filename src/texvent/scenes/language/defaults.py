@@ -311,10 +311,11 @@ def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """Let the first object that can move do so, or else the camera."""
-    riders = {relation.subject for relation in description.relations if relation.kind in _RIDES}
+    resting = {relation.subject for relation in description.relations if relation.kind in _RIDES}
+    resting |= _list_posing(description, nouns)
     for index, scene_object in enumerate(description.objects):
         usual = _usual_motion(description, nouns[scene_object.noun])
-        if scene_object.motion is None and usual != "stand" and index not in riders:
+        if scene_object.motion is None and usual != "stand" and index not in resting:
             moved = replace(scene_object, motion=ObjectMotion(usual))
             objects = (*description.objects[:index], moved, *description.objects[index + 1 :])
             note = f"no motion is said of the {scene_object.noun}, so it does what it usually does"
@@ -332,6 +333,17 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         note = "nothing moves in the prompt, so the camera flies on"
         return replace(description, shot=shot, notes=(*description.notes, note))
     return let_sway(description, "nothing moves in the prompt")
+
+
+def _list_posing(description: SceneDescription, nouns: Mapping[str, Noun]) -> set[int]:
+    """People of whom only is said what they hold or wear: they stand and show it; and that."""
+    shown = [
+        relation
+        for relation in description.relations
+        if relation.kind in ("hold", "wear")
+        and nouns[description.objects[relation.subject].noun].name in PERSON_NOUNS
+    ]
+    return {one.subject for one in shown} | {n for one in shown for n in one.targets}
 
 
 def let_sway(

@@ -58,6 +58,10 @@ def judge_sense(claim: Claim, description: SceneDescription) -> str | None:
     return None
 
 
+_WITH_ITS_OWN = frozenset({"punch", "climb rope", "rock climb"})
+"""Motions that need nothing, or bring what they are done with."""
+
+
 def _nouns(claim: Claim, description: SceneDescription) -> list[str]:
     return [description.objects[index].noun for index in claim.things]
 
@@ -95,7 +99,7 @@ def _judge_word(
         "flaps its wings": is_flier and _WINGS.fullmatch(word),
         "swims": _ON_LEGS.fullmatch(word) and is_afloat,
         "with nothing": (
-            is_person and _AIRBORNE.fullmatch(word) and is_alone and "punch" not in kinds
+            is_person and _AIRBORNE.fullmatch(word) and is_alone and not kinds & _WITH_ITS_OWN
         ),
         "only slides": word.startswith("slip") and "slide" in kinds,
         "stands, on no seat": (

@@ -16,6 +16,7 @@ from texvent.scenes.language.meaning.acts.hosts import take_host
 from texvent.scenes.language.meaning.acts.named_acts import read_named_act
 from texvent.scenes.language.meaning.acts.partners import take_fellows, take_receivers
 from texvent.scenes.language.meaning.acts.reader import ActReader
+from texvent.scenes.language.meaning.acts.told_acts import tell_acts
 from texvent.scenes.language.meaning.camera_clauses import FILMED, CameraClauses
 from texvent.scenes.language.meaning.camera_reader import CameraReader
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
@@ -201,6 +202,7 @@ class ClauseMeaning:
         things = [index for one in subjects if one.is_things for index in one.things]
         is_lost = bool(subjects) and not things
         give_bodies(self._draft, clause, subjects)
+        tell_acts(self._draft, clause, things)
         rewrite_objects(clause)
         take_handled(self._draft, clause, things)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)

@@ -17,6 +17,7 @@ from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import mark_used
 from texvent.scenes.models.effects import LIQUID_COLOURS
 from texvent.scenes.models.people.acts.words import AT_HEAD, EVERYDAY
+from texvent.scenes.models.people.pastimes.words import BRINGING
 from texvent.scenes.models.people.work.verbs import HANDWORK, ONTO, WITH_PARTICLE
 
 _JUGGLE = "juggle"
@@ -326,7 +327,8 @@ def _lose_sides(clause: Clause, verb: str) -> None:
 
 _OVERTURNED = ("upside down", "inside out", "right side up")
 _COMES_WITH = frozenset(
-    {*AT_HEAD, *EVERYDAY, "play drums", "play chess", "play video games", "serve", "dunk",
+    {*AT_HEAD, *EVERYDAY, *BRINGING, "phone", "text", "play drums", "play chess",
+     "play video games", "serve", "dunk",
      "flip pan", "bowl", "tug of war", "skip rope", "hula hoop", "archery", "mow"}
 )  # fmt: skip
 """Activities that bring the thing that their phrase names."""

@@ -75,7 +75,7 @@ _TEXT = """
     oil, palm pilot, palm print, pine nut, pine apple juice, christmas tree farm, rose wood, rose
     bowl, rose garden, wind rose, compass rose, sun flower seed, sunflower seed, sunflower oil,
     flower shop, ice flower, corn field, corn flake, corn maze, peppercorn, pop corn, acorn,
-    mountain pass, mountain goat cheese, rock pool, rock music, rock climbing, bed
+    mountain pass, mountain goat cheese, rock pool, rock music, bed
     of roses, mile stone, grave stone, tomb stone, gem stone, hail stone, cobble stone
     street, razor blade, shoulder blade, bus ticket, boat shoe, ship yard,
     shipyard, ship wreck, shipwreck, rocket salad, rocket launcher, plane ticket, jet lag, jet

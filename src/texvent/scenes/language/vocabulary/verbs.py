@@ -189,6 +189,8 @@ VERBS: tuple[Verb, ...] = (
     Verb("dive", "swim", 1.2, direction="down"),
     Verb("sail", "sail"),
     Verb("row", "sail", 0.7, act="ride"),
+    *(Verb(base, "sail", 0.7, act="ride") for base in ("kayak", "canoe")),
+    *(Verb(base, "drive", act="ride") for base in ("motorcycle", "motorbike")),
     Verb("paddle", "sail", 0.7, act="ride"),
     Verb("spin", "spin", object_kind="spin"),
     Verb("rotate", "spin", 0.7, object_kind="spin"),

@@ -13,9 +13,11 @@ from texvent.scenes.models.people.acts.activity import (
     at_head,
     done_to,
     seen_from_side,
+    sideways_at_head,
     sign,
 )
 from texvent.scenes.models.people.acts.words import MORE_ACTIVITIES
+from texvent.scenes.models.people.pastimes.words import PASTIMES
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
 
@@ -54,16 +56,17 @@ _GESTURES: dict[str, Activity] = {
         ("left arm counter-clockwise", "rotate the left arm counter-clockwise",
          "left hand counter-clockwise", "left arm anticlockwise")),
     "arm roll": Activity(("arm roll", "roll the arms", "forearm roll", "roll the forearms")),
-    "air drums": Activity(("air drums", "play air drums")),
+    "air drums": Activity(("air drums", "play air drums", "air drum")),
     "air guitar": Activity(("air guitar", "play air guitar")),
     "other gesture": Activity(("other gesture", "gesture", "make a gesture")),
 }  # fmt: skip
 
 _SPORTS: dict[str, Activity] = {
-    "jump": Activity(("jump", "hop", "leap")),
+    "jump": Activity(("jump", "hop", "leap", "jump up")),
     "dance": Activity(("dance",)),
     "jumping jack": Activity(("jumping jack", "do a jumping jack", "do jumping jacks",
-                              "perform jumping jacks", "star jump")),
+                              "perform jumping jacks", "star jump"),
+                             done_to("do", "aerobics|zumba|calisthenics")),
     "squat": seen_from_side("squat", "do squats"),
     "lunge": seen_from_side("lunge", "do lunges"),
     "push-up": seen_from_side("push-up", "do push-ups", "do pushups", "do press-ups"),
@@ -75,10 +78,14 @@ _SPORTS: dict[str, Activity] = {
     "kick": seen_from_side("kick", near=("play football", "play soccer")),
     "throw": seen_from_side("throw", "toss", "pitch", "hurl"),
     "catch": seen_from_side("catch",),
-    "swing bat": seen_from_side("swing a bat", "swing at a ball", "swing at a baseball",
+    "swing bat": seen_from_side("swing a bat", "swing a baseball bat", "swing at ball",
+                                "swing at a ball", "swing at a baseball",
                                 "swing at a pitch", "bat", near=("play baseball",
                                  "play cricket", "play softball")),
-    "swing racket": seen_from_side("swing a racket", "play tennis", near=("play badminton",
+    "swing racket": seen_from_side("swing a racket", "swing a tennis racket",
+                                    "swing a racquet", "swing a tennis racquet",
+                                    "hit a tennis ball", "return a serve", "play tennis",
+                                   near=("play badminton",
                                     "play squash", "play table tennis", "play ping pong")),
     "swing club": Activity(("swing a club", "swing a golf club", "golf", "play golf")),
     "dribble": seen_from_side("dribble", "dribble a ball", "dribble a basketball",
@@ -93,7 +100,7 @@ _SPORTS: dict[str, Activity] = {
     "ski": _travels("ski", "go skiing"),
     "snowboard": _travels("snowboard",),
     "row oars": seen_from_side("row with oars",),
-    "row": seen_from_side("row", "paddle", "kayak", "canoe"),
+    "row": seen_from_side("row", "paddle"),
 }  # fmt: skip
 
 _DAILY: dict[str, Activity] = {
@@ -103,18 +110,24 @@ _DAILY: dict[str, Activity] = {
                                   "play the keyboard"),
     "play violin": at_head("play violin", "play the violin", "fiddle"),
     "play flute": at_head("play flute", "play the flute", "play piccolo"),
-    "play trumpet": at_head(*done_to("play|blow|blow into", "trumpet|saxophone|clarinet|trombone"
-                                     "|oboe|horn")),
-    "type": seen_from_side("type", "use a laptop", "use a computer", "work on a laptop",
-                            "work on a computer", "work at a computer"),
+    "play trumpet": sideways_at_head(*done_to("play|blow|blow into", "trumpet|saxophone|clarinet"
+                                              "|trombone|oboe|horn")),
+    "type": seen_from_side("type", "use a laptop", "work on a laptop", "type on a laptop",
+                            "work at a laptop", "use a notebook computer"),
     "write": at_head("write",),
     "read": at_head("read", "read a book", "read a newspaper"),
     "eat": at_head(*("eat", "have lunch", "have dinner", "have breakfast", "dine")),
     "drink": at_head("drink", "sip"),
-    "phone": at_head(*("phone", "talk on the phone", "talk on a phone", "speak on the phone",
-                       "make a call")),
-    "text": at_head(*("text", "use a phone", "look at a phone", "use a smartphone",
-                      "look at the phone")),
+    "phone": at_head("phone", *done_to("talk on|speak on|chat on|talk into|answer",
+                                       "phone|cell phone|telephone|cellphone|mobile phone|mobile"
+                                       "|phone call|telephone call"),
+                     "make a call", "make a phone call", "listen on phone", "listen to phone",
+                     "take a call"),
+    "text": at_head("text", *done_to("look at|look on|look down at|stare at|use|check|read|type on"
+                                     "|text on|play on|scroll on|play with",
+                                     "phone|cell phone|cellphone|smartphone|mobile phone|mobile"
+                                     "|iphone|smart phone"),
+                    *done_to("look|stare", "phone|mobile")),
     "photograph": at_head("photograph", "film", *done_to("take|snap|shoot|make", "photo|picture|"
                           "photograph|selfie|photos|pictures|photographs|snapshot"),
                           "take a shot", "take shots"),
@@ -159,8 +172,10 @@ _ON_FOOT: dict[str, Activity] = {
 }
 
 ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
-    {**{verb: seen_from_side(verb) for verb in HANDWORK},
-     **_ON_FOOT, **_RESTING, **_GETTING, **_GESTURES, **_SPORTS, **_DAILY, **MORE_ACTIVITIES}
+    {**{verb: Activity((verb,), is_sideways=work.place != "hands")
+        for verb, work in HANDWORK.items()},
+     **PASTIMES, **_ON_FOOT, **_RESTING, **_GETTING, **_GESTURES, **_SPORTS, **_DAILY,
+     **MORE_ACTIVITIES}
 )  # fmt: skip
 """What a person can do: name → activity."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
 from texvent.scenes.models.people.posture import SHOULDER_SIDE, Arm, Posture
@@ -114,6 +115,17 @@ def drum(t: float) -> Posture:
                    tool=(1.0, 0.25, 0.75 * pulse(t, 2.0, 0.5) - 0.35))  # fmt: skip
 
 
+def _air_drum(t: float) -> Posture:
+    """The same higher, as there are no drums: hands in turn above the chest and down."""
+    posture = drum(t)
+
+    def raised(arm: Arm | None) -> Arm:
+        x, y, z = (arm or Arm()).hand
+        return Arm((x + 0.04, y + 0.02, 1.5 * z + 0.36), _DOWN)
+
+    return replace(posture, left=raised(posture.left), right=raised(posture.right))
+
+
 def strum(t: float) -> Posture:
     """The left hand on a neck, the right strums three times a second."""
     slide = 0.05 * swing(t, 0.5)
@@ -152,7 +164,7 @@ GESTURES: Mapping[str, Movement] = MappingProxyType(
         "left arm clockwise": _arm_circle(1.0, 1.0),
         "left arm counter-clockwise": _arm_circle(1.0, -1.0),
         "arm roll": _arm_roll,
-        "air drums": drum,
+        "air drums": _air_drum,
         "air guitar": strum,
         "other gesture": _other,
     }

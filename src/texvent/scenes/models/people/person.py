@@ -33,6 +33,10 @@ from texvent.scenes.models.people.outfit import (
     PersonKind,
     dress_person,
 )
+from texvent.scenes.models.people.pastimes.care import CARE_MOVEMENTS
+from texvent.scenes.models.people.pastimes.crafts import CRAFT_MOVEMENTS
+from texvent.scenes.models.people.pastimes.feats import FEAT_MOVEMENTS
+from texvent.scenes.models.people.pastimes.meals import MEAL_MOVEMENTS
 from texvent.scenes.models.people.posture import (
     ANKLE,
     HIP,
@@ -75,6 +79,10 @@ MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         **MUSIC_MOVEMENTS,
         **PAIR_MOVEMENTS,
         **EVERYDAY_MOVEMENTS,
+        **FEAT_MOVEMENTS,
+        **CARE_MOVEMENTS,
+        **CRAFT_MOVEMENTS,
+        **MEAL_MOVEMENTS,
     }
 )
 """Activity → posture over time; what is not here walks or runs."""

@@ -29,6 +29,10 @@ from texvent.scenes.models.people.acts.music import MUSIC_PROPS
 from texvent.scenes.models.people.acts.pairs import PAIR_PROPS
 from texvent.scenes.models.people.acts.play import PLAY_PROPS
 from texvent.scenes.models.people.acts.prop_shapes import Draw, Prop, disc, stick, still
+from texvent.scenes.models.people.pastimes.care import CARE_PROPS
+from texvent.scenes.models.people.pastimes.crafts import CRAFT_PROPS
+from texvent.scenes.models.people.pastimes.feats import FEAT_PROPS
+from texvent.scenes.models.people.pastimes.meals import MEAL_PROPS
 from texvent.scenes.models.people.sports import BOARD_STANCE, DRIBBLE_HZ, JUGGLE_HZ
 from texvent.scenes.models.people.work.bench import TABLE_M, usual_bench
 from texvent.scenes.models.people.work.tools import TOOLS
@@ -227,6 +231,10 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         **PAIR_PROPS,
         **CHORE_PROPS,
         **EVERYDAY_PROPS,
+        **FEAT_PROPS,
+        **CARE_PROPS,
+        **CRAFT_PROPS,
+        **MEAL_PROPS,
         "punch": (),
         "swing bat": (Prop("right hand", BAT, ("baseball bat", "cricket bat")),),
         "swing racket": (
@@ -286,6 +294,10 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "cook": (
             Prop("right hand", _LADLE, ("spoon",)),
             Prop("left hand", _PAN, ("frying pan", "pot")),
+        ),
+        "knit": (
+            Prop("right hand", still(*TOOLS["needles"].parts)),
+            Prop("hands", still(box(Material(RED), (0.02, 0.0, -0.13), (0.03, 0.22, 0.26)))),
         ),
         "fish": (Prop("right hand", _ROD, ("fishing rod",)),),
     }

@@ -132,6 +132,29 @@ def look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> Non
                     _turn_back(cast, goals[turn % len(goals)], yaw + math.pi)
 
 
+_BACK_M = 0.16
+"""From the middle of who leans to the back, for an adult, m."""
+
+
+def lean_on(cast: Cast, relations: Sequence[Relation]) -> None:
+    """Who leans against something before it has the back at it."""
+    for relation in relations:
+        if relation.kind != "front" or relation.way != "against":
+            continue
+        wall = cast.get(cast.copies(relation.targets[0])[0])
+        deep = 0.5 * min(wall.model.length, wall.model.width)
+        x, y, _ = wall.trajectory.at(0.0).position
+        people = cast.copies(relation.subject)
+        for turn, number in enumerate(people):
+            actor, path = cast.get(number), cast.get(number).trajectory
+            if not isinstance(path, Stationary) or path.activity != "lean":
+                continue
+            size = size_of(actor.model)
+            aside = 0.8 * (turn - 0.5 * (len(people) - 1))
+            home = (x + aside, y - deep - _BACK_M * size, path.home[2])
+            cast.put(number, replace(actor, trajectory=replace(path, home=home)))
+
+
 def _turn_back(cast: Cast, number: int, yaw: float) -> None:
     """Who is faced, and stays in its place, faces the other."""
     actor, path = cast.get(number), cast.get(number).trajectory

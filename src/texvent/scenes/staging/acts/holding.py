@@ -183,7 +183,8 @@ def place_in_hold(hold: Hold, holder: Actor, thing: Actor) -> tuple[str, Affine,
         return "torso", _guitar(size), False, ()
     if hold.style == "upright":
         grip = _UP_HIGH if thing.noun.name in ("flag", "sign", "torch") else _RAISED
-        low = min(0.35 * model.height, 0.06)
+        low = 0.16 * model.height if thing.noun.name == "umbrella" else 0.0
+        low = low or min(0.35 * model.height, 0.06)
         x = 0.5 * model.length if model.height < 1.6 * model.length else 0.0
         offset = _shifted(min(x, 0.06), 0.0, lift - low)
         return "right hand", offset, True, (("right hand", _scaled(grip, size)),)
@@ -205,6 +206,7 @@ def _hold_in_front(
 ) -> tuple[str, Affine, bool, Grips]:
     """Both arms around it; its longer side goes across."""
     model = thing.model
+    is_alive = thing.noun.motion in ("walk", "run", "crawl", "jump")
     is_long = model.length > 1.2 * model.width
     deep, wide = (model.width, model.length) if is_long else (model.length, model.width)
     ahead = 0.16 * size + 0.5 * deep
@@ -216,6 +218,12 @@ def _hold_in_front(
     turn = rotation(0.5 * math.pi if is_long else 0.0, 0.0, 0.0)
     offset = np.column_stack([turn, np.array([ahead, 0.0, bottom + lift])])
     grips = (("left hand", (x, reach, hand_z)), ("right hand", (x, -reach, hand_z)))
+    if is_alive:
+        # One arm below it, the other one about it.
+        x = min(ahead + 0.3 * deep, 0.42 * size)
+        low = max(bottom + 0.18 * model.height, 0.88 * size)
+        high = min(bottom + 0.55 * model.height, 1.25 * size)
+        grips = (("left hand", (x, -0.02 * size, low)), ("right hand", (x, 0.03 * size, high)))
     return "ground", offset, True, grips
 
 

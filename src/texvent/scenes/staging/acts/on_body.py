@@ -10,7 +10,7 @@ from types import MappingProxyType
 import numpy as np
 
 from texvent.scenes.staging.actors import Actor, Tether
-from texvent.scenes.staging.acts.attached import HeldAt, Performed
+from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
@@ -89,6 +89,22 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
         place = replace(place, place=f"{side} {place.place}")
     held = HeldAt(subject, place.place, offset_of_worn(place, subject, target))
     return subject, _carried(target, held, subject)
+
+
+def lead(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """Both, an animal on a leash before who walks it."""
+    size, model = size_of(subject.model), target.model
+    floor = target.trajectory.at(0.0).position[2]
+    along = 0.50 * size + 0.5 * model.length
+    path = MovedAlong(subject.trajectory, along, floor, "walk")
+    hand = (0.30 * size, -0.12 * size, 1.0 * size)
+    subject = replace(
+        subject, trajectory=Performed(subject.trajectory, None, (("right hand", hand),))
+    )
+    neck = (0.30 * model.length, 0.0, 0.78 * model.height)
+    target = replace(target, trajectory=path, lead_m=subject.lead_m, is_mover=subject.is_mover,
+                     tether=Tether(subject, "right hand", neck, 0.014))  # fmt: skip
+    return subject, target
 
 
 _HANDS_FREE = frozenset({"stand", "move", "walk", "run", "sit", "sit on ground"})

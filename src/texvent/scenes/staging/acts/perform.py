@@ -24,7 +24,7 @@ from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, load, 
 from texvent.scenes.staging.acts.cargo import take_along
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.crews import put_to_work
-from texvent.scenes.staging.acts.facing import face_each_other, hand_over, look_at
+from texvent.scenes.staging.acts.facing import face_each_other, hand_over, lean_on, look_at
 from texvent.scenes.staging.acts.holding import (
     HELD_SCALE,
     IN_ITS_COLOUR,
@@ -35,7 +35,7 @@ from texvent.scenes.staging.acts.holding import (
     size_of,
 )
 from texvent.scenes.staging.acts.named_props import name_all_props
-from texvent.scenes.staging.acts.on_body import ON_BODY, hold, put_on_body, wear
+from texvent.scenes.staging.acts.on_body import ON_BODY, hold, lead, put_on_body, wear
 from texvent.scenes.staging.acts.riding import CLOSED, MOUNTS, SEATS_OF
 from texvent.scenes.staging.acts.transits.transit import go_over
 from texvent.scenes.staging.trajectories.trajectory import Vector
@@ -234,6 +234,7 @@ def perform_acts(
     free = [n for n, one in enumerate(actors) if one.object_index not in bound]
     look_at(cast, description.relations, duration_s)
     face_each_other(cast, free)
+    lean_on(cast, description.relations)
     relations = [r for r in description.relations if r.kind in ACTS and r.targets]
     ridden = {r.targets[0] for r in relations if r.kind in RIDES}
     towed = [r for r in relations if r.kind in ("push", "pull") and r.targets[0] in ridden]
@@ -249,11 +250,27 @@ def perform_acts(
         for relation in relations:
             if relation.kind == kind:
                 _perform(cast, relation, duration_s)
+    _lead_all(cast, description.relations)
     go_over(cast, description, duration_s)
     name_all_props(description, cast, len(actors))
     _take_off_doubles(cast, actors)
     take_along(cast, description.relations, actors)
     return [_tied_to_ground(actor) for actor in cast.actors()]
+
+
+def _lead_all(cast: Cast, relations: tuple[Relation, ...]) -> None:
+    """Who walks a dog has it on a leash."""
+    for relation in relations:
+        if relation.kind != "with" or relation.way != "lead" or not relation.targets:
+            continue
+        walkers = cast.copies(relation.subject)
+        for turn, number in enumerate(cast.copies(relation.targets[0])):
+            walker = walkers[turn % len(walkers)]
+            person = cast.get(walker)
+            if is_person(person) and turn < len(walkers):
+                person, animal = lead(person, cast.get(number))
+                cast.put(walker, person)
+                cast.put(number, animal)
 
 
 def _tied_to_ground(actor: Actor) -> Actor:

@@ -27,7 +27,7 @@ _NEARER = 0.95
 """The camera moves only for less than this share of its distance."""
 _STILL = 0.05
 """What moves by less than this share of a person's height rests."""
-_POSTURES = ("sit", "kneel", "crouch", "squat")
+_POSTURES = ("sit", "kneel", "crouch", "squat", "stretch leg", "bend back", "lean")
 """Told by the legs."""
 _FEET = ("left foot", "right foot", "seat")
 

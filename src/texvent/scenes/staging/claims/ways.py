@@ -162,6 +162,7 @@ WAYS: Mapping[str, Way] = {
     "along": _goes_along,
     "opposite": _is_opposite,
     "at": _is_close,
+    "lead": _is_close,
     "up": partial(_goes_on_slope, sign=1.0),
     "down": partial(_goes_on_slope, sign=-1.0),
     "not on": lambda subject, targets: not _rests(subject, targets),

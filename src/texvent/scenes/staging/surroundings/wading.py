@@ -60,6 +60,10 @@ def list_waders(description: SceneDescription) -> frozenset[int]:
     )
 
 
+_ON_BOARDS = frozenset({"skate", "surf"})
+"""Postures of who stands on a board, which floats."""
+
+
 def find_water(place: str, half_width_m: float) -> float:
     """Where the water begins, from the line of `water_line` to its left, m."""
     return -half_width_m if place == "river" else 0.0
@@ -88,7 +92,8 @@ def wade(
     for actor in actors:
         one = description.objects[actor.object_index]
         ways = {motion.shore for motion in (one.motion, *one.then) if motion is not None}
-        if ways & {*_OVER_SHORE, "in"}:
+        is_on_board = actor.trajectory.at(0.0).activity in _ON_BOARDS
+        if ways & {*_OVER_SHORE, "in"} and not is_on_board:
             depth, reach = _DEPTH_SHARE * actor.model.height, 0.5 * actor.size_m
             path = Wading(actor.trajectory, line, start_m, depth, reach)
             actor = replace(actor, trajectory=path)

@@ -7,6 +7,7 @@ from collections.abc import Collection, Sequence
 
 from texvent.scenes.scene import Ground
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.attached import HeldAt
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.surroundings.road import RoadLine
 
@@ -44,7 +45,7 @@ def water_line(
     swimmers = [
         actor
         for actor in actors
-        if actor.noun.habitat == "water"
+        if (actor.noun.habitat == "water" and not isinstance(actor.trajectory, HeldAt))
         or actor.trajectory.at(0.0).activity in _IN_WATER
         or actor.object_index in waders
     ]

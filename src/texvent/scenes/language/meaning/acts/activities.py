@@ -48,11 +48,35 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
     if light is not None:
         name, length = light
         return name, [word for _, word in said[:length]], True
+    by_heads = _find_by_heads(clause, lemmas[:verb], table)
+    if by_heads is not None:
+        return by_heads
     name = table.get((*lemmas[:verb], lemmas[-1])) if len(said) > verb else None
     if name is not None:
         return name, [said[0][1], said[-1][1]], True
     name = table.get(lemmas[:verb])
     return None if name is None else (name, [clause.verb_word], False)
+
+
+def _find_by_heads(
+    clause: Clause, verb: Key, table: Mapping[Key, str]
+) -> tuple[str, list[Word], bool] | None:
+    """As in "swings a tennis racket on the court", "talks on her pink phone": verb and head noun.
+
+    Returns:
+        Name of the activity, the words that say it, True; None if they name none.
+    """
+    heads: list[tuple[Word | None, tuple[Word, ...]]]
+    heads = [(group.head, ()) for group in clause.objects[:1]]
+    heads += [(group.head, (phrase.preposition,)) for phrase in clause.phrases
+              for group in phrase.groups[:1]]  # fmt: skip
+    for head, between in heads:
+        if head is None or (between and clause.objects):
+            continue
+        key = (*verb, *(word.text for word in between), _split(head)[-1])
+        if len(key) > len(verb) and key in table:
+            return table[key], [clause.verb_word, *between, head], True
+    return None
 
 
 def _find_named(
@@ -94,7 +118,7 @@ def _split(word: Word) -> list[str]:
     if word.lemma in WITH_PARTICLE:
         return word.lemma.split()
     if word.has_other_sense:
-        return [word.lemma]
+        return word.lemma.split()
     return [_normalise(part) for part in word.text.split()]
 
 
@@ -163,7 +187,8 @@ def _near_acts() -> Mapping[str, str]:
 
 
 _FORMS: Mapping[str, str] = {
-    **{form: base for base in ("put", "breakdance", "deadlift", "handstand", "backflip", "do")
+    **{form: base for base in ("put", "breakdance", "deadlift", "handstand", "backflip", "do",
+                         "cheerlead", "skydive", "barbecue", "barbeque", "rollerblade", "boulder")
        for form, _ in list_verb_forms(base)},
     "deadlifts": "deadlift", "handstands": "handstand", "backflips": "backflip",
 }  # fmt: skip

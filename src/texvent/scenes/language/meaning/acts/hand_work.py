@@ -36,6 +36,8 @@ def list_goals(clause: Clause) -> tuple[str, ...]:
         return ()  # "puts on a coat"
     if work.pattern in ONTO:
         return ("into", "in", "onto", "on", "over", "to")
+    if lemma == "reach":
+        return ("for", "into", "towards", "toward")
     heads = [group.head for phrase in clause.phrases for group in phrase.groups]
     nouns = [head.read_as(Role.NOUN) for head in heads if head is not None]
     if (

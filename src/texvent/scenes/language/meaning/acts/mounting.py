@@ -11,8 +11,13 @@ from texvent.scenes.language.vocabulary.verbs import Verb
 
 RIDDEN_BY_VERB = {
     "cycle": "bicycle", "pedal": "bicycle", "bike": "bicycle", "bicycle": "bicycle",
+    "motorcycle": "motorcycle", "motorbike": "motorcycle", "kayak": "kayak", "canoe": "canoe",
+    "sail": "sailboat", "row": "rowing boat",
 }  # fmt: skip
 """Verb of people → what they ride where nothing is named."""
+
+
+_AFLOAT = frozenset({"kayak", "canoe", "rowing boat", "sailboat"})
 
 
 def ride(
@@ -48,6 +53,10 @@ def ride_unnamed(draft: Draft, clause: Clause, subjects: list[int]) -> list[int]
     mount = RIDDEN_BY_VERB.get(word.lemma)
     people = [index for index in subjects if is_person(draft.noun(index))]
     verb = word.meaning.value
+    is_riding = any(one.kind == "ride" and one.subject in people for one in draft.relations)
+    if is_riding and mount in _AFLOAT:
+        word.is_used = True  # "canoeing or kayaking"
+        return people
     if mount is None or not people or people != subjects or not isinstance(verb, Verb):
         return []
     count = sum(draft.objects[index].count for index in people)

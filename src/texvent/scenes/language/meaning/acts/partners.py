@@ -8,8 +8,9 @@ from texvent.scenes.description import ObjectMotion, Relation
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
-from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.referents.resolver import PERSON
 from texvent.scenes.language.vocabulary.named_acts import NAMED
 from texvent.scenes.language.words.word import mark_used
 from texvent.scenes.models.people.acts.words import PAIRED as _PAIRED
@@ -89,6 +90,15 @@ def join_partners(
         for index in one.things if one.is_things else ():
             if index not in doers and is_person(draft.noun(index)):
                 draft.objects[index].motions = [ObjectMotion(name)]
+    if not any(one.is_things or one.kind == "unknown" for one in objects):
+        add_partner(draft, name, doers)
+
+
+def add_partner(draft: Draft, name: str, doers: Sequence[int]) -> None:
+    """As in "a person is hugging": who one hugs is there, too."""
+    if name in _NEVER_ALONE and len(doers) == 1 and draft.objects[doers[0]].count == 1:
+        draft.add(PartialObject(PERSON, motions=[ObjectMotion(name)]))
+        draft.note(f"a second person is there to {name}")
 
 
 def collide(draft: Draft, clause: Clause, subjects: list[int], targets: list[int]) -> list[int]:
@@ -114,5 +124,18 @@ def collide(draft: Draft, clause: Clause, subjects: list[int], targets: list[int
     return []
 
 
+_NEVER_ALONE = frozenset(
+    {
+        "hug",
+        "kiss",
+        "shake hands",
+        "high five",
+        "wrestle",
+        "arm wrestle",
+        "tango",
+        "show fists",
+    }
+)
+"""What one alone is not seen to do."""
 _BLOWS = frozenset({"hit", "strike"})
 """What a tool does only in a hand: alone it comes near and touches."""

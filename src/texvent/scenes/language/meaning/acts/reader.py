@@ -295,7 +295,8 @@ class ActReader:
                 clause.verb_word.shown_as = None if is_at else f"{kind} beside it"
                 self._draft.relate("work on" if is_at else "beside", movers, targets)
             elif movers:
-                self._draft.relate("with", movers, targets)
+                is_led = verb.base == "walk" and is_person(doer) and is_living(target)
+                self._draft.relate("with", movers, targets, "lead" if is_led else "")
                 self._give(clause, verb, [i for i in targets if is_living(self._draft.noun(i))])
             return movers
         return []

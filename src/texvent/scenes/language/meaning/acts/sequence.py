@@ -61,6 +61,8 @@ def add_motion(draft: Draft, index: int, motion: ObjectMotion, clause: Clause) -
         motions.append(motion)
     elif order == "same" and is_done_in(motions[-1].kind, motion.kind):
         motions[-1] = motion
+    elif order == "same" and motion.kind == "sit" and is_done_in("sit", motions[-1].kind):
+        return True  # "reads a book while sitting on a bench"
     elif order == "same" and comes_next(clause) and motion.kind != motions[-1].kind:
         motions.append(motion)
     elif order == "after":

@@ -22,7 +22,7 @@ PAIR_GAPS: Mapping[str, float] = MappingProxyType(
     {
         "hug": 0.36, "kiss": 0.41, "shake hands": 0.92, "high five": 0.92, "wrestle": 0.86,
         "arm wrestle": 0.98, "argue": 0.95, "tango": 0.50, "tug of war": 2.1, "give": 0.95,
-        "receive": 0.95, "box": 1.02, "fence": 1.9, "play chess": 1.32,
+        "receive": 0.95, "show fists": 1.05, "box": 1.02, "fence": 1.9, "play chess": 1.32,
     }
 )  # fmt: skip
 """Activity → distance of two adults who do it before each other, m."""
@@ -103,6 +103,13 @@ def _tango(t: float) -> Posture:
     )  # fmt: skip
 
 
+def _fists(t: float) -> Posture:
+    """A fist goes up and down before the other's, then both stay."""
+    up = pulse(t, 1.4) * (1.0 - ease(t, 2.1, 2.2))
+    return Posture(right=Arm((0.40, -0.10, 1.02 + 0.26 * up), (-0.4, 0.7, -0.8), True),
+                   left=Arm((0.30, 0.06, 0.98), (-0.4, 0.7, -0.8), True), lean=0.10)  # fmt: skip
+
+
 def _tug(t: float) -> Posture:
     """Leans back on the heels and pulls with both hands."""
     strain = swing(t, 0.8)
@@ -137,7 +144,7 @@ PAIR_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
     {
         "hug": _hug, "kiss": _kiss, "shake hands": _shake_hands, "high five": _high_five,
         "wrestle": _wrestle, "arm wrestle": _arm_wrestle, "argue": _argue, "tango": _tango,
-        "tug of war": _tug, "give": _reach_to(_AT_CHEST, _AT_SIDE),
+        "show fists": _fists, "tug of war": _tug, "give": _reach_to(_AT_CHEST, _AT_SIDE),
         "receive": _reach_to(_AT_SIDE, _AT_CHEST),
     }
 )  # fmt: skip

@@ -21,6 +21,7 @@ from texvent.scenes.models.materials import (
 from texvent.scenes.models.people.acts.music import SEAT_M, SITTING, STOOL
 from texvent.scenes.models.people.acts.prop_shapes import Prop, disc, stick, still
 from texvent.scenes.models.people.gestures import Movement
+from texvent.scenes.models.people.pastimes.crafts import SCREEN
 from texvent.scenes.models.people.posture import ANKLE, HIP, Arm, Leg, Posture, solve
 from texvent.scenes.models.people.timing import ease, follow_keys, swing
 from texvent.scenes.models.protocol import ModelPart
@@ -285,10 +286,11 @@ def _chess(t: float) -> Posture:
 
 
 def _video_games(t: float) -> Posture:
-    lean = 0.12 * swing(t, 0.7)
-    arm = Arm((0.34, -0.12, -0.24 + 0.03 * swing(t, 2.3)), _DOWN)
-    return Posture(hips=(0.0, 0.0, SEAT_M), tilt=lean, lean=0.12 + 0.06 * swing(t, 0.5), left=arm,
-                   right=Arm((0.34, -0.12, -0.24 + 0.03 * swing(t, 2.9)), _DOWN),
+    lean = 0.20 * swing(t, 0.7)
+    lift = -0.10 + 0.12 * swing(t, 0.9)
+    arm = Arm((0.40, -0.12, lift), _DOWN)
+    return Posture(hips=(0.0, 0.0, SEAT_M), tilt=lean, lean=0.14 + 0.12 * swing(t, 0.5), left=arm,
+                   right=arm,
                    left_leg=SITTING, right_leg=SITTING, tool=(1.0, 0.0, 0.2))  # fmt: skip
 
 
@@ -316,7 +318,7 @@ _BOW = still(
 
 def _arrow(t: float) -> list[ModelPart]:
     """On the string, then on its way, as far as the picture shows it."""
-    away = min(5.0 * max(t % 2.6 - SHOT_S, 0.0), 2.2)
+    away = min(5.0 * max(t % 2.6 - SHOT_S, 0.0), 1.3)
     return [stick(WOOD, away - 0.04, away + 0.74, 0.020),
             stick(Material(RED), away - 0.04, away + 0.10, 0.036),
             stick(DARK, away + 0.70, away + 0.82, 0.034)]  # fmt: skip
@@ -368,7 +370,11 @@ PLAY_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "mow": (Prop("ground", still(*_mower()), ("lawn mower",)),),
         "jackhammer": (Prop("ground", _hammer, ("jackhammer", "drill")),),
         "play chess": (Prop("ground", _BOARD, ("chessboard", "chess", "playing card", "table")),),
-        "play video games": (Prop("ground", still(STOOL)), Prop("hands", _CONTROLLER)),
+        "play video games": (
+            Prop("ground", still(STOOL)),
+            Prop("hands", _CONTROLLER, ("game controller",)),
+            Prop("ground", SCREEN, ("tv",), is_own=True),
+        ),
     }
 )
 """Activity → what is drawn with it."""

@@ -12,6 +12,7 @@ from texvent.scenes.models.people.acts.activity import (
     seen_from_side,
     sideways_at_head,
 )
+from texvent.scenes.models.people.pastimes.words import COMPOUNDS, PASTIMES
 
 _HAIRY = "beard|mustache|moustache|face|chin|cheek|cheeks|head|stubble"
 _MAKEUP = "makeup|make up|make-up|blush|powder"
@@ -29,7 +30,7 @@ AT_HEAD: dict[str, Activity] = {
                                near=done_to("put on|apply", "lip balm|lip gloss")),
     "wash face": at_head(*done_to("wash|rinse|splash|scrub|cleanse|rub", "face|eyes|eye")),
     "wash hair": at_head(*done_to("wash|shampoo|lather|rinse", "hair"),
-                         near=("massage scalp", "take a shower")),
+                         near=("massage scalp",)),
     "wipe face": at_head(*done_to("wipe|dab|mop|dry", "forehead|brow|sweat|face|mouth|eyes|tears"
                                   "|nose"), near=done_to("blow|pick|scratch|touch", "nose")),
     "scratch head": at_head(*done_to("scratch|touch", "head|ear|face|chin|hair")),
@@ -105,7 +106,8 @@ MUSIC: dict[str, Activity] = {
                                  near=done_to("play", "checkers|cards|card game|poker"
                                               "|playing cards")),
     "play video games": seen_from_side(*done_to("play", "video game|video games|computer game"
-                                  "|computer games|console|playstation|xbox")),
+                                  "|computer games|console|playstation|xbox|controller"
+                                  "|game controller|gamepad|joystick|game")),
 }  # fmt: skip
 
 PAIRED: dict[str, Activity] = {
@@ -126,6 +128,8 @@ PAIRED: dict[str, Activity] = {
                                          "salsa|waltz|ballroom|rumba|bachata"))),
     "give": Activity(()),
     "receive": Activity(()),
+    "show fists": Activity((), done_to("play|do", "rock paper scissors"
+                                                "|rock scissors paper")),
     "tug of war": Activity((*done_to("play|have", "tug of war|tug-of-war"), "tug at a rope",
                             "tug on a rope", "pull on a rope")),
 }  # fmt: skip
@@ -161,7 +165,8 @@ EVERYDAY: dict[str, Activity] = {
         )
     ),
     "type on keyboard": seen_from_side(
-        *done_to("type on|type at|use|work on|press keys on|hit", "keyboard|computer keyboard")
+        *done_to("type on|type at|use|work on|press keys on|hit", "keyboard|computer keyboard"),
+        *done_to("use|work on|work at|type on|play on", "computer|desktop computer|pc"),
     ),
     "shoot basket": seen_from_side(
         *done_to("shoot|throw", "basketball|hoop|hoops|basket|baskets|free throw|three pointer"),
@@ -176,11 +181,11 @@ EVERYDAY: dict[str, Activity] = {
 """Done with one thing that comes along."""
 
 MORE_ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
-    {**AT_HEAD, **EXERCISES, **MUSIC, **PAIRED, **EVERYDAY}
+    {**PASTIMES, **AT_HEAD, **EXERCISES, **MUSIC, **PAIRED, **EVERYDAY}
 )
 """All of these."""
 
-COMPOUND_VERBS = frozenset(
+COMPOUND_VERBS = COMPOUNDS | frozenset(
     {"high five", "hula hoop", "arm wrestle", "sword fight", "slam dunk", "blow dry", "slow dance"}
 )
 """Verbs of two words whose last one is inflected: "hula hooping"."""
@@ -193,6 +198,7 @@ ACTIVITY_NOUNS = (
     "high knee", "handstand", "headstand", "backflip", "deadlift", "cartwheel", "pushup", "pullup",
     "somersault", "pirouette", "pneumatic drill", "double bass", "bow and arrow", "sun screen",
     "rock paper scissors", "ok sign", "okay sign", "peace sign", "victory sign", "rock sign",
-    "shaka sign", "jab", "uppercut", "punch", "left hook", "right hook",
+    "shaka sign", "kickflip", "ollie", "pom pom", "backbend", "jab",
+    "uppercut", "punch", "left hook", "right hook",
 )  # fmt: skip
 """Nouns of several words that name what is done, or with what."""

@@ -41,9 +41,9 @@ Pattern = Callable[[float, float], Stroke]
 def _slice(t: float, half: float) -> Stroke:
     up = pulse(t, 1.3)
     return Stroke(
-        (0.02 + 0.05 * up, -0.02 - 0.03 * swing(t, 0.4), 0.13 * up),
+        (0.02 + 0.06 * up, -0.02 - 0.05 * swing(t, 0.4), 0.24 * up),
         (0.02, 0.10, 0.03),
-        (0.92, 0.1, -0.25 + 0.45 * up),
+        (0.92, 0.1, -0.25 + 0.75 * up),
     )
 
 
@@ -96,7 +96,7 @@ def _stroke(t: float, half: float) -> Stroke:
 
 def _scribble(t: float, half: float) -> Stroke:
     return Stroke(
-        (0.07 * swing(t, 1.2), 0.12 * swing(t, 0.45), 0.0), (-0.05, 0.20, 0.01), (0.35, 0.25, -0.9)
+        (0.08 * swing(t, 1.2), 0.17 * swing(t, 0.45), 0.0), (-0.05, 0.24, 0.01), (0.35, 0.25, -0.9)
     )
 
 
@@ -117,8 +117,8 @@ def _knit(t: float, half: float) -> Stroke:
 
 
 def _tie(t: float, half: float) -> Stroke:
-    apart, up = pulse(t, RATE_HZ), 0.12 * pulse(t, RATE_HZ, 0.2)
-    return Stroke((-0.02, -0.03 - 0.14 * apart, 0.02 + up), (-0.02, 0.03 + 0.14 * apart, 0.02 + up))
+    apart, up = pulse(t, RATE_HZ), 0.18 * pulse(t, RATE_HZ, 0.2)
+    return Stroke((-0.02, -0.03 - 0.18 * apart, 0.02 + up), (-0.02, 0.03 + 0.18 * apart, 0.02 + up))
 
 
 def _twist(t: float, half: float) -> Stroke:

@@ -45,9 +45,10 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("chop", "axe", "there"), "hew"),
     (HandWork("chop", "axe", "there", shown_as="chop"), "fell"),
     # Along a surface, to and fro.
-    (HandWork("rub", "cloth"), "wipe polish rub dry dust buff towel clean wax"),
+    (HandWork("rub", "cloth"), "wipe polish rub dry dust buff towel clean wax shine"),
     (HandWork("rub", "sponge", "there"), "wash scrub scour"),
     (HandWork("rub", "sponge", "there", shown_as="scrub"), "rinse soap shampoo bathe lather"),
+    (HandWork("rub", "", "there"), "smooth"),
     (HandWork("rub", "block"), "sand sandpaper"),
     (HandWork("rub", "block", shown_as="rub"), "grate"),
     (HandWork("rub", "iron"), "iron"),
@@ -111,6 +112,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("tug", "", "there", shown_as="tug at"), "milk"),
     (HandWork("rock", "", "there"), "shake rattle jiggle"),
     (HandWork("offer", "food", "there"), "feed"),
+    (HandWork("reach", "", "there"), "reach"),
     (HandWork("reach", "", "there", shown_as="reach for"), "pick pluck harvest gather collect"),
     (HandWork("reach", "", "table", "front", "reach for"), "open close unlatch"),
     (HandWork("dig", "trowel", "there", shown_as="dig with a trowel"), "plant weed till hoe bury "
