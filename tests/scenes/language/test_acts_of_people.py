@@ -23,7 +23,7 @@ from texvent.scenes.language.parser import parse_prompt
         ("A girl swings a green tennis racket on a court.", "swing racket"),
         ("A person is pull up.", "pull-up"),
         ("A man is clay pot making.", "make pottery"),
-        ("A person is holding or receiving a trophy.", "lift trophy"),
+        ("A person is giving or receiving prize.", "lift trophy"),
         ("A woman is bandaging.", "bandage arm"),
         ("A girl tastes wine.", "drink"),
         ("A teenager does a stunt on a skateboard.", "skateboard trick"),

@@ -83,7 +83,7 @@ _OUTDOORS = frozenset(
      "car", "bus", "truck", "horse", "cow", "sheep", "street lamp", "fence", "bench", "tent",
      "temple", "church", "tractor", "taxi", "train", "tram", "steam locomotive", "bridge", "ship",
      "airplane", "helicopter", "excavator", "waterfall", "tower", "volcano", "golf club",
-     "golfer", "baseball bat", "baseball batter", "baseball player"}
+     "golfer", "baseball", "frisbee", "baseball bat", "baseball batter", "baseball player"}
 )  # fmt: skip
 """Nouns that are not found in a room."""
 _NEUTRAL = ("grass", "plain")
@@ -194,6 +194,9 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
             return _PLACE_OF_TRAVEL[move.means]
     if "city" in said.backdrops:
         return "city"
+    kinds = {move.kind for one in description.objects for move in (one.motion, *one.then) if move}
+    if kinds & _RACKET_ACTS and {one.noun for one in description.objects} & _OF_TENNIS:
+        return "tennis court"
     of_act = [place for one in description.objects if (place := _place_of_act(one, nouns))]
     if said.has_snow or of_act:
         return "snow" if said.has_snow else of_act[0]
@@ -203,6 +206,8 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
     return _choose_usual(members, rests=rests, is_wet=said.weather in ("rain", "snow"))
 
 
+_RACKET_ACTS = frozenset({"swing racket", "serve"})
+_OF_TENNIS = frozenset({"tennis racket", "tennis ball", "tennis player"})
 _ALOFT = frozenset({"fly", "hover", "float", "fall", "rise", "sink", "throw", "blow", "orbit"})
 """Motions in which what lives on the ground is in the air."""
 _AT_SEA = frozenset({"swim", "surf", "sail", "paddle", "float", "dive", "row", "sink"})
@@ -290,6 +295,18 @@ def _fit_stated(
     if place == "sea" and (goes_in or _needs_ground(description, nouns, _AT_SEA)):
         return BEACH
     return place
+
+
+_ON_SNOW = frozenset({"ski", "snowboard", "ski trick", "snowboard trick"})
+
+
+def with_snow(description: SceneDescription) -> SceneDescription:
+    """As in "skis down a hill", "snowboards through a forest": snow lies there, unasked."""
+    kinds = {one.motion.kind for one in description.objects if one.motion is not None}
+    said = description.surroundings
+    if not kinds & _ON_SNOW or said.place in (None, "snow", *ENCLOSED):
+        return description
+    return replace(description, surroundings=replace(said, has_snow=True))
 
 
 def report_place(description: SceneDescription, place: str) -> SceneDescription:

@@ -12,7 +12,7 @@ from texvent.scenes.description import (
     SceneDescription,
     SceneObject,
 )
-from texvent.scenes.language.default_place import choose_place, report_place
+from texvent.scenes.language.default_place import choose_place, report_place, with_snow
 from texvent.scenes.language.lanes import go_along
 from texvent.scenes.language.left_out import (
     add_crew,
@@ -21,6 +21,7 @@ from texvent.scenes.language.left_out import (
     ride_waves,
 )
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
+from texvent.scenes.language.posing import list_posing
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS, SEATS
@@ -47,6 +48,7 @@ def complete_description(
     description = _move_followed(replace(description, objects=objects), nouns)
     objects = description.objects
     description = _darken(description)
+    description = with_snow(description)
     place = choose_place(description, nouns, cues)
     description = report_place(description, place)
     said = replace(description.surroundings, place=place)
@@ -312,7 +314,7 @@ def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """Let the first object that can move do so, or else the camera."""
     resting = {relation.subject for relation in description.relations if relation.kind in _RIDES}
-    resting |= _list_posing(description, nouns)
+    resting |= list_posing(description, nouns)
     for index, scene_object in enumerate(description.objects):
         usual = _usual_motion(description, nouns[scene_object.noun])
         if scene_object.motion is None and usual != "stand" and index not in resting:
@@ -333,17 +335,6 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         note = "nothing moves in the prompt, so the camera flies on"
         return replace(description, shot=shot, notes=(*description.notes, note))
     return let_sway(description, "nothing moves in the prompt")
-
-
-def _list_posing(description: SceneDescription, nouns: Mapping[str, Noun]) -> set[int]:
-    """People of whom only is said what they hold or wear: they stand and show it; and that."""
-    shown = [
-        relation
-        for relation in description.relations
-        if relation.kind in ("hold", "wear")
-        and nouns[description.objects[relation.subject].noun].name in PERSON_NOUNS
-    ]
-    return {one.subject for one in shown} | {n for one in shown for n in one.targets}
 
 
 def let_sway(

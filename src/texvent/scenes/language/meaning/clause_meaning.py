@@ -27,13 +27,10 @@ from texvent.scenes.language.meaning.circumstances.effects import (
 )
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.clause_rewrites import (
-    drop_ground,
     list_brought,
     list_other_phrases,
     rewrite_objects,
-    take_climbed,
-    take_partners,
-    take_vessel,
+    rewrite_phrases,
     turn_active,
     turn_effects,
     turn_views,
@@ -207,10 +204,7 @@ class ClauseMeaning:
         take_handled(self._draft, clause, things)
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         self._referents.doers = things
-        take_vessel(clause)
-        take_climbed(clause)
-        drop_ground(clause)
-        take_partners(clause)
+        rewrite_phrases(clause)
         take_fellows(clause)
         take_receivers(clause)
         deny(clause)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
-from texvent.scenes.language.meaning.acts.activities import base_form, find_activity
+from texvent.scenes.language.meaning.acts.activities import PORTIONS, base_form, find_activity
 from texvent.scenes.language.meaning.acts.hand_work import DRINKS, list_goals
 from texvent.scenes.language.meaning.acts.looking import LOOKS, LOOKS_TO
 from texvent.scenes.language.vocabulary.acts import LIGHT_VERBS
@@ -46,6 +46,14 @@ def rewrite_objects(clause: Clause) -> None:
     take_particle(clause)
     take_made(clause)
     take_named_act(clause)
+
+
+def rewrite_phrases(clause: Clause) -> None:
+    """Put right what the verb and its prepositional phrases mean together."""
+    take_vessel(clause)
+    take_climbed(clause)
+    drop_ground(clause)
+    take_partners(clause)
 
 
 def take_named_act(clause: Clause) -> None:
@@ -349,7 +357,8 @@ def list_brought(clause: Clause, *, is_hand: bool = False) -> list[NounGroup]:
     return [
         group
         for group in (*clause.objects, *within)
-        if any(one is group.head for one in found[1]) and not group.phrases
+        if any(one is group.head for one in found[1])
+        and (not group.phrases or group.head_word.lemma in PORTIONS)
     ]
 
 

@@ -24,11 +24,13 @@ SIMILAR_ACTIVITIES: dict[str, tuple[str, ...]] = {
     "stroke": ("cuddle", "comfort", "tickle", "fondle"),
     "point": ("signal", "direct", "indicate"),
     "eat": ("bite", "chew", "taste", "lick", "swallow", "nibble"),
+    "fall over": ("faceplant",),
+    "nod": ("headbang",),
     "talk": ("whisper", "recite", "interview", "present", "explain"),
     "kneel": ("pray", "propose"),
     "dance": ("breakdance", "moonwalk", "twerk"),
     "climb": ("clamber", "cling", "scale", "shin up"),
-    "jump": ("vault",),
+    "jump": ("vault", "play", "romp"),
 }  # fmt: skip
 """Activity of people → verbs it stands for."""
 

@@ -217,9 +217,9 @@ def _group_of(meaning: Meaning) -> object:
 def list_forms(base: str) -> Iterator[tuple[str, VerbForm]]:
     """All forms of a verb of one or more words, such as "take off" and "arm wrestle"."""
     if base in COMPOUND_VERBS:
-        first, last = base.split()
+        *first, last = base.split()
         for word, form in list_verb_forms(last):
-            yield f"{first} {word}", form
+            yield " ".join((*first, word)), form
         return
     head, *tail = base.split()
     for word, form in list_verb_forms(head):

@@ -41,7 +41,7 @@ _GESTURES: dict[str, Activity] = {
     "bow": seen_from_side("bow",),
     "salute": Activity(("salute",)),
     "raise arms": Activity(("raise the arms", "raise arms", "raise both arms", "cheer",
-                            "lift the arms")),
+                            "lift the arms"), done_to("pump", "fist|fists")),
     "stretch": Activity(("stretch",)),
     "talk": Activity(("talk", "speak", "chat", "gesticulate", "discuss"),
                      done_to("give|hold|make", "speech|lecture|presentation|talk")),
@@ -62,7 +62,7 @@ _GESTURES: dict[str, Activity] = {
 }  # fmt: skip
 
 _SPORTS: dict[str, Activity] = {
-    "jump": Activity(("jump", "hop", "leap", "jump up")),
+    "jump": Activity(("jump", "hop", "leap", "jump up"), ("play hopscotch",)),
     "dance": Activity(("dance",)),
     "jumping jack": Activity(("jumping jack", "do a jumping jack", "do jumping jacks",
                               "perform jumping jacks", "star jump"),
@@ -76,7 +76,9 @@ _SPORTS: dict[str, Activity] = {
                                               "|combination|straight right|left hook")),
     "box": seen_from_side("box", "shadow box"),
     "kick": seen_from_side("kick", near=("play football", "play soccer")),
-    "throw": seen_from_side("throw", "toss", "pitch", "hurl"),
+    "throw": seen_from_side("throw", "toss", "pitch", "hurl",
+                            near=("play frisbee", "play catch", "play volleyball", "play ball",
+                                  "play fetch")),
     "catch": seen_from_side("catch",),
     "swing bat": seen_from_side("swing a bat", "swing a baseball bat", "swing at ball",
                                 "swing at a ball", "swing at a baseball",
@@ -94,22 +96,26 @@ _SPORTS: dict[str, Activity] = {
     "climb": Activity(("climb", "scale"), is_sideways=True),
     "climb down": seen_from_side("climb down",),
     "crawl": _travels("crawl",),
-    "swim": _travels("swim",),
+    "swim": Activity(("swim",), ("snorkel", "scuba dive"), travels=True, is_sideways=True),
     "surf": _travels("surf", "ride a wave", "ride the waves", "ride waves", "catch a wave"),
     "skate": _travels("skateboard", "skate", "longboard"),
-    "ski": _travels("ski", "go skiing"),
+    "ski": _travels("ski", "go skiing", "cross country ski", "downhill ski"),
     "snowboard": _travels("snowboard",),
     "row oars": seen_from_side("row with oars",),
     "row": seen_from_side("row", "paddle"),
 }  # fmt: skip
 
 _DAILY: dict[str, Activity] = {
-    "play guitar": Activity(("play guitar", "play the guitar", "strum", "strum a guitar")),
+    "play guitar": Activity(("play guitar", "play the guitar", "strum", "strum a guitar",
+                             "play ukulele"), done_to("play|strum", "banjo|mandolin|lute|sitar"
+                                                      "|bass")),
     "play drums": Activity(("play drums", "play the drums", "drum")),
     "play piano": seen_from_side("play piano", "play the piano", "play keyboard",
-                                  "play the keyboard"),
+                                  "play the keyboard",
+                                  near=done_to("play", "organ|synthesizer|harpsichord")),
     "play violin": at_head("play violin", "play the violin", "fiddle"),
-    "play flute": at_head("play flute", "play the flute", "play piccolo"),
+    "play flute": at_head("play flute", "play the flute", "play piccolo",
+                          near=done_to("play", "recorder|oboe|pan flute")),
     "play trumpet": sideways_at_head(*done_to("play|blow|blow into", "trumpet|saxophone|clarinet"
                                               "|trombone|oboe|horn")),
     "type": seen_from_side("type", "use a laptop", "work on a laptop", "type on a laptop",
@@ -138,7 +144,8 @@ _DAILY: dict[str, Activity] = {
     "mop": seen_from_side("mop",),
     "rake": seen_from_side("rake",),
     "chop wood": seen_from_side("chop wood", "cut wood", "split wood", "split logs"),
-    "cook": Activity(("cook", "prepare food", "make food")),
+    "cook": seen_from_side("cook", *done_to("cook|prepare|make|fry", "food|meal|dinner|breakfast"
+                                            "|lunch|supper|dish")),
     "pull": seen_from_side("pull",),
     "push": seen_from_side("push", "shove"),
     "fish": seen_from_side("fish", "go fishing"),
@@ -241,7 +248,8 @@ SEATS = frozenset({"chair", "armchair", "office chair", "rocking chair", "sofa",
 DONE_SEATED = frozenset(
     {"wave", "wave left", "wave right", "wave both", "clap", "point", "nod", "shake head", "talk",
      "play guitar", "play violin", "play flute", "write", "read", "eat", "drink", "phone", "text",
-     "photograph", "sing", "fish"}
+     "photograph", "sing", "fish", "type on lap", "eat noodles", "eat cake", "eat meal",
+     "eat salad", "eat watermelon", "count money", "cut nails", "shuffle cards", "knit"}
 )  # fmt: skip
 """What a person does just as well sitting: torso, head and arms move, the hips do not."""
 TO_AND_FROM_SEATS = frozenset({"sit down", "stand up"})

@@ -128,7 +128,7 @@ def _read(t: float) -> Posture:
 
 
 _MOUTH: Point = (0.19, -0.17, 0.20)
-_PLATE: Point = (0.38, -0.10, -0.26)
+_PLATE: Point = (0.40, -0.10, -0.14)
 
 
 def _to_mouth(t: float, rate_hz: float) -> Point:
@@ -138,7 +138,7 @@ def _to_mouth(t: float, rate_hz: float) -> Point:
 
 
 def _eat(t: float) -> Posture:
-    return Posture(left=Arm((0.32, -0.10, -0.26), _DOWN), right=Arm(_to_mouth(t, 0.7), _OUT),
+    return Posture(left=Arm((0.36, -0.10, -0.14), _DOWN), right=Arm(_to_mouth(t, 0.7), _OUT),
                    nod=0.2, tool=(-0.5, -0.8, 0.1))  # fmt: skip
 
 
@@ -220,16 +220,6 @@ def _chop(t: float) -> Posture:
     )  # fmt: skip
 
 
-def _stir(rate_hz: float, circle: float) -> Movement:
-    def move(t: float) -> Posture:
-        angle = 2.0 * math.pi * rate_hz * t
-        spot = (0.42 + circle * math.cos(angle), -0.10 + circle * math.sin(angle), -0.26)
-        return Posture(right=Arm(spot, _OUT), left=Arm((0.38, -0.02, -0.32), _DOWN), lean=0.12,
-                       nod=0.32, tool=(0.35, 0.0, -0.9))  # fmt: skip
-
-    return move
-
-
 _PUSHING = Arm((0.54, -0.04, -0.04), (-0.3, 0.8, -0.8))
 
 
@@ -276,7 +266,7 @@ DAILY: Mapping[str, Movement] = MappingProxyType(
         "play flute": _flute, "play trumpet": _trumpet, "write": _write, "read": _read,
         "eat": _eat, "drink": _drink, "phone": _phone, "text": _text, "photograph": _photograph,
         "sing": _sing, "dig": _dig,
-        "sweep": _sweep, "chop wood": _chop, "cook": _stir(1.2, 0.07), "push": _push,
+        "sweep": _sweep, "chop wood": _chop, "push": _push,
         "pull": _pull, "fish": _fish, "tie shoes": _tie_shoes,
     }
 )  # fmt: skip

@@ -64,9 +64,6 @@ _BLOCK = still(
     post(Material((0.55, 0.38, 0.20)), (1.12, 0.0, 0.345), (0.40, 0.40, 0.012)),
     rod(Material((0.40, 0.25, 0.12)), (1.12, 0.0, 0.35), (1.12, 0.0, 0.62), 0.10),
 )
-_LADLE = still(stick(WOOD, -0.10, 0.28, 0.012), ball(WOOD, (0.0, 0.0, 0.30), (0.07, 0.05, 0.07)))
-_PAN = still(post(DARK, (0.22, 0.0, -0.02), (0.34, 0.34, 0.07)),
-              rod(DARK, (-0.04, 0.0, 0.0), (0.10, 0.0, 0.0), 0.014))  # fmt: skip
 _CUP = still(post(Material(WHITE), (0.03, 0.0, 0.02), (0.09, 0.09, 0.13)))
 _PHONE = still(box(DARK, (0.02, 0.0, 0.05), (0.02, 0.08, 0.17)))
 _SCREEN = still(
@@ -291,10 +288,6 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "dig": (Prop("right hand", _SHOVEL, ("shovel", "spade")),),
         "sweep": (Prop("right hand", _BROOM, ("broom",)),),
         "chop wood": (Prop("right hand", _AXE, ("axe",)), Prop("ground", _BLOCK)),
-        "cook": (
-            Prop("right hand", _LADLE, ("spoon",)),
-            Prop("left hand", _PAN, ("frying pan", "pot")),
-        ),
         "knit": (
             Prop("right hand", still(*TOOLS["needles"].parts)),
             Prop("hands", still(box(Material(RED), (0.02, 0.0, -0.13), (0.03, 0.22, 0.26)))),

@@ -40,7 +40,7 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Vector,
 )
 
-FLIGHT_M = 3.2
+FLIGHT_M = 2.4
 """Most metres that a thing flies in the rest of the clip, so that the camera can show it."""
 _REACH_S = 0.85
 """Longest flight towards who catches or hits, s."""

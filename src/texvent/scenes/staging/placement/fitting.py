@@ -76,6 +76,8 @@ _LARGER_WORN = 1.3
 """The same of what is worn."""
 _LARGER_BALL = 1.5
 """The same of balls and what else is thrown by hand."""
+_LARGER_SMALL_BALL, _BALL_M = 2.4, 0.19
+"""The same of balls, and the size up to which they are: a football is large enough as it is."""
 _LARGER_BIRD = 1.5
 """The same of what flies."""
 _SMALL_M, _SMALL_BIRD_M = 0.35, 1.2
@@ -101,7 +103,10 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
             continue
         most = _LARGER_BALL if noun.name in _BY_HAND else _LARGER
         most = _LARGER_WORN if index in worn else _LARGER_BIRD if is_bird else most
-        factor = min(max((_SMALL_BIRD_M if is_bird else _SMALL_M) / size, 1.0), most)
+        goal_m = _SMALL_BIRD_M if is_bird else _SMALL_M
+        if noun.name in _BY_HAND and "ball" in noun.name:
+            most, goal_m = _LARGER_SMALL_BALL, _BALL_M
+        factor = min(max(goal_m / size, 1.0), most)
         objects[index] = replace(one, scale=one.scale * factor)
     return replace(description, objects=tuple(objects))
 

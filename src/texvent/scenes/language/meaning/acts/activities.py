@@ -58,6 +58,17 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
     return None if name is None else (name, [clause.verb_word], False)
 
 
+PORTIONS = frozenset({"piece", "slice", "plate", "bowl", "bite", "portion", "bunch", "lot"})
+
+
+def _of_portion(group: NounGroup) -> NounGroup:
+    """The cake of "a piece of cake"."""
+    is_portion = group.head is not None and group.head.lemma in PORTIONS
+    if is_portion and len(group.phrases) == 1 and group.phrases[0].preposition.text == "of":
+        return (group.phrases[0].groups or [group])[0]
+    return group
+
+
 def _find_by_heads(
     clause: Clause, verb: Key, table: Mapping[Key, str]
 ) -> tuple[str, list[Word], bool] | None:
@@ -67,15 +78,17 @@ def _find_by_heads(
         Name of the activity, the words that say it, True; None if they name none.
     """
     heads: list[tuple[Word | None, tuple[Word, ...]]]
-    heads = [(group.head, ()) for group in clause.objects[:1]]
+    heads = [(_of_portion(group).head, ()) for group in clause.objects[:1]]
     heads += [(group.head, (phrase.preposition,)) for phrase in clause.phrases
               for group in phrase.groups[:1]]  # fmt: skip
+    portion = [group.head for group in clause.objects[:1]
+               if group.head is not None and _of_portion(group) is not group]  # fmt: skip
     for head, between in heads:
         if head is None or (between and clause.objects):
             continue
         key = (*verb, *(word.text for word in between), _split(head)[-1])
         if len(key) > len(verb) and key in table:
-            return table[key], [clause.verb_word, *between, head], True
+            return table[key], [clause.verb_word, *portion, *between, head], True
     return None
 
 
@@ -188,7 +201,8 @@ def _near_acts() -> Mapping[str, str]:
 
 _FORMS: Mapping[str, str] = {
     **{form: base for base in ("put", "breakdance", "deadlift", "handstand", "backflip", "do",
-                         "cheerlead", "skydive", "barbecue", "barbeque", "rollerblade", "boulder")
+                         "text", "headbang", "snorkel", "cheerlead",
+                         "skydive", "barbecue", "barbeque", "rollerblade", "boulder")
        for form, _ in list_verb_forms(base)},
     "deadlifts": "deadlift", "handstands": "handstand", "backflips": "backflip",
 }  # fmt: skip

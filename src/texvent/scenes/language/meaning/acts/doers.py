@@ -16,7 +16,7 @@ from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.verbs import VERBS
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.word import mark_used
-from texvent.scenes.models.people.activities import ACTIVITIES
+from texvent.scenes.models.people.activities import ACTIVITIES, SEATS
 
 _ENDINGS = ("er", "or")
 _RIDES = ("ride", "ride along")
@@ -27,12 +27,22 @@ def settle_doings(draft: Draft) -> None:
     """What people do of themselves: they ride, hold what is theirs, do what their name says."""
     mount_riders(draft)
     give_to_owners(draft)
+    type_on_laps(draft)
     add_doings(draft)
     for number, one in enumerate(draft.relations):
         motions = draft.objects[one.subject].motions
         if one.kind in ("with", "hold") and motions and motions[-1].kind == "paw":
             # As in "a cat plays with a ball of yarn": it is before its paws.
             draft.relations[number] = replace(one, kind="work on")
+
+
+def type_on_laps(draft: Draft) -> None:
+    """As in "types on a laptop on a couch": no desk stands on a couch."""
+    for one in draft.relations:
+        motions = draft.objects[one.subject].motions
+        is_on_seat = one.kind == "on" and draft.noun(one.targets[0]).name in SEATS
+        if is_on_seat and motions and motions[-1].kind == "type":
+            motions[-1] = replace(motions[-1], kind="type on lap")
 
 
 def mount_riders(draft: Draft) -> None:

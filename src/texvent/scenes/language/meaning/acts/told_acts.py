@@ -36,6 +36,9 @@ def tell_acts(draft: Draft, clause: Clause, things: Sequence[int]) -> None:
     _taste_drinks(clause)
     _take_back(clause)
     _take_leash(clause)
+    _take_mirror(clause)
+    _drop_vessel(clause)
+    _swing_at_tennis(draft, clause, things)
     if not _do_trick(draft, clause, things):
         _lean_on(draft, clause, things)
 
@@ -166,6 +169,38 @@ def _take_leash(clause: Clause) -> None:
                 phrases.remove(phrase)
 
 
+def _take_mirror(clause: Clause) -> None:
+    """As in "takes a picture in the mirror": before it, not in it."""
+    for phrase in clause.phrases:
+        heads = [group.head.lemma for group in phrase.groups if group.head is not None]
+        if phrase.preposition.text in ("in", "into", "at") and heads == ["mirror"]:
+            preposition = phrase.preposition
+            preposition.meaning = replace(preposition.meaning, role=Role.RELATION, value="front")
+
+
+_VESSELS = frozenset({"glass", "cup", "mug", "bottle", "can", "wine glass", "goblet"})
+
+
+def _drop_vessel(clause: Clause) -> None:
+    """As in "drinks wine from a glass": the wine is in that glass, and there is no other one."""
+    if clause.verb_word.lemma not in ("drink", "sip") or not clause.objects:
+        return
+    for phrase in list(clause.phrases):
+        heads = [group.head.lemma for group in phrase.groups if group.head is not None]
+        if phrase.preposition.text in ("from", "out of", "in") and heads and heads[0] in _VESSELS:
+            mark_used(word for group in phrase.groups for word in group.words)
+            mark_used([phrase.preposition])
+            clause.phrases.remove(phrase)
+
+
+def _swing_at_tennis(draft: Draft, clause: Clause, things: Sequence[int]) -> None:
+    """As in "a tennis player swings at the ball": with a racket, not with a bat."""
+    players = {draft.noun(index).name for index in things}
+    is_swing = clause.verb_word.lemma in ("swing", "hit") and not clause.objects
+    if players == {"tennis player"} and is_swing:
+        clause.verb_word.lemma, clause.verb_word.has_other_sense = "swing racket", True
+
+
 _ON_BACK = frozenset({"ride", "sit", "stand"})
 
 
@@ -224,10 +259,11 @@ def _do_trick(draft: Draft, clause: Clause, things: Sequence[int]) -> bool:
     words = [*aloft, *(word for one in named for word in one.words)]
     if group is not None:
         words += group.words
-        for phrase in list(clause.phrases):
-            if any(one is group for one in phrase.groups):
-                words.append(phrase.preposition)
-                clause.phrases.remove(phrase)
+        for phrases in (clause.phrases, *(one.phrases for one in clause.subjects)):
+            for phrase in list(phrases):
+                if any(one is group for one in phrase.groups):
+                    words.append(phrase.preposition)
+                    phrases.remove(phrase)
     clause.adverbs = [word for word in clause.adverbs if word.text not in _AIR]
     clause.objects = [one for one in clause.objects if one is not group and one not in named]
     _does(draft, clause, things, kind, words)
@@ -239,7 +275,8 @@ def _find_board(
 ) -> tuple[str | None, NounGroup | None]:
     """The trick of the board that is named, and its words; the rider's own has none."""
     groups = list(clause.objects)
-    for phrase in clause.phrases:
+    phrases = [*clause.phrases, *(one for group in clause.subjects for one in group.phrases)]
+    for phrase in phrases:
         groups += phrase.groups if phrase.preposition.text in _USING else []
     for group in groups:
         noun = group.head.read_as(Role.NOUN) if group.head is not None else None

@@ -243,6 +243,23 @@ def _bouquet(t: float) -> list[ModelPart]:
     return parts + _flower(RED, (hx + 0.04, hy, hz - 0.16), (hx + 0.06, hy - 0.02, hz + 0.16))
 
 
+def _type_on_lap(t: float) -> Posture:
+    """Both hands on the keys of a laptop on the lap."""
+
+    def arm(phase: float) -> Arm:
+        return Arm((0.36, -0.10 + 0.05 * swing(t, 0.7, phase), -0.20 + 0.05 * swing(t, 1.3, phase)),
+                   _DOWN)  # fmt: skip
+
+    return Posture(left=arm(0.0), right=arm(0.5), nod=0.35)
+
+
+_LAPTOP = still(
+    box(STEEL, (0.06, 0.0, -0.05), (0.28, 0.40, 0.02)),
+    box(STEEL, (0.21, 0.0, 0.09), (0.02, 0.40, 0.27), lean=0.25),
+    box(glowing((0.35, 0.5, 0.75), 0.9), (0.198, 0.0, 0.09), (0.01, 0.36, 0.23), lean=0.25),
+)
+
+
 def _lift_trophy(t: float) -> Posture:
     """Both hands raise a cup from the chest to above the head."""
     up = ease(t, 0.2, 0.9) - 0.35 * pulse(t, 0.8) * ease(t, 0.9, 1.1)
@@ -264,7 +281,8 @@ CRAFT_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
     {
         "make pottery": _make_pottery, "sharpen knife": _sharpen, "count money": _count_money,
         "shuffle cards": _shuffle, "bend metal": _bend_metal, "do laundry": _do_laundry,
-        "arrange flowers": _arrange_flowers, "play wii": _play_wii, "lift trophy": _lift_trophy,
+        "arrange flowers": _arrange_flowers, "type on lap": _type_on_lap,
+        "play wii": _play_wii, "lift trophy": _lift_trophy,
     }
 )  # fmt: skip
 """Craft → posture over time."""
@@ -289,6 +307,7 @@ CRAFT_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("ground", _MACHINE, ("washing machine", "clothesline"), is_own=True),
             Prop("right hand", _CLOTH),
         ),
+        "type on lap": (Prop("hands", _LAPTOP, ("laptop",), is_own=True),),
         "arrange flowers": (Prop("ground", _bouquet, ("vase", "table")),),
         "play wii": (
             Prop("right hand", _REMOTE, ("remote", "game controller")),

@@ -58,6 +58,48 @@ _HELD_PLATE = still(rod(_PLATE, (0.02, -0.10, 0.02), (0.02, -0.12, 0.02), 0.15))
 _SPONGE = still(box(Material(YELLOW), (0.0, 0.0, 0.05), (0.13, 0.10, 0.06)))
 
 
+_PAN_AT: Point = (0.58, -0.04, 0.94)
+
+
+def _cook(t: float) -> Posture:
+    """At a stove: a spoon goes round in a pan, the left hand is at its handle."""
+    x, y, z = _PAN_AT
+    angle = 2.0 * math.pi * 0.9 * t
+    return Posture(
+        hips=(-0.06, 0.0, 0.94), lean=0.20, nod=0.28, tool=(0.62, 0.10, -0.85),
+        right=Arm((x - 0.20 + 0.07 * math.cos(angle), y - 0.06 + 0.09 * math.sin(angle),
+                   z + 0.24), _OUT, True),
+        left=Arm((x - 0.12, 0.26, z + 0.05), _DOWN, True),
+    )  # fmt: skip
+
+
+def _stove(_: float) -> list[ModelPart]:
+    """A stove with a pan on it and food in the pan."""
+    x, y, z = _PAN_AT
+    white, pan = Material((0.78, 0.78, 0.76)), Material((0.05, 0.05, 0.06))
+    return [
+        box(white, (x + 0.06, 0.0, 0.44), (0.60, 0.70, 0.88)),
+        box(DARK, (x + 0.06, 0.0, 0.89), (0.60, 0.70, 0.02)),
+        box(DARK, (x - 0.245, 0.0, 0.42), (0.01, 0.52, 0.40)),
+        box(STEEL, (x - 0.27, 0.0, 0.68), (0.03, 0.50, 0.03)),
+        *(rod(_KNOB, (x - 0.25, k, 0.80), (x - 0.28, k, 0.80), 0.03)
+          for k in (-0.24, -0.08, 0.08, 0.24)),
+        *(post(Material((0.20, 0.05, 0.03)), (x + a, b, 0.905), (0.18, 0.18, 0.01))
+          for a, b in ((0.22, 0.2), (0.22, -0.2), (-0.04, 0.2))),
+        post(pan, (x, y, z - 0.005), (0.36, 0.36, 0.07)),
+        rod(pan, (x - 0.10, y + 0.12, z + 0.01), (x - 0.14, 0.34, z + 0.03), 0.018),
+        *(ball(Material(colour), (x + 0.10 * math.cos(2.4 * k), y + 0.10 * math.sin(2.4 * k),
+                                  z + 0.035), (0.09, 0.09, 0.05))
+          for k, colour in enumerate(((0.75, 0.15, 0.05), (0.15, 0.42, 0.10), (0.85, 0.62, 0.15),
+                                      (0.45, 0.20, 0.08), (0.80, 0.72, 0.50)))),
+    ]  # fmt: skip
+
+
+_KNOB = Material((0.30, 0.30, 0.32))
+_LADLE = still(rod(WOOD, (0.0, 0.0, -0.08), (0.0, 0.0, 0.30), 0.014),
+               ball(WOOD, (0.0, 0.0, 0.31), (0.07, 0.05, 0.08)))  # fmt: skip
+
+
 def _barbecue(t: float) -> Posture:
     """Tongs turn what is on a grill."""
     up, over = pulse(t, 0.9), swing(t, 0.45)
@@ -94,10 +136,10 @@ def _to_mouth(t: float) -> float:
 def _eat_plate(t: float) -> Posture:
     """A plate in the left hand, a fork from it to the mouth and back."""
     up = _to_mouth(t)
-    start, end = (0.40, -0.22, -0.16), (0.22, -0.06, 0.18)
+    start, end = (0.40, -0.22, -0.08), (0.22, -0.06, 0.18)
     x, y, z = (a + up * (b - a) for a, b in zip(start, end, strict=True))
     return Posture(
-        left=Arm((0.36, -0.16, -0.24), _DOWN), right=Arm((x, y, z), _OUT), nod=0.22 - 0.15 * up,
+        left=Arm((0.38, -0.16, -0.14), _DOWN), right=Arm((x, y, z), _OUT), nod=0.22 - 0.15 * up,
         tool=(-0.30 * up, -0.85, -0.45 + 0.50 * up),
     )  # fmt: skip
 
@@ -197,7 +239,8 @@ def _lit_cake(t: float) -> list[ModelPart]:
 
 MEAL_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
     {
-        "wash dishes": _wash_dishes, "barbecue": _barbecue, "eat noodles": _eat_plate,
+        "cook": _cook, "wash dishes": _wash_dishes, "barbecue": _barbecue,
+        "eat noodles": _eat_plate,
         "eat cake": _eat_plate, "eat meal": _eat_plate, "eat salad": _eat_plate,
         "eat watermelon": _eat_slice, "blow out cake": _blow_out_cake,
     }
@@ -209,6 +252,10 @@ MEAL_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("ground", _KITCHEN_SINK, ("sink", "plate"), is_own=True),
             Prop("left hand", _HELD_PLATE),
             Prop("right hand", _SPONGE, ("sponge",)),
+        ),
+        "cook": (
+            Prop("ground", _stove, ("oven", "frying pan", "pot"), is_own=True),
+            Prop("right hand", _LADLE, ("spoon", "wooden spoon", "spatula")),
         ),
         "barbecue": (Prop("ground", _grill, ("grill",), is_own=True), Prop("right hand", _TONGS)),
         "eat noodles": (_FORK, _dish(*_NOODLES)),

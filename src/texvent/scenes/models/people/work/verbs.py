@@ -81,7 +81,7 @@ _TABLE: tuple[tuple[HandWork, str], ...] = (
     (HandWork("drill", "drill", "there", "front"), "drill bore"),
     (HandWork("hold", "torch"), "weld solder braze"),
     (HandWork("hold", "magnifier"), "inspect examine study"),
-    (HandWork("hold", "magnifier", shown_as="inspect"), "measure investigate diagnose scan"),
+    (HandWork("hold", "magnifier", shown_as="inspect"), "check measure investigate diagnose scan"),
     (HandWork("dab", "pipette"), "pipette dab"),
     (HandWork("dab", "pipette", shown_as="dab"), "inject vaccinate glue"),
     (HandWork("dab"), "poke prod tap press"),

@@ -1,0 +1,35 @@
+"""Who and what rests where only is said what people hold, wear or sit on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from texvent.scenes.description import SceneDescription, SceneObject
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.protocol import Noun
+
+
+def list_posing(description: SceneDescription, nouns: Mapping[str, Noun]) -> set[int]:
+    """People of whom only is said what they hold or wear: they stand and show it.
+
+    What they hold and what is sat on rests, too: "sits on a motorcycle".
+    """
+    shown = [
+        relation
+        for relation in description.relations
+        if relation.kind in ("hold", "wear")
+        and nouns[description.objects[relation.subject].noun].name in PERSON_NOUNS
+    ]
+    sat_on = [
+        relation.targets
+        for relation in description.relations
+        if relation.kind in ("on", "ride") and _sits(description.objects[relation.subject])
+    ]
+    if not any(word.startswith(("sit", "sat", "perch")) for word in description.shown):
+        sat_on = []
+    posing = {one.subject for one in shown} | {n for one in shown for n in one.targets}
+    return posing | {n for targets in sat_on for n in targets}
+
+
+def _sits(one: SceneObject) -> bool:
+    return one.motion is not None and one.motion.kind == "sit"
