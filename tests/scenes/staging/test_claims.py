@@ -18,7 +18,7 @@ from texvent.scenes.description import (
     Surroundings,
 )
 from texvent.scenes.language.meaning.circumstances.relations import WEAK_PREPOSITIONS
-from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS, RELATIONS
+from texvent.scenes.language.vocabulary.motion import APART, LED, PREPOSITION_WAYS, RELATIONS
 from texvent.scenes.language.vocabulary.verbs import VERBS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor
@@ -235,7 +235,7 @@ def test_every_relation_that_the_reader_makes_is_measured() -> None:
     kinds = {*RELATIONS, *WEAK_PREPOSITIONS.values(), *ACTS, "at", "with", "follow", "overtake"}
     kinds |= {one for verb in VERBS for one in (verb.relation, verb.act) if one}
     assert kinds <= CHECKS.keys()
-    assert {*PREPOSITION_WAYS.values(), APART} == set(WAYS)
+    assert {*PREPOSITION_WAYS.values(), APART, LED} == set(WAYS)
 
 
 @pytest.mark.parametrize(

@@ -137,6 +137,8 @@ PREPOSITION_WAYS: dict[str, str] = {
 }  # fmt: skip
 """Preposition → `Relation.way`: what it says besides the kind of the relation."""
 
+LED = "lead"
+"""What `Relation.way` is of an animal that someone walks: it is on a leash."""
 APART = "not on"
 """The way of what is "not on" or "not in" something."""
 

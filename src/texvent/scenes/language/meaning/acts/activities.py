@@ -51,7 +51,8 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
     by_heads = _find_by_heads(clause, lemmas[:verb], table)
     if by_heads is not None:
         return by_heads
-    name = table.get((*lemmas[:verb], lemmas[-1])) if len(said) > verb else None
+    is_plain = len(said) > verb and not clause.phrases
+    name = table.get((*lemmas[:verb], lemmas[-1])) if is_plain else None
     if name is not None:
         return name, [said[0][1], said[-1][1]], True
     name = table.get(lemmas[:verb])

@@ -62,6 +62,7 @@ from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_liv
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.vocabulary.acts import OF_ONESELF
+from texvent.scenes.language.vocabulary.motion import LED
 from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, mark_used
@@ -296,7 +297,7 @@ class ActReader:
                 self._draft.relate("work on" if is_at else "beside", movers, targets)
             elif movers:
                 is_led = verb.base == "walk" and is_person(doer) and is_living(target)
-                self._draft.relate("with", movers, targets, "lead" if is_led else "")
+                self._draft.relate("with", movers, targets, LED if is_led else "")
                 self._give(clause, verb, [i for i in targets if is_living(self._draft.noun(i))])
             return movers
         return []

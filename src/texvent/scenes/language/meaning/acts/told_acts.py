@@ -16,6 +16,7 @@ from texvent.scenes.language.meaning.acts.partners import add_partner
 from texvent.scenes.language.meaning.acts.sequence import add_motion
 from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.vocabulary.acts import BOARDS
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word, mark_used
@@ -35,6 +36,7 @@ def tell_acts(draft: Draft, clause: Clause, things: Sequence[int]) -> None:
     _take_making(clause)
     _taste_drinks(clause)
     _take_back(clause)
+    _take_mount(draft, clause)
     _take_leash(clause)
     _take_mirror(clause)
     _drop_vessel(clause)
@@ -217,6 +219,30 @@ def _take_back(clause: Clause) -> None:
                 mark_used([phrase.preposition])
                 clause.objects = phrase.groups
                 clause.phrases.remove(phrase)
+
+
+def _take_mount(draft: Draft, clause: Clause) -> None:
+    """As in "rides on a motorcycle", "rides on horseback": what is ridden is the object."""
+    if clause.verb_word.lemma != "ride" or clause.objects or clause.is_passive:
+        return
+    for phrase in list(clause.phrases):
+        heads = [group.head for group in phrase.groups if group.head is not None]
+        if phrase.preposition.text not in ("on", "atop", "on top of", "upon") or not heads:
+            continue
+        if heads[0].text == "horseback":
+            heads[0].meaning, heads[0].others = Meaning(Role.NOUN, Pos.NOUN, "horse"), ()
+        noun = heads[0].read_as(Role.NOUN)
+        known = draft.nouns.get(noun.value) if noun is not None else None
+        if known is None or not (known.motion in _GOING or known.name in BOARDS):
+            continue
+        mark_used([phrase.preposition])
+        clause.objects = phrase.groups
+        clause.phrases.remove(phrase)
+        return
+
+
+_GOING = frozenset({"drive", "sail", "walk", "run"})
+"""Usual motions of what is ridden."""
 
 
 def _whole(group: NounGroup) -> NounGroup | None:

@@ -107,7 +107,7 @@ MUSIC: dict[str, Activity] = {
                                               "|playing cards")),
     "play video games": seen_from_side(*done_to("play", "video game|video games|computer game"
                                   "|computer games|console|playstation|xbox|controller"
-                                  "|game controller|gamepad|joystick|game")),
+                                  "|game controller|gamepad|joystick")),
 }  # fmt: skip
 
 PAIRED: dict[str, Activity] = {

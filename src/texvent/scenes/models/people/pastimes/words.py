@@ -43,7 +43,7 @@ FEATS: dict[str, Activity] = {
     "tai chi": Activity(done_to("do|practice|practise|perform", "tai chi"), named=("tai chi",)),
     "stretch leg": seen_from_side(*done_to("stretch", "leg|hamstring|calf|thigh"),
                                   *done_to("touch", "toe|foot")),
-    "bend back": seen_from_side("bend back", "bend backwards", "bend over backwards", "lean back",
+    "bend back": seen_from_side("bend back", "bend backwards", "bend over backwards",
                                 *done_to("do|perform", "backbend")),
     "shoot goal": seen_from_side(*done_to("shoot|score|kick", "goal|goal soccer|penalty"),
                                  "shoot at goal", "shoot ball into goal", "take penalty",
