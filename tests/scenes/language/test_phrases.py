@@ -141,3 +141,31 @@ def test_a_name_is_not_corrected_to_a_word() -> None:
     description = parse_prompt("a boat sails along the Seine river")
     assert description.not_understood == ("seine",)
     assert not any(claim.lost for claim in description.claims)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first", "count"),
+    [
+        ("On a narrow street people wave", "3 people, wave", 1),
+        ("people are riding on horses", "3 people, sit, riding 3 horses", 2),
+        ("a sign with a number written on it", "1 sign, stands still", 1),
+        ("open suitcase on a table", "1 suitcase, stands still, on 1 table", 2),
+        ("a women walks", "1 woman, walks", 1),
+        (
+            "a bus stop beside two other bus stops",
+            "1 bus stop, stands still, beside 2 bus stops",
+            2,
+        ),
+        (
+            "a man on a motorcycle with people watching",
+            "1 man, stands still, riding 1 motorcycle",
+            3,
+        ),
+        ("dolls sitting on a table on display", "3 dolls, stand still, on 1 table", 2),
+        ("a man sits at a laptop wearing a hat", "1 man, sits, beside 1 laptop, wearing 1 hat", 3),
+    ],
+)
+def test_nothing_is_added_that_a_caption_does_not_name(prompt: str, first: str, count: int) -> None:
+    description = parse_prompt(prompt)
+    assert description.summary()[0] == first
+    assert len(description.objects) == count

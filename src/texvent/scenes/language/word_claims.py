@@ -27,6 +27,8 @@ MANY_LOST = 12
 """Words that are not understood from which on all others of the prompt are in doubt."""
 _MISREAD = frozenset({"name", "place", "relation", "motion"})
 """Aspects of words that mean something else more often where words around them are lost."""
+_OF_NOUNS = frozenset({Pos.ADJECTIVE, Pos.NUMBER, Pos.DETERMINER})
+"""Parts of speech of words that say more of a noun, but not what it or its verb is."""
 _GRAMMAR = frozenset({Role.FUNCTION, Role.CAMERA, Role.GLOW})
 """Roles of words that show nothing of their own: "scene", "camera", "light"."""
 _OF_MOTION = frozenset({Role.VERB, Role.DIRECTION, Role.PACE, Role.SIMILAR, Role.ACTIVITY})
@@ -107,7 +109,7 @@ def _claim(word: Word, lost: tuple[str, ...], *, is_crowded: bool) -> Claim:
 
 def _changes_meaning(word: Word) -> bool:
     """Whether it is lost, and words around it may mean something else without it."""
-    return is_unread(word) and word.pos not in (Pos.ADJECTIVE, Pos.NUMBER)
+    return is_unread(word) and word.pos not in _OF_NOUNS
 
 
 def _cut_sentences(words: Sequence[Word]) -> Iterator[list[Word]]:

@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 
 from texvent.scenes.description import FORMATIONS
 from texvent.scenes.language.grammar.group_attachment import GroupAttachment
-from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
+from texvent.scenes.language.grammar.noun_groups import PEOPLE, read_group, starts_group
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.vocabulary.function import (
     CONTRASTS,
@@ -268,6 +268,7 @@ class _ClauseReader(GroupAttachment):
             self._close()
             self._clause.subjects = [subject] if subject is not None else []
             self._clause.hosts, self._clause.hosts_by = list(clause.subjects), "with"
+            self._leave_onlookers(clause)
             clause = self._clause
         if clause.verb is None:
             clause.is_participle = is_participle and not clause.auxiliaries
@@ -318,7 +319,20 @@ class _ClauseReader(GroupAttachment):
         phrases = clause.phrases or own
         if clause.auxiliaries or not phrases:
             return False
-        return phrases[-1].preposition.text == "with" and phrases[-1].groups[-1] is self._last
+        last = phrases[-1]
+        while last.groups[-1].phrases:
+            last = last.groups[-1].phrases[-1]
+        return last.preposition.text == "with" and last.groups[-1] is self._last
+
+    def _leave_onlookers(self, clause: Clause) -> None:
+        """As in "a man on a bicycle with people watching": they do so, and are not on it."""
+        last = self._last.head if self._last is not None else None
+        if last is None or last.text not in PEOPLE:
+            return
+        groups = [one for group in clause.subjects for one in (group, *_inner(group))]
+        owners: list[Clause | NounGroup] = [clause, *groups]
+        for owner in owners:
+            owner.phrases = [one for one in owner.phrases if one.groups[-1] is not self._last]
 
     def _split_list(self) -> None:
         """As in "A chair, the light flickers": only the last is the subject."""
@@ -359,3 +373,9 @@ class _ClauseReader(GroupAttachment):
             subjects = list(clause.subjects)
         self._close()
         self._clause.subjects, self._clause.is_participle = subjects, is_participle
+
+
+def _inner(group: NounGroup) -> list[NounGroup]:
+    """Groups of the phrases of a group, and of theirs."""
+    own = [one for phrase in group.phrases for one in phrase.groups]
+    return [*own, *(inner for one in own for inner in _inner(one))]

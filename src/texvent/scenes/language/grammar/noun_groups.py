@@ -72,10 +72,23 @@ def _belongs(words: Sequence[Word], at: int, group: NounGroup) -> bool:
     if pos is Pos.DETERMINER:
         return not group.words and group.owner is None
     if pos is Pos.NOUN:
-        return True
+        return not _opens_subject(words, at, group)
     if pos in (Pos.NUMBER, Pos.ADJECTIVE):
         return group.head is None
     return pos is not Pos.PRONOUN and _is_modifier(words, at, group)
+
+
+def _opens_subject(words: Sequence[Word], at: int, group: NounGroup) -> bool:
+    """As in "On a narrow street people walk": who walks is no part of the street."""
+    head = group.head
+    if head is None or head.role is not Role.PLACE or group.determiner is None:
+        return False
+    after = words[at + 1].pos if at + 1 < len(words) else None
+    return words[at].text in PEOPLE and after in (Pos.VERB, Pos.AUXILIARY)
+
+
+PEOPLE = frozenset({"people", "men", "women", "children", "kids", "pedestrians"})
+"""Nouns of people that are no second part of a compound."""
 
 
 def _continues(words: Sequence[Word], at: int) -> bool:

@@ -172,7 +172,7 @@ class ClauseMeaning:
         does = find_activity(clause, is_hand=False) is not None or (
             isinstance(word.meaning.value, Verb) and bool(clause.objects)
         )
-        if not does or word.role is Role.FUNCTION:
+        if not does or word.role is Role.FUNCTION or word.meaning.form is VerbForm.PAST:
             self._read_objects(clause, [])
             return
         index = self._around.person()

@@ -13,7 +13,8 @@ _LAST = frozenset(
     case cases book books brush brushes walk walks mill mills boat boats ball balls road roads top
     tops fly flies flower flowers glasses apple apples tub tubs room rooms board boards place places
     gull gulls chair chairs bag bags pack packs shelf shelves way ways scraper scrapers plane planes
-    cycle cycles craft yard yards berry berries melon melons cake cakes wear hopper card cards
+    cycle cycles craft yard yards berry berries melon melons cake cakes wear hopper card cards side
+    sides
     """.split()  # noqa: SIM905
 )
 """Second parts of nouns that people write as two words."""

@@ -49,15 +49,19 @@ def read_inherent(words: Sequence[Word]) -> None:
     """
     for number, word in enumerate(words):
         noun = _noun_after(words, number)
-        if noun is not None and noun.meaning.value in _INHERENT.get(word.text, ()):
-            _take(word, Pos.ADJECTIVE)
+        if noun is not None and _is_anyway(word, noun):
+            _take(word, word.pos if word.pos is Pos.DETERMINER else Pos.ADJECTIVE)
         elif word.text in ("some", "any") and noun is not None and not _is_counted(noun):
             _take(word, Pos.DETERMINER)
-        elif word.text in _PEAKS and noun is not None and noun.meaning.value == "mountain":
-            _take(word, Pos.ADJECTIVE)
         elif word.text in ("floor", "ground") and _is_on_it(words, number):
             for one in words[number - 2 : number + 1]:
                 _take(one, Pos.ADVERB)
+
+
+def _is_anyway(word: Word, noun: Word) -> bool:
+    """Whether a word says of the noun after it what it is as it is drawn."""
+    is_peak = word.text in _PEAKS and noun.meaning.value == "mountain"
+    return is_peak or word.text == "other" or noun.meaning.value in _INHERENT.get(word.text, ())
 
 
 def _take(word: Word, pos: Pos) -> None:

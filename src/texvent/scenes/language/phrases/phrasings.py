@@ -59,6 +59,31 @@ _PHRASES: dict[str, tuple[str, ...]] = {
     "drinks from": ("bends down to drink water from", "bends down to drink from",
                     "drinks water from"),
     "towards": ("to join", "to catch up with"),
+    "a woman": ("a women",),
+    "a man": ("a men",),
+    "on skis": ("wearing skis",),
+    "riding a horse": ("riding on horseback", "riding horseback"),
+    "on a horse": ("on horseback",),
+    "": (
+        "and more", "and others", "ready to be eaten", "ready to eat", "waiting to be eaten",
+        "are ready to be eaten", "is ready to be eaten", "of some sort", "of some kind",
+        "of all kinds", "of various kinds", "of different kinds", "of all sizes", "etc",
+        "on display",
+    ),
+    "in a row": (
+        "next to each other", "next to one another", "beside each other", "alongside each other",
+        "side by side with each other",
+    ),
+    **{f"old {who}": (f"older {who}", f"elderly {who}") for who in ("man", "woman", "couple")},
+    **{
+        f"beside {the} {way}": tuple(
+            f"{on} {side} of {the} {way}"
+            for on in ("on the", "by the", "at the", "off to the")
+            for side in ("side", "edge")
+        )
+        for the in ("the", "a")
+        for way in ("road", "street", "highway", "path", "river", "lake")
+    },
     "mountain peaks": ("mountains peaks",),
     "snow covered": ("snow blanketed", "blanketed in snow", "blanketed with snow", "snow clad",
                      "snow laden", "snow dusted"),
@@ -74,8 +99,8 @@ _PHRASES: dict[str, tuple[str, ...]] = {
         "that contains", "that contain", "that features", "along with", "together with",
     ),
 }  # fmt: skip
-"""Plain words → phrases for them."""
-_LYING = ("laying", "lying")
+"""Plain words → phrases for them; "" = they say nothing of what is seen."""
+_LYING = {"laying": "lying", "lays": "lies"}
 _MISSPELT = {"siting": "sitting"}
 _WATERS = frozenset({"ocean", "sea", "pool", "river", "lake", "pond", "tank", "aquarium"})
 """What has a bottom on which things lie: there "on the bottom of" is no "under"."""
@@ -111,7 +136,7 @@ def plain_phrases(tokens: Sequence[Token]) -> list[Token]:
 
 def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
     """Number of tokens that a phrase takes, and what it becomes; None where none begins."""
-    rules = (_replace_fixed, _drop_being, _go_the_way, _take_outing, _have, _lie)
+    rules = (_replace_fixed, _drop_being, _go_the_way, _take_outing, _have, _lie, _ride_on, _seem)
     return next((one for rule in rules if (one := rule(tokens, at)) is not None), None)
 
 
@@ -132,7 +157,7 @@ def _replace_fixed(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] 
         coming = {token.text for token in tokens[at + length : at + length + 3]}
         if plain == "under" and coming & _WATERS:
             return None
-        return length, _stand_for(tokens[at : at + length], plain)
+        return length, _stand_for(tokens[at : at + length], plain) if plain else []
     return None
 
 
@@ -182,10 +207,30 @@ def _lie(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
     text = tokens[at].text
     if text in _MISSPELT:
         return 1, _stand_for(tokens[at : at + 1], _MISSPELT[text])
-    if text != _LYING[0]:
+    if text not in _LYING:
         return None
     after = tokens[at + 1].text if at + 1 < len(tokens) else "."
-    return (1, _stand_for(tokens[at : at + 1], _LYING[1])) if _is_after_lying(after) else None
+    return (1, _stand_for(tokens[at : at + 1], _LYING[text])) if _is_after_lying(after) else None
+
+
+def _ride_on(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "riding on motorcycles": riding them; "rides on the rails" is something else."""
+    texts = [token.text for token in tokens[at : at + 5]]
+    if _form_of(texts[0], ("ride",)) is None or texts[1:2] not in (["on"], ["upon"]):
+        return None
+    is_ridden = any(text.rstrip("s") in _RIDDEN for text in texts[2:])
+    return (2, _stand_for(tokens[at : at + 2], texts[0])) if is_ridden else None
+
+
+def _seem(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "a doll posed as if sitting": it sits, as far as one sees."""
+    texts = [token.text for token in tokens[at : at + 3]]
+    is_seeming = texts[:1] == ["as"] and texts[1:2] in (["if"], ["though"])
+    return (2, []) if is_seeming and len(texts) > 2 and texts[2].endswith("ing") else None
+
+
+_RIDDEN = frozenset({"motorcycle", "horse", "bike", "bicycle", "elephant", "scooter", "skateboard",
+                     "camel", "surfboard", "donkey", "pony", "motorbike", "moped"})  # fmt: skip
 
 
 def _is_after_lying(word: str) -> bool:
@@ -195,7 +240,8 @@ def _is_after_lying(word: str) -> bool:
 _AFTER_LYING = frozenset(
     {"on", "in", "under", "next", "beside", "near", "down", "by", "across", "at", "atop", "inside",
      "against", "around", "over", "between", "behind", "with", "and", "while", "there", "together",
-     "outside", "asleep", "upon", "alongside", "out", "still", "beneath", "flat", "comfortably"}
+     "outside", "asleep", "partially", "partly", "upon", "alongside", "out", "still", "beneath",
+     "flat", "comfortably"}
 )  # fmt: skip
 
 

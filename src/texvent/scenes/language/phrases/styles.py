@@ -50,7 +50,7 @@ _PICTURES = _words(
     " clip close photos pictures images"
 )
 _HANGING = frozenset(
-    {"wall", "gallery", "museum", "easel", "canvas", "frame", "framed", "shelf", "fireplace",
+    {"wall", "gallery", "museum", "easel", "frame", "framed", "shelf", "fireplace",
      "hanging", "hangs", "hung", "desk", "exhibition", "studio"}
 )  # fmt: skip
 """Words that tell that a picture is a thing of the scene."""
@@ -90,7 +90,7 @@ def _join(tokens: Sequence[Token], reason: str) -> Token:
     words = [token for token in tokens if token.text not in _SIGNS]
     while len(words) > 1 and words[0].text in ("a", "an", "the", "in"):
         words.pop(0)
-    if len(words) > 1 and words[-1].text == "of":
+    while len(words) > 1 and words[-1].text in ("of", "is"):
         words.pop()
     text = " ".join(token.text for token in words)
     return Token(text, " ".join(token.written for token in words), sense=("style", reason))
@@ -114,12 +114,14 @@ def _find_of(tokens: Sequence[Token]) -> tuple[int, int, str] | None:
             if skipped and not _is_adjective(tokens[at + skipped - 1 : at + skipped]):
                 break
             end = _medium_end(tokens, at + skipped)
+            if end is not None and [one.text for one in tokens[end : end + 1]] == ["is"]:
+                end += 1  # "the painting is of"
             if end is None or end >= len(tokens) or tokens[end].text != "of":
                 continue
             sentence = _sentence_from(tokens, end)
             is_thing = bool(_PICTURED_ALONE & {one.text for one in tokens[end + 1 : end + 3]})
             if not (sentence & _HANGING or is_thing) and end + 1 < len(tokens):
-                is_plain = tokens[end - 1].text in ("tableau", "collage")
+                is_plain = tokens[end - 1].text == "tableau"
                 return begin, end + 1, "" if is_plain else PLAIN_SHAPES
     return None
 

@@ -107,7 +107,7 @@ Blades stand elsewhere after .2 and .4 s, the steps between six stills of 1 and 
 RELATIONS: dict[str, tuple[str, ...]] = {
     "beside": (
         "next to", "beside", "alongside", "near", "close to", "across from", "against",
-        "opposite",
+        "opposite", "outside",
     ),
     "behind": ("behind", "in back of"),
     "front": ("in front of",),

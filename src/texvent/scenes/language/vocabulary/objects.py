@@ -10,8 +10,10 @@ MAX_COUNT = 24
 COUNTS: dict[int, tuple[str, ...]] = {
     2: ("a couple of", "a pair of", "pair of", "two", "both"),
     3: ("a few", "few", "some", "three"),
-    5: ("a group of", "group of", "several", "a pack of", "five"),
-    4: ("various", "four", "a family of", "a team of", "a set of"),
+    5: ("a group of", "group of", "several", "a pack of", "five", "a number of", "number of",
+        "a handful of", "a collection of", "a selection of", "an array of"),
+    4: ("various", "four", "multiple", "assorted", "an assortment of", "a variety of",
+        "assortment of", "variety of", "a family of", "a team of", "a set of"),
     9: ("a flock of", "flock of", "nine"),
     7: ("a herd of", "herd of", "seven"),
     10: ("a school of", "school of", "a shoal of", "rows of", "ten"),

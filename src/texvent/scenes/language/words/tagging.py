@@ -17,6 +17,8 @@ _ONLY_OPENS = frozenset({Pos.DETERMINER, Pos.PRONOUN, Pos.NUMBER})
 """Before these a noun cannot end: "the headlights of a lorry blind the driver"."""
 _OF_FILM = (Role.CAMERA, Role.CAMERA_MOVE, Role.VIEW, Role.FRAMING)
 """What a verb follows at once: "the camera pans", "an aerial view shows"."""
+_STATES = frozenset({"open", "clean", "dry", "empty"})
+"""Verbs that are adjectives before a bare noun: "open suitcase", unlike "open the suitcase"."""
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
 
 
@@ -198,7 +200,8 @@ class _Tagger(ReadSoFar):
         if before in (Pos.CONJUNCTION, Pos.SIGN, Pos.SUBORDINATOR, Pos.ADVERB):
             return self._coordinated(index, verb, others)
         is_attribute = Pos.ADJECTIVE in others and after & NOMINAL and not after & _ONLY_OPENS
-        if before is None and is_attribute and verb.role is Role.UNKNOWN:
+        is_state = verb.role is Role.UNKNOWN or self._texts[index] in _STATES
+        if before is None and is_attribute and is_state:
             return Pos.ADJECTIVE  # "busy street"
         is_order = before is None and verb.form is VerbForm.BASE and Pos.NOUN not in others
         return Pos.VERB if is_order and not after & {Pos.VERB, Pos.AUXILIARY} else None

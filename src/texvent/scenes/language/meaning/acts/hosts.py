@@ -19,6 +19,9 @@ _THERE = frozenset(
      "into", "onto", "inside", "by", "beside", "near", "against", "from", "to", "next to"}
 )  # fmt: skip
 """Prepositions of where someone is who does something there."""
+_DRESSED = frozenset({"robot", "mannequin", "doll", "teddy bear", "snowman", "scarecrow", "statue",
+                      "skeleton", "puppet", "humanoid robot"})  # fmt: skip
+"""Things that wear clothes."""
 _LIFELESS = frozenset({Role.PLACE, Role.WEATHER, Role.SNOW, Role.SKY, Role.LIGHT, Role.PART})
 
 
@@ -61,6 +64,8 @@ def _can_do_it(group: NounGroup, verb: Word, clause: Clause, nouns: Mapping[str,
     if noun is None or head.role in _LIFELESS:
         is_there = clause.hosts_by in _THERE
         return not is_there or (head.role is Role.UNKNOWN and not _is_of_bodies(verb))
+    if isinstance(verb.meaning.value, Verb) and verb.meaning.value.act == "wear":
+        return is_living(noun) or is_hand(noun) or noun.name in _DRESSED
     is_furniture = noun.motion == "stand" and not (
         is_living(noun) or is_hand(noun) or noun.is_working or noun.acts
     )
