@@ -15,7 +15,6 @@ def listed(prompt: str) -> tuple[str, ...]:
     ("prompt", "phrase"),
     [
         ("a wind turbine rotates behind a hill", "behind"),
-        ("a curtain at a window", "at the window"),
         ("a dog runs around a lake", "around"),
         ("a truck with two flags", "truck with the flags"),
         ("a cat jumps from a chair", "from the chair"),
@@ -31,6 +30,7 @@ def test_what_a_preposition_says_is_reported_where_it_is_not_seen(prompt: str, p
     [
         "a drone takes off from a table",
         "a man stands at a window",
+        "a curtain at a window",
         "a tree behind a house",
         "a satellite with solar panels",
         "a cow stands beside a road",

@@ -181,6 +181,8 @@ _NOUNS: tuple[str, ...] = (
     "cinema seats", "film screen", "mixing desk", "mansion", "palace", "golf green",
     "sand bunker", "flower bed", "skyscraper", "factory building", "hospital building", "shop",
     "scrap heap", "baseball diamond", "glacier front", "race kerb", "start arch", "pool basin",
+    "food", "meal", "rice", "vegetables", "fruit", "peas", "cutlery", "pizza slice", "waffle",
+    "pizza pan", "meat",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

@@ -45,7 +45,7 @@ from texvent.scenes.models.objects.home import (
     screens,
     small_things,
 )
-from texvent.scenes.models.objects.kitchen import appliances, dishes, food, tableware
+from texvent.scenes.models.objects.kitchen import appliances, dishes, food, helpings, tableware
 from texvent.scenes.models.objects.outdoors import (
     estates,
     flowing,
@@ -155,6 +155,7 @@ _MODULES = (
     enclosures,
     interiors,
     estates,
+    helpings,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}

@@ -36,11 +36,12 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
-from texvent.scenes.staging.placement.at_wall import stand_before_wall
+from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
 from texvent.scenes.staging.placement.fitting import enlarge_again, enlarge_small
 from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
+from texvent.scenes.staging.placement.plating import dish_up
 from texvent.scenes.staging.placement.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.crosswalks import lay_crosswalks
@@ -171,7 +172,8 @@ def compose_scene(
         InputError: the duration is not a positive number.
     """
     said, missing = prepare(description, nouns, duration_s)
-    description = enlarge_again(set_on_table(enlarge_small(said, nouns), nouns), take.larger)
+    set_out = set_on_table(enlarge_small(said, nouns), nouns)
+    description = dish_up(enlarge_again(set_out, take.larger), nouns)
     place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
     travel = plan_travel(description, place, duration_s)
@@ -260,11 +262,10 @@ def _set_camera(
         )  # fmt: skip
 
     actors = stand(placer.place_all())
-    fitted = stand_before_wall(
-        description, placer.groups, lambda shifts: stand(placer.move(shifts)), film, place
-    )
-    if fitted is not None and travel is None:
-        return fitted
+    if travel is None and list_at_wall(description, place):
+        return stand_before_wall(
+            description, placer.groups, lambda one: stand(placer.move(one)), film, place
+        )
     path = film(actors)
     if actors and PLACES[place].ground is not Ground.NONE:
         subject = None if travel else choose_main(description, actors).object_index

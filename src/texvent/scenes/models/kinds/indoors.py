@@ -37,7 +37,7 @@ INDOOR_KINDS: dict[str, str] = {
         box""",
     "bowl": """
         sieve, strainer, mixing dish, sugar bowl, dog bowl, fruit bowl, cereal, oatmeal,
-        porridge, yogurt, yoghurt, pudding, rice, bowl of rice, fried rice, mortar,
+        porridge, yogurt, yoghurt, pudding, mortar,
         granola, ashtray, soap dish, birdbath, bird bath""",
     "tray": """
         baking tray, baking sheet, oven tray, cookie sheet, dish rack, ice cube tray,

@@ -26,6 +26,7 @@ AT_WALL = frozenset(
 _ELSEWHERE = frozenset({"on", "in", "above", "under", "between", "behind", "around", "through",
                         "hold", "carry", "follow", "push", "pull"})  # fmt: skip
 """Relations whose subject is where its target is, not at the wall."""
+_AROUND = ("through", "surround", "among")
 _BOUND = frozenset({"on", "in", "above", "under", "behind", "at", "beside", "with", "work on"})
 """Relations whose subject goes to the wall with its target."""
 _BEFORE_WINDOWS = frozenset({"curtain", "blind"})
@@ -47,8 +48,8 @@ def list_at_wall(description: SceneDescription, place: str) -> tuple[int, ...]:
     if not is_room(place) or is_free or shot.view not in (None, "front", "level", "low"):
         return ()
     elsewhere = {one.subject for one in description.relations if one.kind in _ELSEWHERE}
-    elsewhere |= {i for one in description.relations if one.kind in ("through", "surround", "among")
-                  for i in one.targets}  # fmt: skip
+    around = [one.targets for one in description.relations if one.kind in _AROUND]
+    elsewhere |= {index for targets in around for index in targets}
     return tuple(
         index
         for index, one in enumerate(description.objects)
@@ -62,8 +63,8 @@ def stand_before_wall(
     move: Callable[[Mapping[int, Float64Array]], list[Actor]],
     film: Callable[[Sequence[Actor]], CameraPath],
     place: str,
-) -> tuple[list[Actor], CameraPath] | None:
-    """Actors and camera in a room whose far wall is right behind its furniture; None = has none.
+) -> tuple[list[Actor], CameraPath]:
+    """Actors and camera in a room whose far wall is right behind its furniture.
 
     Args:
         description: what the prompt says.
@@ -73,8 +74,6 @@ def stand_before_wall(
         place: key of `PLACES`.
     """
     at_wall = list_at_wall(description, place)
-    if not any(index in groups for index in at_wall):
-        return None
     actors = move(line_up(groups, at_wall, description))
     room = size_room_behind(film(actors), actors)
     actors = move(dict.fromkeys(groups, np.array([0.0, room - _GAP_M, 0.0])))

@@ -53,6 +53,8 @@ class ObjectGroup:
     """Whether each of its people sits on a chair that comes with them."""
     belt: ObjectGroup | None = None
     """The conveyor belt that carries it along."""
+    laden: int = 0
+    """How many things have found their place on it, where it is a dish."""
     lag: tuple[ObjectGroup, float] | None = None
     """Whose line it follows, and how far behind, m."""
 

@@ -25,6 +25,7 @@ from texvent.scenes.staging.acts.riding import CLOSED, LOADS, SEATS_OF
 from texvent.scenes.staging.placement.cages import CAGES, keep_in_cage
 from texvent.scenes.staging.placement.contents import pack
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
+from texvent.scenes.staging.placement.plating import is_dished, lay_on_dish
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GATEWAYS = frozenset({"door", "gate", "arch"})
@@ -56,6 +57,9 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     Returns:
         [3] the middle of the group, m.
     """
+    if is_dished(group, target):
+        top = _find_surface(target).height
+        return lay_on_dish(group, target, top, len(neighbours))
     kind = group.plan.motion.kind
     if target.noun.name == "conveyor belt":
         group.belt = target

@@ -19,6 +19,7 @@ from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     half_extents_over_clip,
 )
+from texvent.scenes.staging.placement.plating import is_dished
 from texvent.scenes.staging.placement.resting import rest_in, rest_on
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
@@ -55,7 +56,7 @@ def place_on_targets(
     if kind == "on" and hangs(group.noun, targets[0].noun):
         return Goal(hang_on(group, targets[0], neighbours), _FIXED)
     if kind in ("on", "in"):
-        rest = rest_on if kind == "on" else rest_in
+        rest = rest_on if kind == "on" or is_dished(group, targets[0]) else rest_in
         return Goal(rest(group, targets[0], neighbours), _FIXED)
     return _PLACE_BY_KIND[kind](group, targets, height)
 

@@ -52,6 +52,7 @@ from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.kinds.looks import LOOKS
 from texvent.scenes.models.kinds.people import TRAFFIC
+from texvent.scenes.models.kinds.things import ONE_THING
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
 PERSON = "person"
@@ -74,10 +75,6 @@ _OUTSIDE = frozenset({"above", "past", "around", "over", "towards", "toward", "f
 """Prepositions after which a building is looked at from outside."""
 _AROUND = ("surrounded by", "among", "amongst", "amid", "lined with", "lined by")
 """Prepositions after which a bare plural means many."""
-
-
-_ONE_FLIGHT = frozenset({"stairs", "kitchen cabinet", "kitchen counter"})
-"""Nouns whose bare plural is one thing: "climbs stairs"."""
 
 
 class Referents(Antecedents):
@@ -354,7 +351,7 @@ class Referents(Antecedents):
     def _add(self, noun: str, is_plural: bool, attributes: Attributes, bare: int) -> int | None:
         if noun in PAIRED and is_plural and bare == PLURAL_COUNT:
             bare = 2
-        elif noun in _ONE_FLIGHT:
+        elif noun in ONE_THING:
             bare = 1
         count, note = attributes.decide_count(bare)
         if note is not None:

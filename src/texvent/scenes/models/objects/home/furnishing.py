@@ -215,7 +215,7 @@ NOUNS = placed("indoor", (
     thing("curtain", _CLOTHS,
         lambda p: [rod(BRASS, (0.0, -1.0, 2.22), (0.0, 1.0, 2.22), 0.03),
             *(ball(BRASS, (0.0, s, 2.22), (0.09, 0.09, 0.09)) for s in (1.0, -1.0)),
-            *_folds(p, 0.62, 0.70, 8), *_folds(p, -0.62, 0.70, 8)],
+            *_folds(p, 0.75, 0.48, 7), *_folds(p, -0.75, 0.48, 7)],
             ("drape",)),
     thing("mirror", (*_WOODS, BRASS.colour),
         lambda p: [box(Material((0.50, 0.57, 0.62)), (0.0, 0.0, 0.85), (0.03, 0.56, 1.46)),

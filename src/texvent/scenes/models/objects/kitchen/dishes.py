@@ -55,7 +55,7 @@ NOUNS = (
         0.11, 0.035)), *(box(INK, (0.03 * k - 0.04, 0.0, 0.052), (0.006, 0.08,
             0.003)) for k in range(4)),
         ball(Material((0.08, 0.28, 0.04)), (0.06, 0.07, 0.03), (0.05, 0.04, 0.03))],
-            ("beef steak", "meat", "grilled meat")),
+            ("beef steak",)),
     thing("sushi", (PALE.colour,), lambda p: [box(_WOOD, (0.0, 0.0, 0.01), (0.14, 0.26, 0.02)),
         *(part for k in range(4) for part in (ball(p, (0.0, -0.09 + 0.06 * k, 0.035), (0.07,
             0.04, 0.03)), ball(
