@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -17,6 +18,7 @@ from texvent.generate.procedural import (
     ProceduralGenerator,
     ProceduralVideo,
 )
+from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.report import PromptReport
 from texvent.sensor import SensorSize
 from texvent.video import FrameStream, RenderableStream
@@ -149,3 +151,25 @@ def test_reading_the_options_does_not_load_the_kernels() -> None:
         "sys.exit('numba' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_a_film_in_black_and_white_has_the_luminance_of_the_one_in_colour() -> None:
+    config = ProceduralConfig(duration=0.5)
+    grey = ProceduralGenerator(config, size=SMALL).generate("black and white footage of a car")
+    assert PromptReport.of_metadata(grey.metadata).is_faithful
+    pixels = grey.at(200_000).pixels
+    assert np.ptp(pixels, axis=-1).max() == 0.0
+    # The curve of sRGB, by its own formula.
+    plain = replace(grey, is_grey=False).at(200_000).pixels / 255.0
+    light = np.where(plain <= 0.04045, plain / 12.92, ((plain + 0.055) / 1.055) ** 2.4)
+    luminance = light @ np.array([0.2126, 0.7152, 0.0722])
+    coded = np.where(
+        luminance <= 0.0031308, 12.92 * luminance, 1.055 * luminance ** (1 / 2.4) - 0.055
+    )
+    np.testing.assert_allclose(pixels[..., 0], 255.0 * coded, atol=0.01)
+
+
+def test_a_black_and_white_animal_is_no_film_in_black_and_white() -> None:
+    assert not parse_prompt("a black and white cat").is_grey
+    assert parse_prompt("a cat, black and white").is_grey
+    assert parse_prompt("a cat in black and white").is_grey

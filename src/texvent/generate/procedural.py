@@ -113,6 +113,8 @@ class ProceduralVideo(NotebookFrames):
     """Whether light moves that belongs to no surface: beams, the glow of lamps, smoke."""
     transfer: Transfer = Transfer.GAMMA
     """Whether frames are gamma-coded or linear."""
+    is_grey: bool = False
+    """Whether frames are in black and white."""
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -230,7 +232,16 @@ class ProceduralVideo(NotebookFrames):
     @property
     def _code(self) -> Callable[[NDArray[np.float64]], NDArray[np.float32]]:
         """Light (1 is white) → levels of a frame."""
-        return linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
+        code = linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
+        if not self.is_grey:
+            return code
+
+        def code_grey(light: NDArray[np.float64]) -> NDArray[np.float32]:
+            from texvent.scenes.raycast.render import grey_light
+
+            return code(grey_light(light))
+
+        return code_grey
 
 
 class ProceduralGenerator:
@@ -289,6 +300,7 @@ class ProceduralGenerator:
             flicker_hz=scene.flicker_hz,
             has_moving_light=scene.has_moving_light,
             transfer=transfer,
+            is_grey=scene.is_grey,
         )
 
     def report(self, prompt: str, *, is_staged: bool = True) -> PromptReport:
@@ -325,7 +337,7 @@ class ProceduralGenerator:
                 described, seed=self.seed, size=self.size, duration_s=duration_s, nouns=nouns,
                 take=take,
             )  # fmt: skip
-            return replace(scene, has_highlights=self.config.hdr)
+            return replace(scene, has_highlights=self.config.hdr, is_grey=described.is_grey)
 
         best = film(description, stage, self.size, duration_s)
         report = self._accepted(best.report)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.generate.landmarks import is_marked
 from texvent.scenes.projection import ray_directions
-from texvent.scenes.raycast.render import render_pixels
+from texvent.scenes.raycast.render import grey_light, render_pixels
 from texvent.scenes.raycast.trace import GROUND, SKY
 from texvent.scenes.scene import Camera, Float64Array, Primitives
 from texvent.scenes.staging.compose import ComposedScene
@@ -26,6 +26,8 @@ DARK, MOST_DARK = 0.30, 0.5
 """Luma up to which a point is dark, and share of such points that makes a picture dark."""
 LEAST_TOLD = 0.005
 """Share of the image points that a noun of the scenery is told by."""
+_GREY = 0.004
+"""Difference between the levels of red, green and blue of what is grey."""
 VISIBLE = 0.06
 """Difference of a coded level, as a share of white, that is seen at once."""
 
@@ -91,6 +93,10 @@ class Picture:
         if number not in self._colours:
             self._colours[number] = self._render(self.scene, number)
         return self._colours[number]
+
+    def is_grey(self) -> bool:
+        """Whether no image point has a colour."""
+        return all(float(np.ptp(self.colours(one), axis=1).max()) < _GREY for one in USUAL)
 
     def seen_nouns(self, least: float = LEAST_TOLD) -> set[str]:
         """Nouns of all things and scenery of which that share of the image points shows them."""
@@ -173,4 +179,5 @@ class Picture:
         light = render_pixels(
             scene, self.views[number].time_s, self.size, self._wanted, samples=1, shadows=shadows
         )
+        light = grey_light(light) if scene.is_grey else light
         return np.asarray(encode_srgb(light) / WHITE, dtype=np.float64)

@@ -19,6 +19,7 @@ from texvent.generate.seen_words.places import judge_place
 from texvent.generate.seen_words.positions import judge_position
 from texvent.generate.seen_words.things import judge_thing
 from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.language.vocabulary.film import GREYSCALE
 from texvent.scenes.language.vocabulary.scene import SNOW_CAPPED
 from texvent.scenes.raycast.trace import GROUND
 from texvent.scenes.staging.surroundings.places import is_room
@@ -101,7 +102,7 @@ def _judge_scene_word(
     if claim.aspect == "snow":
         return _judge_snow(picture, description, claim)
     if claim.aspect in ("style", "viewpoint"):
-        return claim.value
+        return _judge_style(picture, claim)
     if claim.move is not None:
         return judge_move(picture, description, claim)
     if claim.aspect in ("view", "framing"):
@@ -113,6 +114,13 @@ def _judge_scene_word(
     if claim.aspect in ("effect", "dust"):
         return _judge_effect(picture, description, claim, effects)
     return None
+
+
+def _judge_style(picture: Picture, claim: Claim) -> str | None:
+    """Nothing is drawn in a style; a film is in black and white."""
+    if claim.value == GREYSCALE:
+        return None if picture.is_grey() else "there are colours"
+    return claim.value
 
 
 def _judge_effect(

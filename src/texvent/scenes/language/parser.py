@@ -26,6 +26,7 @@ from texvent.scenes.language.phrases.names import join_names
 from texvent.scenes.language.phrases.phrasings import plain_phrases
 from texvent.scenes.language.phrases.styles import set_styles_aside
 from texvent.scenes.language.place_cues import find_cues, read_outsides, read_titles
+from texvent.scenes.language.vocabulary.film import GREYSCALE
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.word_claims import (
     CROWDED,
@@ -105,6 +106,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         description,
         light=_join(description.light, light),
         is_timelapse=is_timelapse,
+        is_grey=any(one.role is Role.STYLE and one.meaning.value == GREYSCALE for one in words),
         shown=shown,
         substituted=substituted,
         not_understood=unread,

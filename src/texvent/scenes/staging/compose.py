@@ -85,6 +85,7 @@ class ComposedScene:
     """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
+    is_grey: bool = False  # filmed in black and white
     notes: tuple[str, ...] = ()
     """What is added that the prompt does not say, as sentences."""
 

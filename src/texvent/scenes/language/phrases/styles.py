@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from texvent.scenes.language.phrases.moods import MOODS
+from texvent.scenes.language.vocabulary.film import GREYSCALE
 from texvent.scenes.language.words.english import Pos, list_readings
 from texvent.scenes.language.words.tokens import Token
 
@@ -19,7 +20,6 @@ def _words(text: str) -> frozenset[str]:
 
 
 PLAIN_SHAPES = "things are plain shapes"
-COLOURS_AS_THEY_ARE = "colours are as they are"
 _SIGNS = frozenset(".,;:!?()[]\n")
 _ENDS = frozenset(".;!?\n")
 _MEDIA = tuple(
@@ -160,7 +160,7 @@ def _find_grey(tokens: Sequence[Token]) -> tuple[int, int, str] | None:
         is_alone = after in _SIGNS and (before in (",", ";", ".") or before == "in")
         if after in _PICTURES or is_alone:
             begin = at - 1 if before == "in" else at
-            return begin, at + 3, COLOURS_AS_THEY_ARE
+            return begin, at + 3, GREYSCALE
     return None
 
 

@@ -203,6 +203,8 @@ _SIZES = tuple(f"{number} {unit}" for number, unit in
 _MILLIMETRES = tuple(f"{number} mm" for number in
                      (8, 12, 14, 16, 18, 20, 24, 28, 35, 50, 65, 70, 85, 100, 135,
                       200))  # fmt: skip
+GREYSCALE = "in shades of grey"
+"""What a film in black and white is."""
 _GREY = tuple(
     f"black and white {one}"
     for one in (
@@ -243,8 +245,9 @@ STYLE_NOUNS: dict[str, tuple[str, ...]] = {
     "the lens flares nowhere": (
         "lens flare", "sun flare", "anamorphic flare", "light leak", "lens reflection",
     ),
+    GREYSCALE: (*_GREY, "in black and white", "greyscale", "grayscale"),
     "colours are as they are": (
-        *_GREY, "in black and white", "sepia tone", "colour grading", "color grading",
+        "sepia tone", "colour grading", "color grading",
         "colour grade",
         "color grade", "teal and orange", "warm tones", "cool tones", "warm colours", "warm colors",
         "cool colours", "cool colors", "muted colours", "muted colors", "vibrant colours",
@@ -277,8 +280,9 @@ STYLE_ADJECTIVES: dict[str, tuple[str, ...]] = {
          "ultra detailed", "hyper detailed", "intricate", "award winning", "filmic", "lifelike",
          "crisp", "high fidelity", "ultra high definition", "true to life", "uncut", "unedited"),
     "the lens blurs nothing": ("defocused", "soft focused"),
-    "colours are as they are": ("monochrome", "sepia", "desaturated", "infrared",
-                                "sepia toned", "monochromatic", "colour graded", "color graded",
+    GREYSCALE: ("monochrome", "monochromatic"),
+    "colours are as they are": ("sepia", "desaturated", "infrared",
+                                "sepia toned", "colour graded", "color graded",
                                 "high contrast", "low contrast", "high key", "low key"),
     "pictures have no grain": ("grainy", "vhs style"),
     "the lens draws straight lines": ("anamorphic",),
