@@ -150,3 +150,19 @@ def test_a_place_that_the_prompt_is_all_about_is_the_scene(prompt: str, place: s
 def test_a_building_that_is_looked_at_stays_a_thing(prompt: str) -> None:
     nouns = {one.noun for one in parse_prompt(prompt).objects}
     assert nouns & {"building", "barn"}
+
+
+@pytest.mark.parametrize(
+    "prompt", ["a dog on train tracks", "a train travels along railroad tracks", "a rail yard"]
+)
+def test_tracks_that_something_is_on_are_a_railway(prompt: str) -> None:
+    assert parse_prompt(prompt).surroundings.place == "railway"
+
+
+def test_a_plane_of_which_only_an_airport_is_said_is_on_the_ground() -> None:
+    (plane,) = parse_prompt("an airplane on a runway").objects
+    assert plane.motion is not None
+    assert plane.motion.kind == "stand"
+    (other,) = parse_prompt("an airplane takes off from a runway").objects
+    assert other.motion is not None
+    assert other.motion.kind != "stand"

@@ -42,7 +42,7 @@ def complete_description(
     description = _wheel_seats(ride_waves(add_sources(add_crew(description, nouns))))
     description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
     objects = tuple(
-        _decide_motion(scene_object, nouns[scene_object.noun])
+        _decide_motion(_land(scene_object, description), nouns[scene_object.noun])
         for scene_object in description.objects
     )
     description = _move_followed(replace(description, objects=objects), nouns)
@@ -290,6 +290,17 @@ def _sits_down(
 
 _AT_REST = frozenset({"bell", "door"})
 """Nouns with moving parts that rest until a person moves them."""
+
+
+def _land(scene_object: SceneObject, description: SceneDescription) -> SceneObject:
+    """A plane of which only an airport is said is on the ground there."""
+    is_landed = scene_object.noun in _PLANES and description.surroundings.place == "runway"
+    if is_landed and scene_object.motion is None:
+        return replace(scene_object, motion=STANDING)
+    return scene_object
+
+
+_PLANES = frozenset({"airplane", "jet plane", "biplane", "fighter jet", "helicopter"})
 
 
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:

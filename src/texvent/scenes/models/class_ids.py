@@ -182,7 +182,7 @@ _NOUNS: tuple[str, ...] = (
     "sand bunker", "flower bed", "skyscraper", "factory building", "hospital building", "shop",
     "scrap heap", "baseball diamond", "glacier front", "race kerb", "start arch", "pool basin",
     "food", "meal", "rice", "vegetables", "fruit", "peas", "cutlery", "pizza slice", "waffle",
-    "pizza pan", "meat",
+    "pizza pan", "meat", "clock tower",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

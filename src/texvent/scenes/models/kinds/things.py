@@ -4,7 +4,7 @@ from __future__ import annotations
 
 ONE_THING = frozenset(
     {"stairs", "kitchen cabinet", "kitchen counter", "vegetables", "fruit", "rice", "food", "meat",
-     "peas", "cutlery"}
+     "peas", "cutlery", "railway track"}
 )  # fmt: skip
 """Nouns whose bare plural, or mass, is one thing: "climbs stairs", "a plate of vegetables"."""
 THING_KINDS: dict[str, str] = {
@@ -67,7 +67,7 @@ THING_KINDS: dict[str, str] = {
     "mosque": "stupa, minaret",
     "hut": "shack, yurt, thatched hut, wooden hut, kiosk, thatch",
     "barn": "shed, stable, lumbermill, farm building, garage",
-    "tower": "turret, campanile, silo, watchtower, bell tower, clock tower",
+    "tower": "turret, campanile, silo, watchtower, bell tower",
     "power pylon": """
         telephone pole, utility pole, telegraph pole, radio tower, cell tower,
         transmission tower, power line, mast, power lines""",

@@ -208,6 +208,30 @@ def _shop(skin: Material) -> list[ModelPart]:
     return parts
 
 
+def _clock_tower(skin: Material) -> list[ModelPart]:
+    """A square tower with a clock on every side below a pointed roof."""
+    parts = [
+        box(skin, (0.0, 0.0, 8.0), (4.4, 4.4, 16.0)),
+        box(toned(skin, 0.8), (0.0, 0.0, 0.6), (5.2, 5.2, 1.2)),
+        box(skin, (0.0, 0.0, 18.0), (5.0, 5.0, 4.8)),
+        *(box(PALE, (0.0, 0.0, z), (5.4, 5.4, 0.4)) for z in (15.6, 20.5)),
+        peak(Material((0.10, 0.20, 0.20)), (0.0, 0.0, 23.2), (5.8, 5.8, 5.2)),
+        spike(BRASS, (0.0, 0.0, 25.4), (0.0, 0.0, 28.0), 0.25),
+        box(Material((0.16, 0.06, 0.03)), (2.22, 0.0, 1.5), (0.1, 1.5, 2.6)),
+        *(box(_PANE, (2.22, 0.0, z), (0.1, 0.8, 1.8)) for z in (6.0, 10.0, 13.4)),
+    ]
+    face = [
+        disc(INK, (0.0, 18.0), 2.15, 0.16, 2.52), disc(PALE, (0.0, 18.0), 1.95, 0.16, 2.57),
+        *(box(INK, (2.68, 1.6 * math.sin(a), 18.0 + 1.6 * math.cos(a)), (0.06, 0.22, 0.22))
+          for a in (0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi)),
+        plank(INK, (2.70, 0.0, 18.0), (2.70, 0.95, 18.6), chord=(0.0, -0.12, 0.2),
+              thickness=(0.05, 0.0, 0.0)),
+        plank(INK, (2.70, 0.0, 18.0), (2.70, -0.35, 19.5), chord=(0.0, 0.2, 0.05),
+              thickness=(0.05, 0.0, 0.0)),
+    ]  # fmt: skip
+    return [*parts, *(one for k in range(4) for one in moved(face, turn_z(0.5 * k * math.pi)))]
+
+
 def _scrap(skin: Material) -> list[ModelPart]:
     """A heap of crushed car bodies, tyres and sheets of metal."""
     paints = (skin, Material((0.05, 0.16, 0.36)), Material((0.38, 0.34, 0.10)), IRON,
@@ -335,6 +359,7 @@ NOUNS = (
         thing("factory building", ((0.36, 0.16, 0.11),), _factory,
               ("industrial building", "power plant", "industrial plant")),
         thing("hospital building", ((0.66, 0.67, 0.66),), _hospital, ()),
+        thing("clock tower", ((0.56, 0.44, 0.30), (0.42, 0.18, 0.12)), _clock_tower),
         thing("shop", ((0.05, 0.26, 0.10), (0.45, 0.05, 0.05), (0.05, 0.12, 0.36)), _shop,
               ("storefront", "shop front", "shopfront", "boutique", "store front")),
     )),
