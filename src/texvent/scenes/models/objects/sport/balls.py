@@ -105,6 +105,10 @@ def _frisbee(skin: Material) -> list[ModelPart]:
         post(PALE, (0.0, 0.0, 0.018), (0.13, 0.13, 0.01)),
         post(skin, (0.0, 0.0, 0.0185), (0.11, 0.11, 0.01)),
         box(PALE, (0.0, 0.0, 0.019), (0.09, 0.02, 0.0105)),
+        # The hollow below, in the shade: told by its rim.
+        post(toned(skin, 2.2), (0.0, 0.0, -0.008), (0.22, 0.22, 0.008)),
+        post(toned(PALE, 1.2), (0.0, 0.0, -0.010), (0.13, 0.13, 0.008)),
+        post(toned(skin, 2.2), (0.0, 0.0, -0.0105), (0.10, 0.10, 0.008)),
     ]  # fmt: skip
 
 
@@ -166,7 +170,7 @@ NOUNS = placed("indoor", (
         lambda p: [post(p, (0.0, 0.0, 0.0125), (0.076, 0.076, 0.025)),
             post(toned(p, 2.5), (0.0, 0.0, 0.0252), (0.05, 0.05, 0.001))], ("hockey puck",)),
     thing("frisbee", _BRIGHT, nothing, ("flying disc", "flying disk"),
-        moving=(Moving(_frisbee, _tilted(2.0)),), goes=("air", "fly", 4.0)),
+        moving=(Moving(_frisbee, _tilted(2.0)),), goes=("air", "fly", 3.9)),
     thing("boomerang", (WOOD_BROWN,), nothing, moving=(Moving(lambda p: [
         limb(p, (-0.06, 0.0, 0.0), (0.10, 0.16, 0.0), 0.024),
         limb(p, (-0.06, 0.0, 0.0), (0.10, -0.16, 0.0), 0.024),
