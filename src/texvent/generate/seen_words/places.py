@@ -107,6 +107,18 @@ LEAST_LAND = 0.03
 """Share of the picture that is land beside the water, where a shore is."""
 
 
+_LEAPING = frozenset({"jump", "flip", "skateboard trick", "snowboard trick", "ski trick"})
+
+
+def _leaps(description: SceneDescription) -> bool:
+    """As in "jumps in the air": who leaves the ground is there for a moment."""
+    return any(
+        motion is not None and motion.kind in _LEAPING
+        for one in description.objects
+        for motion in (one.motion, *one.then)
+    )
+
+
 def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
     """Why a word of a place is not seen, or None."""
     if claim.aspect == "steep":
@@ -123,6 +135,7 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         is_overhead = claim.word == "overhead"
         said = _find_said_of(description, claim.word) if is_overhead else None
         is_seen = _is_anything_aloft(picture, must_fly=is_overhead, said=said)
+        is_seen = is_seen or (not is_overhead and _leaps(description))
         return None if is_seen else "nothing is seen there"
     is_poured = any(kind in _STREAMS for kind, _ in picture.scene.particles.kinds)
     if claim.word == "water" and is_poured:

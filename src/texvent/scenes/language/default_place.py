@@ -24,7 +24,8 @@ SHORE, BEACH = "lake", "beach"
 """Where what stands on land is beside a lake, or the sea: water with land before it."""
 _PLACE_OF_ACT = {"ski": "snow", "snowboard": "snow", "fish": SHORE,
                  "park": "parking lot", "skydive": "sky", "snowboard trick": "snow",
-                 "ski trick": "snow", "ice skate": "ice rink"}  # fmt: skip
+                 "ski trick": "snow", "stand on skis": "snow",
+                 "ice skate": "ice rink"}  # fmt: skip
 """What people do in one place only → where."""
 _USUAL_PLACES_OF_ACTS: dict[str, tuple[str, ...]] = {
     "indoor": ("mop", "vacuum", "sweep", "iron", "type", "play piano", "play cello", "play harp",
@@ -297,7 +298,7 @@ def _fit_stated(
     return place
 
 
-_ON_SNOW = frozenset({"ski", "snowboard", "ski trick", "snowboard trick"})
+_ON_SNOW = frozenset({"stand on skis", "ski", "snowboard", "ski trick", "snowboard trick"})
 
 
 def with_snow(description: SceneDescription) -> SceneDescription:

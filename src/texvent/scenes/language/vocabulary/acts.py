@@ -43,11 +43,12 @@ NAMED_ACTS: dict[str, tuple[str, ...]] = {
     ),
     "swing club": ("golf", "golf swing", "golf shot", "golf drive", "golf putt"),
     "swing bat": ("baseball swing", "baseball hit", "cricket shot"),
-    "throw": ("baseball pitch", "shot put", "basketball shot", "basketball free throw"),
+    "throw": ("baseball pitch", "shot put", "basketball shot", "basketball free throw",
+              "javelin throw", "hammer throw", "discus throw"),
     "dunk": ("basketball dunk", "slam dunk"),
     "kick": ("penalty kick", "soccer penalty kick", "free kick", "soccer kick", "football kick"),
     "karate": ("karate", "karate kick", "taekwondo", "taekwondo kick", "martial arts", "kung fu",
-               "high kick", "side kick"),
+               "high kick", "side kick", "capoeira"),
     "jumping jack": ("aerobics", "zumba class"),
     "show fists": ("rock paper scissors", "rock scissors paper"),
     "ballet": ("ballet", "ballet pirouette", "pirouette"),
@@ -58,7 +59,11 @@ NAMED_ACTS: dict[str, tuple[str, ...]] = {
                 "jiu jitsu"),
     "box": ("boxing match", "boxing bout", "kickboxing"),
     "skate": ("figure skating", "ice skating", "speed skating", "roller skating"),
-    "jump": ("high jump", "long jump", "triple jump", "vertical jump"),
+    "jump": ("high jump", "long jump", "triple jump", "vertical jump", "pole vault", "hopscotch",
+             "parkour"),
+    "lift": ("clean and jerk", "weightlifting", "weight lifting"),
+    "sit-up": ("situp", "situps", "sit ups", "crunches"),
+    "yoga": ("yoga", "yoga pose"),
     "write": ("handwriting",),
     "archery": ("archery",),
     "tug of war": ("tug of war",),
@@ -68,7 +73,8 @@ NAMED_ACTS: dict[str, tuple[str, ...]] = {
     "skip rope": ("rope skipping", "jump rope", "rope jumping"),
 }  # fmt: skip
 """Activity of a person → nouns that name one like it; only those who do it are shown."""
-EXACT_ACTS = frozenset({"archery", "tug of war", "arm wrestling", "fencing", "wrestling",
+EXACT_ACTS = frozenset({"archery", "situp", "situps", "sit ups", "yoga",
+                         "tug of war", "arm wrestling", "fencing", "wrestling",
                         "juggling", "rope skipping", "jump rope", "rope jumping"})  # fmt: skip
 """Those of these nouns that name just what is shown."""
 

@@ -63,7 +63,10 @@ _GESTURES: dict[str, Activity] = {
 
 _SPORTS: dict[str, Activity] = {
     "jump": Activity(("jump", "hop", "leap", "jump up"), ("play hopscotch",)),
-    "dance": Activity(("dance",)),
+    "dance": Activity(("dance",), ("belly dance", "tap dance", "line dance", "salsa dance",
+                                  "swing dance", "jumpstyle dance", *done_to(
+                                      "dance|do", "charleston|macarena|gangnam style|samba"
+                                      "|twist|jig|hula"))),
     "jumping jack": Activity(("jumping jack", "do a jumping jack", "do jumping jacks",
                               "perform jumping jacks", "star jump"),
                              done_to("do", "aerobics|zumba|calisthenics")),
@@ -96,7 +99,9 @@ _SPORTS: dict[str, Activity] = {
     "climb": Activity(("climb", "scale"), is_sideways=True),
     "climb down": seen_from_side("climb down",),
     "crawl": _travels("crawl",),
-    "swim": Activity(("swim",), ("snorkel", "scuba dive"), travels=True, is_sideways=True),
+    "swim": Activity(("swim",), ("snorkel", "scuba dive", *done_to(
+        "swim", "backstroke|breaststroke|breast stroke|butterfly|butterfly stroke|crawl")),
+         travels=True, is_sideways=True),
     "surf": _travels("surf", "ride a wave", "ride the waves", "ride waves", "catch a wave"),
     "skate": _travels("skateboard", "skate", "longboard"),
     "ski": _travels("ski", "go skiing", "cross country ski", "downhill ski"),
@@ -148,7 +153,7 @@ _DAILY: dict[str, Activity] = {
                                             "|lunch|supper|dish")),
     "pull": seen_from_side("pull",),
     "push": seen_from_side("push", "shove"),
-    "fish": seen_from_side("fish", "go fishing"),
+    "fish": seen_from_side("fish", "go fishing", near=("ice fish",)),
     "tie shoes": seen_from_side("tie shoes", "tie shoelaces", "tie laces", "tie boots",
                                  "tie sneakers", "lace shoes", "lace boots"),
 }  # fmt: skip

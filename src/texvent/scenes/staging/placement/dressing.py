@@ -54,8 +54,12 @@ _OTHERS = {"person": "woman", "elderly person": "elderly woman"}
 """People of any kind → what every second one of several is."""
 
 
-def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Prop, ...]:
+def choose_props(
+    description: SceneDescription, group: ObjectGroup, *, is_first: bool = True
+) -> tuple[Prop, ...]:
     """What a person's activities need and the prompt does not show as an object.
+
+    Of several who play before a television the first one has it.
 
     Who climbs works where they are: no table stands before them.
     """
@@ -66,6 +70,7 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     kinds = dict.fromkeys(motion.kind for motion in said)
     size = float(getattr(group.models[0], "scale", 1.0))
     props = [prop for kind in kinds for prop in list_props(kind, size)]
+    props = [prop for prop in props if is_first or not prop.is_shared]
     if "climb" in kinds:
         props = [prop for prop in props if prop.anchor != "ground"]
     props += usual_holds(description, group, props)

@@ -76,7 +76,7 @@ _LARGER_WORN = 1.3
 """The same of what is worn."""
 _LARGER_BALL = 1.5
 """The same of balls and what else is thrown by hand."""
-_LARGER_SMALL_BALL, _BALL_M = 2.4, 0.19
+_LARGER_SMALL_BALL, _BALL_M = 2.0, 0.16
 """The same of balls, and the size up to which they are: a football is large enough as it is."""
 _LARGER_BIRD = 1.5
 """The same of what flies."""

@@ -28,6 +28,7 @@ def settle_doings(draft: Draft) -> None:
     mount_riders(draft)
     give_to_owners(draft)
     type_on_laps(draft)
+    choose_balls(draft)
     add_doings(draft)
     for number, one in enumerate(draft.relations):
         motions = draft.objects[one.subject].motions
@@ -43,6 +44,18 @@ def type_on_laps(draft: Draft) -> None:
         is_on_seat = one.kind == "on" and draft.noun(one.targets[0]).name in SEATS
         if is_on_seat and motions and motions[-1].kind == "type":
             motions[-1] = replace(motions[-1], kind="type on lap")
+
+
+_BALL_OF = {"swing bat": "baseball", "swing racket": "tennis ball", "swing club": "golf ball",
+            "dribble": "basketball", "dunk": "basketball"}  # fmt: skip
+
+
+def choose_balls(draft: Draft) -> None:
+    """As in "swings a bat at a ball": the ball is one of that game."""
+    kinds = [one.kind for item in draft.objects for one in item.motions if one.kind in _BALL_OF]
+    for item in draft.objects:
+        if item.noun == "ball" and kinds:
+            item.noun = _BALL_OF[kinds[0]]
 
 
 def mount_riders(draft: Draft) -> None:

@@ -14,7 +14,7 @@ from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.activities import find_activity, name_activity
 from texvent.scenes.language.meaning.acts.partners import add_partner
 from texvent.scenes.language.meaning.acts.sequence import add_motion
-from texvent.scenes.language.meaning.capabilities import is_person
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.vocabulary.acts import BOARDS
 from texvent.scenes.language.words.english import Pos, VerbForm
@@ -37,6 +37,7 @@ def tell_acts(draft: Draft, clause: Clause, things: Sequence[int]) -> None:
     _taste_drinks(clause)
     _take_back(clause)
     _take_mount(draft, clause)
+    _walk_with(draft, clause)
     _take_leash(clause)
     _take_mirror(clause)
     _drop_vessel(clause)
@@ -171,6 +172,22 @@ def _take_leash(clause: Clause) -> None:
                 phrases.remove(phrase)
 
 
+def _walk_with(draft: Draft, clause: Clause) -> None:
+    """As in "walks with his dog": it is led along."""
+    if clause.verb_word.lemma != "walk" or clause.objects:
+        return
+    for phrase in list(clause.phrases):
+        heads = [group.head for group in phrase.groups if group.head is not None]
+        noun = heads[0].read_as(Role.NOUN) if heads else None
+        known = draft.nouns.get(noun.value) if noun is not None else None
+        is_animal = known is not None and is_living(known) and not is_person(known)
+        if phrase.preposition.text in ("with", "alongside") and is_animal:
+            mark_used([phrase.preposition])
+            clause.objects = phrase.groups
+            clause.phrases.remove(phrase)
+            return
+
+
 def _take_mirror(clause: Clause) -> None:
     """As in "takes a picture in the mirror": before it, not in it."""
     for phrase in clause.phrases:
@@ -285,6 +302,7 @@ def _do_trick(draft: Draft, clause: Clause, things: Sequence[int]) -> bool:
     words = [*aloft, *(word for one in named for word in one.words)]
     if group is not None:
         words += group.words
+        clause.phrases.extend(group.phrases)
         for phrases in (clause.phrases, *(one.phrases for one in clause.subjects)):
             for phrase in list(phrases):
                 if any(one is group for one in phrase.groups):
@@ -306,7 +324,7 @@ def _find_board(
         groups += phrase.groups if phrase.preposition.text in _USING else []
     for group in groups:
         noun = group.head.read_as(Role.NOUN) if group.head is not None else None
-        if noun is not None and noun.value in _BOARDS and not group.phrases:
+        if noun is not None and noun.value in _BOARDS:
             return _BOARDS[noun.value], group
     own = {_BOARDS.get(draft.noun(index).name) for index in things}
     return (own.pop(), None) if len(own) == 1 else (None, None)

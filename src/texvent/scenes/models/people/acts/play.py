@@ -373,7 +373,7 @@ PLAY_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "play video games": (
             Prop("ground", still(STOOL)),
             Prop("hands", _CONTROLLER, ("game controller",)),
-            Prop("ground", SCREEN, ("tv",), is_own=True),
+            Prop("ground", SCREEN, ("tv",), is_own=True, is_shared=True),
         ),
     }
 )

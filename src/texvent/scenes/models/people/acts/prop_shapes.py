@@ -24,6 +24,8 @@ class Prop:
     """Nouns that are the same thing: where the prompt shows one, the prop is left out."""
     is_own: bool = False
     """Whether it is drawn in place of a named one, not left out for it."""
+    is_shared: bool = False
+    """Whether several who do the same have one of it."""
     furniture: str = ""
     """Its name, where the prompt may show another one too: a table to work at."""
 

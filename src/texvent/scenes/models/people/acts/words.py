@@ -107,7 +107,9 @@ MUSIC: dict[str, Activity] = {
                                               "|playing cards")),
     "play video games": seen_from_side(*done_to("play", "video game|video games|computer game"
                                   "|computer games|console|playstation|xbox|controller"
-                                  "|game controller|gamepad|joystick")),
+                                  "|game controller|gamepad|joystick"),
+                                *done_to("play game with|play video game with", "controller"
+                                         "|game controller|remote controller")),
 }  # fmt: skip
 
 PAIRED: dict[str, Activity] = {
@@ -122,7 +124,7 @@ PAIRED: dict[str, Activity] = {
     "arm wrestle": Activity(("arm wrestle", "arm-wrestle")),
     "argue": Activity(("argue", "quarrel", "bicker", "have an argument",
                        "have argument", )),
-    "tango": Activity(("dance together", "slow dance", "tango",
+    "tango": Activity(("dance together", "slow dance", "tango", "tango dance",
                        *done_to("dance|do|perform", "tango")),
                       ("waltz", *done_to("dance|do|perform",
                                          "salsa|waltz|ballroom|rumba|bachata"))),

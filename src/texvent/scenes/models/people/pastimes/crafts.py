@@ -311,7 +311,7 @@ CRAFT_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "arrange flowers": (Prop("ground", _bouquet, ("vase", "table")),),
         "play wii": (
             Prop("right hand", _REMOTE, ("remote", "game controller")),
-            Prop("ground", SCREEN, ("tv",), is_own=True),
+            Prop("ground", SCREEN, ("tv",), is_own=True, is_shared=True),
         ),
         "lift trophy": (Prop("hands", _TROPHY, ("trophy",)),),
     }

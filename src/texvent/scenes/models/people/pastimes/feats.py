@@ -240,6 +240,16 @@ def _robot_dance(t: float) -> Posture:
     )  # fmt: skip
 
 
+def _stand_on_skis(t: float) -> Posture:
+    """Upright on two skis, a pole in each hand."""
+    foot = ANKLE + 0.03
+    return Posture(
+        hips=(0.0, 0.0, 0.92), lean=0.05 + 0.02 * swing(t, 0.3), look=0.3 * swing(t, 0.25),
+        left=Arm((0.26, 0.14, -0.32), _DOWN), right=Arm((0.26, 0.14, -0.32), _DOWN),
+        left_leg=Leg((0.0, 0.12, foot)), right_leg=Leg((0.0, 0.12, foot)), tool=(0.10, 0.10, -1.0),
+    )  # fmt: skip
+
+
 def _lean(t: float) -> Posture:
     """The back against something upright, arms crossed, one foot over the other."""
     breath = 0.02 * swing(t, 0.35)
@@ -258,6 +268,7 @@ FEAT_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         "skydive": _skydive, "cheerlead": _cheerlead, "tai chi": _tai_chi,
         "stretch leg": _stretch_leg, "bend back": _bend_back,
         "shoot goal": lambda t: kick(t - _SHOT_S), "robot dance": _robot_dance, "lean": _lean,
+        "stand on skis": _stand_on_skis,
     }
 )  # fmt: skip
 """Feat → posture of the whole body over time."""
@@ -312,6 +323,11 @@ FEAT_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "skateboard trick": (_board(_SKATEBOARD, "skateboard"),),
         "snowboard trick": (_board(_SNOWBOARD, "snowboard"),),
         "ski trick": (_board(_SKIS, "ski", "skis"), Prop("right hand", _POLE)),
+        "stand on skis": (
+            Prop("ground", still(*_SKIS), ("ski",), is_own=True),
+            Prop("right hand", _POLE),
+            Prop("left hand", still(rod(STEEL, (0.0, 0.0, 0.04), (0.06, 0.02, -0.84), 0.012))),
+        ),
         "ice skate": (Prop("left foot", _BLADE), Prop("right foot", _BLADE)),
         "roller skate": (Prop("left foot", _WHEELS), Prop("right foot", _WHEELS)),
         "rock climb": (Prop("ground", _ROCK),),

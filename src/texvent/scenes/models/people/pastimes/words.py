@@ -30,6 +30,8 @@ FEATS: dict[str, Activity] = {
                                  "ollie", "kickflip"),
     "snowboard trick": _gliding(*done_to("do|perform", "snowboard trick")),
     "ski trick": _gliding(*done_to("do|perform", "ski trick"), near=("ski jump",)),
+    "stand on skis": Activity(done_to("wear|have|stand on", "ski|skis|pair of ski"),
+                              is_still=True),
     "ice skate": _gliding("ice skate", "figure skate", "speed skate",
                           *done_to("skate", "ice|on ice|on rink|on ice rink")),
     "roller skate": _gliding("roller skate", "rollerblade", "roller blade", "inline skate"),
@@ -92,7 +94,9 @@ CRAFTS: dict[str, Activity] = {
     "play wii": seen_from_side(*done_to("play", "wii|nintendo wii|wii game|wii sports|game wii"
                                         "|motion controlled game|motion controlled video game"),
                                "play with wii", "play on wii", "play game with wii",
-                               "play video game with wii", "use wii"),
+                               "play video game with wii", "use wii",
+                               *done_to("play game with|play video game with", "wii remote"
+                                        "|remote|remote control|motion controller")),
     "lift trophy": Activity((*done_to("lift|raise|hold up|receive|accept|win|hold", "trophy|award"
                                       "|prize"),), done_to("give|present", "award|prize")),
 }  # fmt: skip
@@ -124,12 +128,14 @@ PASTIMES: Mapping[str, Activity] = MappingProxyType({**FEATS, **CARE, **CRAFTS, 
 """All of these."""
 BRINGING = frozenset({*CARE, *CRAFTS, *MEALS, "climb rope", "robot dance",
                       "cook", "shoot goal", "ice skate",
-                      "skateboard trick", "snowboard trick", "ski trick"})  # fmt: skip
+                      "skateboard trick", "snowboard trick", "ski trick",
+                      "stand on skis"})  # fmt: skip
 """Those that bring the thing that their phrase names."""
 COMPOUNDS = frozenset(
     {"cross country ski", "scuba dive",
      "ice skate", "figure skate", "speed skate", "roller skate", "roller blade", "inline skate",
      "rock climb", "ice climb", "bungee jump", "sky dive", "air drum", "ski jump",
-     "belly dance", "tap dance", "line dance", "salsa dance", "swing dance"}
+     "belly dance", "tap dance", "line dance", "salsa dance", "swing dance",
+     "country line dance", "jumpstyle dance", "tango dance", "ice fish"}
 )  # fmt: skip
 """Verbs of two words whose last one is inflected."""
