@@ -51,7 +51,7 @@ _STILL = frozenset(
     {"stand", "sit", "lie", "hover", "kneel", "crouch", "lean", "hold", "point", "look", "read",
      "phone", "watch", "rest", "pose", "ride", "carry", "float", "thumbs up", "thumbs down",
      "victory", "ok", "fist", "one", "three", "four", "five", "horns", "shaka", "sleep", "hang",
-     "plank", "handstand"}
+     "plank", "handstand", "stand on skis", "text"}
 )  # fmt: skip
 """What is shown without a motion."""
 _GOING = PATH_KINDS | {

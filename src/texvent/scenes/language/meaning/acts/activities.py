@@ -59,7 +59,9 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
     return None if name is None else (name, [clause.verb_word], False)
 
 
-PORTIONS = frozenset({"piece", "slice", "plate", "bowl", "bite", "portion", "bunch", "lot"})
+PORTIONS = frozenset(
+    {"piece", "slice", "plate", "bowl", "bite", "portion", "bunch", "lot", "game", "round", "match"}
+)
 
 
 def _of_portion(group: NounGroup) -> NounGroup:

@@ -40,6 +40,7 @@ def tell_acts(draft: Draft, clause: Clause, things: Sequence[int]) -> None:
     _walk_with(draft, clause)
     _take_leash(clause)
     _take_mirror(clause)
+    _take_station(clause)
     _drop_vessel(clause)
     _swing_at_tennis(draft, clause, things)
     if not _do_trick(draft, clause, things):
@@ -195,6 +196,35 @@ def _take_mirror(clause: Clause) -> None:
         if phrase.preposition.text in ("in", "into", "at") and heads == ["mirror"]:
             preposition = phrase.preposition
             preposition.meaning = replace(preposition.meaning, role=Role.RELATION, value="front")
+
+
+_SINKS = frozenset({"sink", "kitchen sink", "bathroom sink", "basin", "washbasin", "tap", "faucet"})
+_STOVES = frozenset({"stove", "oven", "stovetop", "cooker", "pan", "frying pan", "pot", "skillet",
+                     "wok"})  # fmt: skip
+_GRILLS = frozenset({"grill", "barbecue", "bbq", "campfire", "fire"})
+_GRILLED = frozenset({"sausage", "burger", "hamburger", "meat", "steak", "hot dog", "food"})
+
+
+def _take_station(clause: Clause) -> None:
+    """As in "washes dishes in a sink", "cooks eggs on a stove": who does so is at one."""
+    found = find_activity(clause, is_hand=False)
+    kind = found[0] if found is not None else ""
+    stations = _SINKS if kind in ("wash dishes", "wash hands") else frozenset()
+    stations = _STOVES | _GRILLS if kind.startswith("cook") else stations
+    for phrase in list(clause.phrases):
+        heads = {group.head.lemma for group in phrase.groups if group.head is not None}
+        if phrase.preposition.text not in ("in", "at", "over", "under", "on") or not heads:
+            continue
+        if not heads <= stations:
+            continue
+        mark_used(word for group in phrase.groups for word in group.words)
+        mark_used([phrase.preposition])
+        clause.phrases.remove(phrase)
+        if heads <= _GRILLS:
+            clause.verb_word.lemma, clause.verb_word.has_other_sense = "barbecue", True
+            for group in [one for one in clause.objects if one.head_word.lemma in _GRILLED]:
+                mark_used(group.words)
+                clause.objects.remove(group)
 
 
 _VESSELS = frozenset({"glass", "cup", "mug", "bottle", "can", "wine glass", "goblet"})

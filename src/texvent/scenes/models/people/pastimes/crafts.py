@@ -23,6 +23,7 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.people.acts.music import SEAT_M, STOOL
 from texvent.scenes.models.people.acts.prop_shapes import Prop, stick, still
+from texvent.scenes.models.people.daily import DAILY
 from texvent.scenes.models.people.gestures import Movement
 from texvent.scenes.models.people.posture import ANKLE, Arm, Leg, Posture, solve
 from texvent.scenes.models.people.timing import ease, pulse, swing
@@ -247,10 +248,12 @@ def _type_on_lap(t: float) -> Posture:
     """Both hands on the keys of a laptop on the lap."""
 
     def arm(phase: float) -> Arm:
-        return Arm((0.36, -0.10 + 0.05 * swing(t, 0.7, phase), -0.20 + 0.05 * swing(t, 1.3, phase)),
+        return Arm((0.36, -0.08 + 0.09 * swing(t, 0.7, phase), -0.16 + 0.09 * swing(t, 1.1, phase)),
                    _DOWN)  # fmt: skip
 
-    return Posture(left=arm(0.0), right=arm(0.5), nod=0.35)
+    return Posture(
+        left=arm(0.0), right=arm(0.5), nod=0.30 + 0.12 * swing(t, 0.5), look=0.2 * swing(t, 0.4)
+    )
 
 
 _LAPTOP = still(
@@ -258,6 +261,18 @@ _LAPTOP = still(
     box(STEEL, (0.21, 0.0, 0.09), (0.02, 0.40, 0.27), lean=0.25),
     box(glowing((0.35, 0.5, 0.75), 0.9), (0.198, 0.0, 0.09), (0.01, 0.36, 0.23), lean=0.25),
 )
+
+
+_SPADE = still(stick(WOOD, -0.42, 0.62, 0.018), box(STEEL, (0.0, 0.0, 0.74), (0.05, 0.22, 0.30)))
+_EARTH = Material((0.20, 0.11, 0.06))
+_SAPLING = still(
+    ball(_EARTH, (0.98, 0.30, 0.02), (0.62, 0.56, 0.22)),
+    ball(_EARTH, (0.80, -0.34, 0.02), (0.42, 0.36, 0.26)),
+    rod(WOOD, (0.98, 0.30, 0.05), (0.98, 0.30, 0.95), 0.030),
+    *(ball(_GREEN, (0.98 + x, 0.30 + y, z), (0.38, 0.36, 0.34))
+      for x, y, z in ((0.0, 0.0, 1.22), (0.14, 0.06, 1.02), (-0.12, 0.08, 1.04),
+                      (0.02, -0.14, 1.0))),
+)  # fmt: skip
 
 
 def _lift_trophy(t: float) -> Posture:
@@ -281,8 +296,8 @@ CRAFT_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
     {
         "make pottery": _make_pottery, "sharpen knife": _sharpen, "count money": _count_money,
         "shuffle cards": _shuffle, "bend metal": _bend_metal, "do laundry": _do_laundry,
-        "arrange flowers": _arrange_flowers, "type on lap": _type_on_lap,
-        "play wii": _play_wii, "lift trophy": _lift_trophy,
+        "arrange flowers": _arrange_flowers, "plant tree": DAILY["dig"],
+        "type on lap": _type_on_lap, "play wii": _play_wii, "lift trophy": _lift_trophy,
     }
 )  # fmt: skip
 """Craft → posture over time."""
@@ -308,6 +323,10 @@ CRAFT_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("right hand", _CLOTH),
         ),
         "type on lap": (Prop("hands", _LAPTOP, ("laptop",), is_own=True),),
+        "plant tree": (
+            Prop("right hand", _SPADE, ("shovel", "spade")),
+            Prop("ground", _SAPLING, ("tree",), is_own=True),
+        ),
         "arrange flowers": (Prop("ground", _bouquet, ("vase", "table")),),
         "play wii": (
             Prop("right hand", _REMOTE, ("remote", "game controller")),

@@ -27,6 +27,7 @@ from texvent.scenes.models.people.posture import Arm, Posture
 from texvent.scenes.models.people.timing import ease, pulse, swing
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, box, post, rod
+from texvent.scenes.scene import Colour
 
 _DOWN: Point = (-0.2, 0.5, -1.0)
 _OUT: Point = (-0.3, 1.0, -0.5)
@@ -73,11 +74,11 @@ def _cook(t: float) -> Posture:
     )  # fmt: skip
 
 
-def _stove(_: float) -> list[ModelPart]:
+def _stove(*food: ModelPart) -> Prop:
     """A stove with a pan on it and food in the pan."""
     x, y, z = _PAN_AT
     white, pan = Material((0.78, 0.78, 0.76)), Material((0.05, 0.05, 0.06))
-    return [
+    parts = [
         box(white, (x + 0.06, 0.0, 0.44), (0.60, 0.70, 0.88)),
         box(DARK, (x + 0.06, 0.0, 0.89), (0.60, 0.70, 0.02)),
         box(DARK, (x - 0.245, 0.0, 0.42), (0.01, 0.52, 0.40)),
@@ -88,11 +89,38 @@ def _stove(_: float) -> list[ModelPart]:
           for a, b in ((0.22, 0.2), (0.22, -0.2), (-0.04, 0.2))),
         post(pan, (x, y, z - 0.005), (0.36, 0.36, 0.07)),
         rod(pan, (x - 0.10, y + 0.12, z + 0.01), (x - 0.14, 0.34, z + 0.03), 0.018),
-        *(ball(Material(colour), (x + 0.10 * math.cos(2.4 * k), y + 0.10 * math.sin(2.4 * k),
-                                  z + 0.035), (0.09, 0.09, 0.05))
-          for k, colour in enumerate(((0.75, 0.15, 0.05), (0.15, 0.42, 0.10), (0.85, 0.62, 0.15),
-                                      (0.45, 0.20, 0.08), (0.80, 0.72, 0.50)))),
     ]  # fmt: skip
+    names = ("oven", "frying pan", "pot")
+    return Prop("ground", still(*parts, *food), names, is_own=True)
+
+
+def _in_pan(*pieces: tuple[Colour, Point, Point]) -> tuple[ModelPart, ...]:
+    """Pieces of food: colour, place from the middle of the pan, size."""
+    x, y, z = _PAN_AT
+    return tuple(ball(Material(colour), (x + a, y + b, z + c), size)
+                 for colour, (a, b, c), size in pieces)  # fmt: skip
+
+
+_BITS = _in_pan(
+    *((colour, (0.10 * math.cos(2.4 * k), 0.10 * math.sin(2.4 * k), 0.035), (0.09, 0.09, 0.05))
+      for k, colour in enumerate(((0.75, 0.15, 0.05), (0.15, 0.42, 0.10), (0.85, 0.62, 0.15),
+                                  (0.45, 0.20, 0.08), (0.80, 0.72, 0.50))))
+)  # fmt: skip
+_EGGS = _in_pan(
+    *(((0.85, 0.84, 0.80), (0.07 * s, 0.07 * s, 0.032), (0.17, 0.17, 0.02)) for s in (1.0, -1.0)),
+    *(((0.90, 0.55, 0.05), (0.07 * s, 0.07 * s, 0.045), (0.065, 0.065, 0.04)) for s in (1.0, -1.0)),
+)
+_SAUSAGES = _in_pan(
+    *(((0.45, 0.14, 0.06), (0.08 * k, 0.0, 0.055), (0.06, 0.24, 0.06)) for k in (-1.0, 0.0, 1.0))
+)
+_MEAT = _in_pan(
+    *(((0.50, 0.26, 0.10), (0.08 * s, 0.03 * s, 0.05), (0.16, 0.20, 0.07)) for s in (1.0, -1.0))
+)
+_GREENS = _in_pan(
+    *((colour, (0.11 * math.cos(2.4 * k), 0.11 * math.sin(2.4 * k), 0.04), (0.08, 0.06, 0.05))
+      for k, colour in enumerate(((0.12, 0.45, 0.10), (0.85, 0.40, 0.08), (0.20, 0.50, 0.12),
+                                  (0.80, 0.12, 0.06), (0.15, 0.40, 0.10), (0.85, 0.75, 0.30))))
+)  # fmt: skip
 
 
 _KNOB = Material((0.30, 0.30, 0.32))
@@ -237,9 +265,12 @@ def _lit_cake(t: float) -> list[ModelPart]:
     return parts
 
 
+_STIRRER = Prop("right hand", _LADLE, ("spoon", "wooden spoon", "spatula"))
+
 MEAL_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
     {
-        "cook": _cook, "wash dishes": _wash_dishes, "barbecue": _barbecue,
+        "cook": _cook, "cook eggs": _cook, "cook sausages": _cook, "cook meat": _cook,
+        "cook vegetables": _cook, "wash dishes": _wash_dishes, "barbecue": _barbecue,
         "eat noodles": _eat_plate,
         "eat cake": _eat_plate, "eat meal": _eat_plate, "eat salad": _eat_plate,
         "eat watermelon": _eat_slice, "blow out cake": _blow_out_cake,
@@ -253,10 +284,11 @@ MEAL_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("left hand", _HELD_PLATE),
             Prop("right hand", _SPONGE, ("sponge",)),
         ),
-        "cook": (
-            Prop("ground", _stove, ("oven", "frying pan", "pot"), is_own=True),
-            Prop("right hand", _LADLE, ("spoon", "wooden spoon", "spatula")),
-        ),
+        "cook": (_stove(*_BITS), _STIRRER),
+        "cook eggs": (_stove(*_EGGS), _STIRRER),
+        "cook sausages": (_stove(*_SAUSAGES), _STIRRER),
+        "cook meat": (_stove(*_MEAT), _STIRRER),
+        "cook vegetables": (_stove(*_GREENS), _STIRRER),
         "barbecue": (Prop("ground", _grill, ("grill",), is_own=True), Prop("right hand", _TONGS)),
         "eat noodles": (_FORK, _dish(*_NOODLES)),
         "eat cake": (_FORK, _dish(*_CAKE)),

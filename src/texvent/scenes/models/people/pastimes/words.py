@@ -89,6 +89,7 @@ CRAFTS: dict[str, Activity] = {
                             "put clothes in washing machine", "put clothes into washing machine"),
                            done_to("wash", "clothes")),
     "type on lap": Activity(("type on lap",)),
+    "plant tree": seen_from_side(*done_to("plant", "tree|sapling|seedling|young tree|bush")),
     "arrange flowers": seen_from_side(*done_to("arrange|put", "flower|rose|tulip|bouquet"
                                                "|flower in vase|rose in vase")),
     "play wii": seen_from_side(*done_to("play", "wii|nintendo wii|wii game|wii sports|game wii"
@@ -106,6 +107,11 @@ _AT_PLATE = "meal|dinner|lunch|breakfast|steak|rice|vegetable|meat|chicken|fish|
 MEALS: dict[str, Activity] = {
     "wash dishes": seen_from_side(*done_to("wash|clean|rinse|scrub|do", _PLATES),
                                   "do washing up", "wash up"),
+    "cook eggs": seen_from_side(*done_to("cook|fry|make|scramble", "egg|fried egg|omelette")),
+    "cook sausages": seen_from_side(*done_to("cook|fry", "sausage|bacon")),
+    "cook meat": seen_from_side(*done_to("cook|fry", "chicken|steak|meat|beef|fish|pork")),
+    "cook vegetables": seen_from_side(*done_to("cook|fry|stir fry", "vegetable|onion|carrot"
+                                               "|mushroom|potato|pepper|tomato")),
     "barbecue": seen_from_side("barbecue", "barbeque", "have barbecue",
                                *done_to("grill|barbecue", "sausage|meat|burger|steak"),
                                "cook on grill", "cook on barbecue", "stand at grill",
