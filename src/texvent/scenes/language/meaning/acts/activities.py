@@ -178,6 +178,8 @@ def name_activity(words: Sequence[Word]) -> tuple[str, str, bool] | None:
         return None
     if key in (found := _phrases(is_hand=True)):
         return "hand", found[key], False
+    if words[0].text.split()[0].endswith("ed") or words[0].meaning.form is VerbForm.PAST:
+        return None  # "fried fish" is no act
     people = _phrases(is_hand=False)
     is_hand_of_person = key[:1] == ("hand",) and key[1:] in found
     if is_hand_of_person:
