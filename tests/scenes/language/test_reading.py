@@ -764,3 +764,34 @@ def test_a_colour_before_an_animal_is_its_colour(noun):
     said = parse_prompt(f"a white {noun} walks")
     assert said.objects[0].colour is not None
     assert not said.substituted
+
+
+@pytest.mark.parametrize("prompt", ["a van stuck in traffic", "a traffic jam on a highway"])
+def test_traffic_that_holds_somebody_up_stands(prompt):
+    objects = parse_prompt(prompt).objects
+    assert len(objects) > 2
+    assert not any(one.motion is not None and one.motion.is_moving for one in objects)
+
+
+def test_trains_run_along_the_tracks_of_a_railway():
+    said = parse_prompt("a train travels along railroad tracks")
+    assert said.surroundings.place == "railway"
+    assert [one.noun for one in said.objects] == ["train"]
+
+
+def test_who_walks_under_an_umbrella_holds_it():
+    assert [one.kind for one in parse_prompt("a girl walks under an umbrella").relations] == [
+        "hold"
+    ]
+    assert [one.kind for one in parse_prompt("a girl sits under an umbrella").relations] == [
+        "under"
+    ]
+
+
+def test_petals_and_caps_belong_to_what_has_them():
+    assert not parse_prompt("a flower with its petals").effects
+    assert len(parse_prompt("mushrooms with brown caps").objects) == 1
+
+
+def test_a_rain_jacket_is_no_rain():
+    assert parse_prompt("a man in a rain jacket").surroundings.weather is None

@@ -83,6 +83,8 @@ _NEEDS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("park", "city park", "public park", "park path"),
                     ("tree", "pine", "birch", "park bench", "bench", "park lamp")),
     "stage": ("stage curtain", "spotlight"),
+    **dict.fromkeys(("library", "bookshop", "bookstore"), ("bookshelf", "shelf")),
+    **dict.fromkeys(("cemetery", "graveyard", "churchyard"), ("gravestone", "tombstone", "grave")),
     "garden": ("flower", "fence", "garden fence"),
     **dict.fromkeys(("garage", "auto repair shop", "car workshop"), ("car lift",)),
     **dict.fromkeys(("gym", "gymnasium", "sports hall"), ("treadmill", "basketball hoop")),

@@ -37,6 +37,7 @@ from texvent.scenes.language.meaning.clause_rewrites import (
 )
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.meaning.negations import deny
+from texvent.scenes.language.meaning.referents.crowds import hold_up_traffic
 from texvent.scenes.language.meaning.referents.owners import lose_owners
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import PERSON, Referents
@@ -93,6 +94,7 @@ class ClauseMeaning:
         """The description, before defaults are filled in; `words`: those of the prompt."""
         draft = self._draft
         settle_doings(draft)
+        hold_up_traffic(draft)
         lose_owners(draft, self._referents.named)
         self._surroundings.read_weather_of_things(words if draft.objects else ())
         surroundings, light = self._surroundings.build()

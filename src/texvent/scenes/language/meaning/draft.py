@@ -46,6 +46,8 @@ class PartialObject:
     """Number of the sentence that said its last motion."""
     owner: str | None = None
     """Pronoun of whose it is: "her basket"."""
+    traffic: str | None = None
+    """The word of which it is a part: "traffic", "traffic jam"."""
     is_verb_lost: bool = False
     """Whether the prompt says that it does something that is not shown."""
 

@@ -270,6 +270,8 @@ PARTS_SHOWN: dict[str, tuple[str, ...]] = {
     "person": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs", "neck"),
     "excavator": ("arm", "boom", "bucket"),
     "spinning disc": ("sector", "sectors", "segment", "segments", "stripe", "stripes"),
+    **dict.fromkeys(("flower", "sunflower", "rose", "tulip", "daisy"), ("petal", "petals")),
+    "mushroom": ("cap", "caps"),
     "tree": ("trunk", "branch", "branches", "leaves"),
     "satellite": ("solar panel", "solar panels", "solar array", "solar arrays"),
     "house": ("door", "window", "windows", "roof", "wall", "walls"),

@@ -61,7 +61,9 @@ def build_animal(
     legs = fur(animal.leg_colour) if animal.leg_colour is not None else None
     coat = Coat(trunk=trunk, limbs=limbs, dark=fur(dark), hoof=Material(animal.hoof), legs=legs)
     extras = animal.extras(animal.build, coat) if animal.extras is not None else ()
-    return draw_animal(animal.build, coat, scale=scale, seed=seed, extras=extras)
+    # A white cow has no patches, and no brown one.
+    build = animal.build if colour is None else replace(animal.build, patches=False)
+    return draw_animal(build, coat, scale=scale, seed=seed, extras=extras)
 
 
 DOG = Animal(

@@ -93,7 +93,7 @@ INDOOR_KINDS: dict[str, str] = {
           hawaiian shirt""",
     "jacket": """
         denim jacket, leather jacket, winter jacket, ski jacket, parka, life jacket,
-        armor, armour, windbreaker, bomber jacket, anorak""",
+        armor, armour, windbreaker, bomber jacket, anorak, rain jacket""",
     "cap": "graduation cap, swim cap, swimming cap, headband, visor, nurse cap, flat cap",
     "glove": "boxing mitts, rubber glove, gardening glove, work glove, ski glove",
     "glasses": """

@@ -133,6 +133,7 @@ TRAFFIC_WORDS: dict[str, tuple[str, ...]] = {
         "flow of traffic",
         "stream of traffic",
         "oncoming traffic",
+        "traffic jam",
     ),
     "city traffic": ("city traffic", "street traffic", "urban traffic"),
     "rush hour traffic": (

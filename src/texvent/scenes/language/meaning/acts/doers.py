@@ -23,6 +23,9 @@ _RIDES = ("ride", "ride along")
 _RIDERS = ("rider", "jockey")
 
 
+_UPRIGHT = frozenset({"walk", "run", "move", "stand"})
+
+
 def settle_doings(draft: Draft) -> None:
     """What people do of themselves: they ride, hold what is theirs, do what their name says."""
     mount_riders(draft)
@@ -35,6 +38,14 @@ def settle_doings(draft: Draft) -> None:
         if one.kind in ("with", "hold") and motions and motions[-1].kind == "paw":
             # As in "a cat plays with a ball of yarn": it is before its paws.
             draft.relations[number] = replace(one, kind="work on")
+        goes = motions and motions[-1].kind in _UPRIGHT
+        if one.kind == "under" and goes and _is_umbrella(draft, one.targets):
+            # As in "walks under an umbrella": it is held.
+            draft.relations[number] = replace(one, kind="hold")
+
+
+def _is_umbrella(draft: Draft, things: Sequence[int]) -> bool:
+    return {draft.noun(index).name for index in things} == {"umbrella"}
 
 
 def type_on_laps(draft: Draft) -> None:

@@ -14,6 +14,8 @@ AIRBORNE = frozenset({"blow", "fall", "swirl", "fly", "drift", "float", "flutter
 """What leaves and feathers do in the air."""
 DRIFTING = {"leaf": "leaves", "feather": "feathers", "soap bubble": "bubbles"}
 """Noun → the effect that many of them in the air are."""
+_JAMS = frozenset({"traffic jam", "jam"})
+"""Words for traffic that stands."""
 
 
 def find_drifting(group: NounGroup, verb: str) -> str | None:
@@ -39,16 +41,31 @@ def find_drifting(group: NounGroup, verb: str) -> str | None:
 
 def add_traffic(draft: Draft, head: Word) -> list[int]:
     """As in "highway traffic": vehicles that drive both ways; returns the new objects."""
-    found = _add_vehicles(draft, str((head.read_as(Role.NOUN) or head.meaning).value))
+    kind = str((head.read_as(Role.NOUN) or head.meaning).value)
+    found = _add_vehicles(draft, kind, head.lemma)
     head.is_used = bool(found)
     return found
 
 
-def _add_vehicles(draft: Draft, kind: str) -> list[int]:
+def hold_up_traffic(draft: Draft) -> None:
+    """As in "a bus waits in traffic", "a traffic jam": nothing drives."""
+    traffic = [one for one in draft.objects if one.traffic]
+    waits = any(
+        draft.objects[one.subject].motions[-1:] == [ObjectMotion("stand")]
+        and any(draft.objects[target].traffic for target in one.targets)
+        for one in draft.relations
+    )
+    for item in traffic:
+        if waits or item.traffic in _JAMS:
+            item.motions = [ObjectMotion("stand")]
+
+
+def _add_vehicles(draft: Draft, kind: str, said: str = "") -> list[int]:
     found = []
     for noun, count, way in TRAFFIC[kind] if "car" in draft.nouns else ():
         motion = ObjectMotion("drive", way)
-        index = draft.add(PartialObject(noun, count, count > 1, motions=[motion]))
+        vehicles = PartialObject(noun, count, count > 1, motions=[motion], traffic=said or kind)
+        index = draft.add(vehicles)
         if index is not None:
             found.append(index)
     return found
