@@ -41,6 +41,7 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
         ScatterRule("pine", 12, 0.25, 3.0, (0.8, 1.4)),
         ScatterRule("tree", 8, 0.35, 2.5, (0.9, 1.4)),
         ScatterRule("bush", 5, 0.2, 1.0, (0.5, 1.0)),
+        ScatterRule("pine", 16, 2.0, 7.0, (1.0, 1.5)),
     ),
     "underwater": REEF,
     "sand": (ScatterRule("palm", 3, 0.7, 2.5), ScatterRule("rock", 4, 0.3, 2.0, (0.4, 1.0))),
