@@ -82,6 +82,8 @@ def test_names_are_persons_and_cities(prompt: str, first: str, said: tuple[str, 
         ("a table has a cup and a plate on it", "1 table, stands still"),
         ("a wall that has two signs on it", "1 wall, stands still, with 2 signs"),
         ("two couples walk", "4 people, walk"),
+        ("a sheep running to join a herd of its kind", "1 sheep, runs, towards 7 sheep"),
+        ("a bench in the shade of a tree", "1 bench, stands still, under 1 tree"),
     ],
 )
 def test_set_phrases_are_read_as_the_plain_words_they_mean(prompt: str, first: str) -> None:
@@ -168,3 +170,21 @@ def test_nothing_is_added_that_a_caption_does_not_name(prompt: str, first: str, 
     description = parse_prompt(prompt)
     assert description.summary()[0] == first
     assert len(description.objects) == count
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first"),
+    [
+        ("A 19th century soldier runs", "1 soldier, runs"),
+        ("a 1940s bus drives", "1 bus, drives"),
+        ("a 24 year old woman walks", "1 woman, walks"),
+    ],
+)
+def test_ages_and_times_are_no_counts(prompt: str, first: str) -> None:
+    assert first_of(prompt) == first
+    assert parse_prompt(prompt).not_understood == ()
+
+
+def test_a_setting_is_the_place_before_it() -> None:
+    assert parse_prompt("an ocean scene").surroundings.place == "sea"
+    assert parse_prompt("a bus in a desert landscape").surroundings.place == "desert"

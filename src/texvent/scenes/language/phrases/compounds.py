@@ -24,6 +24,19 @@ _NO_FIRST = frozenset(
 )
 
 
+_SETTINGS = frozenset({"scene", "setting", "area", "environment", "landscape", "scenery"})
+"""Nouns after a place that add nothing to it: "an ocean scene"."""
+
+
+def _is_place(tokens: Sequence[Token], at: int, known: Lexicon) -> bool:
+    """Whether a token names a place alone, and the next is not known with it."""
+    texts = [token.text for token in tokens[at : at + 3]]
+    is_plain = tokens[at].sense is None and tokens[at].said is None
+    if not is_plain or known.find(texts)[0] > 1 or tokens[at + 1].text in _NO_FIRST:
+        return False
+    return bool(known.find(texts[:1])[1]) and known.find(texts[:1])[1][0].role is Role.PLACE
+
+
 def join_compounds(tokens: Sequence[Token], known: Lexicon) -> list[Token]:
     """The tokens with two that are one known noun as one, reported as they are written."""
     found: list[Token] = []
@@ -37,6 +50,8 @@ def join_compounds(tokens: Sequence[Token], known: Lexicon) -> list[Token]:
 
 def _join(tokens: Sequence[Token], at: int, known: Lexicon) -> Token | None:
     pair = tokens[at : at + 2]
+    if len(pair) == 2 and pair[1].text in _SETTINGS and _is_place(tokens, at, known):
+        return Token(pair[0].text, pair[0].written, said=f"{pair[0].text} {pair[1].text}")
     if len(pair) < 2 or pair[1].text not in _LAST or pair[0].text in _NO_FIRST:
         return None
     if any(token.sense or token.picture or token.said is not None for token in pair):

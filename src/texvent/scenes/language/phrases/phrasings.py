@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
+from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.phrases.moods import MOODS
 from texvent.scenes.language.words.english import Pos, VerbForm, list_readings, list_verb_forms
 from texvent.scenes.language.words.tokens import Token
@@ -17,10 +18,18 @@ _PHRASES: dict[str, tuple[str, ...]] = {
         "on the top of", "at the top of", "in the top of", "up on top of", "at top of",
         "on the very top of", "atop of",
     ),
-    "under": ("on the bottom of", "on the underside of"),
+    "under": (
+        "on the bottom of", "on the underside of", "beneath the shade of", "under the shade of",
+        "in the shade of",
+    ),
     "inside": ("inside of", "in side of", "on the inside of", "in the inside of"),
     "outside": ("outside of",),
-    "in": ("in the middle of", "in the midst of", "in the center of", "in the centre of"),
+    "near a": ("nearby a",),
+    "near the": ("nearby the",),
+    "in": (
+        "in the heart of", "at the heart of", "in the middle of", "in the midst of",
+        "in the center of", "in the centre of",
+    ),
     "in traffic": (
         "in traffic during rush hour", "in rush hour traffic", "in heavy traffic",
         "in busy traffic",
@@ -136,7 +145,17 @@ def plain_phrases(tokens: Sequence[Token]) -> list[Token]:
 
 def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
     """Number of tokens that a phrase takes, and what it becomes; None where none begins."""
-    rules = (_replace_fixed, _drop_being, _go_the_way, _take_outing, _have, _lie, _ride_on, _seem)
+    rules = (
+        _replace_fixed,
+        _drop_being,
+        _go_the_way,
+        _take_outing,
+        _have,
+        _lie,
+        _ride_on,
+        _seem,
+        _name_kind,
+    )
     return next((one for rule in rules if (one := rule(tokens, at)) is not None), None)
 
 
@@ -157,6 +176,8 @@ def _replace_fixed(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] 
         coming = {token.text for token in tokens[at + length : at + length + 3]}
         if plain == "under" and coming & _WATERS:
             return None
+        if plain.endswith(" horse") and any(_is_plural(token.text) for token in tokens[:at]):
+            plain = plain.replace("a horse", "horses")  # as in "two men on horseback"
         return length, _stand_for(tokens[at : at + length], plain) if plain else []
     return None
 
@@ -229,6 +250,23 @@ def _seem(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
     return (2, []) if is_seeming and len(texts) > 2 and texts[2].endswith("ing") else None
 
 
+def _name_kind(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "a hen runs to a flock of its kind": of hens."""
+    texts = [token.text for token in tokens[at : at + 3]]
+    if texts[:1] != ["of"] or texts[1:2] not in (["its"], ["their"]) or texts[2:] != ["kind"]:
+        return None
+    first = next((one.text for one in tokens[:at] if _is_plain_noun(one.text)), None)
+    if first is None:
+        return None
+    return 3, _stand_for(tokens[at : at + 3], f"of {pluralise(first)}")
+
+
+def _is_plain_noun(word: str) -> bool:
+    readings = list_readings(word)
+    found = {one.pos for one in readings}
+    return Pos.NOUN in found and Pos.ADJECTIVE not in found
+
+
 _RIDDEN = frozenset({"motorcycle", "horse", "bike", "bicycle", "elephant", "scooter", "skateboard",
                      "camel", "surfboard", "donkey", "pony", "motorbike", "moped"})  # fmt: skip
 
@@ -243,6 +281,10 @@ _AFTER_LYING = frozenset(
      "outside", "asleep", "partially", "partly", "upon", "alongside", "out", "still", "beneath",
      "flat", "comfortably"}
 )  # fmt: skip
+
+
+def _is_plural(word: str) -> bool:
+    return any(one.is_plural for one in list_readings(word))
 
 
 def _is_noun(word: str) -> bool:

@@ -20,6 +20,7 @@ def _words(text: str) -> frozenset[str]:
 
 
 PLAIN_SHAPES = "things are plain shapes"
+OF_TODAY = "things are of today"
 _SIGNS = frozenset(".,;:!?()[]\n")
 _ENDS = frozenset(".;!?\n")
 _MEDIA = tuple(
@@ -73,7 +74,7 @@ def set_styles_aside(tokens: Sequence[Token]) -> list[Token]:
     """
     rest = list(tokens)
     styles: list[Token] = []
-    for find in (_find_of, _find_grey, _find_in_style, _find_lone, _find_artist):
+    for find in (_find_of, _find_grey, _find_in_style, _find_lone, _find_artist, _find_age):
         while (found := find(rest)) is not None:
             begin, end, kept = found
             styles.append(_join(rest[begin:end], kept))
@@ -202,7 +203,8 @@ def _find_lone(tokens: Sequence[Token]) -> tuple[int, int, str] | None:
         if words[:1] in (("a",), ("an",)):
             words = words[1:]
         if words in _LONE and tokens[begin].text in (",", ";", "."):
-            return begin + 1, end, PLAIN_SHAPES
+            is_pose = "portrait" in words or words[0] == "studio"
+            return begin + 1, end, "" if is_pose else PLAIN_SHAPES
     return None
 
 
@@ -211,4 +213,22 @@ def _find_artist(tokens: Sequence[Token]) -> tuple[int, int, str] | None:
     for at, (token, name) in enumerate(pairwise(tokens)):
         if token.text == "by" and name.text in _ARTISTS and name.written[0].isupper():
             return at, at + 2, PLAIN_SHAPES
+    return None
+
+
+_ORDINALS = frozenset({"st", "nd", "rd", "th"})
+
+
+def _find_age(tokens: Sequence[Token]) -> tuple[int, int, str] | None:
+    """As in "a 19th century house", "1940s", "a 24 year old woman": no count of them."""
+    for at, token in enumerate(tokens):
+        if not token.is_number:
+            continue
+        texts = [one.text for one in tokens[at + 1 : at + 3]]
+        if texts[:1] and texts[0] in _ORDINALS and texts[1:2] == ["century"]:
+            return at, at + 3, OF_TODAY
+        if texts[:1] == ["s"] and len(token.text) in (2, 4):
+            return at, at + 2, OF_TODAY
+        if texts[:1] in (["year"], ["years"]) and texts[1:2] == ["old"]:
+            return at, at + 3, ""
     return None
