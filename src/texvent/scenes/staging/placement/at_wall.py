@@ -82,7 +82,11 @@ def stand_before_wall(
 
 def _rests(one: SceneObject) -> bool:
     kinds = {motion.kind for motion in (one.motion, *one.then) if motion is not None}
-    return one.noun in AT_WALL and kinds <= {"stand"} and one.side not in ("near", "far", "ring")
+    return (
+        one.noun in AT_WALL
+        and kinds <= {"stand", "work"}
+        and one.side not in ("near", "far", "ring")
+    )
 
 
 def line_up(

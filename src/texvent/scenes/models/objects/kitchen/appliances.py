@@ -100,7 +100,7 @@ NOUNS = placed("indoor", (
             (-0.04, 0.0, 1.03)], 0.016),
         *(post(SILVER, (-0.20, y, 0.89), (0.04, 0.04, 0.06)) for y in (0.11, -0.11)),
         *(limb(SILVER, (-0.20, y, 0.93), (-0.14, y, 0.935), 0.010) for y in (0.11, -0.11))],
-        ("washbasin", "wash basin", "basin")),
+        ("washbasin", "wash basin", "basin", "bathroom sink")),
     thing("faucet", (SILVERY,), lambda p: [
         post(p, (0.0, 0.0, 0.01), (0.07, 0.07, 0.02)),
         post(p, (0.0, 0.0, 0.08), (0.04, 0.04, 0.16)),

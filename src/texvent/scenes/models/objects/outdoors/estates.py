@@ -274,14 +274,12 @@ def _bunker(skin: Material) -> list[ModelPart]:
 
 def _diamond(skin: Material) -> list[ModelPart]:
     """Lines, bases and the mound of a baseball field, flat on the grass."""
-    parts = [
-        post(skin, (0.0, 0.0, 0.004), (30.0, 30.0, 0.008)),
-    ]
     corners: list[Point] = [(0.0, -11.0, 0.02), (11.0, 0.0, 0.02), (0.0, 11.0, 0.02),
                             (-11.0, 0.0, 0.02)]  # fmt: skip
-    infield = box(grass_like((0.06, 0.22, 0.03)), (0.0, 0.0, 0.014), (12.0, 12.0, 0.012))
-    parts += moved([infield], turn_z(0.25 * math.pi))
-    parts += [post(skin, (0.0, 0.0, 0.05), (4.0, 4.0, 0.12)), box(PALE, (0.0, 0.0, 0.13),
+    path = box(skin, (0.0, 7.8, 0.01), (15.6, 2.4, 0.02))
+    parts = [one for k in range(4) for one in moved([path], turn_z((0.25 + 0.5 * k) * math.pi))]
+    parts += [post(skin, (x, y, 0.012), (3.6, 3.6, 0.024)) for x, y, _ in corners]
+    parts += [post(skin, (0.0, 0.0, 0.04), (3.0, 3.0, 0.10)), box(PALE, (0.0, 0.0, 0.13),
               (0.2, 0.7, 0.04))]  # fmt: skip
     parts += [box(PALE, corner, (0.9, 0.9, 0.10)) for corner in corners]
     for far in ((34.0, -23.0), (34.0, 23.0)):
