@@ -35,6 +35,7 @@ _USUAL_PLACES_OF_ACTS: dict[str, tuple[str, ...]] = {
                "cut nails", "massage legs", "tie tie", "bandage arm",
                "eat noodles", "eat cake", "eat meal", "eat salad", "blow out cake",
                "lift trophy", "knit"),
+    "bedroom": ("make bed",),
     "kitchen": ("cook", "cook eggs", "cook sausages", "cook meat", "cook vegetables",
                 "flip pan", "wash dishes", "sharpen knife"),
     "bathroom": ("shave", "brush teeth", "wash face", "wash hair", "dry hair", "comb hair",

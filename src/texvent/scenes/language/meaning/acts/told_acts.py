@@ -120,7 +120,7 @@ def _take_alone(clause: Clause) -> None:
 
 _MADE = {
     "snowman": "mould", "snow man": "mould", "sandcastle": "mould", "sand castle": "mould",
-    "bed": "smooth", "dough": "knead", "bread": "knead", "cake": "frost", "cupcake": "frost",
+    "dough": "knead", "bread": "knead", "cake": "frost", "cupcake": "frost",
     "pizza": "dab", "sandwich": "dab", "hamburger": "dab", "sushi": "dab", "salad": "stir",
     "soup": "stir", "tea": "pour", "coffee": "pour", "necklace": "tie", "jewelry": "tie",
     "cabinet": "hammer", "table": "hammer", "chair": "hammer", "shed": "hammer",
@@ -128,8 +128,6 @@ _MADE = {
 }  # fmt: skip
 """What is made → hand work that is seen at it."""
 _MAKING = frozenset({"make", "build", "prepare", "assemble"})
-_AS_SAID = frozenset({"smooth"})
-"""Hand work that is just what making it means."""
 
 
 def _take_making(clause: Clause) -> None:
@@ -141,7 +139,7 @@ def _take_making(clause: Clause) -> None:
     work = _MADE.get(heads[0].lemma)
     if work is not None and find_activity(clause, is_hand=False) is None:
         verb.lemma, verb.has_other_sense = work, True
-        verb.shown_as = None if work in _AS_SAID else work
+        verb.shown_as = work
 
 
 _DRINKS = frozenset({"beer glass", "wine glass", "glass", "cup", "mug", "bottle", "soda can"})

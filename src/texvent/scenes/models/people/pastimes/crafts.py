@@ -263,6 +263,34 @@ _LAPTOP = still(
 )
 
 
+def _drawn_up(t: float) -> float:
+    """How far up the bed its blanket reaches, m from the middle."""
+    return 0.10 + 0.42 * (ease(t % 2.6, 0.2, 1.3) - ease(t % 2.6, 1.9, 2.5))
+
+
+def _make_bed(t: float) -> Posture:
+    """Bent over a bed from its side, both hands draw the blanket up."""
+    y = _drawn_up(t)
+    return Posture(
+        hips=(-0.08, 0.25 * y, 0.90), lean=0.62, nod=0.1,
+        left=Arm((0.64, y + 0.02, 0.62), _OUT, True),
+        right=Arm((0.60, y - 0.28, 0.62), _OUT, True), left_leg=Leg((0.10, 0.14, ANKLE)),
+        right_leg=Leg((-0.10, 0.14, ANKLE)),
+    )  # fmt: skip
+
+
+def _bed(t: float) -> list[ModelPart]:
+    end = _drawn_up(t) + 0.04
+    return [
+        box(WOOD, (0.96, 0.0, 0.22), (1.10, 2.04, 0.26)),
+        box(WOOD, (0.96, 1.03, 0.30), (1.10, 0.07, 0.60)),
+        box(Material(WHITE), (0.96, 0.0, 0.42), (1.06, 1.98, 0.18)),
+        *(ball(Material(WHITE), (x, 0.74, 0.55), (0.44, 0.34, 0.18)) for x in (0.70, 1.22)),
+        box(Material(BLUE), (0.96, 0.5 * (end - 0.99), 0.53), (1.14, end + 0.99, 0.05)),
+        box(Material(BLUE), (0.40, 0.5 * (end - 0.99), 0.40), (0.04, end + 0.99, 0.28)),
+    ]
+
+
 _SPADE = still(stick(WOOD, -0.42, 0.62, 0.018), box(STEEL, (0.0, 0.0, 0.74), (0.05, 0.22, 0.30)))
 _EARTH = Material((0.20, 0.11, 0.06))
 _SAPLING = still(
@@ -297,6 +325,7 @@ CRAFT_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         "make pottery": _make_pottery, "sharpen knife": _sharpen, "count money": _count_money,
         "shuffle cards": _shuffle, "bend metal": _bend_metal, "do laundry": _do_laundry,
         "arrange flowers": _arrange_flowers, "plant tree": DAILY["dig"],
+        "make bed": _make_bed,
         "type on lap": _type_on_lap, "play wii": _play_wii, "lift trophy": _lift_trophy,
     }
 )  # fmt: skip
@@ -323,6 +352,7 @@ CRAFT_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("right hand", _CLOTH),
         ),
         "type on lap": (Prop("hands", _LAPTOP, ("laptop",), is_own=True),),
+        "make bed": (Prop("ground", _bed, ("bed",), is_own=True),),
         "plant tree": (
             Prop("right hand", _SPADE, ("shovel", "spade")),
             Prop("ground", _SAPLING, ("tree",), is_own=True),

@@ -89,6 +89,7 @@ CRAFTS: dict[str, Activity] = {
                             "put clothes in washing machine", "put clothes into washing machine"),
                            done_to("wash", "clothes")),
     "type on lap": Activity(("type on lap",)),
+    "make bed": seen_from_side(*done_to("make|tidy", "bed")),
     "plant tree": seen_from_side(*done_to("plant", "tree|sapling|seedling|young tree|bush")),
     "arrange flowers": seen_from_side(*done_to("arrange|put", "flower|rose|tulip|bouquet"
                                                "|flower in vase|rose in vase")),
