@@ -101,7 +101,7 @@ def test_what_a_relation_ties_together_moves_as_one() -> None:
 
 
 def test_mountains_stand_far_behind_those_who_ride_near_them() -> None:
-    description = parse_prompt("A group of people ride horses near the mountains.")
+    description = parse_prompt("A group of people ride horses near three mountains.")
     scene = compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
     camera = scene.camera(0.5)
     depth = {
