@@ -38,6 +38,7 @@ from texvent.scenes.language.meaning.referents.senses import (
     read_herd,
     read_young,
 )
+from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.function import (
     DEFINITE,
     HAPPENINGS,
@@ -183,7 +184,8 @@ class Referents(Antecedents):
 
     def _choose_role(self, head: Word, preposition: str | None, group: NounGroup) -> Role:
         """A word that is a thing and a place, or a thing and a part of one."""
-        is_thing = head.read_as(Role.NOUN) is not None
+        thing = head.read_as(Role.NOUN)
+        is_thing = thing is not None
         place = head.read_as(Role.PLACE)
         if is_thing and place is not None:
             if head.lemma == "square" and any(w.role is Role.COLOUR for w in group.modifiers):
@@ -199,12 +201,12 @@ class Referents(Antecedents):
             return Role.PART
         if is_own_hand(self._draft, head.read_as(Role.NOUN)):
             return Role.PART
-        if is_thing and head.read_as(Role.PART) is not None:
-            is_owned = (
+        if thing is not None and head.read_as(Role.PART) is not None:
+            is_owned = thing.value not in WEARABLE and (
                 group.owner is not None
                 or (group.determiner is not None and group.determiner.text in OWNERS)
-                or list_parts_shown(self._draft, self._wholes, head.text)
-            )
+            )  # "a man's cap" is no part of him
+            is_owned = is_owned or list_parts_shown(self._draft, self._wholes, head.text)
             return Role.PART if is_owned else Role.NOUN
         if is_thing:
             return Role.NOUN
