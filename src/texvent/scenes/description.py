@@ -149,10 +149,10 @@ class CameraMove:
     along the road or through the place; from the air with an "aerial" view)."""
     direction: str | None = None
     """"left", "right", "up", "down", "in", "out", "clockwise" or "counter-clockwise"; for travel
-    "forward", "backward", "left" or "right" (a bend); for follow: "behind", "front", "side" or
-    "above"."""
+    "forward", "backward", "left" or "right" (a bend); for follow: "behind", "front", "side",
+    "above" or "slower" (beside it, but left behind, so that it crosses the image: never said)."""
     pace: float = 1.0
-    """Multiple of the usual rate."""
+    """Multiple of the usual rate; of what follows "slower", the share of the subject's way."""
     phase: int = 0
     """Moves of one phase happen together; phases follow each other and share the clip evenly."""
     means: str | None = None

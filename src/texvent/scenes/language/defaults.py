@@ -18,7 +18,9 @@ from texvent.scenes.language.left_out import (
     add_crew,
     add_sources,
     give_usual_work,
+    is_still_life,
     ride_waves,
+    stays_together,
 )
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.posing import list_posing
@@ -39,10 +41,13 @@ def complete_description(
     Objects that live in the air or water always move unless the prompt says that they rest. When
     nothing moves, objects that can move do what they usually do; when none can, the camera sways.
     """
+    is_at_rest = is_still_life(description)
     description = _wheel_seats(ride_waves(add_sources(add_crew(description, nouns))))
     description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
     objects = tuple(
-        _decide_motion(_land(scene_object, description), nouns[scene_object.noun])
+        replace(scene_object, motion=STANDING)
+        if is_at_rest and nouns[scene_object.noun].motion == "fly"
+        else _decide_motion(_land(scene_object, description), nouns[scene_object.noun])
         for scene_object in description.objects
     )
     description = _move_followed(replace(description, objects=objects), nouns)
@@ -323,10 +328,15 @@ def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
 
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Let the first object that can move do so, or else the camera."""
+    """Let the first object that can move do so, or else the camera.
+
+    Several things without people, or people with things that only stand there, are a still life:
+    one that goes off would leave the others behind.
+    """
     resting = {relation.subject for relation in description.relations if relation.kind in _RIDES}
     resting |= list_posing(description, nouns)
-    for index, scene_object in enumerate(description.objects):
+    able = () if stays_together(description, nouns) else description.objects
+    for index, scene_object in enumerate(able):
         usual = _usual_motion(description, nouns[scene_object.noun])
         if scene_object.motion is None and usual != "stand" and index not in resting:
             moved = replace(scene_object, motion=ObjectMotion(usual))

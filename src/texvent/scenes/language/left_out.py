@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion, SceneDescription, SceneObject
 from texvent.scenes.inflection import pluralise
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 
 _CREWS: dict[str, tuple[SceneObject, ...]] = {
@@ -84,3 +85,33 @@ def ride_waves(description: SceneDescription) -> SceneDescription:
         for one in description.objects
     )
     return replace(description, objects=objects)
+
+
+_BESIDE = frozenset({"beside", "left of", "right of"})
+
+
+def is_still_life(description: SceneDescription) -> bool:
+    """Whether things are named side by side, with nobody, that do nothing: birds sit there too."""
+    objects = description.objects
+    return (
+        len(objects) > 1
+        and not any(one.noun in PERSON_NOUNS for one in objects)
+        and all(one.kind in _BESIDE for one in description.relations)
+        and all(one.motion is None and one.count == 1 for one in objects)
+        and not description.shot.is_moving
+        and description.surroundings.place not in ("sky", "space")
+    )
+
+
+def stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
+    """Whether several things are named of which none should go off and leave the others behind.
+
+    Those without people, and people with things that only stand there.
+    """
+    people = [one for one in description.objects if one.noun in PERSON_NOUNS]
+    others = [one for one in description.objects if one.noun not in PERSON_NOUNS]
+    if not people:
+        return len(others) > 1
+    stand = all(nouns[one.noun].habitat == "fixed" for one in others)
+    are_beside = all(relation.kind in _BESIDE for relation in description.relations)
+    return bool(others) and stand and are_beside

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -145,7 +145,8 @@ class CameraPath:
         if self.followed is not None and any(m.kind in ("follow", "orbit") for m in self.moves):
             now, start = self.followed.at(time_s).position, self.followed.at(0.0).position
             rises = 1.0 if self.follows_height else 0.0
-            slide += np.subtract(now, start) * np.array([1.0, 1.0, rises])
+            share_of_way = share_followed(self.moves)
+            slide += share_of_way * np.subtract(now, start) * np.array([1.0, 1.0, rises])
         width = self.framing.distance_m / self.framing.focal
         azimuth = self.framing.azimuth
         right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
@@ -184,6 +185,11 @@ class CameraPath:
             position[:2] = np.clip(position[:2], -wall, wall)
             position[2] = min(position[2], 0.6 * self.room_m - 0.3)
         return position
+
+
+def share_followed(moves: Sequence[CameraMove]) -> float:
+    """Share of the subject's way that a camera which follows it goes along."""
+    return next((m.pace for m in moves if m.kind == "follow" and m.direction == "slower"), 1.0)
 
 
 def _extent(corners: Float64Array, position: Float64Array, target: Float64Array) -> float:

@@ -15,19 +15,23 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.closeness import come_near_small, eye_level
-from texvent.scenes.staging.camera.framed_points import (
-    INSTANTS,
-    TOGETHER,
-    list_related,
-    list_views,
+from texvent.scenes.staging.camera.following import (
+    goes_in_depth,
+    has_landmark,
+    share_to_follow,
+    stay_together,
 )
+from texvent.scenes.staging.camera.framed_points import INSTANTS, list_related, list_views
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.camera.laid_table import ELEVATION_RAD, is_on_table, list_laid
 from texvent.scenes.staging.camera.main_actor import choose_main
+from texvent.scenes.staging.camera.pieces import TOGETHER
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
 from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
 from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles
+from texvent.scenes.staging.placement.tabletop import is_added
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.take import USUAL, Take
 
@@ -88,7 +92,8 @@ def place_camera(
     main = choose_main(description, actors)
     moves = _plan_moves(description, main, duration_s)
     how = _How(seed, aspect, duration_s, take)
-    path = _frame(description, actors, main, moves, place, how)
+    framed = [one for one in actors if not is_added(description, one.object_index)]
+    path = _frame(description, framed, main, moves, place, how)
     path = retake(path, take, actors)
     path = _keep_in_view(path, main, actors, aspect)
     if is_room(place):
@@ -110,15 +115,22 @@ def _frame(
     """The camera from which the subject is large enough; followed where it is small or creeps."""
     duration_s = how.duration_s
     is_said = bool(description.shot.moves) or description.shot.framing == "wide"
-    is_said |= _has_landmark(description, main) or _goes_in_depth(description, main)
+    is_said |= goes_in_depth(description, main)
     path = _fit_path(description, actors, main, moves, place, how)
-    if is_said or not main.is_mover:
+    if is_said:
         return path
     copies = [actor for actor in actors if actor.object_index == main.object_index]
     prominence = Prominence.of(copies, np.linspace(0.0, duration_s, INSTANTS), how.aspect)
+    share = share_to_follow(actors, main, duration_s)
+    if share > 0.0:
+        slower = (CameraMove("follow", "slower", pace=share),)
+        near = _fit_path(description, actors, main, slower, place, how)
+        path = near if prominence(near) > _WORTH * prominence(path) else path
+    if not main.is_mover or has_landmark(description, main):
+        return path
     size = prominence(path)
     is_tiny, is_small = size < _TINY, size < _SMALL or _creeps(path, main)
-    if not (is_tiny or (is_small and _stay_together(actors, main, duration_s))):
+    if not (is_tiny or (is_small and stay_together(actors, main, duration_s))):
         return path
     followed = _fit_path(description, actors, main, (CameraMove("follow", "side"),), place, how)
     least = _WORTH if size < _SMALL else 1.0 / _WORTH
@@ -138,6 +150,10 @@ def _fit_path(
     has_floor = place not in ("sky", "space")
     is_open = has_floor and place != "underwater" and not is_room(place)
     azimuth, elevation = choose_angles(description, main, moves, place, seed)
+    if list_laid(description, {one.object_index: one.noun for one in actors}):
+        elevation = ELEVATION_RAD
+    elif is_on_table(description, main.object_index):
+        elevation = max(elevation, ELEVATION_RAD)
     elevation += take.rise_rad
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
@@ -173,38 +189,6 @@ def _fit_path(
         if _begins_and_ends_outside(paths[-1], main, aspect):
             break
     return paths[-1]
-
-
-_LANDMARKS = TOGETHER | {"through", "past", "from", "towards", "away from"}
-
-
-def _goes_in_depth(description: SceneDescription, main: Actor) -> bool:
-    """Whether the prompt says that it comes towards the camera or goes away from it."""
-    motion = description.objects[main.object_index].motion
-    return motion is not None and motion.direction in ("towards", "away")
-
-
-def _has_landmark(
-    description: SceneDescription, main: Actor, kinds: frozenset[str] = _LANDMARKS
-) -> bool:
-    """Whether the subject moves with respect to something that must stay in the picture."""
-    return any(
-        relation.kind in kinds and relation.subject == main.object_index
-        for relation in description.relations
-    )
-
-
-def _stay_together(actors: Sequence[Actor], main: Actor, duration_s: float) -> bool:
-    """Whether all that moves keeps its place relative to the subject, about."""
-    movers = [actor for actor in actors if actor.is_mover and actor is not main]
-    drifts = [
-        np.linalg.norm(
-            actor.middle(duration_s) - main.middle(duration_s)
-            - actor.middle(0.0) + main.middle(0.0)
-        )
-        for actor in movers
-    ]  # fmt: skip
-    return all(float(drift) < 2.0 * main.size_m for drift in drifts)
 
 
 def _creeps(path: CameraPath, main: Actor) -> bool:
@@ -372,7 +356,7 @@ def _plan_moves(
     span = max(main.model.length, main.model.height)
     start, end = main.middle(0.0), main.middle(duration_s)
     travel = float(np.hypot(*(end - start)[:2]))
-    if _has_landmark(description, main, TOGETHER) or _goes_in_depth(description, main):
+    if has_landmark(description, main, TOGETHER) or goes_in_depth(description, main):
         return ()
     if main.is_mover and travel > TRACKING_LENGTHS * span:
         return (CameraMove("follow", "side"),)

@@ -15,6 +15,7 @@ from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framed_points import upper_part
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.prominence import Prominence, between
+from texvent.scenes.staging.still_life import is_still_life
 
 _SMALL = 0.3
 """Size of a small thing, as a multiple of the subject's, at most."""
@@ -118,11 +119,18 @@ def eye_level(
         for actor in actors
         if actor.noun.habitat == "ground" and actor.size_m < 0.4 * main.size_m
     ]
+    if is_still_life(description):
+        least = min(actor.size_m for actor in actors)
+        if least < _TINY * max(actor.size_m for actor in actors):
+            return _elevation_of(max(_LEAST_EYES_M, 1.5 * least), framing)
     if not smaller:
         return None
     return _elevation_of(_EYE_M, framing)
 
 
+_TINY = 0.1
+"""Size of the least of some things side by side, as a share of the largest's, at which the camera
+is as low as it, so that it can stand before the camera."""
 _LOW_M, _EYES_M, _LEAST_EYES_M = 0.4, 1.55, 0.35
 """Height of a camera that is low, and of one at the level of eyes: a person's, of what is small."""
 

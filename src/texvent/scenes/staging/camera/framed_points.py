@@ -12,9 +12,18 @@ from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.camera_path import share_followed
+from texvent.scenes.staging.camera.laid_table import FILL as FILL_OF_TABLE
+from texvent.scenes.staging.camera.laid_table import list_laid
+from texvent.scenes.staging.camera.pieces import (
+    list_partners,
+    near_piece,
+    piece_beside,
+)
 from texvent.scenes.staging.camera.prominence import GOALS
+from texvent.scenes.staging.still_life import is_still_life
 
-FILL = 0.84
+FILL = 0.88
 """Share of the image that what matters may fill."""
 LIMIT = 0.7
 """What a mover passes counts for the framing up to this multiple of the mover's size."""
@@ -29,7 +38,9 @@ _LARGE_AIM = 1.3
 """Prominence of what a camera moves in on, at least."""
 _HARDLY_SEEN = 0.4
 """Prominence below which even what belongs to the subject may leave the image in part."""
-_WIDE_FILL = 0.7
+_WIDE_FILL, _FOLLOWED_FILL = 0.7, 0.75
+_CALM = 0.5
+"""Pace below which a camera in a hand hardly shakes."""
 _FAR_FILL = 1.3
 """The same at the near end of a move in: at the far end all fits."""
 _APPROACHES = frozenset({"zoom", "dolly", "dolly zoom"})
@@ -70,6 +81,12 @@ def list_views(
     """
     if is_whole:
         return [_view_of_all(description, actors, times)]
+    laid = list_laid(description, {one.object_index: one.noun for one in actors})
+    if laid:
+        on_top = [one for one in actors if one.object_index in laid]
+        return [View(_boxes_of(on_top, times), FILL_OF_TABLE)]
+    if is_still_life(description):
+        return [View(_boxes_of(actors, times), FILL)]
     shot = description.shot
     tying = moves if any(move.kind in TYING for move in moves) and main.is_mover else ()
     aims = is_aimed(description, main, moves)
@@ -84,8 +101,9 @@ def list_views(
         rest = _points_of(description, actors, main, times, ())
         aim = 0.5 * (near.min(axis=0) + near.max(axis=0))
         return [View(np.vstack([rest, 2.0 * aim - rest]), _FAR_FILL), View(near, 0.55, _LARGE_AIM)]
-    fill = min([FILL, *(_FILL_BY_MOVE.get(move.kind, FILL) for move in moves)])
-    fill = min(fill, 0.56) if tying else fill
+    fill = min([FILL, *(_fill_for(move) for move in moves)])
+    if tying and share_followed(tying) == 1.0:
+        fill = min(fill, _FOLLOWED_FILL)
     fill = _WIDE_FILL if shot.framing == "wide" else fill
     partners = _list_partners_of(description, actors, main, times)
     group = [actor for actor in actors if actor.object_index == main.object_index]
@@ -101,6 +119,12 @@ def list_views(
     least = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
     goals = (1.0, *GOALS, _HARDLY_SEEN)
     return [View(points, fill, least * goal) for points, goal in zip(choices, goals, strict=True)]
+
+
+def _fill_for(move: CameraMove) -> float:
+    """Share of the image that things may fill while the camera makes a move."""
+    is_calm = move.kind == "handheld" and move.pace < _CALM
+    return FILL if is_calm else _FILL_BY_MOVE.get(move.kind, FILL)
 
 
 def _close_view(
@@ -130,8 +154,12 @@ def _view_of_all(
 ) -> View:
     """A view of all that is not far, whole."""
     near = [one for one in actors if description.objects[one.object_index].side != "far"]
-    points = [one.corners(float(time)) for one in near or actors for time in times]
-    return View(np.vstack(points), _WHOLE_FILL)
+    return View(_boxes_of(near or actors, times), _WHOLE_FILL)
+
+
+def _boxes_of(actors: Sequence[Actor], times: Float64Array) -> Float64Array:
+    """[n, 3] corners of their boxes over the clip, m."""
+    return np.vstack([one.corners(float(time)) for one in actors for time in times])
 
 
 _WHOLE_FILL = 0.95
@@ -190,14 +218,17 @@ def _points_of(
         if relation.kind in ("past", "among", "overtake")
         for target in relation.targets
     }
-    partners = _list_partners(description, actors)
+    partners = list_partners(description, actors, times)
     points = []
     for actor in actors:
         is_far = description.objects[actor.object_index].side == "far"
         if actor is not main and (is_far or (tying and not actor.is_mover)):
             continue
         if actor is not main and actor.object_index in partners:
-            points.append(_piece_beside(actor, partners[actor.object_index], times))
+            partner = partners[actor.object_index]
+            for some in [[time] for time in times] if actor.is_mover else [times]:
+                piece = piece_beside(actor, partner, np.array(some))
+                points.append(to_subject(piece, main, float(some[0]), tying) if tying else piece)
             continue
         limit = math.inf if actor in movers else _limit_extent(actor, passed, largest)
         for time in times:
@@ -212,6 +243,7 @@ def to_subject(
     """Points as a camera that goes along with the subject sees them, at the start's place, m."""
     state, start = main.trajectory.at(time_s), main.trajectory.at(0.0)
     now, then = np.array(state.position), np.array(start.position)
+    now = then + share_followed(tying) * (now - then)
     if main.noun.habitat == "ground":
         now[2] = then[2]
     points = points - now
@@ -224,11 +256,6 @@ def to_subject(
     return np.asarray(points + then)
 
 
-TOGETHER = frozenset(
-    {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
-     "left of", "right of", "look at"}
-)  # fmt: skip
-"""Relations of which both things must be in the picture."""
 _RECOGNISED = 0.35
 _REACH_OF_PARTNER = 0.8
 """How much of a partner must be seen each way from the subject: the lesser of a share of its own
@@ -237,34 +264,6 @@ _STIRS = 0.25
 """How far, in its own sizes, a thing that works in its place may stir."""
 _CLOSE = 2.0
 """What is named next belongs to the subject within this multiple of the subject's size."""
-_MUCH_LARGER = 6.0
-_PIECE = 0.3
-_REACH = 4.0
-"""How much of a much larger thing must be seen each way from what is beside it: the lesser of a
-share of its own size and a multiple of the other's."""
-
-
-def _list_partners(description: SceneDescription, actors: Sequence[Actor]) -> dict[int, Actor]:
-    """Object at rest → the smallest thing that the prompt places with respect to it."""
-    by_object = {actor.object_index: actor for actor in reversed(actors)}
-    partners: dict[int, Actor] = {}
-    for relation in description.relations:
-        if relation.kind not in TOGETHER:
-            continue
-        for one, other in [(relation.subject, t) for t in relation.targets]:
-            for large, small in ((one, other), (other, one)):
-                if {large, small} <= set(by_object) and not by_object[large].is_mover:
-                    known = partners.get(large, by_object[small])
-                    partners[large] = min(known, by_object[small], key=lambda actor: actor.size_m)
-    return partners
-
-
-def _piece_beside(actor: Actor, partner: Actor, times: Float64Array) -> Float64Array:
-    """[n, 3] the whole of an object at rest, or of a much larger one a piece by its partner, m."""
-    if actor.size_m <= _MUCH_LARGER * partner.size_m:
-        return np.vstack([actor.corners(float(time)) for time in times])
-    reach = min(_PIECE * actor.size_m, _REACH * partner.size_m)
-    return _near_piece(actor, partner, times, reach)
 
 
 def _goes(actor: Actor, times: Float64Array) -> bool:
@@ -345,6 +344,7 @@ def _pieces_of(
 ) -> list[Float64Array]:
     """As much of the nearest copy of each partner as it takes to recognise it, m."""
     gates = {t for one in description.relations if one.kind == "through" for t in one.targets}
+    before = {t for one in description.relations if one.kind == "behind" for t in one.targets}
     kinds = {relation.kind for relation in description.relations}
     least = main.size_m * (1.6 if "through" in kinds else 0.5)
     nearest: dict[int, Actor] = {}
@@ -357,20 +357,9 @@ def _pieces_of(
         # So are a kite and a balloon on their strings.
         if is_gate or actor.tether is not None:
             reach = 2.0 * actor.size_m
-        pieces.append(_near_piece(actor, main, times, max(reach, least)))
+        is_before = actor.object_index in before
+        pieces.append(near_piece(actor, main, times, max(reach, least), is_before=is_before))
     return pieces
-
-
-def _near_piece(actor: Actor, main: Actor, times: Float64Array, reach: float) -> Float64Array:
-    """[8, 3] the piece of an object's box that is nearest to the subject's way, m."""
-    box = actor.corners(float(times[0]))
-    low, high = box.min(axis=0), box.max(axis=0)
-    ways = np.array([main.middle(float(time)) for time in times])
-    nearest = np.clip(ways, low, high)
-    point = nearest[int(np.argmin(np.linalg.norm(nearest - ways, axis=1)))]
-    low, high = np.maximum(low, point - reach), np.minimum(high, point + reach)
-    return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1])
-                     for z in (low[2], high[2])])  # fmt: skip
 
 
 def _limit_extent(actor: Actor, passed: set[int], largest_m: float) -> float:

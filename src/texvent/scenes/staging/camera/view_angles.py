@@ -10,6 +10,7 @@ import numpy as np
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.placement.at_wall import list_at_wall
+from texvent.scenes.staging.still_life import is_still_life
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
 
@@ -32,6 +33,12 @@ _BETWEEN_WALLS = 0.06
 """Azimuth of a camera between two walls, which looks along them."""
 
 
+_ELONGATED, _ALONG_IT = 4.5, 0.75
+"""What is so many times as long as high is seen at an angle to its side, from nearer its front."""
+_HERD, _HERD_ELEVATION = 6, 0.3
+"""From so many copies on the camera stands higher, so that those behind are seen too."""
+
+
 def choose_angles(
     description: SceneDescription,
     main: Actor,
@@ -49,6 +56,8 @@ def choose_angles(
     azimuth = wander
     if goes_in_depth:
         azimuth = math.copysign(0.42, wander)
+    if _is_elongated(main) and not goes_in_depth:
+        azimuth = math.copysign(_ALONG_IT, math.cos(state.yaw))
     follow = next((move for move in moves if move.kind == "follow"), None)
     is_tied = follow is not None and follow.direction in ("behind", "front")
     if follow is not None and is_tied:
@@ -61,12 +70,14 @@ def choose_angles(
     if list_at_wall(description, place):
         azimuth = 0.5 * wander
     view = description.shot.view
-    if view in _BEARINGS:
+    if view in _BEARINGS and not (view == "front" and is_still_life(description)):
         azimuth = _face(view, state.yaw)
     elevation = ELEVATIONS.get(view or "")
     is_in_sky = view == "high" and any(one.kind in _IN_SKY for one in description.effects)
     if elevation is None or is_in_sky:
         elevation = _choose_elevation(main, follow, place, goes_in_depth)
+        if description.objects[main.object_index].count >= _HERD:
+            elevation = max(elevation, _HERD_ELEVATION) if elevation > 0.0 else elevation
     return azimuth, elevation
 
 
@@ -78,7 +89,7 @@ def _choose_elevation(
         return _FOLLOW_ELEVATIONS[follow.direction]
     widest = max(main.model.length, main.model.width)
     is_flat = widest < _FLAT_MOST_M and main.model.height < FLAT * widest
-    if main.noun.habitat == "fixed" and is_flat:
+    if is_flat and not main.is_mover and main.noun.habitat in ("fixed", "ground"):
         return _FLAT_ELEVATION
     if place in _PLACE_ELEVATIONS:
         return _PLACE_ELEVATIONS[place]
@@ -91,6 +102,13 @@ def _choose_elevation(
     if main.model.height < 0.7:
         return 0.24
     return 0.2 if goes_in_depth else 0.12
+
+
+def _is_elongated(main: Actor) -> bool:
+    """Whether it is a train or a ship: all of it from the side would be a thin line."""
+    model = main.model
+    is_large = model.length > _FLAT_MOST_M and main.noun.motion in ("drive", "sail")
+    return is_large and model.length > _ELONGATED * model.height
 
 
 def _face(view: str, yaw: float) -> float:

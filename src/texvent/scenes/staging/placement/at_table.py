@@ -140,3 +140,16 @@ def turned_to(place: Vector, yaw: float, goal: Float64Array) -> bool:
     way = goal[:2] - np.array(place[:2])
     ahead = np.array([math.cos(yaw), math.sin(yaw)])
     return bool(way @ ahead > 0.5 * float(np.linalg.norm(way)))
+
+
+_AT_TABLE_M = 0.4
+"""From who is at a table that is added to its edge, m."""
+_LOW, _LOW_M = frozenset({"sit", "kneel", "crouch", "squat", "lie"}), 1.5
+
+
+def set_before(group: ObjectGroup, person: ObjectGroup, height: float) -> Float64Array:
+    """Where a table stands that is added: before a person, and to the side of who is low."""
+    is_low = person.plan.motion.kind in _LOW or person.models[0].height < _LOW_M
+    aside = float(group.half[0]) if is_low else 0.0
+    x, y, _ = person.centre
+    return np.array([x + aside, y - _AT_TABLE_M - group.half[1], height])

@@ -6,14 +6,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import STANDING, SceneDescription
+from texvent.scenes.models.materials import Material
 from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS
 from texvent.scenes.models.people.acts.prop_shapes import Prop
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.people.roles.dressing import DRESSED, dress
 from texvent.scenes.models.people.roles.held import HOLDS
-from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.models.protocol import Model, ModelPart, Noun
+from texvent.scenes.models.shapes import post
 from texvent.scenes.staging.placement.at_table import draw_chair
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
+from texvent.scenes.staging.trajectories.action_trajectories import Swing
+from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
 _BOTH_HANDS = ("right hand", "left hand", "hands")
 _WITH_RIDER = frozenset({"bicycle", "motorcycle"})
@@ -121,3 +125,13 @@ def find_waist(group: ObjectGroup, model: Model) -> float:
         one.kind in ACTIVITIES and ACTIVITIES[one.kind].is_close for one in said
     )
     return _WAIST_SHARE * model.height if is_close else 0.0
+
+
+def hang_rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:
+    """The rope of what swings, m in body coordinates."""
+    if not isinstance(trajectory, Swing):
+        return ()
+    low, high = 0.9 * model.height, trajectory.length_m
+    thick = 2.0 * (0.012 + 0.004 * model.height)
+    size = (thick, thick, high - low)
+    return (post(Material((0.25, 0.2, 0.14)), (0.0, 0.0, 0.5 * (high + low)), size),)

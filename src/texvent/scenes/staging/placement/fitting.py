@@ -11,6 +11,7 @@ from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.placement.contents import is_stem
+from texvent.scenes.staging.still_life import enlarge_beside, is_still_life
 
 _SWIMMING_ROOM = 0.55
 """The same of one that swims in it."""
@@ -94,12 +95,17 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
     objects = list(_lower_trees(description, nouns))
     worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
     sizes = [extent(one, nouns) for one in objects]
+    is_alone = is_still_life(description)
     for index, (one, size) in enumerate(zip(objects, sizes, strict=True)):
         noun = nouns[one.noun]
         is_bird = noun.habitat == "air" and noun.name not in _BY_HAND
-        if not (noun.habitat in ("fixed", "air") or noun.name in _BY_HAND) or one.scale < 1.0:
+        may_grow = is_alone or noun.habitat in ("fixed", "air") or noun.name in _BY_HAND
+        if not may_grow or one.scale < 1.0:
             continue
-        if max(sizes) < _MUCH_SMALLER * size:
+        if not is_alone and max(sizes) < _MUCH_SMALLER * size:
+            continue
+        if is_alone and index not in worn:
+            objects[index] = replace(one, scale=one.scale * enlarge_beside(size, max(sizes)))
             continue
         most = _LARGER_BALL if noun.name in _BY_HAND else _LARGER
         most = _LARGER_WORN if index in worn else _LARGER_BIRD if is_bird else most

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from texvent.scenes.description import SceneObject
-from texvent.scenes.models.people.activities import HAND_NOUNS
+from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
@@ -77,13 +77,15 @@ def place_copies(
     is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
     is_deep = is_centred(noun) and not is_lifting and noun.name not in HAND_NOUNS
     is_driven = noun.motion == "drive"
-    columns = _count_columns(count, is_driven)
+    is_herd = _is_herd(count, noun)
+    columns = round(math.sqrt(count)) if is_herd else _count_columns(count, is_driven)
+    stagger = 0.5 if is_herd else 0.3
     in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
     offsets: list[Vector] = []
     for number in range(count):
         row, column = divmod(number, columns)
         in_row = min(columns, count - row * columns)
-        a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
+        a = (column - 0.5 * (in_row - 1) + stagger * (row % 2)) * along
         b = (row - 0.5 * ((count - 1) // columns)) * across
         a += float(rng.uniform(-0.12, 0.12)) * along
         stray = float(rng.uniform(-0.08, 0.08)) * across
@@ -96,6 +98,18 @@ def place_copies(
     return offsets
 
 
+_HERD, _ROWS_APART = 6, 0.75
+"""From so many on animals stand close together in rows, which are so many lengths apart."""
+
+
+def _is_herd(count: int, noun: Noun) -> bool:
+    return count >= _HERD and noun.motion == "walk" and noun.name not in PERSON_NOUNS
+
+
+_APART = 0.3
+"""Space between copies of small things, in their sizes: apples do not lie half a metre apart."""
+
+
 def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, float]:
     """Metres from one copy to the next, along the heading and across it."""
     length = max(model.length for model in models)
@@ -106,10 +120,14 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
         return 1.45 * length + 0.5, max(width + 0.9, 2.9)
     if noun.name in HAND_NOUNS:
         return 1.3 * width, 1.3 * width
-    across = 1.4 * width + 0.4
+    size = max(length, width)
+    apart = min(0.3, _APART * size)
+    across = 1.4 * width + apart + min(0.1, 0.1 * size)
     if is_centred(noun):
-        return 0.8 * length + 0.3, across
-    return 1.2 * (length if plan.is_path else max(length, width)) + 0.3, across
+        return 0.8 * length + apart, across
+    if _is_herd(len(models), noun):
+        return length + 0.3 * apart, max(across, _ROWS_APART * length)
+    return 1.2 * (length if plan.is_path else size) + apart, across
 
 
 def _count_columns(count: int, is_driven: bool) -> int:

@@ -10,9 +10,7 @@ import numpy as np
 
 from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
-from texvent.scenes.models.materials import Material
-from texvent.scenes.models.protocol import Model, ModelPart, Noun
-from texvent.scenes.models.shapes import post
+from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.wrapped.opened import OPENED, OpenedModel
 from texvent.scenes.models.wrapped.opening import opening
 from texvent.scenes.pictures import PicturedModel, can_show
@@ -22,11 +20,13 @@ from texvent.scenes.staging.acts.attached import OnEnd, OnPart, Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
+from texvent.scenes.staging.placement.at_table import set_before
 from texvent.scenes.staging.placement.dressing import (
     choose_copy,
     choose_props,
     dressed,
     find_waist,
+    hang_rope,
 )
 from texvent.scenes.staging.placement.faced import face
 from texvent.scenes.staging.placement.fitting import fit_contents
@@ -43,11 +43,13 @@ from texvent.scenes.staging.placement.object_groups import (
 from texvent.scenes.staging.placement.spatial_relations import (
     INVERSE,
     Goal,
+    orbit,
     place_by_subject,
     place_on_targets,
     side_offset,
 )
-from texvent.scenes.staging.trajectories.action_trajectories import Swing
+from texvent.scenes.staging.placement.tabletop import is_added
+from texvent.scenes.staging.still_life import front_yaw, is_still_life
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
 from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
@@ -61,6 +63,11 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Vector,
 )
 
+_MUCH_LARGER = 1.3
+"""Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
+_NEARER = 0.35
+"""How much nearer, for each metre to the side."""
+_BEFORE = np.array([_NEARER, -1.0, 0.0])
 ON_TARGET = frozenset({"at", "on", "in", "above", "around", "under", "between", "follow"})
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
@@ -148,6 +155,8 @@ class ObjectPlacer:
         if is_curved and noun.motion == "drive" and plan.is_path:
             path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
             plan = replace(plan, path=path, yaw=path.yaw)
+        if self._description.shot.view == "front" and is_still_life(self._description):
+            plan = replace(plan, yaw=front_yaw(plan.yaw))
         offsets = place_copies(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
         group = ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
@@ -213,6 +222,8 @@ class ObjectPlacer:
         for relation in related:
             if relation.kind in INVERSE and relation.targets[0] in self.groups:
                 target = self.groups[relation.targets[0]]
+                if is_added(self._description, group.index):
+                    return Goal(set_before(group, target, height), np.zeros(3))
                 return place_by_subject(group, INVERSE[relation.kind], target, height)
         for relation in self._description.relations:
             if group.index in relation.targets and relation.subject in self.groups:
@@ -229,7 +240,8 @@ class ObjectPlacer:
             # Smaller objects go nearer to the camera, so that none hides behind a larger one.
             larger = any(other.size_m > group.size_m for other in self.groups.values())
             return Goal(wanted, np.array([0.0, -1.0 if larger else 1.0, 0.0]))
-        return Goal(wanted, np.array([1.0, 0.35, 0.0]))
+        is_smaller = any(_MUCH_LARGER * group.size_m < one.size_m for one in self.groups.values())
+        return Goal(wanted, np.array([1.0, -_NEARER if is_smaller else _NEARER, 0.0]))
 
     def _spread_apart(self, group: ObjectGroup) -> float:
         """Metres to the side that leave room for what is to stand between this and another.
@@ -275,18 +287,25 @@ class ObjectPlacer:
         return level * max(group.size_m, 1.0) + clear
 
     def _find_free_position(self, group: ObjectGroup, goal: Goal) -> Float64Array:
-        """The goal, or the nearest free position along its slide, alternating sides."""
+        """The goal, or the nearest free position along its slide, alternating sides.
+
+        The steps are small between small things, which stand close together.
+        """
         wanted, slide = goal
         if not slide.any():
             return wanted
-        step = 0.25 * float(np.max(group.half[:2])) + 0.1
+        largest = max([group.size_m, *(other.size_m for other in self.groups.values())])
+        step = 0.25 * float(np.max(group.half[:2])) + min(0.1, 0.1 * largest)
         for attempt in range(400):
             reach = step * ((attempt + 1) // 2) * (1.0 if attempt % 2 else -1.0)
             if slide[0] == 0.0:
                 reach = step * attempt
-            centre = wanted + reach * slide
-            if not any(overlap(centre, group, other) for other in self.groups.values()):
-                return centre
+            # To either side, but always nearer or always further away.
+            way = np.array([reach, abs(reach), reach])
+            ways = [slide, _BEFORE] if slide[1] < 0.0 != slide[0] else [slide]
+            for centre in (wanted + way * one for one in ways):
+                if not any(overlap(centre, group, other) for other in self.groups.values()):
+                    return np.asarray(centre)
         return wanted + 400 * step * np.abs(slide)
 
     def _populate(self, group: ObjectGroup, before: int) -> list[Actor]:
@@ -302,7 +321,7 @@ class ObjectPlacer:
                     group.index, group.noun, model, trajectory,
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
-                    _rope(trajectory, model),
+                    hang_rope(trajectory, model),
                     choose_props(self._description, group, is_first=number == 0),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
@@ -315,7 +334,7 @@ class ObjectPlacer:
         self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator
     ) -> Trajectory:
         if group.orbits is not None:
-            return _orbit(group, group.orbits, number, self._duration_s)
+            return orbit(group, group.orbits, number, self._duration_s)
         if group.pool_m is not None:
             phase = 2.0 * math.pi * number / len(group.models)
             return Circle(home, group.pool_m, _POOL_RAD_S * group.plan.motion.pace, phase)
@@ -359,16 +378,6 @@ def _gripping(path: Trajectory, group: ObjectGroup) -> Trajectory:
     return Performed(path, None, group.grips) if group.grips else path
 
 
-def _rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:
-    """The rope of what swings, m in body coordinates."""
-    if not isinstance(trajectory, Swing):
-        return ()
-    low, high = 0.9 * model.height, trajectory.length_m
-    thick = 2.0 * (0.012 + 0.004 * model.height)
-    size = (thick, thick, high - low)
-    return (post(Material((0.25, 0.2, 0.14)), (0.0, 0.0, 0.5 * (high + low)), size),)
-
-
 def _tuple(group: ObjectGroup) -> Vector:
     x, y, z = group.centre
     return (float(x), float(y), float(z))
@@ -378,18 +387,3 @@ def _unturn(offset: Float64Array, yaw: float) -> Vector:
     cosine, sine = math.cos(yaw), math.sin(yaw)
     x, y, z = offset
     return (float(x * cosine + y * sine), float(y * cosine - x * sine), float(z))
-
-
-def _orbit(group: ObjectGroup, around: ObjectGroup, number: int, duration_s: float) -> Trajectory:
-    """Circles around another object, evenly spread."""
-    model = group.models[number]
-    radius = float(np.max(around.half[:2])) + 0.9 * group.size_m + 0.1 * around.size_m
-    rate = 2.0 * math.pi / max(duration_s, 2.0) * group.plan.motion.pace
-    if group.plan.motion.direction in ("right", "clockwise"):
-        rate = -rate
-    phase = 2.0 * math.pi * number / len(group.models)
-    x, y, _ = around.centre
-    height = float(group.centre[2])
-    activity = "run" if group.plan.motion.kind == "run" else "move"
-    lean = 0.3 if group.noun.habitat == "air" and model.length > model.height else 0.0
-    return Circle((float(x), float(y), height), radius, rate, phase, activity, lean)

@@ -22,6 +22,7 @@ from texvent.scenes.staging.placement.object_groups import (
 from texvent.scenes.staging.placement.plating import is_dished
 from texvent.scenes.staging.placement.resting import rest_in, rest_on
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
+from texvent.scenes.staging.trajectories.trajectory import Circle, Trajectory
 
 
 class Goal(NamedTuple):
@@ -164,6 +165,9 @@ def _origin_height(group: ObjectGroup) -> float:
     return 0.5 * group.models[0].height if is_centred(group.noun) else 0.0
 
 
+_SIDE_BY_SIDE = frozenset({"left of", "right of", "beside", "with"})
+
+
 def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
     """A target's position with respect to the subject that the prompt relates to it.
 
@@ -216,8 +220,11 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "right of": (-x, 0.0, -_ALONG_X),
         "towards": (x * math.cos(yaw), y * math.sin(yaw), _AWAY),
     }
-    right, away, slide = goals.get(kind, (x, 0.0, _ALONG_X))
-    return Goal(_shift(here, right, away), slide)
+    right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
+    if kind in _SIDE_BY_SIDE and not is_path:
+        # What is smaller stands nearer to the camera, and looks larger.
+        back = float(group.half[1] - subject.half[1])
+    return Goal(_shift(here, right, back), slide)
 
 
 def _find_stop(subject: ObjectGroup, kind: str) -> float:
@@ -308,3 +315,18 @@ def side_offset(
     midst = [build(index) for index, side in enumerate(sides) if side == "centre"]
     room = sum(float(one.half[0]) for one in midst)
     return way * (float(group.half[0]) + 0.4 * group.size_m + 1.3 * room)
+
+
+def orbit(group: ObjectGroup, around: ObjectGroup, number: int, duration_s: float) -> Trajectory:
+    """Circles around another object, evenly spread."""
+    model = group.models[number]
+    radius = float(np.max(around.half[:2])) + 0.9 * group.size_m + 0.1 * around.size_m
+    rate = 2.0 * math.pi / max(duration_s, 2.0) * group.plan.motion.pace
+    if group.plan.motion.direction in ("right", "clockwise"):
+        rate = -rate
+    phase = 2.0 * math.pi * number / len(group.models)
+    x, y, _ = around.centre
+    height = float(group.centre[2])
+    activity = "run" if group.plan.motion.kind == "run" else "move"
+    lean = 0.3 if group.noun.habitat == "air" and model.length > model.height else 0.0
+    return Circle((float(x), float(y), height), radius, rate, phase, activity, lean)

@@ -40,7 +40,9 @@ _LOOSE = frozenset({"beside", "with", "past", "towards", "from", "away from"})
 
 
 def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """The description with small things in a hand or on a table, in scenes with people.
+    """The description with small things in a hand or on a table.
+
+    Without people they go on the table only where the prompt names one.
 
     A single thing goes into the hand of who is named before it, and who has nothing in hand. Others
     go on a table: the first that the prompt names, else one that is added at the end of the
@@ -51,8 +53,10 @@ def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     objects = description.objects
     people = [n for n, one in enumerate(objects) if one.noun in PERSON_NOUNS]
     loose = _list_loose(description, nouns)
-    if not people or any(move.kind == "travel" for move in description.shot.moves):
+    if any(move.kind == "travel" for move in description.shot.moves):
         return description
+    if not people:
+        return _lay(description, loose)
     loaded = {i for one in description.relations for i in (one.subject, *one.targets)}
     held: list[Relation] = []
     for index in loose:
@@ -72,6 +76,16 @@ def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     if _find_table(objects) is None and not is_inside:
         return description
     return _add_table(description, rest, people[0])
+
+
+def _lay(description: SceneDescription, loose: Sequence[int]) -> SceneDescription:
+    """The description with small things on the table that it names, as in a still life."""
+    table = _find_table(description.objects)
+    is_led_away = table is None or any(
+        one.kind not in _LOOSE and table in (one.subject, *one.targets) and one.kind != "on"
+        for one in description.relations
+    )
+    return description if is_led_away or not loose else _add_table(description, loose, 0)
 
 
 def _add_table(
@@ -140,6 +154,12 @@ def _has_way(one: SceneObject) -> bool:
     return any(
         motion is not None and motion.kind in PATH_KINDS for motion in (one.motion, *one.then)
     )
+
+
+def is_added(description: SceneDescription, index: int) -> bool:
+    """Whether it is a table that the prompt does not name, under things that it names."""
+    is_named = any(index in one.things for one in description.claims)
+    return description.objects[index].noun in TABLES and not is_named
 
 
 def _find_table(objects: Sequence[SceneObject]) -> int | None:
