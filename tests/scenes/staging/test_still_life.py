@@ -1,4 +1,4 @@
-"""Things that are named alone stand close together and fill the image; tables are seen from near."""
+"""Things named alone stand close together and fill the image; tables are seen from near."""
 
 from __future__ import annotations
 
