@@ -91,6 +91,9 @@ def test_what_goes_too_slowly_is_not_fast_and_what_stands_still_does_not_go() ->
         def primitives(self, time_s):
             return super().primitives(0.5 + self.share * time_s)
 
+        def camera(self, time_s):  # it goes along
+            return super().camera(0.5 + self.share * time_s)
+
     slowed = Slowed(**vars(scene))
     words = find_evidence(slowed, description, SIZE, DURATION_S).places
     assert words["fast"] == "car is not fast in the picture"

@@ -98,3 +98,25 @@ def test_a_train_is_seen_from_nearer_its_front() -> None:
 
 def test_an_animal_before_a_table_that_is_named_leaves_the_usual_view() -> None:
     assert stage("a dog walks past a table").camera_path.framing.elevation < 0.4
+
+
+def test_a_clock_of_a_building_is_high_on_its_front_and_as_large_as_one_sees_it() -> None:
+    scene = stage("a tower with a clock")
+    tower, clock = scene.actors
+    assert 0.5 * tower.model.height < clock.middle(0.0)[2] < tower.model.height
+    assert clock.model.height > 0.3 * tower.model.width
+
+
+def test_who_holds_something_stands_and_is_seen_from_near() -> None:
+    scene = stage("a man holds a banana")
+    man, banana = scene.actors
+    assert np.ptp([man.middle(t)[0] for t in (0.0, 2.0)]) < 0.3
+    assert extents(scene)[banana.noun.name] > 0.15
+
+
+def test_of_two_who_hold_things_both_are_in_the_image() -> None:
+    scene = stage("two women hold cups")
+    for actor in scene.actors[:2]:
+        x, y = project(scene.camera(1.0), SIZE, actor.middle(1.0)[None])[0, :2]
+        assert 0.0 < x < SIZE.width
+        assert 0.0 < y < 1.2 * SIZE.height

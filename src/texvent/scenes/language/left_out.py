@@ -87,6 +87,7 @@ def ride_waves(description: SceneDescription) -> SceneDescription:
     return replace(description, objects=objects)
 
 
+_AT_HAND = frozenset({"hold", "wear", "with"})
 _BESIDE = frozenset({"beside", "left of", "right of"})
 
 
@@ -108,10 +109,14 @@ def stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
 
     Those without people, and people with things that only stand there.
     """
-    people = [one for one in description.objects if one.noun in PERSON_NOUNS]
-    others = [one for one in description.objects if one.noun not in PERSON_NOUNS]
+    objects = description.objects
+    people = {index for index, one in enumerate(objects) if one.noun in PERSON_NOUNS}
+    others = [one for one in objects if one.noun not in PERSON_NOUNS]
     if not people:
         return len(others) > 1
     stand = all(nouns[one.noun].habitat == "fixed" for one in others)
-    are_beside = all(relation.kind in _BESIDE for relation in description.relations)
+    are_beside = all(
+        one.kind in _BESIDE | _AT_HAND or not people & {one.subject, *one.targets}
+        for one in description.relations
+    )
     return bool(others) and stand and are_beside

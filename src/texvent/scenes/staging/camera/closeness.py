@@ -25,8 +25,8 @@ _WAIST, _CHEST = 0.45, 0.68
 """Shares of a person's height below which the image may end; the second one where the first is not
 near enough for the small things."""
 _FILL, _FILL_PANNING = 0.9, 0.72
-_PROMINENCE, _ALONE = 0.36, 0.55
-"""How prominent a small thing should be: a tenth of the image's width and height; a sixth where
+_PROMINENCE, _ALONE = 0.5, 0.9
+"""How prominent a small thing should be: a seventh of the image's width and height; a quarter where
 nothing else that the prompt names would leave the image for it."""
 _STILL = 0.3
 """How far, in its sizes, a subject may go whose legs need not be seen."""
@@ -67,7 +67,8 @@ def come_near_small(
     if not is_open(description) or any(move.kind not in STAYING for move in moves):
         return path
     small = [actor for actor in actors if _is_small(actor, main, times)]
-    if not small or not _stays(main, times):
+    bodies = [actor for actor in actors if actor.object_index == main.object_index]
+    if not small or not all(_stays(one, times) for one in bodies):
         return path
     prominences = [
         Prominence.of([one for one in small if one.object_index == index], times, aspect)
@@ -79,11 +80,12 @@ def come_near_small(
 
     known = {main.object_index, *(actor.object_index for actor in small)}
     goal = _ALONE if all(actor.object_index in known for actor in actors) else _PROMINENCE
-    body, things = _boxes(main, times), np.vstack([_boxes(actor, times) for actor in small])
+    things = np.vstack([_boxes(actor, times) for actor in small])
     fill = _FILL_PANNING if any(m.kind == "pan" for m in path.moves) else _FILL
     for share in (_WAIST, _CHEST):
         wide = path.framing
-        points = np.vstack([upper_part(body.copy(), share), things])
+        upper = [upper_part(_boxes(one, times), share) for one in bodies]
+        points = np.vstack([*upper, things])
         near = fit(points, azimuth=wide.azimuth, elevation=wide.elevation, aspect=aspect,
                    fill=fill, focal=wide.focal)  # fmt: skip
         if near.distance_m > 0.95 * wide.distance_m or least(path) >= goal:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.description import Relation
+from texvent.scenes.description import Relation, SceneDescription
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
@@ -47,6 +48,7 @@ def face(
     return apart * math.cos(_TO_CAMERA_RAD), -0.5 * apart * math.sin(_TO_CAMERA_RAD)
 
 
+_BORNE = frozenset({"on", "in", "with"})
 _HUNG = frozenset(
     {"picture frame", "poster", "clock", "mirror", "tv", "map", "sign", "dartboard", "mask",
      "guitar", "laser dot"}
@@ -54,6 +56,24 @@ _HUNG = frozenset(
 """Flat things with their front at +x."""
 _UPRIGHT = frozenset({"wall", "fence", "door", "garage front"})
 """What they hang on, at its front."""
+_CLOCK, _FACADES = (
+    "clock",
+    frozenset(
+        {
+            "building",
+            "tower",
+            "church",
+            "house",
+            "castle",
+            "skyscraper",
+            "train station",
+            "lighthouse",
+        }
+    ),
+)
+"""What is high up on a building, and as large as one sees it from the street."""
+_UP, _OF_FACADE = 0.72, 0.45
+"""Its height, as a share of the building's, and its size, as a share of the building's width."""
 _UNDER_TOP_M = 0.12
 _EYE_M = 1.5
 """Height of the middle of what hangs, where there is room."""
@@ -61,7 +81,28 @@ _EYE_M = 1.5
 
 def hangs(own: Noun, target: Noun) -> bool:
     """Whether the one is "on" the other as a picture is on a wall."""
-    return own.name in _HUNG and target.name in _UPRIGHT
+    is_high_up = own.name == _CLOCK and target.name in _FACADES
+    return is_high_up or (own.name in _HUNG and target.name in _UPRIGHT)
+
+
+def hang_clocks(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description with a clock that comes with a building on its face, and as large as that."""
+    objects, relations = list(description.objects), []
+    for one in description.relations:
+        ends = [one.subject, *one.targets]
+        clock = next((n for n in ends if objects[n].noun == _CLOCK), None)
+        facade = next((n for n in ends if objects[n].noun in _FACADES), None)
+        if clock is None or facade is None or one.kind not in _BORNE:
+            relations.append(one)
+            continue
+        small, large = (
+            nouns[objects[n].noun].build(colour=None, scale=objects[n].scale, seed=0)
+            for n in (clock, facade)
+        )
+        wanted = _OF_FACADE * min(large.length, large.width) / max(small.width, small.height)
+        objects[clock] = replace(objects[clock], scale=objects[clock].scale * max(wanted, 1.0))
+        relations.append(replace(one, kind="on", subject=clock, targets=(facade,)))
+    return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
 def hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> Float64Array:
@@ -91,6 +132,8 @@ def hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     share = (neighbours.index(group.index) + 0.5) / len(neighbours) - 0.5
     out, along = 0.5 * (face.length + model.length), -share * face.width
     middle = min(_EYE_M, face.height - 0.5 * model.height - _UNDER_TOP_M)
+    if target.noun.name in _FACADES:
+        middle = _UP * face.height
     foot = max(middle - 0.5 * model.height, 0.0)
     height = foot + (0.5 * model.height if is_centred(group.noun) else 0.0)
     x = target.centre[0] + out * ahead[0] + along * aside[0]

@@ -11,6 +11,7 @@ from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.placement.contents import is_stem
+from texvent.scenes.staging.placement.faced import hang_clocks
 from texvent.scenes.staging.still_life import enlarge_beside, is_still_life
 
 _SWIMMING_ROOM = 0.55
@@ -92,6 +93,7 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
     A cup in a hand is hardly seen in a picture that holds who has it. What the prompt calls small
     keeps its size.
     """
+    description = hang_clocks(description, nouns)
     objects = list(_lower_trees(description, nouns))
     worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
     sizes = [extent(one, nouns) for one in objects]
