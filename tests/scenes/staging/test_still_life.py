@@ -120,3 +120,11 @@ def test_of_two_who_hold_things_both_are_in_the_image() -> None:
         x, y = project(scene.camera(1.0), SIZE, actor.middle(1.0)[None])[0, :2]
         assert 0.0 < x < SIZE.width
         assert 0.0 < y < 1.2 * SIZE.height
+
+
+@pytest.mark.parametrize("move", ["pans left", "tilts up", "zooms out"])
+def test_a_camera_that_turns_goes_along_too(move: str) -> None:
+    scene = stage(f"a dog runs across a meadow, the camera {move}")
+    assert 0.0 < share_followed(scene.camera_path.moves) < 1.0
+    assert extents(scene)["dog"] > 0.2
+    assert share_followed(stage("a dog runs across a meadow, static camera").camera_path.moves) == 1

@@ -49,6 +49,8 @@ _WORTH = 1.15
 """How much larger the subject must become for the camera to follow it."""
 _OUTSIDE_SHARES = (0.3, 0.38, 0.46, 0.54, 0.62, 0.7)
 """Shares of the clip at whose beginning or end what enters or leaves may be out of the picture."""
+_WITH_FOLLOWING = frozenset({"pan", "tilt", "zoom", "handheld", "roll"})
+"""Moves that are said of a camera which may go along with its subject besides."""
 _VISIBLE_SHARE = 0.97
 """Share of the clip in which the subject's middle is in the image at least."""
 _CHECKS = 41
@@ -114,8 +116,8 @@ def _frame(
 ) -> CameraPath:
     """The camera from which the subject is large enough; followed where it is small or creeps."""
     duration_s = how.duration_s
-    is_said = bool(description.shot.moves) or description.shot.framing == "wide"
-    is_said |= goes_in_depth(description, main)
+    is_said = description.shot.framing == "wide" or goes_in_depth(description, main)
+    is_said |= any(move.kind not in _WITH_FOLLOWING for move in description.shot.moves)
     path = _fit_path(description, actors, main, moves, place, how)
     if is_said:
         return path
@@ -123,10 +125,10 @@ def _frame(
     prominence = Prominence.of(copies, np.linspace(0.0, duration_s, INSTANTS), how.aspect)
     share = share_to_follow(actors, main, duration_s)
     if share > 0.0:
-        slower = (CameraMove("follow", "slower", pace=share),)
+        slower = (*moves, CameraMove("follow", "slower", pace=share))
         near = _fit_path(description, actors, main, slower, place, how)
         path = near if prominence(near) > _WORTH * prominence(path) else path
-    if not main.is_mover or has_landmark(description, main):
+    if not main.is_mover or description.shot.moves or has_landmark(description, main):
         return path
     size = prominence(path)
     is_tiny, is_small = size < _TINY, size < _SMALL or _creeps(path, main)
