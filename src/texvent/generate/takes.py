@@ -45,7 +45,7 @@ LONGEST_STEP_S = 0.25
 _INSTANTS = 5
 _KEPT = 0.92
 """Share of the subject's box in the image that a take keeps, of that in the usual one."""
-_LEAST_EXTENT = 0.12
+_LEAST_EXTENT = 0.25
 """Share of the image's width or height over which a take that goes away leaves the subject."""
 _SMALL = frozenset({"too small"})
 _HIDDEN = frozenset({"hidden", "mostly hidden"})
