@@ -19,6 +19,7 @@ from texvent.scenes.language.left_out import (
     add_sources,
     give_usual_work,
     is_still_life,
+    land,
     ride_waves,
     stays_together,
 )
@@ -47,7 +48,7 @@ def complete_description(
     objects = tuple(
         replace(scene_object, motion=STANDING)
         if is_at_rest and nouns[scene_object.noun].motion == "fly"
-        else _decide_motion(_land(scene_object, description), nouns[scene_object.noun])
+        else _decide_motion(land(scene_object, description), nouns[scene_object.noun])
         for scene_object in description.objects
     )
     description = _move_followed(replace(description, objects=objects), nouns)
@@ -295,17 +296,6 @@ def _sits_down(
 
 _AT_REST = frozenset({"bell", "door"})
 """Nouns with moving parts that rest until a person moves them."""
-
-
-def _land(scene_object: SceneObject, description: SceneDescription) -> SceneObject:
-    """A plane of which only an airport is said is on the ground there."""
-    is_landed = scene_object.noun in _PLANES and description.surroundings.place == "runway"
-    if is_landed and scene_object.motion is None:
-        return replace(scene_object, motion=STANDING)
-    return scene_object
-
-
-_PLANES = frozenset({"airplane", "jet plane", "biplane", "fighter jet", "helicopter"})
 
 
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from texvent.scenes.description import ObjectMotion, SceneDescription, SceneObject
+from texvent.scenes.description import STANDING, ObjectMotion, SceneDescription, SceneObject
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
@@ -120,3 +120,14 @@ def stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         for one in description.relations
     )
     return bool(others) and stand and are_beside
+
+
+def land(scene_object: SceneObject, description: SceneDescription) -> SceneObject:
+    """A plane of which only an airport is said is on the ground there."""
+    islanded = scene_object.noun in _PLANES and description.surroundings.place == "runway"
+    if islanded and scene_object.motion is None:
+        return replace(scene_object, motion=STANDING)
+    return scene_object
+
+
+_PLANES = frozenset({"airplane", "jet plane", "biplane", "fighter jet", "helicopter"})
