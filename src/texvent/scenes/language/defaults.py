@@ -324,7 +324,7 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     one that goes off would leave the others behind.
     """
     resting = {relation.subject for relation in description.relations if relation.kind in _RIDES}
-    resting |= list_posing(description, nouns)
+    resting |= list_posing(description)
     able = () if stays_together(description, nouns) else description.objects
     for index, scene_object in enumerate(able):
         usual = _usual_motion(description, nouns[scene_object.noun])

@@ -18,6 +18,8 @@ from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.grammar.companions import link_companions
 from texvent.scenes.language.grammar.made_of import bring_materials_forward
+from texvent.scenes.language.meaning.animals.acts import read_animal_acts
+from texvent.scenes.language.meaning.animals.characters import stand_upright
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
 from texvent.scenes.language.phrases.compounds import join_compounds
 from texvent.scenes.language.phrases.inherent import read_inherent
@@ -47,6 +49,7 @@ from texvent.scenes.language.words.telegrams import read_telegrams
 from texvent.scenes.language.words.tokens import tokenize_prompt
 from texvent.scenes.language.words.viewpoint import find_means, mark_viewpoints
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.kinds.looks import LOOKS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
 
@@ -89,9 +92,12 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     )
     clauses = read_clauses(words[:MOST_WORDS])
     link_companions(clauses)
+    read_animal_acts(clauses, nouns)
+    notes += stand_upright(clauses, words, nouns)
     for clause in clauses:
         meaning.read(clause)
     description = meaning.build(prompt, words)
+    _name_worn(words, description)
     shown, substituted, unread = _account(words)
     if not meaning.is_anything_shown:
         raise InputError(
@@ -114,6 +120,18 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         notes=(*notes, *description.notes),
     )
     return complete_description(description, nouns, cues)
+
+
+def _name_worn(words: Sequence[Word], description: SceneDescription) -> None:
+    """What a body wears looks as it is called, however it looks where it lies alone."""
+    worn = {n for one in description.relations if one.kind == "wear" for n in one.targets}
+    for word in words:
+        nouns = {description.objects[n].noun for n in word.things} if word.things else set()
+        if len(nouns) != 1 or not worn.issuperset(word.things):
+            continue
+        noun = nouns.pop()
+        if word.shown_as is not None and word.shown_as == LOOKS.get(noun):
+            word.shown_as = noun if word.meaning.is_substitute else None
 
 
 def _join(light: Illumination, said: Illumination) -> Illumination:

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.protocol import Noun
 
 
-def list_posing(description: SceneDescription, nouns: Mapping[str, Noun]) -> set[int]:
-    """People of whom only is said what they hold or wear: they stand and show it.
+def list_posing(description: SceneDescription) -> set[int]:
+    """People, and animals, of whom only is said what they hold or wear: they stand and show it.
 
     What they hold and what is sat on rests, too: "sits on a motorcycle".
     """
     shown = [
         relation
         for relation in description.relations
-        if relation.kind in ("hold", "wear")
-        and nouns[description.objects[relation.subject].noun].name in PERSON_NOUNS
+        if relation.kind == "wear"
+        or (relation.kind == "hold" and description.objects[relation.subject].noun in PERSON_NOUNS)
     ]
     sat_on = [
         relation.targets

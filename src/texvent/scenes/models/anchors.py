@@ -13,7 +13,7 @@ _ON_BOX: dict[str, Point] = {
     "head": (0.36, 0.0, 0.85), "neck": (0.30, 0.0, 0.70), "chest": (0.30, 0.0, 0.55),
     "torso": (0.0, 0.0, 0.50), "back": (0.0, 0.0, 0.85), "seat": (0.0, 0.0, 0.30),
     "right foot": (0.40, -0.20, 0.05), "left foot": (0.40, 0.20, 0.05), "ground": (0.0, 0.0, 0.0),
-    "tail": (-0.48, 0.0, 0.50), "top": (0.0, 0.0, 1.0),
+    "trunk": (0.46, 0.0, 0.72), "tail": (-0.48, 0.0, 0.50), "top": (0.0, 0.0, 1.0),
 }  # fmt: skip
 """Place → share of length, width and height of a box that stands on the ground."""
 

@@ -20,6 +20,7 @@ from texvent.scenes.models.animals import (
     night_animals,
     other_bodies,
     quadrupeds,
+    rare_quadrupeds,
     sea_life,
     small_animals,
     walking_birds,
@@ -69,6 +70,7 @@ from texvent.scenes.models.objects.work import (
     tools,
 )
 from texvent.scenes.models.people import hand, person, wearables
+from texvent.scenes.models.people.creatures import nouns as creatures
 from texvent.scenes.models.people.roles import clothes
 from texvent.scenes.models.people.roles import nouns as roles
 from texvent.scenes.models.protocol import Noun
@@ -98,6 +100,7 @@ _MODULES = (
     quadrupeds,
     more_quadrupeds,
     breeds,
+    rare_quadrupeds,
     other_bodies,
     night_animals,
     crawlers,
@@ -156,6 +159,7 @@ _MODULES = (
     interiors,
     estates,
     helpings,
+    creatures,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}

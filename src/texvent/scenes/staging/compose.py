@@ -55,7 +55,12 @@ from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearan
 from texvent.scenes.staging.surroundings.scenery_along import is_placed_by_view, line_route
 from texvent.scenes.staging.surroundings.scenery_tables import BACKDROPS, SCENERY, ScatterRule
 from texvent.scenes.staging.surroundings.wading import goes_over_shore, list_waders, wade
-from texvent.scenes.staging.surroundings.waterside import STRIPS, WATERSIDE, water_line
+from texvent.scenes.staging.surroundings.waterside import (
+    STRIPS,
+    WATERSIDE,
+    turn_to_water,
+    water_line,
+)
 from texvent.scenes.staging.take import USUAL, Take
 from texvent.sensor import SensorSize
 
@@ -249,7 +254,7 @@ def _set_camera(
     has_lanes = travel is None and PLACES[place].ground in STRIPS and place not in WATERSIDE
 
     def stand(placed: list[Actor]) -> list[Actor]:
-        placed = with_headroom(description, placed)
+        placed = turn_to_water(with_headroom(description, placed), place)
         half = PLACES[place].road_half_width
         if not has_lanes:
             return placed

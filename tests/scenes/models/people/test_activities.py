@@ -15,6 +15,7 @@ from texvent.scenes.models.people.activities import (
     PERSON_NOUNS,
     TRAVELLING,
 )
+from texvent.scenes.models.people.creatures import nouns as creatures
 from texvent.scenes.models.people.gestures import GESTURES, PALM_HALF
 from texvent.scenes.models.people.hand import build_hand
 from texvent.scenes.models.people.hand_gestures import HAND_MOVEMENTS
@@ -226,7 +227,8 @@ def test_ease_and_pulse_by_hand() -> None:
 
 
 def test_people_nouns_are_those_with_limbs() -> None:
-    assert {noun.name for noun in (*person.NOUNS, *nouns.NOUNS)} == PERSON_NOUNS
+    people = (*person.NOUNS, *nouns.NOUNS, *creatures.NOUNS)
+    assert {noun.name for noun in people} == PERSON_NOUNS
 
 
 def test_what_roles_hold_is_of_roles_and_is_left_out_where_the_act_has_it() -> None:

@@ -12,6 +12,7 @@ from texvent.scenes.models.people.activities import (
     HAND_NOUNS,
     PERSON_NOUNS,
 )
+from texvent.scenes.models.people.creatures.names import OF_UPRIGHT
 from texvent.scenes.models.protocol import Noun
 
 ANYTHING = frozenset(
@@ -62,6 +63,11 @@ _BY_MOTION: Mapping[str, frozenset[str]] = MappingProxyType(
 def is_person(noun: Noun) -> bool:
     """Whether it is a person."""
     return noun.name in PERSON_NOUNS
+
+
+def is_upright(noun: Noun) -> bool:
+    """Whether it is an animal, or a toy, with a person's joints."""
+    return noun.name in OF_UPRIGHT
 
 
 def is_hand(noun: Noun) -> bool:

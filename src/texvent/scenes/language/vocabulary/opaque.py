@@ -56,8 +56,8 @@ _TEXT = """
     mask, mouse pad, mousepad, mouse hole, cob web, web site, website, web page,
     ant hill, ant eater, bee line, elephant ear, elephant trunk, frog man, bullfight, bull
     ring, bull whip, horse power, horse hair, oxcart, dog ear, dog tag, dog collar, dog food, dog
-    biscuit, cat food, cat scan, cat eye, lions gate, lion king, tiger lily, tiger balm, turtle
-    neck, turtleneck, snail mail, snake skin, snakeskin, crocodile clip, alligator clip, alligator
+    biscuit, cat food, cat scan, cat eye, lions gate, lion king, tiger lily, tiger balm,
+    snail mail, snake skin, snakeskin, crocodile clip, alligator clip, alligator
     pear, crocodile tear, kite surfer, kite board, bike rack, bike lane, coat hanger, clothes
     hanger, crochet hook, lightning rod, bolt lock, cookie cutter, cookie jar lid, paper cutter,
     cog railway, wheel of fortune, wheel house, wheel clamp, toilet brush, hair roller, hair brush

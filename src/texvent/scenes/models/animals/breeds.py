@@ -8,8 +8,10 @@ from dataclasses import replace
 from functools import partial
 
 from texvent.scenes.models.animals import quadrupeds
-from texvent.scenes.models.animals.quadruped_build import Build, Coat
-from texvent.scenes.models.animals.quadrupeds import CAT, DOG, HORSE, Animal, build_animal
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS
+from texvent.scenes.models.animals.four_legged.animal import Animal, build_animal
+from texvent.scenes.models.animals.four_legged.build import Build, Coat
+from texvent.scenes.models.animals.quadrupeds import CAT, DOG, HORSE
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import BLACK, WHITE, Material, fur, shade
 from texvent.scenes.models.protocol import ModelPart, Noun
@@ -26,7 +28,7 @@ def build_sized(
     return build_animal(animal, colour=colour, scale=scale * size, seed=seed)
 
 
-def _young(animal: Animal, **changes: object) -> Animal:
+def young(animal: Animal, **changes: object) -> Animal:
     """Longer legs, a shorter trunk and a larger head than the grown animal."""
     build = animal.build
     long, wide, tall = build.body
@@ -152,7 +154,7 @@ _DOGS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
     ("bulldog", _dog({"shoulder": 0.42, "body": (0.58, 0.32, 0.30), "head": (0.28, 0.07),
                       "thick": 1.6, "tail": (0.05, 0.3)}, colours=((0.62, 0.50, 0.36),),
                      extras=_belly(WHITE, -0.25)), 0.85, ("french bulldog",)),
-    ("puppy", _young(DOG), 0.48, ("puppy dog", "pup")),
+    ("puppy", young(DOG), 0.48, ("puppy dog", "pup", "baby dog", "young dog")),
 )  # fmt: skip
 
 _CATS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
@@ -163,7 +165,7 @@ _CATS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
      ("orange tabby", "marmalade cat")),
     ("siamese", replace(CAT, colours=((0.70, 0.60, 0.46),), dark=(0.05, 0.03, 0.02),
                         leg_colour=(0.05, 0.03, 0.02)), 1.0, ("siamese cat",)),
-    ("kitten", _young(CAT), 0.55, ("kitty cat",)),
+    ("kitten", young(CAT), 0.55, ("kitty cat", "baby cat", "young cat")),
 )  # fmt: skip
 
 _BROWN_COW = replace(quadrupeds.COW, build=replace(quadrupeds.COW.build, patches=False))
@@ -181,21 +183,21 @@ _PANTHER = replace(
 _LIONESS = replace(quadrupeds.LION, build=replace(quadrupeds.LION.build, mane=""))
 
 _OTHERS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
-    ("calf", _young(replace(quadrupeds.COW, colours=((0.45, 0.22, 0.09),)),
+    ("calf", young(replace(quadrupeds.COW, colours=((0.45, 0.22, 0.09),)),
                     dark=(0.30, 0.15, 0.07)),
-     0.55, ()),
+     0.55, ("baby cow",)),
     ("bull", _BULL, 1.1, ("ox", "steer")),
-    ("foal", _young(HORSE, dark=(0.06, 0.03, 0.02)), 0.58, ("colt", "filly")),
+    ("foal", young(HORSE, dark=(0.06, 0.03, 0.02)), 0.58, ("colt", "filly", "baby horse")),
     ("pony", _PONY, 0.80, ("shetland pony",)),
-    ("piglet", _young(quadrupeds.PIG), 0.45, ()),
-    ("lamb", _young(quadrupeds.SHEEP), 0.50, ()),
-    ("kid goat", _young(quadrupeds.GOAT), 0.50, ("baby goat",)),
-    ("fawn", _young(replace(quadrupeds.DEER, extras=lambda b, c: _sides(
-        b, _SCATTER, 0.12, Material((0.75, 0.66, 0.5))))), 0.55, ()),
+    ("piglet", young(quadrupeds.PIG), 0.45, ("baby pig",)),
+    ("lamb", young(quadrupeds.SHEEP), 0.50, ("baby sheep",)),
+    ("kid goat", young(quadrupeds.GOAT), 0.50, ("baby goat",)),
+    ("fawn", young(replace(quadrupeds.DEER, extras=lambda b, c: _sides(
+        b, _SCATTER, 0.12, Material((0.75, 0.66, 0.5))))), 0.55, ("baby deer",)),
     ("lioness", _LIONESS, 0.95, ()),
-    ("lion cub", _young(_LIONESS), 0.42, ()),
-    ("tiger cub", _young(quadrupeds.TIGER), 0.42, ()),
-    ("bear cub", _young(quadrupeds.BEAR), 0.42, ()),
+    ("lion cub", young(_LIONESS), 0.42, ("baby lion",)),
+    ("tiger cub", young(quadrupeds.TIGER), 0.42, ("baby tiger",)),
+    ("bear cub", young(quadrupeds.BEAR), 0.42, ("baby bear",)),
     ("leopard", _LEOPARD, 0.95, ()),
     ("panther", _PANTHER, 0.95, ("black panther",)),
     ("bison", replace(_BULL, colours=((0.10, 0.05, 0.02),), build=replace(
@@ -210,6 +212,6 @@ _PLURALS = {
 }  # fmt: skip
 NOUNS = tuple(
     Noun(name, partial(build_sized, animal, size), "ground", 1.4, "walk", same,
-         _PLURALS.get(name, ()))
+         _PLURALS.get(name, ()), acts=frozenset(ANIMAL_ACTS))
     for name, animal, size, same in (*_DOGS, *_CATS, *_OTHERS)
 )  # fmt: skip

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from functools import partial
 
-from texvent.scenes.models.animals.flying_birds import SMALL, Plumage, build_flier
+from texvent.scenes.models.animals.flying_birds import BIRD_ACTS, SMALL, Plumage, build_flier
 from texvent.scenes.models.animals.walking_birds import CHICKEN, FLAMINGO, Strider, build_strider
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import Material
@@ -86,7 +86,7 @@ _STRIDERS: tuple[tuple[str, Strider, float, tuple[str, ...]], ...] = (
     ("stork", _STORK, 0.5, ()),
 )
 NOUNS = (
-    *(Noun(name, partial(build_flier, plumage), "air", speed, "fly", same)
+    *(Noun(name, partial(build_flier, plumage), "air", speed, "fly", same, acts=BIRD_ACTS)
       for name, plumage, speed, same in _FLIERS),
     *(Noun(name, partial(build_strider, kind), "ground", speed, "walk", same)
       for name, kind, speed, same in _STRIDERS),

@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
+from texvent.scenes.models.animals.acts import act_stance
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import (
     BLACK,
@@ -25,6 +26,7 @@ from texvent.scenes.models.shapes import (
     part_way,
     spike,
     turn_x,
+    turn_y,
     turn_z,
 )
 from texvent.scenes.models.variation import fraction, paint
@@ -97,17 +99,43 @@ def build_flier(
     start = fraction(seed, "flap")
 
     def articulate(pose: Pose) -> list[ModelPart]:
-        if pose.activity in ("stand", "sit"):
-            return [*_folded(plumage, wing, 1.0), *_folded(plumage, wing, -1.0)]
+        if pose.activity in ("stand", "sit") or pose.activity in BIRD_ACTS:
+            wings = [*_folded(plumage, wing, 1.0), *_folded(plumage, wing, -1.0)]
+            down = act_stance(pose.activity, pose.time_s).head_down
+            return [
+                *moved([*rigid, *wings], turn_y(1.05 * down - _PERCHED)),
+                *_legs(size, beak, 0.0),
+            ]
         turn = 2.0 * math.pi * (plumage.flap_hz * pose.time_s + start)
         inner = plumage.flap * math.sin(turn) + 0.12
         outer = 0.8 * plumage.flap * math.sin(turn - 0.9) - 0.10
         return [
+            *rigid,
             *_wing(plumage, wing, 1.0, (inner, outer)),
             *_wing(plumage, wing, -1.0, (inner, outer)),
+            *_legs(size, beak, 1.0),
         ]
 
-    return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel([], scale=scale, articulate=articulate, is_centred=True)
+
+
+BIRD_ACTS = frozenset({"peck", "eat", "drink", "nod"})
+"""Acts of birds that perch; a bird that does them is on the ground."""
+_PERCHED = 0.75
+"""How far the body of a bird that stands is turned up, rad."""
+
+
+def _legs(size: float, skin: Material, tucked: float) -> list[ModelPart]:
+    """Two legs with their toes; `tucked` 1 = back along the body, as in flight."""
+    parts = []
+    for side in (1.0, -1.0):
+        hip: Point = (-0.04 * size, side * 0.07 * size, -0.08 * size)
+        low: Point = (-0.02 * size, side * 0.07 * size, -0.34 * size)
+        back: Point = (-0.28 * size, side * 0.05 * size, -0.10 * size)
+        foot = part_way(low, back, tucked)
+        toe = (foot[0] + (0.12 - 0.16 * tucked) * size, foot[1], foot[2])
+        parts += [limb(skin, hip, foot, 0.022 * size), limb(skin, foot, toe, 0.018 * size)]
+    return parts
 
 
 def _wing(
@@ -204,13 +232,13 @@ def build_duck(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 NOUNS = (
     Noun(
-        "bird", partial(build_flier, SMALL), "air", 5.0, "fly",
+        "bird", partial(build_flier, SMALL), "air", 5.0, "fly", acts=BIRD_ACTS,
     ),
     Noun(
-        "eagle", partial(build_flier, EAGLE), "air", 9.0, "fly",
+        "eagle", partial(build_flier, EAGLE), "air", 9.0, "fly", acts=BIRD_ACTS,
     ),
-    Noun("gull", partial(build_flier, GULL), "air", 8.0, "fly", ("seagull",)),
-    Noun("parrot", partial(build_flier, PARROT), "air", 5.0, "fly"),
+    Noun("gull", partial(build_flier, GULL), "air", 8.0, "fly", ("seagull",), acts=BIRD_ACTS),
+    Noun("parrot", partial(build_flier, PARROT), "air", 5.0, "fly", acts=BIRD_ACTS),
     Noun("swan", build_swan, "water", 0.5, "paddle"),
     Noun("duck", build_duck, "water", 0.6, "paddle"),
 )  # fmt: skip

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
-from texvent.scenes.models.animals.quadruped_build import Build, Coat
+from texvent.scenes.models.animals.four_legged.animal import Animal
+from texvent.scenes.models.animals.four_legged.build import Build, Coat
+from texvent.scenes.models.animals.four_legged.marks import (
+    big_nose,
+    cheeks,
+    curled_tail,
+    dark_shoulders,
+    eye_patches,
+    mask,
+    pale_front,
+)
 from texvent.scenes.models.animals.quadrupeds import (
     BEAR,
     CAT,
     HORSE,
     PIG,
-    Animal,
     animal_noun,
 )
-from texvent.scenes.models.materials import BLACK, Material, fur
+from texvent.scenes.models.materials import Material
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import ball, limb, spike
+from texvent.scenes.models.shapes import ball, spike
 
 
 def _hump(build: Build, coat: Coat) -> list[ModelPart]:
@@ -50,41 +58,6 @@ def _nose_horn(build: Build, coat: Coat) -> list[ModelPart]:
     return [spike(bone, (x, 0.0, z), (x + 0.10, 0.0, z + 0.48), 0.09)]
 
 
-def _raccoon_marks(build: Build, coat: Coat) -> list[ModelPart]:
-    """A dark mask round the eyes under a pale brow, and dark rings on the tail."""
-    length, _, height = build.body
-    skull, (long, rise) = build.head[0], build.tail
-    x = 0.36 * length + (build.neck + 0.2 * height) * math.cos(build.rise)
-    z = build.shoulder - 0.36 * height + (build.neck + 0.2 * height) * math.sin(build.rise)
-    pale = fur((0.70, 0.68, 0.64))
-    marks = [
-        ball(skin, (x + 0.40 * skull, 0.22 * s * skull, z + up * skull), (0.40 * skull,) * 3)
-        for s in (1.0, -1.0)
-        for skin, up in ((pale, 0.20), (coat.dark, 0.08))
-    ]
-    for share in (0.35, 0.60, 0.85):
-        ring = (-0.46 * length - share * long * math.cos(rise), 0.0,
-                build.shoulder - 0.28 * height + share * long * math.sin(rise))  # fmt: skip
-        marks.append(ball(coat.dark, ring, (0.09 * long, 0.34 * long, 0.36 * long)))
-    return marks
-
-
-def _belt(build: Build, coat: Coat) -> list[ModelPart]:
-    """A panda's dark shoulders."""
-    length, width, height = build.body
-    z = build.shoulder - 0.5 * height
-    dark = fur(BLACK)
-    return [
-        limb(
-            dark,
-            (0.26 * length, 0.0, z - 0.2 * height),
-            (0.26 * length, 0.0, z + 0.2 * height),
-            0.42 * height,
-            side_radius=0.56 * width,
-        )
-    ]
-
-
 def _back_plates(build: Build, coat: Coat) -> list[ModelPart]:
     length, _, height = build.body
     top = build.shoulder
@@ -114,9 +87,11 @@ DONKEY = replace(
     colours=((0.22, 0.20, 0.19),),
 )
 SQUIRREL = Animal(
-    Build(0.15, (0.22, 0.09, 0.11), 0.03, 0.9, (0.075, 0.03), (0.26, 1.35), (0.03, "prick"),
-          stride=0.30, thick=1.1, hop=0.03, bushy_tail=True),
-    ((0.36, 0.13, 0.04), (0.22, 0.20, 0.18)),
+    Build(0.15, (0.20, 0.09, 0.11), 0.025, 0.9, (0.080, 0.025), (0.02, 1.35), (0.035, "prick"),
+          stride=0.30, thick=1.1, hop=0.03),
+    ((0.36, 0.13, 0.04), (0.22, 0.20, 0.18)), face=cheeks((0.72, 0.62, 0.50)),
+    extras=lambda build, coat: [
+        *curled_tail(build, coat), *pale_front((0.72, 0.62, 0.50))(build, coat)],
 )  # fmt: skip
 HEDGEHOG = Animal(
     Build(0.13, (0.22, 0.13, 0.12), 0.01, 0.2, (0.075, 0.05), (0.02, 0.2), (0.022, "round"),
@@ -137,17 +112,26 @@ HAMSTER = Animal(
           stride=0.08, thick=0.9),
     ((0.60, 0.36, 0.14), (0.66, 0.60, 0.52)), dark=(0.60, 0.42, 0.36),
 )  # fmt: skip
-PANDA = replace(BEAR, colours=((0.78, 0.77, 0.74),), dark=(0.02, 0.02, 0.02), extras=_belt,
-                leg_colour=(0.02, 0.02, 0.02))  # fmt: skip
+PANDA = replace(
+    BEAR,
+    build=replace(BEAR.build, head=(0.52, 0.16), ear=(0.20, "round"), neck=0.14,
+                  body=(1.35, 0.72, 0.80)),
+    colours=((0.80, 0.79, 0.76),), dark=(0.02, 0.02, 0.02), leg_colour=(0.02, 0.02, 0.02),
+    ear_colour=(0.02, 0.02, 0.02), muzzle_colour=None, face=eye_patches(), extras=dark_shoulders,
+)  # fmt: skip
 KOALA = replace(
-    BEAR, build=replace(BEAR.build, shoulder=0.42, body=(0.40, 0.30, 0.34), neck=0.08, rise=0.8,
-                        head=(0.30, 0.06), ear=(0.20, "round"), stride=0.5, tail=(0.02, 0.0)),
-    colours=((0.36, 0.35, 0.37),), dark=(0.03, 0.03, 0.03),
+    BEAR, build=replace(BEAR.build, shoulder=0.42, body=(0.40, 0.30, 0.34), neck=0.05, rise=0.7,
+                        head=(0.27, 0.04), ear=(0.22, "wide"), stride=0.5, tail=(0.02, 0.0),
+                        thick=1.7),
+    colours=((0.36, 0.35, 0.37),), dark=(0.03, 0.03, 0.03), muzzle_colour=None, face=big_nose,
+    extras=pale_front((0.74, 0.72, 0.70)),
 )  # fmt: skip
 RACCOON = replace(
-    CAT, build=replace(CAT.build, bushy_tail=True, tail=(0.34, 0.4), ear=(0.05, "round"),
-                       thick=1.4, body=(0.50, 0.22, 0.25)),
-    colours=((0.22, 0.21, 0.20),), dark=(0.03, 0.03, 0.03), extras=_raccoon_marks,
+    CAT, build=replace(CAT.build, bushy_tail=True, tail=(0.36, 0.25), ear=(0.055, "prick"),
+                       thick=1.4, body=(0.44, 0.23, 0.26), head=(0.16, 0.055), shoulder=0.30),
+    colours=((0.30, 0.29, 0.27),), dark=(0.03, 0.03, 0.03), face=mask,
+    leg_colour=(0.06, 0.055, 0.05), muzzle_colour=(0.62, 0.60, 0.56),
+    tail_ring=(0.03, 0.03, 0.03),
 )  # fmt: skip
 RHINO = Animal(
     Build(1.65, (2.60, 1.05, 1.25), 0.30, 0.1, (0.52, 0.42), (0.55, -0.9), (0.18, "prick"),

@@ -2,69 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
-from texvent.scenes.models.animals.quadruped_body import draw_animal
-from texvent.scenes.models.animals.quadruped_build import Build, Coat
-from texvent.scenes.models.articulated_model import ArticulatedModel
-from texvent.scenes.models.materials import (
-    BLACK,
-    WHITE,
-    Material,
-    checked,
-    fur,
-    shade,
-    striped,
-)
-from texvent.scenes.models.protocol import ModelPart, Noun
-from texvent.scenes.models.variation import paint
-from texvent.scenes.scene import Colour
-
-
-@dataclass(frozen=True)
-class Animal:
-    """One kind of four-legged animal."""
-
-    build: Build
-    colours: tuple[Colour, ...]
-    """Usual coats; the seed picks one."""
-    pattern: str = "plain"
-    """ "plain", "stripes", "checks"."""
-    second_colour: Colour = BLACK
-    """Of stripes or checks."""
-    checks: float = 2.6
-    """Repeats of the checks per half body part."""
-    dark: Colour | None = None
-    """Muzzle, mane and tail; None = a darker shade of the coat."""
-    hoof: Colour = (0.03, 0.025, 0.02)
-    leg_colour: Colour | None = None
-    extras: Callable[[Build, Coat], list[ModelPart]] | None = None
-    """What else goes with the trunk: humps, spines."""
-
-
-def build_animal(
-    animal: Animal, *, colour: Colour | None, scale: float, seed: int
-) -> ArticulatedModel:
-    """Make a four-legged animal; `colour` is its coat."""
-    hue = paint(colour, seed, "coat", animal.colours)
-    coat_fur = fur(hue)
-    trunk, limbs = coat_fur, coat_fur
-    if animal.pattern == "stripes":
-        trunk = striped(hue, animal.second_colour, 2.5)
-        limbs = striped(hue, animal.second_colour, 2.0)
-    elif animal.pattern == "checks":
-        trunk = checked(hue, animal.second_colour, animal.checks)
-    dark = animal.dark if animal.dark is not None else shade(hue, 0.45)
-    legs = fur(animal.leg_colour) if animal.leg_colour is not None else None
-    coat = Coat(trunk=trunk, limbs=limbs, dark=fur(dark), hoof=Material(animal.hoof), legs=legs)
-    extras = animal.extras(animal.build, coat) if animal.extras is not None else ()
-    # A white cow has no patches, and no brown one.
-    build = animal.build if colour is None else replace(animal.build, patches=False)
-    return draw_animal(build, coat, scale=scale, seed=seed, extras=extras)
-
+from texvent.scenes.models.animals.four_legged.animal import Animal, build_animal
+from texvent.scenes.models.animals.four_legged.build import Build
+from texvent.scenes.models.animals.four_legged.marks import cheeks, hump, snout, whiskers
+from texvent.scenes.models.materials import BLACK, WHITE
+from texvent.scenes.models.protocol import Noun
 
 DOG = Animal(
     Build(
@@ -91,6 +37,7 @@ CAT = Animal(
         waist=0.85,
     ),
     ((0.45, 0.22, 0.07), (0.20, 0.20, 0.21), (0.025, 0.025, 0.028)),
+    face=whiskers,
 )
 FOX = Animal(
     Build(
@@ -105,6 +52,8 @@ FOX = Animal(
     ),
     ((0.55, 0.17, 0.03),),
     dark=(0.06, 0.03, 0.02),
+    leg_colour=(0.06, 0.03, 0.02),
+    face=cheeks((0.80, 0.76, 0.70)),
 )
 WOLF = Animal(
     Build(
@@ -118,6 +67,7 @@ WOLF = Animal(
         bushy_tail=True,
     ),
     ((0.24, 0.22, 0.20),),
+    face=cheeks((0.55, 0.53, 0.50)),
 )
 HORSE = Animal(
     Build(
@@ -206,15 +156,16 @@ LION = Animal(
         (1.45, 0.40, 0.48),
         0.28,
         0.55,
-        (0.34, 0.18),
+        (0.36, 0.20),
         tail=(0.85, -0.7),
-        ear=(0.09, "prick"),
+        ear=(0.13, "round"),
         stride=1.8,
         thick=1.15,
         mane="full",
     ),
     ((0.52, 0.33, 0.13),),
-    dark=(0.16, 0.065, 0.02),
+    dark=(0.22, 0.10, 0.03),
+    face=cheeks((0.72, 0.60, 0.42)),
 )
 TIGER = Animal(
     Build(
@@ -231,7 +182,9 @@ TIGER = Animal(
     ((0.62, 0.24, 0.03),),
     pattern="stripes",
     second_colour=(0.03, 0.02, 0.015),
-    dark=WHITE,
+    dark=(0.45, 0.22, 0.18),
+    muzzle_colour=WHITE,
+    face=cheeks(WHITE),
 )
 CHEETAH = Animal(
     Build(
@@ -306,23 +259,34 @@ PIG = Animal(
     ),
     ((0.72, 0.40, 0.36),),
     dark=(0.62, 0.28, 0.26),
+    face=snout((0.66, 0.32, 0.30)),
 )
 BEAR = Animal(
     Build(
-        1.05,
-        (1.55, 0.62, 0.72),
-        0.24,
-        0.45,
-        (0.38, 0.24),
+        1.02,
+        (1.45, 0.66, 0.74),
+        0.22,
+        0.40,
+        (0.46, 0.22),
         tail=(0.10, -0.5),
-        ear=(0.12, "round"),
+        ear=(0.17, "round"),
         stride=1.7,
-        thick=1.7,
+        thick=1.9,
     ),
-    ((0.11, 0.055, 0.025),),
-    dark=(0.20, 0.12, 0.07),
+    ((0.19, 0.095, 0.040),),
+    dark=(0.04, 0.025, 0.02),
+    muzzle_colour=(0.36, 0.22, 0.11),
+    extras=hump,
 )
-POLAR_BEAR = replace(BEAR, colours=((0.76, 0.73, 0.64),), dark=(0.05, 0.045, 0.04))
+BLACK_BEAR = replace(BEAR, colours=((0.022, 0.020, 0.020),), muzzle_colour=(0.34, 0.20, 0.09))
+POLAR_BEAR = replace(
+    BEAR,
+    build=replace(BEAR.build, neck=0.34, head=(0.40, 0.26), ear=(0.11, "round")),
+    colours=((0.78, 0.76, 0.69),),
+    dark=(0.03, 0.03, 0.03),
+    muzzle_colour=None,
+    extras=None,
+)
 RABBIT = Animal(
     Build(
         0.20,
@@ -374,6 +338,7 @@ NOUNS = (
     animal_noun("sheep", SHEEP, 0.9, ("ewe",), ("sheep",)),
     animal_noun("pig", PIG, 0.9),
     animal_noun("bear", BEAR, 1.3, ("brown bear",)),
+    animal_noun("black bear", BLACK_BEAR, 1.3, ("american black bear",)),
     animal_noun("polar bear", POLAR_BEAR, 1.3),
     animal_noun("rabbit", RABBIT, 1.2, ("bunny",)),
 )

@@ -45,7 +45,7 @@ ANIMAL_KINDS: dict[str, str] = {
     "tiger": "tigress, siberian tiger, bengal tiger",
     "cheetah": "snow leopard, lynx, bobcat, serval",
     "bear": """
-        american black bear, sloth bear, grizzly bear, grizzly, spectacled
+        sloth bear, grizzly bear, grizzly, spectacled
         bear, kodiak, anteater, wombat""",
     "polar bear": "ice bear",
     "horse": """
@@ -58,19 +58,19 @@ ANIMAL_KINDS: dict[str, str] = {
     "goat": "billy goat, ibex, mountain goat, chamois, nanny goat",
     "pig": "hog, boar, wild boar, warthog, sow, swine, hogget, tapir",
     "deer": """
-        doe, buck, elk, moose, antelope, gazelle, impala, hartebeest, white tailed deer,
+        doe, buck, antelope, gazelle, impala, hartebeest, white tailed deer,
         roe deer, gnu, wildebeest, stag deer, sika deer, okapi, oryx, red deer,
         springbok, eland, muskox, kudu""",
-    "camel": "arabian camel, bactrian camel, dromedary, llama, alpaca",
-    "elephant": "indian elephant, african elephant, tusker, elephant calf, mammoth",
+    "camel": "arabian camel, bactrian camel, dromedary",
+    "elephant": "indian elephant, african elephant, tusker, mammoth",
     "rabbit": "hare, wood rabbit, angora, cottontail, jackrabbit",
     "squirrel": """
         fox squirrel, chipmunk, marmot, prairie dog, ground squirrel, groundhog, ferret,
-        weasel, otter, sea otter, mink, mongoose, meerkat, stoat, beaver""",
+        weasel, mink, mongoose, stoat""",
     "mouse": "field mouse, rodent, vole, gerbil",
     "hamster": "guinea pig, cavy",
     "hedgehog": "porcupine, echidna, armadillo, pangolin",
-    "raccoon": "red panda, lesser panda, badger, coati, skunk",
+    "raccoon": "lesser panda, coati",
     "monkey": """
         macaque, baboon, langur, colobus, proboscis monkey, marmoset, capuchin, titi,
         howler monkey, spider monkey, squirrel monkey, guenon, patas, rhesus monkey,

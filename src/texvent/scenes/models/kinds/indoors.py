@@ -92,7 +92,7 @@ INDOOR_KINDS: dict[str, str] = {
         uniform shirt, plaid shirt, polo shirt, tank  flannel shirt, undershirt,
           hawaiian shirt""",
     "jacket": """
-        denim jacket, leather jacket, winter jacket, ski jacket, parka, life jacket,
+        denim jacket, leather jacket, winter jacket, ski jacket, parka,
         armor, armour, windbreaker, bomber jacket, anorak, rain jacket""",
     "cap": "graduation cap, swim cap, swimming cap, headband, visor, nurse cap, flat cap",
     "glove": "boxing mitts, rubber glove, gardening glove, work glove, ski glove",
@@ -103,6 +103,7 @@ INDOOR_KINDS: dict[str, str] = {
     "mask": """
         face mask, welding mask, gas mask, carnival mask, oxygen mask, ski mask, dust
         mask, halloween mask, fencing mask""",
+    "sweater": "turtleneck, turtleneck sweater, knitted sweater, knit sweater, turtle neck",
     "helmet": "bike helmet, ski helmet, riding helmet, construction helmet",
     "scarf": "veil, headscarf, neckerchief",
     "shoe": """

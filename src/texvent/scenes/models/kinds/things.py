@@ -212,7 +212,7 @@ THING_KINDS: dict[str, str] = {
     "soda can": "beer can, spray can",
     "pen": "fountain pen, quill pen, felt pen, marker",
     "jacket": "blazer",
-    "vest": "waistcoat",
+    "vest": "waistcoat, lifejacket, life jacket, life vest",
     "scarf": "shawl, bandana",
     "crown": "tiara",
     "hand": "finger, fist",

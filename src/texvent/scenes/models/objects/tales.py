@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from texvent.scenes.models.animals.quadruped_build import Build, Coat
-from texvent.scenes.models.animals.quadrupeds import HORSE, build_animal
+from texvent.scenes.models.animals.four_legged.animal import build_animal
+from texvent.scenes.models.animals.four_legged.build import Build, Coat
+from texvent.scenes.models.animals.quadrupeds import HORSE
 from texvent.scenes.models.materials import WHITE, Material, glowing, scales, striped
 from texvent.scenes.models.objects.figures import Moving, chain, disc, ring, swinging, thing, toned
 from texvent.scenes.models.objects.palette import INK, PALE, YELLOW_PAINT

@@ -17,6 +17,7 @@ from texvent.scenes.models.people.acts.activity import (
     sign,
 )
 from texvent.scenes.models.people.acts.words import MORE_ACTIVITIES
+from texvent.scenes.models.people.creatures.names import OF_UPRIGHT
 from texvent.scenes.models.people.pastimes.words import PASTIMES
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
@@ -281,8 +282,10 @@ _ROLES = """
     elderly person, elderly
     woman, baby, toddler, teenager, schoolboy, schoolgirl, student, robot
 """
-PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "girl", "runner", "worker"}).union(
-    " ".join(name.split()) for name in _ROLES.split(",")
+PERSON_NOUNS = (
+    frozenset({"person", "man", "woman", "child", "girl", "runner", "worker"})
+    .union(" ".join(name.split()) for name in _ROLES.split(","))
+    .union(OF_UPRIGHT)
 )
 """Nouns whose models take every posture of `ACTIVITIES`."""
 HAND_NOUNS = frozenset({"hand"})

@@ -38,6 +38,8 @@ def draw_figure(kind: PersonKind, outfit: Outfit, joints: Skeleton) -> list[Mode
         parts += draw_arm(outfit, joints.shoulders[side], joints.elbows[side], joints.hands[side])
     for side in (0, 1):
         parts += _leg(outfit, joints, side)
+    if kind.creature is not None:
+        parts += kind.creature.draw_body(kind, outfit, joints)
     for name, material in outfit.garments:
         parts += GARMENTS[name](material, joints)
     return parts
@@ -60,6 +62,9 @@ def draw_head(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
     """Neck, head, face, hair and hat above the base of the neck."""
     x, y, z = neck
     size = HEAD_SIZE * kind.head
+    if kind.creature is not None and outfit.coat is not None:
+        parts = moved(kind.creature.draw_head(outfit.coat, size), shift(x, y, z))
+        return [*parts, *_draw_hat(kind, outfit, neck)]
     middle = z + 0.09 + 0.5 * size
     front = x + 0.02 + 0.41 * size
     hair = 0.92 if kind.hat != "helmet" else 0.80
@@ -84,14 +89,24 @@ def draw_head(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
         parts.append(ball(outfit.skin, ear, (0.05, 0.025, 0.07)))
     if kind.long_hair:
         parts.append(ball(outfit.hair, (x - 0.07, y, z + 0.06), (0.13, 0.20, 0.36)))
+    return [*parts, *_draw_hat(kind, outfit, neck)]
+
+
+def _draw_hat(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
+    """A hat in its place on the head, or what else its kind has there."""
+    x, y, z = neck
+    size = HEAD_SIZE * kind.head
+    middle = z + 0.09 + 0.5 * size
     if kind.hat == "helmet":
         yellow = Material(YELLOW)
-        parts.append(ball(yellow, (x + 0.01, y, middle + 0.30 * size), (0.28, 0.25, 0.22)))
-        parts.append(ball(yellow, (x + 0.05, y, middle + 0.34 * size), (0.38, 0.30, 0.05)))
-    elif kind.hat and outfit.hat is not None:
-        material = outfit.hair if kind.hat in _OF_HAIR else outfit.hat
-        parts += moved(HATS[kind.hat](material, size), shift(x, y, z))
-    return parts
+        return [
+            ball(yellow, (x + 0.01, y, middle + 0.30 * size), (0.28, 0.25, 0.22)),
+            ball(yellow, (x + 0.05, y, middle + 0.34 * size), (0.38, 0.30, 0.05)),
+        ]
+    if not kind.hat or outfit.hat is None:
+        return []
+    material = outfit.hair if kind.hat in _OF_HAIR else outfit.hat
+    return moved(HATS[kind.hat](material, size), shift(x, y, z))
 
 
 _OF_HAIR = ("beard", "bun", "pigtails", "ponytail")
@@ -121,7 +136,7 @@ def draw_arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list
     tips = part_way(elbow, palm, 1.16)
     thick = outfit.bulk
     return [
-        limb(outfit.shirt, shoulder, elbow, 0.055 * thick),
+        limb(outfit.sleeves or outfit.shirt, shoulder, elbow, 0.055 * thick),
         limb(outfit.forearms or outfit.skin, elbow, wrist, 0.040 * thick),
         limb(outfit.hands or outfit.skin, wrist, tips, 0.042, side_radius=0.034),
     ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from texvent.scenes.models.materials import (
     CLOTH_COLOURS,
@@ -18,6 +19,10 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.variation import choose, paint
 from texvent.scenes.scene import Colour
+
+if TYPE_CHECKING:
+    from texvent.scenes.models.animals.four_legged.build import Coat
+    from texvent.scenes.models.people.creatures.creature import Creature
 
 
 @dataclass(frozen=True)
@@ -53,6 +58,9 @@ class PersonKind:
     """Thickness of torso and limbs relative to an adult's."""
     shells: tuple[Colour, ...] = ()
     """Colours of the metal or plastic that a robot consists of; () = skin and clothes."""
+    creature: Creature | None = None
+    """The animal whose head, coat and paws it has; then no shirts, and None as the trousers, are
+    what is not worn."""
 
 
 @dataclass(frozen=True)
@@ -69,6 +77,10 @@ class Outfit:
     """None = the skin."""
     hands: Material | None = None
     """None = the skin."""
+    sleeves: Material | None = None
+    """Of the upper arms; None = the shirt."""
+    coat: Coat | None = None
+    """Of an upright animal."""
     hat: Material | None = None
     garments: Sequence[tuple[str, Material]] = ()
     bulk: float = 1.0
@@ -84,6 +96,8 @@ WORKER = PersonKind(hat="helmet", shirts=(ORANGE,))
 
 def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfit:
     """Choose skin, hair and clothes."""
+    if kind.creature is not None:
+        return kind.creature.dress(kind, colour=colour, seed=seed)
     if kind.shells:
         return _build_shell(kind, colour=colour, seed=seed)
     flesh = skin(choose(seed, "skin", SKIN_TONES))

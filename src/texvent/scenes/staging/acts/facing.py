@@ -27,6 +27,8 @@ _SWAY_M = {"wrestle": 0.12, "tug of war": 0.16, "box": 0.06}
 """How far two push or pull each other to and fro, m."""
 _SWAY_HZ = 0.45
 _TUGGING = "tug of war"
+_OF_ANIMALS = ("fight", _TUGGING)
+"""What two animals do before each other."""
 _ROPE_SHARE, _ROPE_M = 0.22, 0.03
 """Half of the rope between two animals, in their lengths, and its radius in their heights."""
 _TIED = frozenset({"at", "on", "in", "work on", "ride", "ride along", "push", "pull", "give"})
@@ -88,10 +90,12 @@ def face_each_other(cast: Cast, numbers: list[int]) -> None:
     for number in numbers:
         actor = cast.get(number)
         path = actor.trajectory
-        is_able = is_person(actor) or (isinstance(path, Stationary) and path.activity == _TUGGING)
+        is_able = is_person(actor) or (
+            isinstance(path, Stationary) and path.activity in _OF_ANIMALS
+        )
         if not (isinstance(path, Stationary) and is_able):
             continue
-        kind = path.activity if path.activity in PAIR_GAPS else ""
+        kind = path.activity if path.activity in (*PAIR_GAPS, *_OF_ANIMALS) else ""
         if not kind or kind in ("give", "receive"):
             continue
         if kind not in waiting:
@@ -193,7 +197,7 @@ def _face(one: Actor, other: Actor, kinds: tuple[str, str]) -> tuple[Actor, Acto
     places = [np.array(actor.trajectory.at(0.0).position) for actor in (one, other)]
     x, y, z = (float(value) for value in 0.5 * (places[0] + places[1]))
     size = 0.5 * (size_of(one.model) + size_of(other.model))
-    half = 0.5 * PAIR_GAPS[kinds[0]] * size
+    half = 0.5 * PAIR_GAPS.get(kinds[0], 1.0) * size
     if not is_person(one):
         half = 0.25 * (one.model.length + other.model.length) + _ROPE_SHARE * one.model.length
     is_left = places[0][0] <= places[1][0]

@@ -9,8 +9,14 @@ from types import MappingProxyType
 
 import numpy as np
 
+from texvent.scenes.models.animals.four_legged.clothing import (
+    has_fitting_head,
+    share_of_head,
+    wears_on_trunk,
+)
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
+from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
@@ -83,12 +89,25 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     """Both, the thing at its place on the body; None for clothes, which the body has on."""
     if target.noun.name in GARMENTS and (is_person(subject) or subject.noun.motion == "drive"):
         return subject, None  # who rides a bicycle is of its model, in clothes of that
+    if wears_on_trunk(subject.noun, target.noun.name):
+        return subject, None
     place = WORN.get(target.noun.name, Wear("crown"))
     if place.place in ("foot", "hand"):
         side = "left" if target.instance % 2 else "right"
         place = replace(place, place=f"{side} {place.place}")
+    if place.place in _AT_ANIMALS_HEAD and has_fitting_head(subject.noun):
+        share = _LARGER * share_of_head(subject.model)
+        target = replace(target, model=Enlarged(target.model, share))
+        x, y, z = place.shift
+        factor = share / size_of(subject.model)
+        place = replace(place, shift=(factor * x, factor * y, factor * z))
     held = HeldAt(subject, place.place, offset_of_worn(place, subject, target))
     return subject, _carried(target, held, subject)
+
+
+_LARGER = 1.25
+"""How much larger than it fits what an animal has on its head is, so that it is seen."""
+_AT_ANIMALS_HEAD = frozenset({"crown", "face", "head", "neck"})
 
 
 def lead(subject: Actor, target: Actor) -> tuple[Actor, Actor]:

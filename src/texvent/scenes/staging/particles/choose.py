@@ -73,6 +73,7 @@ _AIMS: dict[str, tuple[float, float, float]] = {
     "kettle": (0.0, -1.0, 0.1),
     "watering can": (0.0, -1.0, 0.3),
     "hose": (0.0, 1.0, 0.6),
+    "elephant": (-0.8, 0.0, 0.35),
 }
 """Where water leaves a noun to, in its body coordinates."""
 _USUAL_ANCHOR: dict[str, tuple[float, float, float]] = {
@@ -357,8 +358,16 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     if kind in BREATHED and actor.noun.name in PERSON_NOUNS:
         mouth = locate(model, "mouth", actor.pose(0.0))
         return Source(size, np.asarray(mouth @ [0.12 * _bulk(actor), 0.0, 0.0, 1.0]), actor)
+    trunk = actor.noun.name == "elephant" and kind in ("spray", "fountain", "splash")
+    if trunk:
+        tip = locate(model, "trunk", actor.pose(0.3))
+        return Source(_TRUNK_SHARE * _bulk(actor), np.asarray(tip[:, 3]), actor)
     place = np.array([0.5 * x * model.length, 0.5 * y * model.width, low + z * model.height])
     return Source(size, place, actor)
+
+
+_TRUNK_SHARE = 0.9
+"""Size of what comes from an elephant's trunk, relative to the elephant."""
 
 
 def gone(to_world: Float64Array) -> Float64Array:

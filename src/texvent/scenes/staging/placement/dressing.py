@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import STANDING, SceneDescription
+from texvent.scenes.models.animals.four_legged.clothing import TRUNK_CLOTHES, clothe
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS
 from texvent.scenes.models.people.acts.prop_shapes import Prop
@@ -30,19 +31,20 @@ _BUSY: dict[str, tuple[str, ...]] = {
 
 
 def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
-    """The noun of an object, a person or a rider in what the prompt says that it wears."""
+    """The noun of an object, a person, a rider or an animal in what it is said to wear."""
     objects = description.objects
     noun = nouns[objects[index].noun]
-    if noun.name not in PERSON_NOUNS | _WITH_RIDER:
-        return noun
+    is_animal = noun.name not in PERSON_NOUNS | _WITH_RIDER
     worn = [
         (objects[target].noun, colour.rgb if colour is not None else None)
         for one in description.relations
         if one.kind == "wear" and one.subject == index
         for target in one.targets
         for colour in (objects[target].colour,)
-        if objects[target].noun in DRESSED
+        if objects[target].noun in (TRUNK_CLOTHES if is_animal else DRESSED)
     ]
+    if is_animal and worn:
+        return clothe(noun, worn)
     return dress(noun, worn) if worn else noun
 
 

@@ -269,7 +269,9 @@ class ObjectPlacer:
     def _height(self, group: ObjectGroup) -> float:
         """Height of the group's origin, m."""
         kind = group.plan.motion.kind
-        rests = kind in _RESTING and group.noun.name not in self._level_m
+        rests = (
+            kind in _RESTING or kind in group.noun.acts
+        ) and group.noun.name not in self._level_m
         lifts = kind in ("rise", "sink") and self._level_m.get("air", 0.0) > 0.0
         if (rests or lifts) and is_centred(group.noun) and group.noun.habitat == "air":
             return -lowest_point(group.models[0])

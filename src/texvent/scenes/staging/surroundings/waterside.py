@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.attached import HeldAt
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.trajectories.trajectory import Stationary
 
 STRIPS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY, Ground.RIVER)
 """Grounds with a strip that scenery keeps off."""
@@ -53,6 +56,9 @@ def water_line(
     if goes_over_shore or not actors:
         # It is met half way, or all that there is to see.
         gap = half_width if place == "river" else 0.0
+    elif not swimmers and (drinkers := [one for one in actors if _drinks(one)]):
+        reach = min(_edge_of(one, angle, (x, y)) for one in drinkers)
+        gap = reach + (half_width if place == "river" else 0.0)
     elif not swimmers:
         gap = _GAP * distance + (half_width if place == "river" else 0.0) + 1.0
     elif place == "river":
@@ -65,3 +71,43 @@ def water_line(
         gap = -0.45 * distance
     across = angle + 0.5 * math.pi
     return RoadLine(angle, (x + gap * math.cos(across), y + gap * math.sin(across)))
+
+
+def turn_to_water(actors: Sequence[Actor], place: str) -> list[Actor]:
+    """Animals that drink where they stand face the water, which lies behind them.
+
+    Args:
+        actors: the objects of the prompt, as they are placed.
+        place: where they are.
+    """
+    if place not in WATERSIDE:
+        return list(actors)
+    return [_turned(actor) if _drinks(actor) else actor for actor in actors]
+
+
+_AWAY_RAD = 0.5
+"""Heading of who drinks: to the right or the left, and away from the camera."""
+_WET_SHARE = 0.08
+"""How far the water reaches before the mouth, as a share of the animal's length."""
+
+
+def _drinks(actor: Actor) -> bool:
+    path = actor.trajectory
+    is_animal = actor.noun.name not in PERSON_NOUNS
+    return is_animal and isinstance(path, Stationary) and path.activity == "drink"
+
+
+def _turned(actor: Actor) -> Actor:
+    path = actor.trajectory
+    if not isinstance(path, Stationary):
+        return actor
+    yaw = _AWAY_RAD if math.cos(path.yaw) >= 0.0 else math.pi - _AWAY_RAD
+    return replace(actor, trajectory=replace(path, yaw=yaw))
+
+
+def _edge_of(actor: Actor, angle: float, middle: tuple[float, float]) -> float:
+    """How far behind a point the water begins at which an animal drinks, m."""
+    x, y, _ = (float(value) for value in actor.anchor("mouth", 0.0)[:, 3])
+    across = angle + 0.5 * math.pi
+    way = (x - middle[0]) * math.cos(across) + (y - middle[1]) * math.sin(across)
+    return way - _WET_SHARE * actor.model.length

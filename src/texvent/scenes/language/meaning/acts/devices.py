@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
+from texvent.scenes.language.meaning.acts.sequence import add_motion
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -34,6 +35,8 @@ def give_effect(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
     clause.verb_word.is_used = True
     for index in subjects:
         draft.effects.append(Effect(kind, source=index))
+        if kind == "spray" and draft.noun(index).name == "elephant":
+            add_motion(draft, index, ObjectMotion(kind), clause)  # its trunk goes up
     return True
 
 

@@ -382,7 +382,7 @@ class ActReader:
                 is_same = verb.relation == "follow" or fitting.kind in MANOEUVRES
                 is_same |= verb.base in SEEN_AS_SAID
                 is_same |= verb.kind == "drive" and noun.name in WHEELED
-                is_same |= verb.base == "sit" and noun.name not in DOLLS  # "a vase sits there"
+                is_same |= verb.base == "sit" and noun.name not in DOLLS - _SITTING  # "a vase sits"
                 throw_up_earth(self._draft, fitting.kind, verb, index)
                 if fitting is not verb and not is_same:
                     word.shown_as = noun.motion if fitting.kind == "move" else fitting.kind
@@ -390,6 +390,8 @@ class ActReader:
         return added
 
 
+_SITTING = frozenset({"teddy bear"})
+"""Toys whose models sit."""
 _GOING = frozenset({"to", "towards", "toward", "across", "along", "through", "past", "into"})
 """Prepositions of who goes somewhere with what it carries."""
 _COMING = frozenset({"move", "bring"})

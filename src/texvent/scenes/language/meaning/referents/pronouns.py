@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.scenes.language.grammar.syntax import NounGroup
-from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.capabilities import is_living, is_person, is_upright
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.words.english import Pos
+from texvent.scenes.models.protocol import Noun
 
 _NEVER = {
     **dict.fromkeys(("him", "he", "his"), ("woman", "girl")),
@@ -78,7 +79,7 @@ class Antecedents:
                 return list(things)
         if first and pronoun in (*OF_ONE_PERSON, "it"):
             is_alive = is_living(self._draft.noun(first[0]))
-            is_meant = is_alive if pronoun != "it" else not is_person(self._draft.noun(first[0]))
+            is_meant = is_alive if pronoun != "it" else _is_it(self._draft.noun(first[0]))
             return list(first) if is_meant and not self.lost_person else []
         return list(first)
 
@@ -91,5 +92,10 @@ class Antecedents:
             is_other = noun.name in _NEVER.get(pronoun, ())
             return not is_plural and is_living(noun) and not is_other
         if pronoun == "it":
-            return not is_plural and not is_person(self._draft.noun(things[0]))
+            return not is_plural and _is_it(self._draft.noun(things[0]))
         return is_plural
+
+
+def _is_it(noun: Noun) -> bool:
+    """Whether "it" may mean it: no person, but an animal in a person's shape."""
+    return not is_person(noun) or is_upright(noun)

@@ -84,6 +84,10 @@ NOUNS = placed("indoor", (
         post(toned(p, 1.6), (0.0, 0.0, 0.0805), (0.184, 0.184, 0.003)),
         post(toned(p, 0.6), (0.0, 0.004, 0.081), (0.15, 0.15, 0.004))],
         ("mixing bowl", "cereal bowl")),
+    thing("water bowl", _GLAZES, lambda p: [
+        *lathe(p, [(0.0, 0.12), (0.03, 0.125), (0.06, 0.105), (0.08, 0.10)], 9),
+        post(Material((0.20, 0.42, 0.60)), (0.0, 0.0, 0.079), (0.19, 0.19, 0.004))],
+        ("bowl of water", "water dish"), plurals=("bowls of water",)),
     thing("plate", (CHINA,), lambda p: [
         post(toned(p, 0.8), (0.0, 0.0, 0.006), (0.15, 0.15, 0.012)),
         post(p, (0.0, 0.0, 0.014), (0.26, 0.26, 0.010)),

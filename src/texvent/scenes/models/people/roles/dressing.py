@@ -8,6 +8,7 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any
 
+from texvent.scenes.models.materials import CLOTH_COLOURS
 from texvent.scenes.models.people.outfit import PersonKind
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import Colour
@@ -79,8 +80,25 @@ def dress(noun: Noun, worn: Iterable[tuple[str, Colour | None]]) -> Noun:
     build: Any = noun.build
     kind: PersonKind = build.args[0]
     for name, colour in worn:
-        kind = _put_on(kind, name, colour)
+        kind = _put_on(kind if kind.creature is None else _cover(kind, name), name, colour)
     return replace(noun, build=partial(build.func, kind))
+
+
+def _cover(kind: PersonKind, name: str) -> PersonKind:
+    """An upright animal's garment in its usual colours; the rest of it stays bare."""
+    if name in _TOPS and not kind.shirts:
+        kind = replace(kind, shirts=CLOTH_COLOURS)
+    if name == "dress":
+        return replace(kind, garments=(*kind.garments, ("skirt", None)))
+    if name in _BELOW and kind.trousers is None:
+        kind = replace(kind, trousers=_USUAL.get(name, _DENIM))
+    return kind
+
+
+_TOPS = frozenset({*_SLEEVED, "shirt", "dress", "skirt", "tutu"})
+"""Garments that cover chest and arms; a skirt has the shirt's cloth."""
+_BELOW = frozenset({*_SUITS, "trousers", "shorts", "overalls"})
+_DENIM: Colour = (0.05, 0.11, 0.26)
 
 
 def _put_on(kind: PersonKind, name: str, colour: Colour | None) -> PersonKind:
@@ -97,9 +115,9 @@ def _put_on(kind: PersonKind, name: str, colour: Colour | None) -> PersonKind:
         hue = colour or _USUAL[name]
         kind = replace(kind, shirts=(hue,), trousers=hue, dress="trousers")
     elif name == "shorts":
-        kind = replace(kind, dress="shorts", trousers=colour)
+        kind = replace(kind, dress="shorts", trousers=colour or kind.trousers)
     elif name == "trousers":
-        kind = replace(kind, dress="trousers", trousers=colour)
+        kind = replace(kind, dress="trousers", trousers=colour or kind.trousers)
     elif name == "dress":
         kind = replace(kind, dress="skirt", garments=kind.garments[:-1])
     elif colour is not None and name not in ("apron", "cape", "skirt", "tutu", "overalls"):

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from texvent.scenes.models.materials import Material
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.shapes import Point
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ class Build:
     tail: tuple[float, float]
     """Length, and angle above horizontal at its root, radians."""
     ear: tuple[float, str]
-    """Length; "prick", "flop", "side", "round", "long" or "fan"."""
+    """Length; "prick", "flop", "side", "round", "wide", "long" or "fan"."""
     stride: float = 0.0
     """Distance of one cycle of steps; 0 = 1.5 times the shoulder height."""
     thick: float = 1.0
@@ -45,6 +48,10 @@ class Build:
     """Height of the hind trunk relative to the chest."""
 
 
+FaceDraw = Callable[[Build, Point], list[ModelPart]]
+"""Marks of a face on a head whose neck ends at that point."""
+
+
 @dataclass(frozen=True)
 class Coat:
     """Surfaces of one animal."""
@@ -55,3 +62,10 @@ class Coat:
     hoof: Material
     legs: Material | None = None
     """None = as the limbs, which neck and head belong to."""
+    muzzle: Material | None = None
+    """None = as the face."""
+    ears: Material | None = None
+    """None = as the limbs, or dark."""
+    tail: Material | None = None
+    """None = as the limbs."""
+    face: FaceDraw | None = None

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
-from texvent.scenes.models.animals.acts import STANDING, Stance, act_stance, lowered
-from texvent.scenes.models.animals.quadruped_build import Build, Coat
+from texvent.scenes.models.animals.acts import STANDING, Stance, act_stance, by_trunk, lowered
+from texvent.scenes.models.animals.four_legged.build import Build, Coat
+from texvent.scenes.models.animals.four_legged.head import NOSE, draw_head
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
 from texvent.scenes.models.materials import (
     BLACK,
-    WHITE,
     Material,
     fur,
 )
@@ -29,10 +30,8 @@ from texvent.scenes.models.shapes import (
     part_way,
     rod,
     shift,
-    spike,
     turn_x,
     turn_y,
-    turn_z,
 )
 from texvent.scenes.models.variation import fraction
 
@@ -58,42 +57,61 @@ def draw_animal(
         turn = 2.0 * math.pi * distance / gait.stride
         rise = amount * _bob(build, turn, runs)
         sits, lies = lowered(pose.activity, pose.time_s)
+        stance = act_stance(pose.activity, pose.time_s)
+        if build.trunk > 0.0:
+            stance = by_trunk(stance)
+        sits = max(sits, stance.seat)
         rise += lies * (build.body[2] - build.shoulder + 0.02 * build.shoulder)
-        sit = sits * _sit_drop(build)
+        rise -= sits * _sit_drop(build)
         beat = amount * math.sin(turn)
         wag = math.sin(2.0 * math.pi * (0.9 * pose.time_s + start))
-        stance = act_stance(pose.activity, pose.time_s)
         tail = wag if stance is STANDING else stance.wag
         parts = [
-            *_torso(build, coat, sit),
-            *_neck_and_head(build, coat, beat, wag, stance.head_down + _DROOP * lies),
+            *_torso(build, coat),
+            *_neck_and_head(build, coat, (beat, wag), stance, _DROOP * lies + _LEVEL * sits),
         ]
-        lift = (0.0 if stance is STANDING else 0.4 * stance.wag) - 0.9 * lies
-        parts += [*_tail(build, coat, sit, tail, lift), *extras]
-        body = _tip(build, stance)
+        lift = 0.0 if stance is STANDING else 0.4 * stance.wag
+        # Along the ground.
+        lift -= lies * (build.tail[1] + 0.25) + sits * (build.tail[1] - _seated_pitch(build))
+        parts += [*_tail(build, coat, tail, lift), *extras]
+        body = _tip(build, stance, sits)
         parts = moved(moved(parts, body), shift(z=rise))
         for index in range(4):
             x, z = foot_path(gait, distance, _offset(index, runs), amount)
             z += (stance.paws[index] if index < 2 else 0.0) * 0.5 * build.shoulder
-            parts += _leg(build, coat, index, ((x, z), rise, sit), body)
+            parts += _leg(build, coat, index, ((x, z), rise, sits), body)
         return parts
 
+    trunk = len(_torso(build, coat)) + 2
+    face = len(draw_head(build, coat, (0.0, 0.0, 0.0)))
+
     def anchor(name: str, pose: Pose) -> Affine | None:
-        if name != "mouth":
+        if name == "mouth":
+            at, ahead = trunk + NOSE, 0.1 * build.head[0]
+        elif name == "trunk" and build.trunk > 0.0:
+            part = articulate(pose)[trunk + face - 1].to_body
+            return np.column_stack([np.eye(3), part[:, 3] + part[:, 2]])
+        elif name == "neck":
+            at, ahead = trunk - 1, 0.0
+        elif name in _ON_SKULL:
+            return _on_skull(articulate(pose)[trunk].to_body, _ON_SKULL[name])
+        else:
             return None
-        sit = lowered(pose.activity, pose.time_s)[0] * _sit_drop(build)
-        nose = len(_torso(build, coat, sit)) + _NOSE
-        middle = articulate(pose)[nose].to_body[:, 3]
-        return np.column_stack([np.eye(3), middle + np.array([0.1 * build.head[0], 0.0, 0.0])])
+        middle = articulate(pose)[at].to_body[:, 3]
+        return np.column_stack([np.eye(3), middle + np.array([ahead, 0.0, 0.0])])
 
     return ArticulatedModel([], scale=scale, articulate=articulate, anchor=anchor)
 
 
-def _tip(build: Build, stance: Stance) -> Affine:
-    """[3, 4] turn of the trunk: up about the hind feet, down about the hips for a low head."""
+def _tip(build: Build, stance: Stance, sits: float) -> Affine:
+    """[3, 4] turn of the trunk: up about the hind feet, down about the hips for a low head.
+
+    Who sits has its chest up.
+    """
     length, _, height = build.body
     hips = (-0.30 * length, 0.0, build.shoulder - 0.5 * height)
-    pitch = stance.pitch - _bow(build) * max(stance.head_down, 0.0)
+    low = max(stance.head_down, 0.0) * (1.0 - sits)
+    pitch = stance.pitch - _bow(build) * low + _seated_pitch(build) * sits
     return compose(turn_y(-pitch, hips), turn_x(stance.roll, hips))
 
 
@@ -112,15 +130,34 @@ def _lowest_nose(build: Build) -> float:
 
 _LOWEST = -1.15
 """Angle of a neck that is let down, rad."""
-_DROOP = 0.4
+_DROOP = 0.12
 """How far the head of a lying animal is let down."""
-_NOSE = 4
-"""Which of the parts of neck and head the nose is."""
+_LEVEL = 0.35
+"""The same of who sits with its chest up, and looks ahead."""
+_ON_SKULL: Mapping[str, Point] = MappingProxyType(
+    {"crown": (-0.05, 0.0, 0.86), "face": (0.90, 0.0, 0.36), "head": (0.0, 0.0, 0.0)}
+)
+"""Places on the head, in half extents of the skull."""
+
+
+def _on_skull(skull: Affine, place: Point) -> Affine:
+    """Axes of the head at a place of the ellipsoid that the skull is."""
+    turn = skull[:, :3] / np.linalg.norm(skull[:, :3], axis=0)
+    return np.column_stack([turn, skull @ np.array([*place, 1.0])])
 
 
 def _sit_drop(build: Build) -> float:
-    """How far the hind quarters come down, m: at most to the ground."""
-    return min(0.32 * build.shoulder, max(build.shoulder - build.body[2], 0.0) + 0.03)
+    """How far the hips come down, m: until the rump is on the ground."""
+    _, _, height = build.body
+    return max(build.shoulder - 0.5 * height - 0.48 * build.waist * height, 0.0)
+
+
+def _seated_pitch(build: Build) -> float:
+    """How far the trunk of who sits is turned up, rad: until the fore legs are straight."""
+    length, _, height = build.body
+    leg = build.shoulder - 0.52 * height
+    low = build.shoulder - 0.5 * height - _sit_drop(build)
+    return math.asin(min(max((0.97 * leg - low) / (0.60 * length), 0.12), 0.60))
 
 
 def _bob(build: Build, turn: float, runs: bool) -> float:
@@ -137,13 +174,13 @@ def _offset(index: int, runs: bool) -> float:
     return ((0.0, 0.12, 0.5, 0.62) if runs else (0.0, 0.5, 0.75, 0.25))[index]
 
 
-def _torso(build: Build, coat: Coat, sit: float) -> list[ModelPart]:
+def _torso(build: Build, coat: Coat) -> list[ModelPart]:
     length, width, height = build.body
     z = build.shoulder - 0.5 * height
     tall, wide, slim = 0.5 * height, 0.5 * width, build.waist
     chest: Point = (0.24 * length, 0.0, z)
     level = z + (1.0 - slim) * tall  # the back is level, the belly tucked up
-    croup: Point = (-0.24 * length, 0.0, level - sit)
+    croup: Point = (-0.24 * length, 0.0, level)
     front: Point = (0.24 * length, 0.0, level)
     parts = [
         rod(coat.trunk, croup, front, 0.96 * slim * tall, side_radius=0.96 * slim * wide),
@@ -177,11 +214,12 @@ def _rounded(material: Material, middle: Point, size: Point) -> ModelPart:
 
 
 def _neck_and_head(
-    build: Build, coat: Coat, beat: float, wag: float, down: float = 0.0
+    build: Build, coat: Coat, swings: tuple[float, float], stance: Stance, droop: float
 ) -> list[ModelPart]:
-    """`down` 1 lets neck and head down to the ground, -1 throws them up."""
+    """Of `swings` the first moves the neck, the second ears and trunk; `droop` lowers the head."""
+    beat, wag = swings
+    down = stance.head_down + droop
     length, width, height = build.body
-    skull, muzzle = build.head
     base: Point = (0.36 * length, 0.0, build.shoulder - 0.36 * height)
     rise = build.rise + 0.05 * beat
     rise += down * (build.rise - _LOWEST) * -1.0 if down > 0.0 else -0.45 * down
@@ -191,10 +229,6 @@ def _neck_and_head(
         base[2] + (build.neck + 0.2 * height) * math.sin(rise),
     )
     thick = 0.26 * height if build.neck < 1.2 * height else 0.20 * height
-    face = coat.limbs if not build.fleece else coat.dark
-    nose: Point = (top[0] + 0.35 * skull + muzzle, 0.0, top[2] - 0.45 * muzzle - 0.05 * skull)
-    brow: Point = (top[0] + 0.30 * skull, 0.0, top[2])
-    eye_y, eye = 0.30 * skull, 0.13 * skull
     parts = [
         limb(
             coat.trunk,
@@ -204,73 +238,11 @@ def _neck_and_head(
             side_radius=0.34 * width,
         ),
         limb(coat.limbs, part_way(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
-        ball(face, (top[0] + 0.12 * skull, 0.0, top[2]), (skull, 0.74 * skull, 0.84 * skull)),
-        limb(face, brow, nose, 0.24 * skull, side_radius=0.23 * skull),
-        ball(coat.dark, nose, (0.34 * skull, 0.42 * skull, 0.34 * skull)),
-        *(
-            ball(Material(BLACK), (top[0] + 0.36 * skull, y, top[2] + 0.16 * skull), (eye,) * 3)
-            for y in (eye_y, -eye_y)
-        ),
     ]
-    for side in (1.0, -1.0):
-        parts.append(_ear(build, coat, (top, side), 0.12 * wag))
-        parts += _horn(build, coat, top, side)
-    parts += _trunk(build, coat, nose, wag)
+    head = draw_head(build, coat, top, wag, stance)
     nod = 0.75 * down if down > 0.0 else 0.6 * down
-    head = moved(parts[2:], turn_y(nod, top)) if down else parts[2:]
-    return [*parts[:2], *head, *_mane(build, coat, base, top)]
-
-
-def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> ModelPart:
-    (x, _, z), side = at
-    skull = build.head[0]
-    long, kind = build.ear
-    material = coat.dark if kind in ("flop",) or build.fleece else coat.limbs
-    root = (x - 0.05 * skull, side * 0.28 * skull, z + 0.30 * skull)
-    if kind == "fan":
-        middle = (x - 0.40 * skull, side * (0.70 + 0.15 * twitch) * skull, z - 0.10 * skull)
-        return moved(
-            [ball(coat.dark, middle, (0.95 * long, 0.12 * skull, 1.15 * long))],
-            turn_z(-0.7 * side, middle),
-        )[0]
-    if kind == "round":
-        return ball(material, (root[0], root[1], root[2] + 0.05 * skull), (0.5 * long, long, long))
-    if kind == "flop":
-        tip = (root[0] - 0.1 * long, root[1] + side * 0.3 * skull, root[2] - long)
-        return limb(material, root, tip, 0.34 * long, side_radius=0.15 * long)
-    if kind == "long":
-        tip = (root[0] - 0.3 * long, root[1] + side * 0.1 * long, root[2] + long)
-        return limb(material, (root[0], 0.6 * root[1], root[2]), tip, 0.15 * long)
-    if kind == "side":
-        tip = (root[0] - 0.2 * long, root[1] + side * long, root[2] + 0.15 * long)
-        return limb(material, root, tip, 0.22 * long)
-    tip = (root[0] - 0.1 * long, 1.15 * root[1], root[2] + long)
-    return spike(material, (root[0], root[1], root[2] - 0.1 * long), tip, 0.40 * long)
-
-
-def _horn(build: Build, coat: Coat, top: Point, side: float) -> list[ModelPart]:
-    skull = build.head[0]
-    x, y, z = top[0] + 0.05 * skull, side * 0.16 * skull, top[2] + 0.36 * skull
-    bone = Material((0.55, 0.48, 0.36))
-    if build.horns == "short":
-        return [spike(bone, (x, y, z), (x + 0.04, y + side * 0.10, z + 0.20), 0.035)]
-    if build.horns == "knobs":
-        return [limb(coat.dark, (x, y, z), (x - 0.04, y, z + 0.16), 0.03)]
-    if build.horns == "tusks":
-        start = (x + 0.42 * skull, side * 0.28 * skull, z - 0.72 * skull)
-        end = (start[0] + 0.75, start[1] + side * 0.06, start[2] - 0.30)
-        return [spike(Material(WHITE), start, end, 0.075)]
-    if build.horns == "antlers":
-        fork = (x - 0.10, y + side * 0.16, z + 0.24)
-        tip, tine = (x - 0.02, y + side * 0.26, z + 0.52), (x + 0.14, y + side * 0.20, z + 0.40)
-        low = (x + 0.16, y + side * 0.10, z + 0.20)
-        return [
-            limb(bone, (x, y, z), fork, 0.020),
-            limb(bone, fork, tip, 0.016),
-            limb(bone, fork, tine, 0.014),
-            limb(bone, part_way((x, y, z), fork, 0.4), low, 0.013),
-        ]
-    return []
+    head = moved(head, turn_y(nod, top)) if down else head
+    return [*parts, *head, *_mane(build, coat, base, top)]
 
 
 def _mane(build: Build, coat: Coat, base: Point, top: Point) -> list[ModelPart]:
@@ -281,35 +253,20 @@ def _mane(build: Build, coat: Coat, base: Point, top: Point) -> list[ModelPart]:
         end = (top[0] - 0.12 * skull, 0.0, top[2] + 0.42 * skull + 0.2 * up)
         return [limb(coat.dark, start, end, 0.12 * height, side_radius=0.05 * height)]
     if build.mane == "full":
-        middle = (top[0] - 0.34 * skull, 0.0, top[2] - 0.10 * skull)
+        middle = (top[0] - 0.42 * skull, 0.0, top[2] - 0.14 * skull)
         shaggy = fur(coat.dark.colour)
         return [
-            ball(shaggy, middle, (1.15 * skull, 1.75 * skull, 1.95 * skull)),
+            ball(shaggy, middle, (1.20 * skull, 1.75 * skull, 1.95 * skull)),
             limb(shaggy, base, (middle[0], 0.0, middle[2] - 0.3 * skull), 0.62 * skull),
         ]
     return []
 
 
-def _trunk(build: Build, coat: Coat, nose: Point, wag: float) -> list[ModelPart]:
-    if build.trunk == 0.0:
-        return []
-    sway = 0.12 * wag
-    parts = []
-    here: Point = (nose[0] + 0.02, 0.0, nose[2])
-    for index, angle in enumerate((-1.15, -1.45, -1.25)):
-        step = build.trunk / 3.0
-        bent = angle + sway * (index + 1)
-        there = (here[0] + step * math.cos(bent), 0.0, here[2] + step * math.sin(bent))
-        parts.append(limb(coat.limbs, here, there, 0.22 - 0.05 * index))
-        here = there
-    return parts
-
-
-def _tail(build: Build, coat: Coat, sit: float, wag: float, lift: float) -> list[ModelPart]:
+def _tail(build: Build, coat: Coat, wag: float, lift: float) -> list[ModelPart]:
     """`lift` turns it up, rad, so that wagging is seen from the side."""
     length, _, height = build.body
     long, rise = build.tail[0], build.tail[1] + lift
-    root: Point = (-0.46 * length, 0.0, build.shoulder - 0.28 * height - sit)
+    root: Point = (-0.46 * length, 0.0, build.shoulder - 0.28 * height)
     side = 0.25 * wag
     middle = (
         root[0] - 0.5 * long * math.cos(rise),
@@ -323,7 +280,7 @@ def _tail(build: Build, coat: Coat, sit: float, wag: float, lift: float) -> list
         max(middle[2] + 0.5 * long * math.sin(bent), 0.05 * build.shoulder),
     )
     thick = (0.14 if build.bushy_tail else 0.075) * (long if build.bushy_tail else height)
-    material = coat.dark if build.mane == "ridge" else coat.limbs
+    material = coat.tail or (coat.dark if build.mane == "ridge" else coat.limbs)
     return [
         limb(material, root, middle, 0.8 * thick),
         limb(coat.dark if build.mane else material, middle, tip, thick),
@@ -344,15 +301,16 @@ def _leg(
     root_x = (0.30 if is_fore else -0.32) * length
     thick = 0.052 * build.shoulder**0.9 * build.thick
     y = side * (0.5 * width - 0.9 * thick)
-    low = 0.0 if is_fore else sit
-    top: Point = (root_x, y, build.shoulder - 0.52 * height + rise - low)
+    top: Point = (root_x, y, build.shoulder - 0.52 * height)
     x_top, y_top, z_top = body @ np.array([*top, 1.0])
-    lifted = z_top - top[2] if is_fore else 0.0
+    lifted = (z_top - top[2]) * (1.0 - sit) if is_fore else 0.0
+    if is_fore:
+        x += sit * (float(x_top) - top[0])
     if lifted > 0.02:
         # The fore feet leave the ground with the body.
         x, lift = x + float(x_top) - top[0] + 0.25 * lifted, lift + 0.9 * lifted
-    top = (float(x_top), float(y_top), float(z_top))
-    ahead = 0.28 * length if sit > 0.0 and not is_fore else 0.0
+    top = (float(x_top), float(y_top), float(z_top) + rise)
+    ahead = 0.0 if is_fore else 0.24 * length * sit
     ankle: Point = (root_x + x + ahead, y, 0.8 * thick + lift)
     half = (0.50 + 0.02 / build.thick) * (build.shoulder - 0.52 * height - 0.8 * thick)
     towards = (1.0, 0.0, 0.0) if is_fore else (-1.0, 0.0, 0.0)

@@ -1,0 +1,1 @@
+"""Clauses about animals: acts that their models have, and characters that stand upright."""

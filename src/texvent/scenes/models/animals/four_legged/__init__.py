@@ -1,0 +1,1 @@
+"""Bodies of four-legged animals: proportions, trunk and legs, head."""
