@@ -795,3 +795,10 @@ def test_petals_and_caps_belong_to_what_has_them():
 
 def test_a_rain_jacket_is_no_rain():
     assert parse_prompt("a man in a rain jacket").surroundings.weather is None
+
+
+def test_a_dog_with_a_boat_is_aboard():
+    said = parse_prompt("two people on a sailboat with a dog on open water")
+    assert said.surroundings.place == "sea"
+    nouns = [one.noun for one in said.objects]
+    assert {nouns[one.subject] for one in said.relations if one.kind == "on"} >= {"dog"}

@@ -25,9 +25,8 @@ from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
 from texvent.scenes.staging.camera.main_actor import choose_main
-from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
-from texvent.scenes.staging.claims.relations import list_not_shown
-from texvent.scenes.staging.claims.shots import list_moves_not_shown
+from texvent.scenes.staging.claims.acts import Stage
+from texvent.scenes.staging.claims.missing import list_missing
 from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
@@ -202,7 +201,7 @@ def compose_scene(
     )  # fmt: skip
     staged = replace(said, objects=description.objects)
     stage = Stage(staged, actors, camera_path, animated_environment.at(0.0), place, duration_s)
-    missing += _list_missing(said, description, surrounding, stage)
+    missing += list_missing(said, description, surrounding, stage)
     lamps = plan_lamps(
         description, actors, strength=choose_lighting(place, description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
@@ -368,38 +367,3 @@ def _scatter_all(
         far = [rule for rule in rules if is_placed_by_view(rule)]
         return lined + scatter(far, view, actors, unsaid, rng=rng, taken=taken), around
     return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
-
-
-def _list_missing(
-    said: SceneDescription,
-    description: SceneDescription,
-    surrounding: Sequence[tuple[int, SceneryItem]],
-    stage: Stage,
-) -> list[Unmet]:
-    """Objects, scenery, acts and camera moves that the scene does not show.
-
-    `said` is what the prompt says; `description` may have objects beside, such as a table.
-    """
-    return [
-        *list_not_shown(said, stage.actors, stage.duration_s),
-        *_list_missing_scenery(description, surrounding),
-        *list_acts_not_shown(stage),
-        *list_moves_not_shown(description.shot, stage.camera, stage.duration_s),
-    ]
-
-
-def _list_missing_scenery(
-    description: SceneDescription, found: Sequence[tuple[int, SceneryItem]]
-) -> list[Unmet]:
-    """What should stand around and found no place."""
-    shown = {item.noun for _, item in found}
-    return [
-        Unmet(
-            f"{relation.kind} {description.objects[target].noun}",
-            relation=(relation.subject, relation.targets),
-        )
-        for relation in description.relations
-        if relation.kind in SCENIC
-        for target in relation.targets
-        if description.objects[target].noun not in shown
-    ]

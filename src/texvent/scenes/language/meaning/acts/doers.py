@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from texvent.scenes.description import ObjectMotion
+from texvent.scenes.description import ObjectMotion, Relation
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
@@ -38,10 +38,20 @@ def settle_doings(draft: Draft) -> None:
         if one.kind in ("with", "hold") and motions and motions[-1].kind == "paw":
             # As in "a cat plays with a ball of yarn": it is before its paws.
             draft.relations[number] = replace(one, kind="work on")
+        if one.kind == "with" and draft.noun(one.subject).motion == "sail" and one.targets:
+            # As in "a sailboat with a dog": it is aboard.
+            draft.relations[number] = _aboard(draft, one)
         goes = motions and motions[-1].kind in _UPRIGHT
         if one.kind == "under" and goes and _is_umbrella(draft, one.targets):
             # As in "walks under an umbrella": it is held.
             draft.relations[number] = replace(one, kind="hold")
+
+
+def _aboard(draft: Draft, one: Relation) -> Relation:
+    passengers = [i for i in one.targets if is_living(draft.noun(i))]
+    if len(passengers) != 1 or draft.noun(passengers[0]).habitat != "ground":
+        return one
+    return Relation("on", passengers[0], (one.subject,))
 
 
 def _is_umbrella(draft: Draft, things: Sequence[int]) -> bool:

@@ -58,6 +58,11 @@ def hold_up_traffic(draft: Draft) -> None:
     for item in traffic:
         if waits or item.traffic in _JAMS:
             item.motions = [ObjectMotion("stand")]
+    # All vehicles of a road are in its traffic.
+    draft.relations[:] = [
+        one for one in draft.relations
+        if one.kind != "in" or not any(draft.objects[i].traffic for i in one.targets)
+    ]  # fmt: skip
 
 
 def _add_vehicles(draft: Draft, kind: str, said: str = "") -> list[int]:
