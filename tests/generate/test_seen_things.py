@@ -283,3 +283,9 @@ def test_what_is_never_in_view_is_reported_and_refused_by_strict(monkeypatch):
     assert report.shown == ("dog", "runs")
     with pytest.raises(InputError, match=r"strict: .* not shown: ball"):
         ProceduralGenerator(replace(config, strict=True), size=SIZE).generate(prompt)
+
+
+def test_a_large_thing_of_which_a_corner_fills_the_picture_is_cut_off() -> None:
+    corner = Glimpse(points=60, alone=60, extent=1.0, inside=0.1)
+    assert corner.fault(100, 22_490) == "cut off"
+    assert corner._replace(inside=0.35).fault(100, 22_490) is None

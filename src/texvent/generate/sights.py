@@ -19,6 +19,8 @@ both."""
 ALL_AROUND = 0.4
 """Share of the picture's points from which on a thing is seen, however far it reaches beyond: a
 tunnel, a table top from near."""
+LEAST_PIECE = 0.25
+"""Share of such a thing that lies in the image: of less, nobody tells what it is a piece of."""
 OUT_OF_VIEW = 0.1
 """Share of a thing in the picture below which it is out of view."""
 
@@ -55,7 +57,7 @@ class Glimpse(NamedTuple):
         is_speck = any(self.extent < size and share < area for size, area in SPECKS)
         if self.extent < LEAST_SIZE or is_speck or share * pixels < LEAST_PIXELS:
             return "too small"
-        if share >= ALL_AROUND:
+        if share >= ALL_AROUND and self.inside >= LEAST_PIECE:
             return None
         if self.inside >= LEAST_INSIDE and self.unhidden >= LEAST_UNHIDDEN:
             return None if self.seen >= LEAST_SEEN else "mostly hidden"

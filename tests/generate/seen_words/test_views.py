@@ -37,7 +37,7 @@ def test_what_the_camera_does_is_shown(prompt, word) -> None:
         ("A macro shot of a dog's eyes.", "macro shot of (shows more than eyes)"),
         ("First-person view: hands type on a laptop.",
          "first person view (the person is seen from outside)"),
-        ("A drone flies over a city.", "over (not above the roofs)"),
+        ("A drone flies over a city.", "over (not above what stands there)"),
         ("A woman stands in a wheat field.", "wheat field (no stalks)"),
         ("Two balls lie on the grass, seen from the stands.",
          "stands (the camera is not up there)"),

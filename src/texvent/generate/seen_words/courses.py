@@ -262,7 +262,7 @@ def _carries(other: Actor, low: Float64Array, high: Float64Array, time_s: float)
 
 
 _COURSES: Mapping[str, tuple[str, Callable[[Picture, Claim], bool]]] = {
-    "over roofs": ("not above the roofs", _is_over_roofs),
+    "over roofs": ("not above what stands there", _is_over_roofs),
     "across road": ("it does not go across the road", _goes_over_road),
     "beside road": ("it is on the road", _is_beside_road),
     "in rows": ("they stand in no row", _stands_in_rows),

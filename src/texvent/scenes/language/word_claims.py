@@ -23,7 +23,7 @@ _SILENT = frozenset(
 """Parts of speech that need no effect of their own."""
 CROWDED = 5
 """Things of a prompt from which on a lost word puts all of its sentence in doubt."""
-MANY_LOST = 12
+MANY_LOST = 7
 """Words that are not understood from which on all others of the prompt are in doubt."""
 _MISREAD = frozenset({"name", "place", "relation", "motion"})
 """Aspects of words that mean something else more often where words around them are lost."""

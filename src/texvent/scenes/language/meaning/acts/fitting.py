@@ -29,6 +29,8 @@ _STAIRS = frozenset({"stair", "stairs", "staircase", "stairway"})
 _WAY = {"descend": "down"}
 DOLLS = frozenset({"toy robot", "doll", "teddy bear"})
 """Figures without joints, which slide where they walk."""
+UNSEATED = DOLLS | WEARABLE
+"""Things that do not sit where they are, as a vase does."""
 _TOPPLING = frozenset({"domino", "bowling pin"})
 """What falls over where it stands."""
 _BLOWN = frozenset({"move", "stir", "blow", "dance", "shake"})

@@ -18,10 +18,10 @@ from texvent.scenes.language.meaning.acts.devices import (
     switch_lamps,
 )
 from texvent.scenes.language.meaning.acts.fitting import (
-    DOLLS,
     MANOEUVRES,
     PAW,
     SEEN_AS_SAID,
+    UNSEATED,
     WHEELED,
     choose_act,
     fall_over,
@@ -382,7 +382,7 @@ class ActReader:
                 is_same = verb.relation == "follow" or fitting.kind in MANOEUVRES
                 is_same |= verb.base in SEEN_AS_SAID
                 is_same |= verb.kind == "drive" and noun.name in WHEELED
-                is_same |= verb.base == "sit" and noun.name not in DOLLS - _SITTING  # "a vase sits"
+                is_same |= verb.base == "sit" and noun.name not in UNSEATED - _SITTING
                 throw_up_earth(self._draft, fitting.kind, verb, index)
                 if fitting is not verb and not is_same:
                     word.shown_as = noun.motion if fitting.kind == "move" else fitting.kind

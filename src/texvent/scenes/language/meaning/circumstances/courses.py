@@ -13,7 +13,7 @@ from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.words.word import Word, link
 
 _ABOVE = ("over", "above")
-_TOWNS = frozenset({"city", "rooftop", "harbour"})
+_TOWNS = frozenset({"city", "rooftop", "harbour", "forest", "village"})
 _OF_STREETS = frozenset({"street", "sidewalk", "pavement", "intersection", "crossing", "junction"})
 """Words for a city at whose level one goes: a drone "over the street" is above no roofs."""
 _ROADS = ("road", "dirt road", "city")
