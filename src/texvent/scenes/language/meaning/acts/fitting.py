@@ -56,6 +56,8 @@ def fit_verb(verb: Verb, noun: Noun, clause: Clause) -> Verb | None:
     is_on_ground = noun.motion in _ON_GROUND and noun.habitat == "ground"
     if is_on_ground and verb.base in _BY_ITSELF:
         return None
+    if verb.base == "crawl" and noun.motion == "fly":
+        return None
     if is_on_ground and verb.base == "dive" and not prepositions & set(_OUT_OF):
         return None
     if is_living(noun) and verb.base == "swing" and "at" in prepositions:
