@@ -46,7 +46,6 @@ def test_the_page_says_what_became_of_the_words(tmp_path: Path) -> None:
         done, _ = run(tmp_path, prompt=prompt, options=SCENE)
     assert said == [
         "prompt words not understood: wug",
-        "prompt words in doubt: bounce (without wug)",
     ]
     report = PromptReport.from_json(texvent.load(done.files["events"]).metadata["prompt_report"])
     assert done.text.splitlines()[1:] == report.lines()

@@ -105,7 +105,7 @@ def test_the_captions_become_events_that_stand_beside_their_streams(
     built: Path, tmp_path: Path
 ) -> None:
     specification = built / "specification.toml"
-    small = specification.read_text().replace('"640x480" ', '"32x24"\nduration = 0.2')
+    small = specification.read_text().replace('"640x480" ', '"32x24"\nduration = 0.4')
     quick = built / "quick.toml"
     quick.write_text(
         f"repeats = 2\n{small}".replace("[variants.texvent]", "[variants.texvent]\nseeds = 2")

@@ -33,10 +33,14 @@ WORDS = {
 
 
 def read(prompt: str) -> tuple[list[str], dict[str, str], tuple[str, ...]]:
-    """Nouns shown, substitutions and words that are not understood."""
+    """Nouns shown, substitutions and words that are not understood.
+
+    A bicycle of which nothing is said is parked, which is a model of its own.
+    """
     found = parse_prompt(prompt)
     said = {each.said: each.shown for each in found.substituted}
-    return [each.noun for each in found.objects], said, found.not_understood
+    nouns = [each.noun.removeprefix("parked ") for each in found.objects]
+    return nouns, said, found.not_understood
 
 
 def test_cocos_classes_are_shown() -> None:

@@ -802,3 +802,9 @@ def test_a_dog_with_a_boat_is_aboard():
     assert said.surroundings.place == "sea"
     nouns = [one.noun for one in said.objects]
     assert {nouns[one.subject] for one in said.relations if one.kind == "on"} >= {"dog"}
+
+
+def test_a_bicycle_that_is_only_named_has_no_rider():
+    assert [one.noun for one in parse_prompt("a pink bicycle").objects] == ["parked bicycle"]
+    assert [one.noun for one in parse_prompt("a cyclist").objects] == ["bicycle"]
+    assert [one.noun for one in parse_prompt("a bicycle speeds past").objects] == ["bicycle"]

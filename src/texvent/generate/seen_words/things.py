@@ -19,6 +19,8 @@ from texvent.scenes.staging.acts.acts import ACTS
 LEAST_COLOURED, LEAST_DRESSED = 0.25, 0.12
 """Share of a thing's pixels that have the colour that is said of it; of a person's, who is dressed
 in it."""
+_FRAMES = ("bicycle", "motorcycle")
+"""What has its colour on its frame or tank alone: most of it are wheels."""
 LEAST_WORN = 0.08
 """The same for what another wears or holds, whose pixels are counted with the wearer's."""
 LEAST_DETAIL = 0.14
@@ -161,6 +163,8 @@ def _judge_colour(picture: Picture, description: SceneDescription, index: int) -
     if named is None or not copies:
         return "not of that colour"
     if any(is_person(one.noun) for one in picture.scene.actors if one.object_index == index):
+        least = LEAST_DRESSED
+    if description.objects[index].noun.split()[-1] in _FRAMES:
         least = LEAST_DRESSED
     for one in copies:
         best = max(_coloured_share(picture, number, one, named) for number in USUAL)

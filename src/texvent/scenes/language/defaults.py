@@ -25,6 +25,7 @@ from texvent.scenes.language.left_out import (
 )
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.posing import list_posing
+from texvent.scenes.language.unridden import RIDES, leave_unridden, park
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS, SEATS
@@ -45,6 +46,7 @@ def complete_description(
     is_at_rest = is_still_life(description)
     description = _wheel_seats(ride_waves(add_sources(add_crew(description, nouns))))
     description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
+    description = leave_unridden(description)
     objects = tuple(
         replace(scene_object, motion=STANDING)
         if is_at_rest and nouns[scene_object.noun].motion == "fly"
@@ -70,7 +72,7 @@ def complete_description(
         description = _run_in_place(description)
     else:
         description = _set_in_motion(description, nouns)
-    return _park(_rest_the_others(go_along(description)), nouns)
+    return park(_rest_the_others(go_along(description)), nouns)
 
 
 _IN_THE_DARK = frozenset({"lightning", "stage lights", "lasers", "blinking lights", "fireworks"})
@@ -89,13 +91,6 @@ def _darken(description: SceneDescription) -> SceneDescription:
     note = "it is dark, so that the light that changes is seen"
     light = replace(description.light, kind="night")
     return replace(description, light=light, notes=(*description.notes, note))
-
-
-HAS_RIDER = frozenset({"bicycle", "motorcycle"})
-"""Nouns whose models come with the person who rides them."""
-_RIDES = ("ride", "ride along")
-_RIDERS = frozenset({"cyclist", "bicyclist", "motorcyclist", "biker"})
-"""Words for who rides them."""
 
 
 _WHEELED_SEATS = frozenset({"wheelchair", "stroller"})
@@ -124,35 +119,6 @@ def _run_in_place(description: SceneDescription) -> SceneDescription:
             pace = motion.pace * (0.7 if motion.kind == "walk" else 1.0)
             done = replace(motion, kind="run in place", pace=pace, direction=None)
             objects[one.subject] = replace(objects[one.subject], motion=done)
-    return replace(description, objects=tuple(objects))
-
-
-_IN_AIR = frozenset({"fly", "hover", "rise", "orbit", "sink"})
-
-
-def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Bicycles and motorcycles that only stand there have no rider; an owl that flies has wings."""
-    ridden = {
-        target
-        for relation in description.relations
-        if relation.kind in _RIDES
-        for target in relation.targets
-    }
-    ridden |= {
-        index
-        for claim in description.claims
-        for index in claim.things
-        if claim.word.removesuffix("s") in _RIDERS
-    }
-    ridden |= {one.subject for one in description.relations if one.kind == "collide"}
-    objects = list(description.objects)
-    for index, one in enumerate(objects):
-        is_parked = one.noun in HAS_RIDER and one.motion == STANDING and not one.then
-        if is_parked and index not in ridden and f"parked {one.noun}" in nouns:
-            objects[index] = replace(one, noun=f"parked {one.noun}")
-        kinds = {motion.kind for motion in (one.motion, *one.then) if motion is not None}
-        if kinds & _IN_AIR and f"flying {one.noun}" in nouns:
-            objects[index] = replace(one, noun=f"flying {one.noun}")
     return replace(description, objects=tuple(objects))
 
 
@@ -323,7 +289,7 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     Several things without people, or people with things that only stand there, are a still life:
     one that goes off would leave the others behind.
     """
-    resting = {relation.subject for relation in description.relations if relation.kind in _RIDES}
+    resting = {relation.subject for relation in description.relations if relation.kind in RIDES}
     resting |= list_posing(description)
     able = () if stays_together(description, nouns) else description.objects
     for index, scene_object in enumerate(able):

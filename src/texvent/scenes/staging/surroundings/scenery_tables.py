@@ -26,6 +26,7 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
     "city": (
         ScatterRule("street lamp", 4, 0.2, 1.5, (1.0, 1.0)),
         ScatterRule("building", 7, 0.9, 3.5, (0.45, 0.9)),
+        ScatterRule("building", 6, 24.0, 60.0, (0.5, 0.9), is_metres=True),
         ScatterRule("tree", 3, 0.3, 1.0, (0.6, 0.8)),
     ),
     "grass": (

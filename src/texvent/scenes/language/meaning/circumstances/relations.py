@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.acts.looking import face
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
@@ -15,6 +14,7 @@ from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.unridden import HAS_RIDER
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS
 from texvent.scenes.language.words.lexicon import Role

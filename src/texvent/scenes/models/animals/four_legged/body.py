@@ -68,20 +68,25 @@ def draw_animal(
         tail = wag if stance is STANDING else stance.wag
         parts = [
             *_torso(build, coat),
-            *_neck_and_head(build, coat, (beat, wag), stance, _DROOP * lies + _LEVEL * sits),
+            *_neck_and_head(build, coat, (beat, wag), stance, _DROOP * lies + level * sits),
         ]
+        before_tail = len(parts)
         lift = 0.0 if stance is STANDING else 0.4 * stance.wag
         # Along the ground.
         lift -= lies * (build.tail[1] + 0.25) + sits * (build.tail[1] - _seated_pitch(build))
         parts += [*_tail(build, coat, tail, lift), *extras]
         body = _tip(build, stance, sits)
         parts = moved(moved(parts, body), shift(z=rise))
+        if sits > 0.0:
+            parts[before_tail:] = _above_ground(parts[before_tail:])
         for index in range(4):
             x, z = foot_path(gait, distance, _offset(index, runs), amount)
             z += (stance.paws[index] if index < 2 else 0.0) * 0.5 * build.shoulder
             parts += _leg(build, coat, index, ((x, z), rise, sits), body)
         return parts
 
+    # A body near the ground has no way to let its head down.
+    level = _LEVEL * min(1.0, 2.0 * build.shoulder / build.body[0])
     trunk = len(_torso(build, coat)) + 2
     face = len(draw_head(build, coat, (0.0, 0.0, 0.0)))
 
@@ -101,6 +106,15 @@ def draw_animal(
         return np.column_stack([np.eye(3), middle + np.array([ahead, 0.0, 0.0])])
 
     return ArticulatedModel([], scale=scale, articulate=articulate, anchor=anchor)
+
+
+def _above_ground(parts: Sequence[ModelPart]) -> list[ModelPart]:
+    """Parts, each lifted until it is not below the ground: tails of who sits lie on it."""
+    lows = [part.to_body[2, 3] - np.linalg.norm(part.to_body[2, :3]) for part in parts]
+    return [
+        part if low >= 0.0 else moved([part], shift(z=-float(low)))[0]
+        for part, low in zip(parts, lows, strict=True)
+    ]
 
 
 def _tip(build: Build, stance: Stance, sits: float) -> Affine:

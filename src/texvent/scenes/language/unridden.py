@@ -1,0 +1,61 @@
+"""Bicycles and motorcycles that nobody rides, and birds that fly: models of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from texvent.scenes.description import STANDING, SceneDescription
+from texvent.scenes.models.protocol import Noun
+
+RIDES = ("ride", "ride along")
+"""Relations of who sits on what is ridden."""
+HAS_RIDER = frozenset({"bicycle", "motorcycle"})
+"""Nouns whose models come with the person who rides them."""
+_IN_AIR = frozenset({"fly", "hover", "rise", "orbit", "sink"})
+_RIDERS = frozenset({"cyclist", "bicyclist", "motorcyclist", "biker"})
+"""Words for who rides them."""
+
+
+def _list_ridden(description: SceneDescription) -> set[int]:
+    """Objects that have a rider: one who rides them, or "a cyclist"; what collides has one."""
+    ridden = {
+        target
+        for relation in description.relations
+        if relation.kind in RIDES
+        for target in relation.targets
+    }
+    ridden |= {
+        index
+        for claim in description.claims
+        for index in claim.things
+        if claim.word.removesuffix("s") in _RIDERS
+    }
+    return ridden | {one.subject for one in description.relations if one.kind == "collide"}
+
+
+def leave_unridden(description: SceneDescription) -> SceneDescription:
+    """A bicycle of which nothing is said but how it looks stands there: nobody rides it."""
+    ridden = _list_ridden(description)
+    is_plain = description.surroundings.place is None and not description.shot.is_moving
+    objects = tuple(
+        replace(one, motion=STANDING)
+        if one.noun in HAS_RIDER and one.motion is None and index not in ridden and is_plain
+        else one
+        for index, one in enumerate(description.objects)
+    )
+    return replace(description, objects=objects)
+
+
+def park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Bicycles and motorcycles that only stand there have no rider; an owl that flies has wings."""
+    ridden = _list_ridden(description)
+    objects = list(description.objects)
+    for index, one in enumerate(objects):
+        is_parked = one.noun in HAS_RIDER and one.motion == STANDING and not one.then
+        if is_parked and index not in ridden and f"parked {one.noun}" in nouns:
+            objects[index] = replace(one, noun=f"parked {one.noun}")
+        kinds = {motion.kind for motion in (one.motion, *one.then) if motion is not None}
+        if kinds & _IN_AIR and f"flying {one.noun}" in nouns:
+            objects[index] = replace(one, noun=f"flying {one.noun}")
+    return replace(description, objects=tuple(objects))
