@@ -21,7 +21,7 @@ _LIES = frozenset({"on", "in"})
 def list_laid(description: SceneDescription, nouns: Mapping[int, Noun]) -> frozenset[int]:
     """Objects on tables, where the prompt names nothing else but the tables.
 
-    Empty where somebody is at the table, or something moves: then the camera is about that.
+    Empty where a person is at the table, or something moves: then the camera is about that.
 
     Args:
         description: what the prompt says.

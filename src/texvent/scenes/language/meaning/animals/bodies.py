@@ -53,7 +53,7 @@ _MET = 4
 
 
 def take_act(clause: Clause) -> bool:
-    """As in "takes a peaceful walk", whoever does so."""
+    """As in "takes a peaceful walk", of people and animals."""
     verb, group = clause.verb, clause.objects[0] if len(clause.objects) == 1 else None
     if verb is None or verb.lemma not in _TAKING or group is None or group.head is None:
         return False

@@ -68,13 +68,10 @@ def draw_animal(
         tail = wag if stance is STANDING else stance.wag
         parts = [
             *_torso(build, coat),
-            *_neck_and_head(build, coat, (beat, wag), stance, _DROOP * lies + level * sits),
+            *_neck_and_head(build, coat, (beat, wag), stance, _DROOP * lies + _level(build) * sits),
         ]
         before_tail = len(parts)
-        lift = 0.0 if stance is STANDING else 0.4 * stance.wag
-        # Along the ground.
-        lift -= lies * (build.tail[1] + 0.25) + sits * (build.tail[1] - _seated_pitch(build))
-        parts += [*_tail(build, coat, tail, lift), *extras]
+        parts += [*_tail(build, coat, tail, _tail_lift(build, stance, sits, lies)), *extras]
         body = _tip(build, stance, sits)
         parts = moved(moved(parts, body), shift(z=rise))
         if sits > 0.0:
@@ -85,8 +82,6 @@ def draw_animal(
             parts += _leg(build, coat, index, ((x, z), rise, sits), body)
         return parts
 
-    # A body near the ground has no way to let its head down.
-    level = _LEVEL * min(1.0, 2.0 * build.shoulder / build.body[0])
     trunk = len(_torso(build, coat)) + 2
     face = len(draw_head(build, coat, (0.0, 0.0, 0.0)))
 
@@ -106,6 +101,17 @@ def draw_animal(
         return np.column_stack([np.eye(3), middle + np.array([ahead, 0.0, 0.0])])
 
     return ArticulatedModel([], scale=scale, articulate=articulate, anchor=anchor)
+
+
+def _level(build: Build) -> float:
+    """How far who sits lets its head down; a body near the ground has no way to."""
+    return _LEVEL * min(1.0, 2.0 * build.shoulder / build.body[0])
+
+
+def _tail_lift(build: Build, stance: Stance, sits: float, lies: float) -> float:
+    """How far the tail is turned up, rad; of who sits or lies it is along the ground."""
+    lift = 0.0 if stance is STANDING else 0.4 * stance.wag
+    return lift - lies * (build.tail[1] + 0.25) - sits * (build.tail[1] - _seated_pitch(build))
 
 
 def _above_ground(parts: Sequence[ModelPart]) -> list[ModelPart]:
