@@ -808,3 +808,29 @@ def test_a_bicycle_that_is_only_named_has_no_rider():
     assert [one.noun for one in parse_prompt("a pink bicycle").objects] == ["parked bicycle"]
     assert [one.noun for one in parse_prompt("a cyclist").objects] == ["bicycle"]
     assert [one.noun for one in parse_prompt("a bicycle speeds past").objects] == ["bicycle"]
+
+
+def test_a_pull_out_is_a_move_of_the_camera():
+    said = parse_prompt("A pull-out from a house by a lake")
+    assert [one.noun for one in said.objects] == ["house"]
+    assert [one.kind for one in said.shot.moves] == ["dolly"]
+
+
+def test_people_with_umbrellas_hold_one_each():
+    said = parse_prompt("A couple get caught in the rain with umbrellas")
+    assert [one.kind for one in said.relations] == ["hold"]
+    assert [one.count for one in said.objects] == [2, 2]
+
+
+def test_evening_wear_is_no_evening():
+    assert parse_prompt("a couple in evening wear walk home").light.kind is None
+
+
+def test_who_falls_down_the_stairs_does_not_climb():
+    fallen, climber = (
+        parse_prompt(f"a person {verb} down the stairs") for verb in ("falls", "walks")
+    )
+    assert fallen.objects[0].motion is not None
+    assert climber.objects[0].motion is not None
+    assert (fallen.objects[0].motion.kind, climber.objects[0].motion.kind) == ("fall over", "climb")
+    assert "down" in fallen.not_understood

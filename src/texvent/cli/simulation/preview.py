@@ -36,11 +36,15 @@ def check_preview(path: Path, generator_class: type, *, overwrite: bool) -> None
     check_output(path, overwrite=overwrite)
 
 
+_ABOUT_HALF = 0.43
+"""Of the clip. At its half, what repeats every second would look as at the beginning."""
+
+
 def write_preview(
     prompt: str, settings: Settings, path: Path, *, upsample: UpsampleConfig, overwrite: bool,
     is_quiet: bool,
 ) -> None:  # fmt: skip
-    """Write the scene's first, middle and last instant as one image; say what is shown.
+    """Write the scene at its beginning, about its middle and its end; say what is shown.
 
     Raises:
         InputError: the prompt cannot be shown.
@@ -57,7 +61,7 @@ def write_preview(
     if not isinstance(video, ProceduralVideo):
         raise ConfigError("--preview needs a scene of the embedded generator")
     end_us = frame_time_us(video.frame_count - 1, video.fps)
-    image = draw_stills(video, (0, end_us // 2, end_us))
+    image = draw_stills(video, (0, round(_ABOUT_HALF * end_us), end_us))
     with atomic_file(path, overwrite=overwrite) as part:
         part.write_bytes(image)
     if not is_quiet:

@@ -26,7 +26,8 @@ _TEXT = """
     drum, pogo stick, memory stick, glow stick, match stick, candle wick, cinnamon stick, selfie
     stick, stick figure, lip stick, score card, sound card, report card, dash board, card board,
     ouija board, mood board, spring board, diving tower, computer tower, light tower, leaning
-    tower of pisa, big ben, golden gate, statue of liberty, light saber, light year,
+    tower of pisa, big ben, golden gate, statue of liberty, light saber, light year, evening wear,
+    evening attire,
     fire screen, window screen, sun screen, sunscreen, smoke screen, screen saver, wind screen,
     rear view mirror, eye ball, eyeball, paint ball, pin ball, wrecking ball, cotton
     ball, fur ball, dust ball, hair ball, masked ball, mosquito net, hair net, butterfly net, lens

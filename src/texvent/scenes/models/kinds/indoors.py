@@ -86,10 +86,12 @@ INDOOR_KINDS: dict[str, str] = {
     "cassette": "tape cartridge, video tape, vhs tape",
     "ring": "earring, hoop earring, engagement ring, signet ring",
     "necklace": "pearl, pearls, jewelry, jewellery, jewel, bead chain, pendant, rosary",
-    "dress": "wedding dress, evening dress, ball gown, nightgown, sundress, costume, summer dress",
+    "dress": """
+        wedding dress, evening dress, evening gown, ball gown, nightgown, sundress, costume,
+        summer dress""",
     "trousers": "leggings, tights, sweatpants, slacks, khakis, ski pants, chinos",
     "shirt": """
-        uniform shirt, plaid shirt, polo shirt, tank  flannel shirt, undershirt,
+        uniform shirt, plaid shirt, polo shirt, flannel shirt, undershirt,
           hawaiian shirt""",
     "jacket": """
         denim jacket, leather jacket, winter jacket, ski jacket, parka,

@@ -41,10 +41,15 @@ def settle_doings(draft: Draft) -> None:
         if one.kind == "with" and draft.noun(one.subject).motion == "sail" and one.targets:
             # As in "a sailboat with a dog": it is aboard.
             draft.relations[number] = _aboard(draft, one)
-        goes = motions and motions[-1].kind in _UPRIGHT
-        if one.kind == "under" and goes and _is_umbrella(draft, one.targets):
-            # As in "walks under an umbrella": it is held.
+        is_upright = not motions or motions[-1].kind in _UPRIGHT
+        holds = one.kind == "under" and bool(motions) and is_upright
+        holds |= one.kind == "with" and is_upright and is_person(draft.noun(one.subject))
+        if holds and _is_umbrella(draft, one.targets):
+            # As in "walks under an umbrella", "get caught in the rain with umbrellas".
             draft.relations[number] = replace(one, kind="hold")
+            held = draft.objects[one.targets[0]]
+            if not held.is_counted:
+                held.count = draft.objects[one.subject].count
 
 
 def _aboard(draft: Draft, one: Relation) -> Relation:

@@ -13,6 +13,7 @@ from texvent.scenes.language.words.word import Word
 _CLIMBED = frozenset({"stairs", "ladder"})
 _SLOPES = frozenset({"stairs", "ramp", "skate ramp", "slide"})
 """What one goes up and down on; people climb stairs and ladders."""
+_DROPS = frozenset({"fall", "fall over", "topple", "roll", "slide", "flip"})
 
 
 def go_on_slope(draft: Draft, word: Word, things: Sequence[int], scope: Scope) -> bool:
@@ -30,6 +31,8 @@ def go_on_slope(draft: Draft, word: Word, things: Sequence[int], scope: Scope) -
     are_people = all(is_person(draft.noun(index)) for index in scope.movers)
     if not (are_people and name in _CLIMBED):
         return name in _SLOPES and draft.relate("on", scope.movers, things, word.text)
+    if any(draft.objects[index].motions[-1].kind in _DROPS for index in scope.movers):
+        return False  # who falls down the stairs does not climb
     for index in scope.movers:
         motions = draft.objects[index].motions
         motions[-1] = ObjectMotion("climb", word.text, motions[-1].pace)
