@@ -179,7 +179,7 @@ def _list_extras(
     ]
     for actor in scene.actors:
         if actor.noun.name in LAMPS and faults.get(actor.instance) is not None:
-            found.append(f"light of the {actor.noun.name} may be seen where it is not")
+            found.append(f"the {actor.noun.name} is not in view, but its light may be")
         for prop in actor.props:
             if prop.furniture:
                 found.append(f"the {actor.noun.name} has a {prop.furniture} for what it does")
