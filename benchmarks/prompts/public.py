@@ -2,13 +2,13 @@
 
 * `short` (V): VBench, `prompts/all_dimension.txt` of its repository (Huang et al., CVPR 2024).
 * `detailed` (M): Movie Gen Video Bench, `benchmark/MovieGenVideoBench.txt` (Polyak et al., 2024),
-  prompts of 20 words or more. A third of those fill one template ("... taking a pleasant stroll in
+  prompts of 20 words or more. 93 of those 322 fill one template ("... taking a pleasant stroll in
   ... during ..."), which is left out.
 * `caption` (K): COCO, `annotations/captions_val2017.json` (Chen et al., 2015).
 
 The files are not part of this repository; `public/digests.csv` holds what was drawn as SHA-256. The
 text before the first comma says which half a prompt belongs to, so that a subject of VBench, which
-stands there in ten styles, is in one half only. Within a half the first by digest are drawn.
+stands there in twenty styles, is in one half only. Within a half the first by digest are drawn.
 """
 
 from __future__ import annotations

@@ -289,3 +289,9 @@ def test_a_large_thing_of_which_a_corner_fills_the_picture_is_cut_off() -> None:
     corner = Glimpse(points=60, alone=60, extent=1.0, inside=0.1)
     assert corner.fault(100, 22_490) == "cut off"
     assert corner._replace(inside=0.35).fault(100, 22_490) is None
+
+
+@pytest.mark.parametrize("prompt", ["a pink bicycle", "a red motorcycle"])
+def test_a_bicycle_has_the_colour_of_its_frame(prompt: str) -> None:
+    report = ProceduralGenerator(ProceduralConfig(duration=0.5), size=SIZE).report(prompt)
+    assert prompt.split()[1] in report.shown

@@ -121,7 +121,6 @@ VERBS: tuple[Verb, ...] = (
             "gain speed",
             "pick up speed",
             "gather speed",
-            "accelerate to gain speed",
         )
     ),
     *(
