@@ -8,7 +8,8 @@
 
 The files are not part of this repository; `public/digests.csv` holds what was drawn as SHA-256. The
 text before the first comma says which half a prompt belongs to, so that a subject of VBench, which
-stands there in twenty styles, is in one half only. Within a half the first by digest are drawn.
+stands there in twenty styles, is in one half only. Within a half the first by digest are drawn. A
+second draw of the test half, for a later version, takes the next ones, of other subjects.
 """
 
 from __future__ import annotations
@@ -27,15 +28,17 @@ from texvent.io.atomic import atomic_file
 STYLES = {"short": "V", "detailed": "M", "caption": "K"}
 """Letter of the ids of each style."""
 HALVES = ("development", "test")
-PER_HALF = 40
-"""Prompts of each style in a half."""
+SECOND = "second-test"
+DRAWS = (*HALVES, SECOND)
+PER_DRAW = 40
+"""Prompts of each style in a draw."""
 _WORDS_OF_DETAIL = 20
 _TEMPLATE = "pleasant stroll"
 _DIGESTS = Path(__file__).parent / "public" / "digests.csv"
 
 
 def run(options: argparse.Namespace) -> None:
-    """Write development.csv and test.csv, and say whether they are the prompts that were graded.
+    """Write development.csv and both test files, and say whether they are what was graded.
 
     Raises:
         InputError: a file cannot be read, or holds fewer prompts than are drawn.
@@ -47,37 +50,45 @@ def run(options: argparse.Namespace) -> None:
     }
     known = read_digests(_DIGESTS)
     options.out.mkdir(parents=True, exist_ok=True)
-    for half in HALVES:
-        prompts = [one for style in STYLES for one in draw(texts[style], style, half)]
-        write_prompts(options.out / f"{half}.csv", prompts)
+    for name in DRAWS:
+        prompts = [one for style in STYLES for one in draw(texts[style], style, name)]
+        write_prompts(options.out / f"{name}.csv", prompts)
         same = sum(known.get(one.id) == digest(one.prompt) for one in prompts)
-        print(f"{half}: {len(prompts)} prompts, {same} of them those that were graded")
+        print(f"{name}: {len(prompts)} prompts, {same} of them those that were graded")
 
 
-def draw(texts: Sequence[str], style: str, half: str) -> list[Prompt]:
-    """The prompts of one style and half; ids count on from the first half to the second.
+def draw(texts: Sequence[str], style: str, name: str) -> list[Prompt]:
+    """The prompts of one style and draw; ids count on from draw to draw.
 
     Raises:
-        InputError: there are fewer than `PER_HALF`.
+        InputError: there are fewer than `PER_DRAW`.
     """
+    half = "test" if name == SECOND else name
     mine = sorted({one for one in texts if half_of(one) == half}, key=digest)
-    if len(mine) < PER_HALF:
+    if name == SECOND:
+        used = {subject_of(one) for one in mine[:PER_DRAW]}
+        mine = [one for one in mine[PER_DRAW:] if subject_of(one) not in used]
+    if len(mine) < PER_DRAW:
         raise InputError(
-            f"the {style} prompts of the {half} half are {len(mine)}; at least {PER_HALF} are "
+            f"the {style} prompts of the draw {name} are {len(mine)}; at least {PER_DRAW} are "
             "needed: is the file complete?"
         )
-    first = 1 + PER_HALF * HALVES.index(half)
+    first = 1 + PER_DRAW * DRAWS.index(name)
     letter = STYLES[style]
     return [
         Prompt(f"{letter}{number:02d}", text, style)
-        for number, text in enumerate(mine[:PER_HALF], first)
+        for number, text in enumerate(mine[:PER_DRAW], first)
     ]
 
 
 def half_of(text: str) -> str:
-    """Which half a prompt belongs to: by the digest of what stands before its first comma."""
-    subject = text.split(",")[0].lower()
-    return HALVES[int(digest(f"half {subject}"), 16) % 2]
+    """Which half a prompt belongs to: by the digest of its subject."""
+    return HALVES[int(digest(f"half {subject_of(text)}"), 16) % 2]
+
+
+def subject_of(text: str) -> str:
+    """What stands before the first comma."""
+    return text.split(",")[0].lower()
 
 
 def digest(text: str) -> str:

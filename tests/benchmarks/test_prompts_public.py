@@ -13,10 +13,10 @@ from benchmarks.prompts.sheet import read_prompts
 
 from texvent.errors import InputError
 
-SUBJECTS = [f"a thing of number {number}" for number in range(200)]
+SUBJECTS = [f"a thing of number {number}" for number in range(400)]
 
 
-def write_sources(folder: Path, count: int = 200) -> list[str]:
+def write_sources(folder: Path, count: int = 400) -> list[str]:
     """Three files of the right form; returns the options that name them."""
     styled = [f"{one}, {style}" for one in SUBJECTS[:count] for style in ("in oil", "zoom in")]
     long = [f"{one} moves {'slowly ' * 20}along" for one in SUBJECTS[:count]]
@@ -35,18 +35,24 @@ def run(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
     return main()
 
 
-def test_both_halves_are_drawn_and_share_no_subject(tmp_path, monkeypatch, capsys):
+def test_draws_share_no_subject(tmp_path, monkeypatch, capsys):
     out = tmp_path / "out"
     assert run(monkeypatch, "public", *write_sources(tmp_path), "-o", str(out)) == 0
-    halves = {name: read_prompts(out / f"{name}.csv") for name in public.HALVES}
-    for rows in halves.values():
+    draws = {name: read_prompts(out / f"{name}.csv") for name in public.DRAWS}
+    for rows in draws.values():
         assert [row.style for row in rows] == [
-            style for style in public.STYLES for _ in range(public.PER_HALF)
+            style for style in public.STYLES for _ in range(public.PER_DRAW)
         ]
-    subjects = [{row.prompt.split(",")[0] for row in rows} for rows in halves.values()]
-    assert not subjects[0] & subjects[1]
+    ids = [row.id for rows in draws.values() for row in rows]
+    assert len(set(ids)) == len(ids)
+    for style in public.STYLES:
+        subjects = [
+            {public.subject_of(row.prompt) for row in rows if row.style == style}
+            for rows in draws.values()
+        ]
+        assert len(set.union(*subjects)) == sum(len(one) for one in subjects)
     assert "0 of them those that were graded" in capsys.readouterr().out
-    assert not any("stroll" in row.prompt for rows in halves.values() for row in rows)
+    assert not any("stroll" in row.prompt for rows in draws.values() for row in rows)
 
 
 def test_the_order_of_the_lines_does_not_matter():
@@ -57,7 +63,7 @@ def test_the_order_of_the_lines_does_not_matter():
 
 def test_the_graded_prompts_are_known_by_their_digests():
     known = public.read_digests(Path(public.__file__).parent / "public" / "digests.csv")
-    assert len(known) == len(public.STYLES) * len(public.HALVES) * public.PER_HALF
+    assert len(known) == len(public.STYLES) * len(public.DRAWS) * public.PER_DRAW
     assert len(set(known.values())) == len(known)
     assert all(len(one) == 64 for one in known.values())
 
