@@ -520,3 +520,73 @@ def test_rides_stay_where_they_are() -> None:
 def test_several_things_that_a_robot_arm_handles_are_shown_as_one() -> None:
     said = {one.said: one.shown for one in parse_prompt("a robot arm sorts cubes").substituted}
     assert said["cubes"] == "one block"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "kind"),
+    [
+        ("a man with a sack walking on a road", "man", "walk"),
+        ("a woman holding a racket running on grass", "woman", "run"),
+        ("a boy in a hat sitting on a bench", "child", "sit"),
+        ("a horse pulling a cart walking down a street", "horse", "walk"),
+        ("a dog with a ball lying on a sofa", "dog", "lie"),
+        ("a man with a kite flying", "kite", "fly"),
+        ("a dog chasing a ball rolling over grass", "ball", "roll"),
+    ],
+)
+def test_what_somebody_has_does_not_walk_or_sit(prompt: str, noun: str, kind: str) -> None:
+    scene = parse_prompt(prompt)
+    assert {one.noun: one.motion.kind for one in scene.objects if one.motion}[noun] == kind
+    assert not scene.not_understood
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["a man and a dog walk", "a dog and a man walking on a beach", "a man with a dog walking",
+     "a woman and a cat run", "a woman and a dog sit on a bench"],
+)  # fmt: skip
+def test_people_and_animals_do_it_together(prompt: str) -> None:
+    kinds = {one.motion.kind for one in parse_prompt(prompt).objects[:2] if one.motion}
+    assert len(kinds) == 1
+    assert kinds <= {"walk", "run", "sit"}
+
+
+def test_an_animal_that_cannot_do_it_is_named() -> None:
+    scene = parse_prompt("a boy and a dog play frisbee")
+    assert "the dog does not do it (play)" in scene.notes
+
+
+@pytest.mark.parametrize(
+    "prompt", ["a man with a sack next to a train", "a man holding a cup in front of a train"]
+)
+def test_the_place_of_what_somebody_has_is_the_owners(prompt: str) -> None:
+    scene = parse_prompt(prompt)
+    nouns = [one.noun for one in scene.objects]
+    near = [one for one in scene.relations if one.kind in ("beside", "front")]
+    assert [nouns[one.subject] for one in near] == ["man"]
+
+
+def test_seats_are_around_a_table_and_other_things_on_it() -> None:
+    scene = parse_prompt("a table with a vase and four chairs")
+    nouns = [one.noun for one in scene.objects]
+    kinds = {nouns[one.subject]: one.kind for one in scene.relations}
+    assert kinds == {"vase": "on", "chair": "around"}
+
+
+def test_what_is_near_a_place_is_not_within_it() -> None:
+    assert parse_prompt("two players stand near the baseball field").not_understood == ("near",)
+    scene = parse_prompt("three elephants stand next to a forest")
+    assert (scene.surroundings.place, scene.surroundings.backdrops) == ("grass", ("forest",))
+    assert not scene.not_understood
+    assert not parse_prompt("a dog near a lake").not_understood
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["a dog outdoors", "a man eats outside", "an outdoor table", "a man outside throwing a ball"],
+)
+def test_outside_is_shown_where_nothing_tells_of_a_room(prompt: str) -> None:
+    scene = parse_prompt(prompt)
+    assert not scene.not_understood
+    assert scene.surroundings.place not in ("indoor", "kitchen")
+    assert parse_prompt("a man stands outside a bathroom").not_understood

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 
 from texvent.scenes.language.vocabulary.place_cues import (
     APPROACHES,
@@ -134,7 +135,9 @@ def find_cues(words: Sequence[Word], *, is_outside: bool) -> PlaceCues:
     said = {word.lemma for word in words if word.pos in (Pos.NOUN, Pos.ADVERB, Pos.ADJECTIVE)}
     said |= {word.lemma for word in words if word.read_as(Role.NOUN) and word.pos is not Pos.VERB}
     said -= {word.lemma for word in words if word.role is Role.CAMERA} & _LOOKED_OUT_OF
-    is_fair = any(word.role in (Role.WEATHER, Role.SKY, Role.CLOUDS) for word in words)
+    is_fair = bool(_list_outdoors(words)) or any(
+        word.role in (Role.WEATHER, Role.SKY, Role.CLOUDS) for word in words
+    )
     is_fair = is_fair or any(
         word.role is Role.LIGHT
         and (word.meaning.value in ("sunny", "moonlight") or word.lemma in OUTDOOR_LIGHTS)
@@ -148,6 +151,31 @@ def find_cues(words: Sequence[Word], *, is_outside: bool) -> PlaceCues:
         outdoor = "farmyard" if said & FARM_CUES else "city"
     outdoor = outdoor or ("grass" if is_fair else None)
     return _read_acts(words, said, PlaceCues(outdoor, _find(said, INDOOR_CUES)))
+
+
+def use_outdoors(words: Sequence[Word], place: str | None, cues: PlaceCues) -> None:
+    """Count "outside", "outdoor" as shown where nothing puts the scene into a room.
+
+    Args:
+        words: the prompt; those words change.
+        place: the place that it says.
+        cues: what else it tells.
+    """
+    if place in ENCLOSED or not cues.is_outdoors:
+        return
+    for word in _list_outdoors(words):
+        word.is_used = not word.is_lost or word.pos is Pos.PREPOSITION
+        word.is_lost = not word.is_used
+
+
+def _list_outdoors(words: Sequence[Word]) -> list[Word]:
+    """As "outdoor", and "outside" that is before no noun."""
+    return [
+        word
+        for word, after in zip_longest(words, words[1:])
+        if word.text == "outdoor"
+        or (word.text == "outside" and (after is None or after.pos not in (*_BETWEEN, Pos.PRONOUN)))
+    ]
 
 
 def _read_acts(words: Sequence[Word], said: set[str], cues: PlaceCues) -> PlaceCues:

@@ -24,6 +24,7 @@ from texvent.scenes.language.vocabulary.function import (
     SENTENCE_OPENERS,
     TIME_ORDER,
 )
+from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
@@ -355,9 +356,8 @@ class _ClauseReader(GroupAttachment):
         else:
             subjects, host = list(self._clause.subjects), Clause()
         self._close()
-        self._clause.subjects, self._clause.hosts = subjects, list(host.subjects)
-        by = [one.preposition.text for one in host.phrases if one.groups[-1] in subjects]
-        self._clause.hosts_by = by[-1] if by else ""
+        self._clause.subjects, self._clause.hosts = subjects, host.subjects
+        self._clause.hosts_by = _find_by(host, subjects)
 
     def _resume_outer(self, is_participle: bool) -> None:
         """A verb without "and" after a complete clause."""
@@ -373,6 +373,22 @@ class _ClauseReader(GroupAttachment):
             subjects = list(clause.subjects)
         self._close()
         self._clause.subjects, self._clause.is_participle = subjects, is_participle
+
+
+_HAVING = ("hold", "wear")
+
+
+def _find_by(host: Clause, subjects: Sequence[NounGroup]) -> str:
+    """How those groups are in a clause: see `Clause.hosts_by`."""
+    value = host.verb.meaning.value if host.verb is not None else None
+    if isinstance(value, Verb) and value.act in _HAVING and subjects == host.objects[-1:]:
+        return "with"
+    by = [
+        phrase.preposition.text
+        for phrase in host.phrases
+        if any(one in subjects for last in phrase.groups[-1:] for one in (last, *_inner(last)))
+    ]
+    return by[-1] if by else ""
 
 
 def _inner(group: NounGroup) -> list[NounGroup]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from texvent.scenes.language.grammar.clause_state import ClauseState
 from texvent.scenes.language.grammar.noun_groups import read_group, starts_group
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
@@ -36,6 +38,10 @@ _DONE_DOWN = frozenset(
 """Verbs that are done to what follows "up" and "down": "lights up his face"."""
 
 
+_WHERE = ("outside", "inside")
+"""Prepositions that are adverbs as well."""
+
+
 class GroupAttachment(ClauseState):
     """Attaches groups to the clause being read."""
 
@@ -55,6 +61,10 @@ class GroupAttachment(ClauseState):
             self._clause.adverbs.append(word)
             return
         opens_group = starts_group(self._words, self._at, is_opening=True)
+        if word.text in _WHERE and self._doing_comes():
+            word.meaning = replace(word.meaning, pos=Pos.ADVERB)
+            self._clause.adverbs.append(word)
+            return
         is_verb = self._at < len(self._words) and self._words[self._at].pos is Pos.VERB
         if is_verb and not opens_group:
             word.is_used = True
@@ -75,6 +85,11 @@ class GroupAttachment(ClauseState):
         self._phrase, self._last, self._is_joined = phrase, group, ""
         if not is_of:
             self._anchor = group
+
+    def _doing_comes(self) -> bool:
+        """As in "a man outside throwing a ball": the gerund is what he does."""
+        coming = self._words[self._at : self._at + 1]
+        return [(one.pos, one.meaning.form) for one in coming] == [(Pos.VERB, VerbForm.ING)]
 
     def _is_particle(self, word: Word, verb: Word) -> bool:
         """Whether it belongs to the verb before it."""

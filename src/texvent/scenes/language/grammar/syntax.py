@@ -90,7 +90,8 @@ class Clause:
     hosts: list[NounGroup] = field(default_factory=list)
     """Of a participle right after a noun: subjects of the clause that the noun is in."""
     hosts_by: str = ""
-    """The preposition by which the noun is in that clause, "" for its object."""
+    """The preposition by which the noun is in that clause, "with" also for what is held or worn,
+    "" for any other object."""
     is_relative: bool = False
     is_listed: bool = False
     """Whether its subjects are joined by "and"."""

@@ -169,6 +169,11 @@ class SurroundingsReader:
         natural = vocabulary_scene.NATURAL_COLOURS.get(place, ())
         return True, colour.name.split()[-1] in natural
 
+    def stand_before(self, place: str) -> None:
+        """As in "next to a forest": on open ground, with the forest behind."""
+        if place == "forest" and self._place is None:
+            self._place = "grass"
+
     def _read_sky(self, attributes: Attributes) -> bool:
         if attributes.colours:
             self._sky, words = attributes.colours[0]

@@ -23,7 +23,7 @@ _PHRASES: dict[str, tuple[str, ...]] = {
         "in the shade of",
     ),
     "inside": ("inside of", "in side of", "on the inside of", "in the inside of"),
-    "outside": ("outside of",),
+    "outside": ("outside of", "outdoors", "out of doors"),
     "near a": ("nearby a",),
     "near the": ("nearby the",),
     "in": (

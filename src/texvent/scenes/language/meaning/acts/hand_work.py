@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.acts.activities import find_activity
+from texvent.scenes.language.meaning.acts.sequence import add_motion
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -149,3 +150,19 @@ def work_on(draft: Draft, word: Word, people: Sequence[int], objects: Sequence[R
         word.shown_as = seen
     if objects and not targets and not is_drawn:
         word.shown_as = f"{seen or word.lemma} nothing"
+
+
+def work_by_hand(
+    draft: Draft, clause: Clause, subjects: Sequence[int], targets: Sequence[int]
+) -> list[int]:
+    """As in "hits a drum with a stick", "lifts a box": hands at what stays in its place.
+
+    Returns:
+        Who does it.
+    """
+    verb = clause.verb_word.meaning.value
+    motion = ObjectMotion(verb.base, pace=verb.pace)
+    movers = [index for index in subjects if add_motion(draft, index, motion, clause)]
+    if movers:
+        clause.verb_word.is_used = draft.relate("work on", movers, targets[:1])
+    return movers

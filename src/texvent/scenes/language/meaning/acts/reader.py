@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -38,6 +37,7 @@ from texvent.scenes.language.meaning.acts.hand_work import (
     is_by_hand,
     is_of_own_part,
     lacks_thing,
+    work_by_hand,
     work_on,
 )
 from texvent.scenes.language.meaning.acts.looking import look_at
@@ -109,7 +109,8 @@ class ActReader:
             return subjects
         movers = self._read_activity(clause, subjects, objects)
         if movers:
-            return movers
+            rest = [n for n in subjects if n not in movers]
+            return movers + self._join_in(clause, rest, objects, targets)
         if give_effect(self._draft, clause, subjects):
             return subjects
         if clause.verb_word.role is Role.FLICKER:
@@ -121,6 +122,17 @@ class ActReader:
             return subjects
         return self._read_verb(clause, subjects, objects, targets)
 
+    def _join_in(
+        self, clause: Clause, rest: list[int], objects: Sequence[Referent], targets: list[int]
+    ) -> list[int]:
+        """As in "a man and a dog run": the dog too; what cannot do it is named."""
+        joined = self._read_verb(clause, rest, objects, targets) if rest else []
+        clause.verb_word.is_used = True
+        for noun in (self._draft.noun(n) for n in rest if n not in joined):
+            if is_living(noun):
+                self._draft.note(f"the {noun.name} does not do it ({clause.verb_word.text})")
+        return joined
+
     def _read_verb(
         self,
         clause: Clause,
@@ -131,13 +143,13 @@ class ActReader:
         """A verb that is no activity, effect or signal."""
         word = clause.verb_word
         verb = word.meaning.value
-        is_alive = all(is_living(self._draft.noun(index)) for index in subjects)
+        is_alive = all(is_living(self._draft.noun(n)) for n in subjects)
         outer = [one for one in objects if not (is_alive and is_part_of_doer(one))]
         if not isinstance(verb, Verb):
             is_done_to = any(one.kind in ("things", "unknown", "part") for one in outer)
             return self._do_alike(clause, word, subjects, targets, is_done_to=is_done_to)
         if targets and is_by_hand(self._draft, verb, subjects, targets):
-            return self._work_by_hand(clause, verb, subjects, targets)
+            return work_by_hand(self._draft, clause, subjects, targets)
         if targets:
             pair = (self._draft.noun(subjects[0]), self._draft.noun(targets[0]))
             moving = fit_moving(verb, pair, self._draft.length_m(targets[0]), word)
@@ -302,16 +314,6 @@ class ActReader:
             return movers
         return []
 
-    def _work_by_hand(
-        self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
-    ) -> list[int]:
-        """As in "hits a drum with a stick", "lifts a box": hands at what stays in its place."""
-        motion = ObjectMotion(verb.base, pace=verb.pace)
-        movers = [index for index in subjects if add_motion(self._draft, index, motion, clause)]
-        if movers:
-            clause.verb_word.is_used = self._draft.relate("work on", movers, targets[:1])
-        return movers
-
     def _do_to_each_other(self, clause: Clause, verb: Verb, subjects: list[int]) -> list[int]:
         """As in "two trains pass each other": the two come from opposite sides.
 
@@ -323,9 +325,9 @@ class ActReader:
             clause.verb_word.is_used = False
             return movers
         if verb.relation == "past":
-            for index, way in zip(pair, itertools.cycle(("right", "left"))):
+            for place, index in enumerate(pair):
                 motions = self._draft.objects[index].motions
-                motions[-1] = replace(motions[-1], direction=way)
+                motions[-1] = replace(motions[-1], direction=("right", "left")[place % 2])
         self._draft.relate(str(verb.relation), pair[1:], pair[:1])
         return movers
 

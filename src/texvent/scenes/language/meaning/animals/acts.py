@@ -43,8 +43,8 @@ def read_animal_acts(clauses: Sequence[Clause], nouns: Mapping[str, Noun]) -> No
         clauses: of the prompt; they change.
         nouns: the objects that can be shown, by name.
     """
-    give_to_wearers(clauses)
     give_to_hosts(clauses, nouns)
+    give_to_wearers(clauses)
     mean_parents(clauses, nouns)
     for at, clause in enumerate(clauses):
         if clause.verb is None or clause.negation is not None or clause.is_passive:

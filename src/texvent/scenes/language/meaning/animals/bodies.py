@@ -213,7 +213,7 @@ def give_to_hosts(clauses: Sequence[Clause], nouns: Mapping[str, Noun]) -> None:
         can_wear = [one for one in clause.hosts if find_animal(one, nouns) or is_of_person(one)]
         own = [one for one in clause.subjects if find_animal(one, nouns) or is_of_person(one)]
         if can_wear and not own:
-            clause.subjects, clause.hosts = can_wear, []
+            clause.subjects[:], clause.hosts = can_wear, []
 
 
 def _is_worn(group: NounGroup) -> bool:

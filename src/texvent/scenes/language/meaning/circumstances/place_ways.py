@@ -22,8 +22,28 @@ _WITHIN = ("in", "through")
 _BATHED_IN = SHORES - {"harbour"}
 """Places in whose water one stands or walks."""
 _WADING = _ON_LAND | {"stand", "sit"}
+BESIDE = ("near", "next to", "beside", "in front of", "behind")
+"""Prepositions of what is outside of a place."""
+_EDGED = SHORES | SLOPES | {
+    "road", "dirt road", "city", "river", "mountain", "motorway", "railway", "race track", "runway",
+    "cliffs", "falls", "forest", "driveway",
+}  # fmt: skip
+"""Places that one sees from beside them."""
 _OPENINGS = frozenset({"window", "door", "gate", "tunnel", "arch", "box", "basket", "bucket"})
 """Out of what one comes."""
+
+
+def is_outside(word: Word, one: Referent) -> bool:
+    """Whether a preposition puts things beside a place that is shown all around them.
+
+    As in "stands near the baseball field".
+    """
+    return one.kind == "place" and word.text in BESIDE and str(one.value) not in _EDGED
+
+
+def is_somewhere(one: Referent) -> bool:
+    """A background is behind whatever is there."""
+    return one.kind == "place" and one.value != "plain"
 
 
 def lifts_off(draft: Draft, movers: Sequence[int], target: int) -> bool:
@@ -100,3 +120,17 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
             motions[-1] = replace(motions[-1], shore=way[0], direction=way[1])
             is_led = True
     return is_led
+
+
+_ROADWAYS = frozenset({"road", "lane", "street", "highway", "roadway", "motorway"})
+
+
+def put_on_road(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
+    """As in "a deer stands in the lane": on it, not beside it."""
+    head = one.group.head
+    if word.text not in ("in", "on") or head is None or head.lemma not in _ROADWAYS:
+        return
+    for index in scope.subjects:
+        item = draft.objects[index]
+        if item.side is None and draft.noun(index).motion != "drive":
+            item.side = "lane"

@@ -17,7 +17,13 @@ from texvent.scenes.language.meaning.circumstances.courses import (
 )
 from texvent.scenes.language.meaning.circumstances.effects import add_effect
 from texvent.scenes.language.meaning.circumstances.parts import PartReader
-from texvent.scenes.language.meaning.circumstances.place_ways import go_to
+from texvent.scenes.language.meaning.circumstances.place_ways import (
+    BESIDE,
+    go_to,
+    is_outside,
+    is_somewhere,
+    put_on_road,
+)
 from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
 from texvent.scenes.language.meaning.circumstances.relations import (
     WEAK_PREPOSITIONS,
@@ -287,28 +293,21 @@ class CircumstanceReader:
         names = PLACE_PREPOSITIONS if one.kind == "place" else LIGHT_PREPOSITIONS
         if word.text not in names and one.kind in ("place", "light"):
             return
+        if one.kind == "place" and scope.subjects and word.text in BESIDE:
+            self._surroundings.stand_before(str(one.value))
         is_read = self._surroundings.read_referent(one, is_negated=is_negated)
         is_covered = word.text.startswith("covered") and one.kind != "weather"
         is_unread = word.text == "facing" or (is_covered and bool(scope.subjects))
-        is_unread |= _is_somewhere(one) and is_read and not go_to(self._draft, word, one, scope)
+        is_unread |= is_somewhere(one) and is_read and not go_to(self._draft, word, one, scope)
+        is_unread |= bool(scope.subjects) and is_outside(word, one)
         word.is_used, word.is_lost = is_read and not is_unread, is_unread
         name_course(self._draft, word, one, scope)
-        self._put_on_road(word, one, scope)
+        put_on_road(self._draft, word, one, scope)
         direction = _MOTION_BY_PREPOSITION.get(word.text)
         for index in scope.movers if is_read and direction == "across" else ():
             motions = self._draft.objects[index].motions
             if motions and motions[-1].direction is None and motions[-1].is_moving:
                 motions[-1] = replace(motions[-1], direction="across")
-
-    def _put_on_road(self, word: Word, one: Referent, scope: Scope) -> None:
-        """As in "a deer stands in the lane": on it, not beside it."""
-        head = one.group.head
-        if word.text not in ("in", "on") or head is None or head.lemma not in _ROADWAYS:
-            return
-        for index in scope.subjects:
-            item = self._draft.objects[index]
-            if item.side is None and self._draft.noun(index).motion != "drive":
-                item.side = "lane"
 
     def _read_wind(self, word: Word, one: Referent, scope: Scope) -> None:
         """As in "a flag waves in the wind": shown where what is said moves so."""
@@ -395,11 +394,5 @@ class CircumstanceReader:
         return None
 
 
-def _is_somewhere(one: Referent) -> bool:
-    """A background is behind whatever is there."""
-    return one.kind == "place" and one.value != "plain"
-
-
-_ROADWAYS = frozenset({"road", "lane", "street", "highway", "roadway", "motorway"})
 _BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
               "from": "away", "at": "towards"}  # fmt: skip

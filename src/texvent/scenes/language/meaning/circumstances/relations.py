@@ -328,6 +328,13 @@ class RelationReader:
             return self._draft.relate("hold", scope.subjects, things)
         if item.name in _CARRIES and doer.name not in _CARRIES:
             return self._draft.relate("on", scope.subjects, things)
+        seats = [index for index in things if self._draft.noun(index).name in SEATS]
+        if doer.name in _TABLES and seats:
+            rest = [index for index in things if index not in seats]
+            is_rest = not rest or self._read_with(rest, scope)
+            count = sum(self._draft.objects[index].count for index in seats)
+            kind = "around" if count > 1 else "beside"
+            return self._draft.relate(kind, seats, scope.subjects) and is_rest
         if doer.name in _CARRIES and self._is_small(things[0]):
             return self._draft.relate("on", things, scope.subjects)
         if doer.name in _VESSELS and (self._is_small(things[0]) or doer.name == "stroller"):
