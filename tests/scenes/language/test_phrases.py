@@ -188,3 +188,65 @@ def test_ages_and_times_are_no_counts(prompt: str, first: str) -> None:
 def test_a_setting_is_the_place_before_it() -> None:
     assert parse_prompt("an ocean scene").surroundings.place == "sea"
     assert parse_prompt("a bus in a desert landscape").surroundings.place == "desert"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first"),
+    [
+        ("This is a picture of two horses on a lawn.", "2 horses, walk"),
+        ("this is people walking on a lawn", "3 people, walk"),
+        ("It's a dog that runs", "1 dog, runs"),
+        ("There's a dog that runs", "1 dog, runs"),
+        ("this is how I do makeup", "1 person, does 'put on makeup'"),
+        ("a film of a dog that runs", "1 dog, runs"),
+    ],
+)
+def test_openings_that_name_nothing_are_left_out(prompt: str, first: str) -> None:
+    assert first_of(prompt) == first
+    assert parse_prompt(prompt).not_understood == ()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "move"),
+    [
+        ("A pan right over a city at dusk", ("pan", "right")),
+        ("A truck left past a row of wind turbines", ("truck", "left")),
+        ("A pedestal down from the top of a waterfall", ("pedestal", "down")),
+        ("A tilt up from a cup", ("tilt", "up")),
+    ],
+)
+def test_a_move_of_the_camera_that_opens_a_sentence_is_no_thing(
+    prompt: str, move: tuple[str, str]
+) -> None:
+    found = parse_prompt(prompt)
+    assert [(one.kind, one.direction) for one in found.shot.moves] == [move]
+    assert {"frying pan", "truck", "column"}.isdisjoint(one.noun for one in found.objects)
+
+
+def test_a_pan_that_was_left_on_a_stove_is_a_pan() -> None:
+    assert first_of("A pan left on a stove") == "1 frying pan, stands still, on 1 oven"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first", "lost"),
+    [
+        ("two slices of cake on a plate", "2 cakes, stand still, on 1 plate", ("slices",)),
+        ("a two story house and a tree", "1 house, stands still", ("two", "story")),
+        ("two other dogs run", "2 dogs, run", ()),
+        ("a man snow boarding", "1 man, snowboards", ()),
+        ("a man has on a hat", "1 man, stands still, wearing 1 hat", ()),
+    ],
+)
+def test_measures_and_split_words(prompt: str, first: str, lost: tuple[str, ...]) -> None:
+    assert first_of(prompt) == first
+    assert parse_prompt(prompt).not_understood == lost
+
+
+def test_what_a_phrase_stands_for_is_reported_as_the_prompt_has_it() -> None:
+    assert "women" in parse_prompt("a women walks").shown
+    assert "wearing skis" in parse_prompt("a man wearing skis").shown
+
+
+def test_a_room_in_black_and_white_is_no_film() -> None:
+    assert not parse_prompt("a kitchen decorated in black and white").is_grey
+    assert parse_prompt("a dog filmed in black and white").is_grey

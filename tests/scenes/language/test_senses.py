@@ -201,3 +201,26 @@ def test_no_parts_or_senses_stand_as_things(prompt: str, nouns: list[str]) -> No
 )
 def test_water_in_a_vessel_is_no_sea(prompt: str, place: str) -> None:
     assert parse_prompt(prompt).surroundings.place == place
+
+
+@pytest.mark.parametrize(
+    ("prompt", "words"),
+    [
+        ("A girl is left alone in a room.", ("left", "alone")),
+        ("A toilet in a cramped space.", ("cramped", "space")),
+        ("A giraffe stands in a pen.", ("pen",)),
+        ("Signs show where to park.", ("show", "park")),
+        ("A bowl on a table with food present.", ("present",)),
+        ("A cake with frosting.", ("frosting",)),
+        ("A boy has one arm up.", ("up",)),
+    ],
+)
+def test_words_of_captions_in_another_sense_are_reported(prompt: str, words: tuple[str]) -> None:
+    assert set(words) <= set(parse_prompt(prompt).not_understood)
+
+
+def test_left_is_a_way_where_something_goes() -> None:
+    assert parse_prompt("a car drives left").summary()[0] == "1 car, drives left"
+    assert parse_prompt("the camera pans left over a street").shot.moves[0].direction == "left"
+    assert parse_prompt("The car left the house").summary()[0] == "1 car, drives, from 1 house"
+    assert parse_prompt("an astronaut floats in space").surroundings.place == "space"

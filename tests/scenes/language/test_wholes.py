@@ -92,3 +92,38 @@ def test_weights_are_one_barbell() -> None:
     assert [(one.noun, one.count) for one in parse_prompt("a man lifts weights").objects] == [
         ("man", 1), ("barbell", 1)
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first"),
+    [
+        ("A man with a sack walking on a beach", "1 man, walks, holding 1 sack"),
+        (
+            "a woman in a coat sitting on a bench",
+            "1 woman, sits, wearing 1 coat, on 1 bench",
+        ),
+        ("A boat with dolphins jumping", "1 boat, sails, with 3 dolphins"),
+        ("A woman in a costume who is clapping", "1 woman, claps, wearing 1 dress"),
+    ],
+)
+def test_who_has_a_thing_does_what_the_thing_cannot(prompt: str, first: str) -> None:
+    assert parse_prompt(prompt).summary()[0] == first
+
+
+@pytest.mark.parametrize(
+    ("prompt", "line"),
+    [
+        ("a man looks through a book on a table", "1 book, stands still, on 1 table"),
+        ("a girl holds a cup with rice in bowls", "1 rice, stands still, in 3 bowls"),
+        ("a bowl with rice and carrots on a table", "1 bowl, stands still, on 1 table"),
+        ("a laptop with a keyboard and a mouse on a table", "1 keyboard, stands still, on 1 table"),
+        ("a kitchen with a sink and a table in it", "1 table, stands still"),
+    ],
+)
+def test_things_are_where_things_go(prompt: str, line: str) -> None:
+    assert line in parse_prompt(prompt).summary()
+
+
+def test_what_is_near_a_place_that_is_all_around_is_reported() -> None:
+    assert "near" in parse_prompt("two men walk near a garden").not_understood
+    assert parse_prompt("a house by a lake").not_understood == ()

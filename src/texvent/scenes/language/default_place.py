@@ -86,7 +86,9 @@ _OUTDOORS = frozenset(
      "car", "bus", "truck", "horse", "cow", "sheep", "street lamp", "fence", "bench", "tent",
      "temple", "church", "tractor", "taxi", "train", "tram", "steam locomotive", "bridge", "ship",
      "airplane", "helicopter", "excavator", "waterfall", "tower", "volcano", "golf club",
-     "golfer", "baseball", "frisbee", "baseball bat", "baseball batter", "baseball player"}
+     "building", "skyscraper", "shop", "clock tower", "factory building", "fire hydrant",
+     "parking meter", "stop sign", "traffic light", "golfer", "baseball", "frisbee",
+     "baseball bat", "baseball batter", "baseball player"}
 )  # fmt: skip
 """Nouns that are not found in a room."""
 _NEUTRAL = ("grass", "plain")
@@ -314,7 +316,8 @@ def with_snow(description: SceneDescription) -> SceneDescription:
 
 def report_place(description: SceneDescription, place: str) -> SceneDescription:
     """The description with a note where the program chose the place."""
-    if description.surroundings.place is None and place != _UNREMARKABLE:
+    is_snow_told = place == "snow" and description.surroundings.has_snow
+    if description.surroundings.place is None and place != _UNREMARKABLE and not is_snow_told:
         article = "an" if place[0] in "aeiou" else "a"
         name = _NAMES.get(place, f"{article} {place}")
         note = f"no place is said: {name} is chosen"

@@ -22,6 +22,7 @@ from texvent.scenes.language.meaning.animals.acts import read_animal_acts
 from texvent.scenes.language.meaning.animals.characters import stand_upright
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
 from texvent.scenes.language.phrases.compounds import join_compounds
+from texvent.scenes.language.phrases.frames import drop_frames
 from texvent.scenes.language.phrases.inherent import read_inherent
 from texvent.scenes.language.phrases.mood_notes import note_moods
 from texvent.scenes.language.phrases.names import join_names
@@ -150,7 +151,7 @@ def _join(light: Illumination, said: Illumination) -> Illumination:
 
 def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], Illumination, list[str]]:
     """Words of a prompt with their senses, what they say of the light, and notes on them."""
-    tokens = plain_phrases(set_styles_aside(tokenize_prompt(prompt)))
+    tokens = plain_phrases(set_styles_aside(drop_frames(tokenize_prompt(prompt))))
     tokens = join_compounds(join_names(tokens, known), known)
     words, notes = tag_words(bring_materials_forward(tokens, known), known)
     if _is_foreign(words) or is_of_other_grammar(prompt):

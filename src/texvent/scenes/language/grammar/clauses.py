@@ -235,10 +235,12 @@ class _ClauseReader(GroupAttachment):
 
     def _open_relative(self, word: Word) -> None:
         self._skip(word)
-        antecedent = self._last
-        self._outer.append(self._clause)
+        antecedent, outer = self._last, self._clause
+        self._outer.append(outer)
         self._close()
         self._clause.subjects = [antecedent] if antecedent is not None else []
+        self._clause.hosts = [one for one in outer.subjects if one is not antecedent]
+        self._clause.hosts_by = _find_by(outer, self._clause.subjects)
         self._anchor = None
         self._clause.is_relative, self._clause.opener = True, word
         self._is_joined = ""
@@ -383,9 +385,10 @@ def _find_by(host: Clause, subjects: Sequence[NounGroup]) -> str:
     value = host.verb.meaning.value if host.verb is not None else None
     if isinstance(value, Verb) and value.act in _HAVING and subjects == host.objects[-1:]:
         return "with"
+    own = [phrase for group in host.subjects for phrase in group.phrases]
     by = [
         phrase.preposition.text
-        for phrase in host.phrases
+        for phrase in (*own, *host.phrases)
         if any(one in subjects for last in phrase.groups[-1:] for one in (last, *_inner(last)))
     ]
     return by[-1] if by else ""

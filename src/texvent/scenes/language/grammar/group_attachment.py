@@ -40,6 +40,12 @@ _DONE_DOWN = frozenset(
 
 _WHERE = ("outside", "inside")
 """Prepositions that are adverbs as well."""
+_MEASURES = frozenset(
+    {"piece", "slice", "bit", "type", "kind", "sort", "load", "helping", "serving", "portion",
+     "chunk", "selection", "amount", "mix", "mixture", "strip", "cluster", "clump", "batch",
+     "style", "wedge", "scoop", "hunk", "half", "dozens"}
+)  # fmt: skip
+"""Nouns that say how much or which kind of what follows "of"."""
 
 
 class GroupAttachment(ClauseState):
@@ -75,6 +81,8 @@ class GroupAttachment(ClauseState):
             return
         group, self._at = read_group(self._words, self._at)
         is_of = word.text == "of"
+        if is_of and self._measures(word, group):
+            return
         if is_of and self._names_shot(word):
             self._clause.subjects.append(group)
             self._last = self._anchor = group
@@ -90,6 +98,19 @@ class GroupAttachment(ClauseState):
         """As in "a man outside throwing a ball": the gerund is what he does."""
         coming = self._words[self._at : self._at + 1]
         return [(one.pos, one.meaning.form) for one in coming] == [(Pos.VERB, VerbForm.ING)]
+
+    def _measures(self, word: Word, group: NounGroup) -> bool:
+        """As in "two slices of cake on a plate": the cake is on it, and "slices" is reported."""
+        whole = self._last
+        if whole is None or whole.head is None or group.head is None:
+            return False
+        is_measure = whole.head.role is Role.UNKNOWN and whole.head.lemma in _MEASURES
+        if not is_measure or group.head.role is not Role.NOUN or group.determiner is not None:
+            return False
+        word.is_used = True
+        whole.modifiers += [whole.head, *group.modifiers]
+        whole.head = group.head
+        return True
 
     def _is_particle(self, word: Word, verb: Word) -> bool:
         """Whether it belongs to the verb before it."""

@@ -10,6 +10,7 @@ from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.acts.activities import find_activity
 from texvent.scenes.language.meaning.acts.devices import take_handled
 from texvent.scenes.language.meaning.acts.doers import play_own, settle_doings, tell_by_doings
+from texvent.scenes.language.meaning.acts.first_person import show_speaker
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.hand_work import give_bodies
 from texvent.scenes.language.meaning.acts.hosts import lift_places, take_host
@@ -134,6 +135,7 @@ class ClauseMeaning:
             return
         if not clause.objects and read_named_act(self._draft, self._around, clause):
             return
+        show_speaker(clause, is_first_person=self._camera.is_first_person)
         self._referents.verb = clause.verb.lemma if clause.verb is not None else ""
         subjects = [self._referents.resolve(group) for group in clause.subjects]
         self._referents.verb = ""

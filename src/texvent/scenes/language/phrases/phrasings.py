@@ -69,6 +69,17 @@ _PHRASES: dict[str, tuple[str, ...]] = {
     ),
     "drinks from": ("bends down to drink water from", "bends down to drink from",
                     "drinks water from"),
+    "of leftover": ("of left over",),
+    "snowboarding": ("snow boarding",), "snowboarder": ("snow boarder",),
+    "snowboarders": ("snow boarders",), "skateboarding": ("skate boarding",),
+    "skateboarder": ("skate boarder",), "skateboarders": ("skate boarders",),
+    "surfing": ("surf boarding",), "skiing": ("snow skiing",),
+    "wetsuit": ("wet suit",), "wetsuits": ("wet suits",), "shirt": ("tee shirt",),
+    "shirts": ("tee shirts",), "cardboard": ("card board",),
+    "a crowd of": ("a crow of", "a crows of", "a crowed of"), "crowded": ("crowed",),
+    "a lake": ("a body of water", "a large body of water"),
+    "grass": ("grassy area", "grassy areas"), "snow": ("snowy area", "snow covered area"),
+    "trees": ("wooded area",),
     "towards": ("to join", "to catch up with"),
     "a woman": ("a women",),
     "a man": ("a men",),
@@ -125,6 +136,8 @@ _SUBJECTLESS = frozenset({"it", "they", "he", "she", "we", "i", "you", "who", "t
 _HAVING = frozenset({"has", "have", "featuring", "including", "includes", "contains"})
 _OF_FILM = frozenset({"scene", "shot", "view", "video", "clip", "footage", "image", "photo",
                       "picture", "camera"})  # fmt: skip
+_UNREPORTED = frozenset({"a", "on", "in"})
+"""Words that reports leave out."""
 _OPENS_GROUP = frozenset({"a", "an", "the", "some", "several", "many", "various", "multiple", "its",
                           "their", "his", "her", "no", "lots", "very"})  # fmt: skip
 
@@ -149,7 +162,6 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
     """Number of tokens that a phrase takes, and what it becomes; None where none begins."""
     rules = (
         _replace_fixed,
-        _drop_being,
         _go_the_way,
         _take_outing,
         _have,
@@ -162,11 +174,15 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
 
 
 def _stand_for(tokens: Sequence[Token], text: str) -> list[Token]:
-    """Tokens of the plain words; the first is reported as what the prompt has."""
-    said = " ".join(token.text for token in tokens)
-    first, *rest = text.split()
+    """Tokens of the plain words; the first that says something is reported as the prompt has it."""
+    said = " ".join(token.text for token in tokens).removeprefix("a ")
     written = " ".join(token.written for token in tokens)
-    return [Token(first, written, said=said), *(Token(one, one, said="") for one in rest)]
+    words = text.split()
+    first = next((at for at, word in enumerate(words) if word not in _UNREPORTED), 0)
+    return [
+        Token(word, written if at == first else word, said=said if at == first else "")
+        for at, word in enumerate(words)
+    ]
 
 
 def _replace_fixed(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
@@ -182,16 +198,6 @@ def _replace_fixed(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] 
             plain = plain.replace("a horse", "horses")  # as in "two men on horseback"
         return length, _stand_for(tokens[at : at + length], plain) if plain else []
     return None
-
-
-def _drop_being(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
-    """As in "There is a dog on the lawn": the sentence only names what is there."""
-    if [token.text for token in tokens[at : at + 1]] != ["there"] or at + 2 >= len(tokens):
-        return None
-    is_open = at == 0 or tokens[at - 1].is_punctuation or tokens[at - 1].text in ("and", "where")
-    is_being = tokens[at + 1].text in ("is", "are", "was", "were", "s")
-    is_denied = tokens[at + 2].text in ("no", "not", "nothing", "nobody", "none", "never")
-    return (2, []) if is_open and is_being and not is_denied else None
 
 
 def _go_the_way(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
@@ -216,10 +222,13 @@ def _take_outing(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | 
 
 
 def _have(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
-    """As in "A room has two windows": a room with them."""
+    """As in "A room has two windows": a room with them; "has on a hat": wears it."""
     if tokens[at].text not in _HAVING or at == 0 or at + 1 >= len(tokens):
         return None
     before, after = tokens[at - 1].text, tokens[at + 1].text
+    coming = [token.text for token in tokens[at + 2 : at + 3]]
+    if after == "on" and coming and coming[0] not in ("it", "them", "top", "its", "the"):
+        return 2, _stand_for(tokens[at : at + 2], "wearing")
     if before in _SUBJECTLESS or before in _OF_FILM or not _is_noun(before):
         return None
     return (1, _stand_for(tokens[at : at + 1], "with")) if after in _OPENS_GROUP else None

@@ -50,6 +50,8 @@ _PICTURES = _words(
     "photo photograph picture image photography scene still video footage film shot snapshot frame"
     " clip close photos pictures images"
 )
+_FILMED = frozenset({"filmed", "captured", "photographed", "pictured", "rendered", "recorded",
+                     "presented", "depicted", "displayed", "seen", "shot", "taken"})  # fmt: skip
 _HANGING = frozenset(
     {"wall", "gallery", "museum", "easel", "frame", "framed", "shelf", "fireplace",
      "hanging", "hangs", "hung", "desk", "exhibition", "studio"}
@@ -158,9 +160,12 @@ def _find_grey(tokens: Sequence[Token]) -> tuple[int, int, str] | None:
             continue
         after = tokens[at + 3].text if at + 3 < len(tokens) else "."
         before = tokens[at - 1].text if at else ""
-        is_alone = after in _SIGNS and (before in (",", ";", ".") or before == "in")
+        done = tokens[at - 2].text if before == "in" and at > 1 else ""
+        is_paint = done == "done" or (done.endswith("ed") and done not in _FILMED)
+        is_alone = after in _SIGNS and before in (",", ";", ".", "in") and not is_paint
         if after in _PICTURES or is_alone:
             begin = at - 1 if before == "in" else at
+            begin -= done in _FILMED
             return begin, at + 3, GREYSCALE
     return None
 

@@ -245,7 +245,7 @@ STYLE_NOUNS: dict[str, tuple[str, ...]] = {
     "the lens flares nowhere": (
         "lens flare", "sun flare", "anamorphic flare", "light leak", "lens reflection",
     ),
-    GREYSCALE: (*_GREY, "in black and white", "greyscale", "grayscale"),
+    GREYSCALE: (*_GREY, "greyscale", "grayscale"),
     "colours are as they are": (
         "sepia tone", "colour grading", "color grading",
         "colour grade",

@@ -59,7 +59,7 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
     Pos.NOUN: (
         "scene", "shot", "view", "video", "clip", "footage", "image", "photo", "photograph",
         "picture", "frame", "sight", "kind", "sort", "type", "sequence", "recording", "example",
-        "viewpoint", "perspective", "angle", "motion", "gesture", "hand gesture", "tableau",
+        "viewpoint", "perspective", "angle", "motion", "film", "gesture", "hand gesture", "tableau",
         "snapshot", "portrayal", "depiction",
     ),
     Pos.ADJECTIVE: (

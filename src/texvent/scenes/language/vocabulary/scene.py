@@ -93,6 +93,8 @@ PLACE_ADVERBS: dict[str, tuple[str, ...]] = {
     "underwater": ("underwater", "under water", "under the sea", "under the water",
                    "beneath the waves"),
     "indoor": ("indoor", "indoors"),
+    "train carriage": ("inside a train",),
+    "church hall": ("inside a church",),
     "space": ("in orbit",),
     "city": ("downtown", "urban"),
     "mountain": ("mountainous", "alpine"),

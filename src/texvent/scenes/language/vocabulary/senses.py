@@ -107,8 +107,12 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     ),
     "train": (_sense("bride gown wedding veil"),),
     "pupil": (_sense("iris dilate eyelash eyelid"),),
-    "pen": (_sense("pig sheep cow goat hen chicken lamb calf piglet farmer livestock"),),
+    "pen": (_sense("pig sheep cow goat hen chicken lamb calf piglet farmer livestock elephant"
+                   " giraffe zebra horse pony donkey bear cattle bull animal zoo holding dirt"
+                   " puppy fence enclosure bison rhino ostrich llama alpaca duck"),),
     "pool": (_sense("billiard billiards cue shoot"),),
+    "present": (_sense("food people person guest dish meal"),),
+    "plate": (_sense("tectonic licence license number weight barbell batter umpire catcher home"),),
     "key": (_sense("piano pianist typewriter laptop organ accordion press type keyboard organist"
                    " synthesizer xylophone"),),
     "bass": (_sense("band guitar jazz musician stage concert amplifier drummer"),),
@@ -134,7 +138,6 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "monitor": (_sense("lizard"),),
     "page": (_sense("boy king castle"),),
     "plane": (_sense("carpenter wood plank shaving workbench woodworker"),),
-    "plate": (_sense("tectonic licence license number weight barbell"),),
     "rail": (_sense("skate skateboard skateboarder skater snowboarder grind hand stairs staircase"
                     " balcony ship deck boat ballet barre curtain towel ranch horse"),),
     "rock": (_sense("concert band guitarist"),),

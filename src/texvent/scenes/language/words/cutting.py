@@ -77,6 +77,8 @@ def _count_joined(window: Sequence[Token], length: int, known: Lexicon) -> int:
     count = 1
     while count < len(window) and window[count - 1].is_joined:
         count += 1
+    if count == 1 and length < 2 and _is_measure(window, known):
+        return 2
     is_phrase = length >= count and known.find([one.text for one in window[:length]])[0] == length
     if count < 2 or is_phrase:
         return 0
@@ -94,13 +96,34 @@ def _count_joined(window: Sequence[Token], length: int, known: Lexicon) -> int:
     return count if (is_participle or last in _ENDINGS) and not is_said else 0
 
 
+def _is_measure(window: Sequence[Token], known: Lexicon) -> bool:
+    """As in "a two story house", "a one way sign": not two of them."""
+    if len(window) < 3 or window[2].is_punctuation:
+        return False
+    counts = [one.value for one in known.find([window[0].text])[1] if one.role is Role.COUNT]
+    measures = _MEASURED if counts == [1] else _MEASURED | _MEASURED_IF_MANY
+    is_noun = any(one.pos is Pos.NOUN for one in list_readings(window[2].text))
+    return bool(counts) and window[1].text in measures and is_noun
+
+
+_MEASURED = frozenset({"story", "storey", "tier", "tiered", "way", "lane", "level", "wheeler",
+                       "seater", "burner"})  # fmt: skip
+_MEASURED_IF_MANY = frozenset({"wheel", "piece", "seat", "door", "bedroom", "poster", "engine",
+                               "layer"})  # fmt: skip
+"""Words of measure in the singular, which stand between a number and a noun."""
 _AMOUNTS = frozenset({Role.COUNT, Role.UNIT})
 _KEPT = frozenset({Role.COLOUR, Role.SHADE, Role.PACE, Role.SIZE, Role.SNOW, Role.WEATHER})
 _ENDINGS = frozenset({"like", "free", "up", "off", "in", "old", "sized", "shaped", "legged"})
 
 
+_INSIDE = ("inside", "a")
+
+
 def _leave_head(window: Sequence[Token], length: int, known: Lexicon) -> int:
     """As in "industrial robot arm": "robot arm" is the head, not "industrial robot"."""
+    if length == len(_INSIDE) + 1 and tuple(one.text for one in window[: len(_INSIDE)]) == _INSIDE:
+        is_longer = known.find([token.text for token in window[len(_INSIDE) :]])[0] > 1
+        return 1 if is_longer else length  # "inside a train station"
     if length < 2 or not _is_noun(known.find([token.text for token in window[:length]])[1]):
         return length
     for first in range(1, length):
@@ -203,6 +226,8 @@ def _complete(span: Sequence[Token], meanings: list[Meaning]) -> list[Meaning]:
     if fixed is not None:
         return [fixed]
     found = list(meanings)
+    if token.text == "other":
+        found.append(Meaning(Role.FUNCTION, Pos.ADJECTIVE, token.text))  # "two other signs"
     listed = {meaning.pos for meaning in found}
     if listed and listed <= _CLOSED:
         return found

@@ -99,7 +99,7 @@ def list_readings(word: str) -> tuple[Reading, ...]:
     return tuple(found)
 
 
-_UNLISTED_NOUNS = frozenset({"pan", "trunk"})
+_UNLISTED_NOUNS = frozenset({"pan", "trunk", "frosting", "seating", "lettering", "flooring"})
 """Common nouns that the dictionary lacks."""
 
 

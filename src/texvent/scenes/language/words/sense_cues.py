@@ -35,6 +35,8 @@ _OUTLINES = frozenset({"flat", "square"})
 """Nouns that before another one say how it looks: "square black markers"."""
 _BECOMING = frozenset({"shrink", "dwindle", "reduce", "fade", "melt", "blur"})
 """Verbs of what comes to look like something that is not there: "shrink to dots"."""
+_OUTER = frozenset({"outer", "deep", "dark", "endless", "infinite", "vast", "black", "starry"})
+"""Adjectives of the space between the stars."""
 _OWNERS = ("his", "her", "their", "its", "my", "your", "our")
 _FAR = 4
 """Words after a verb among which its object is looked for."""
@@ -62,6 +64,7 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
         if word.pos is Pos.NOUN:
             owner = _find_determiner(words[:index])
             _choose_noun(word, owner, follower, others, known)
+            _leave_room(word, words[max(index - 1, 0)])
         if word.text == "overhead" and follower is not None and follower.role in _OF_SHOTS:
             word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, "top"), ()
         if word.text == "orange" and follower is not None and follower.lemma in _LIGHTS:
@@ -91,6 +94,9 @@ def _choose_verb(word: Word, after: Sequence[Word], others: set[str], known: Lex
         if follower.pos is Pos.PREPOSITION:
             _forget(follower, Pos.ADVERB)  # a coat that is put on is not under who does it
         return
+    if word.text == "left" and (follower is None or follower.pos is not Pos.DETERMINER):
+        _forget(word, Pos.VERB)  # "is left alone": it goes nowhere
+        return
     if NO_OBJECT.get(word.lemma, frozenset()) & {
         one.lemma.split()[-1] for one in _take_object(after)
     }:
@@ -102,6 +108,14 @@ def _choose_verb(word: Word, after: Sequence[Word], others: set[str], known: Lex
     sense = _find_sense(VERB_SENSES.get(word.lemma, ()), others)
     if sense is not None:
         _give(word, sense, known, Pos.VERB)
+
+
+def _leave_room(word: Word, before: Word) -> None:
+    """As in "a cramped space", "a parking space": no space between the stars."""
+    is_kind = before.pos in (Pos.ADJECTIVE, Pos.NOUN) and before.text not in _OUTER
+    is_one = before.text in ("a", "an", *_OWNERS)
+    if word.lemma == "space" and before is not word and (is_kind or is_one):
+        _forget(word, Pos.NOUN)
 
 
 def _find_determiner(before: Sequence[Word]) -> Word | None:

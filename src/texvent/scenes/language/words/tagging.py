@@ -19,6 +19,8 @@ _OF_FILM = (Role.CAMERA, Role.CAMERA_MOVE, Role.VIEW, Role.FRAMING)
 """What a verb follows at once: "the camera pans", "an aerial view shows"."""
 _STATES = frozenset({"open", "clean", "dry", "empty"})
 """Verbs that are adjectives before a bare noun: "open suitcase", unlike "open the suitcase"."""
+_AFTER_LEFT = frozenset({"alone", "behind", "unattended", "unfinished", "open"})
+"""Words after "left" that tell that nobody goes left."""
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
 
 
@@ -88,6 +90,8 @@ class _Tagger(ReadSoFar):
                 is_determiner = Pos.DETERMINER in by_pos and before is Pos.PREPOSITION
                 return Pos.DETERMINER if is_determiner else Pos.RELATIVE
             return Pos.DETERMINER if Pos.DETERMINER in by_pos else Pos.RELATIVE
+        if self._texts[index] == "other":
+            return Pos.ADJECTIVE if before is Pos.NUMBER else Pos.DETERMINER
         if Pos.DETERMINER in by_pos and Pos.PRONOUN in by_pos:
             return Pos.DETERMINER if after & (NOMINAL | {Pos.ADVERB}) else Pos.PRONOUN
         if Pos.NUMBER in by_pos:
@@ -105,6 +109,8 @@ class _Tagger(ReadSoFar):
         if not any(one.pos is Pos.VERB and one.form is VerbForm.BASE for one in coming):
             return False
         object_follows = self._after(index, 2)
+        if index and self._texts[index - 1] in ("where", "how", "what", "when"):
+            return True
         if object_follows and object_follows <= _ONLY_OPENS:
             return True
         is_known_verb = any(one.pos is Pos.VERB and one.role is not Role.UNKNOWN for one in coming)
@@ -142,6 +148,8 @@ class _Tagger(ReadSoFar):
             return None  # "a woman's hands"
         adverb = by_pos.get(Pos.ADVERB)
         is_adverb = adverb is not None and adverb.role is not Role.UNKNOWN
+        if self._is_left_behind(index):
+            return Pos.VERB
         if is_adverb and (verb.role is Role.UNKNOWN or verb.form is VerbForm.PAST):
             return None
         if self._goes_on(index, verb):
@@ -156,6 +164,17 @@ class _Tagger(ReadSoFar):
         ):
             return None
         return self._verb_by_context(index, verb, others)
+
+    def _is_left_behind(self, index: int) -> bool:
+        """As in "is left alone", "left the garage", where "left" is no direction."""
+        if self._texts[index] != "left":
+            return False
+        coming = self._texts[index + 1] if index + 1 < len(self._texts) else ""
+        is_passive = self._before() is Pos.AUXILIARY
+        leaves = self._before() is Pos.NOUN and not self._has_verb and self._after(index) == {
+            Pos.DETERMINER
+        }  # fmt: skip
+        return is_passive or leaves or coming in _AFTER_LEFT
 
     def _is_of_camera(self, index: int, verb: Meaning) -> bool:
         """As in "the camera tracks him": no tracks of a camera."""
@@ -215,6 +234,9 @@ class _Tagger(ReadSoFar):
             and not after & _ONLY_OPENS
         ):
             return Pos.NOUN  # "warm lighting"
+        is_with = before is Pos.PREPOSITION and self._ends_with(index - 1, "with", "in")
+        if is_with and Pos.NOUN in others and not after & _STARTS_GROUP:
+            return Pos.NOUN  # "a cake with frosting"
         if before in _OPENS_NOUN:
             if after & NOMINAL and not after & {Pos.PREPOSITION}:
                 is_verb = verb.role is not Role.UNKNOWN and not self._is_known(index, Pos.ADJECTIVE)
@@ -224,6 +246,10 @@ class _Tagger(ReadSoFar):
             is_head = after & {Pos.VERB, Pos.AUXILIARY} and not after & {Pos.NOUN}
             return Pos.NOUN if is_head else Pos.VERB
         return Pos.VERB
+
+    def _ends_with(self, index: int, *words: str) -> bool:
+        """Whether a word, or the phrase that is one, ends with one of these."""
+        return self._texts[index].split()[-1] in words
 
     def _is_known(self, index: int, pos: Pos) -> bool:
         """Whether the lexicon has it as that part of speech."""

@@ -47,7 +47,7 @@ def take_host(clause: Clause, nouns: Mapping[str, Noun]) -> None:
         return
     if not _can_do_it(clause.subjects[0], verb, clause, nouns):
         clause.subjects[:] = clause.hosts  # also of participles in this one
-    elif _go_together(clause, verb, nouns):
+    elif not clause.is_relative and _go_together(clause, verb, nouns):
         clause.subjects = [*clause.hosts, *clause.subjects]
 
 

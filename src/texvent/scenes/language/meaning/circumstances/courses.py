@@ -120,3 +120,11 @@ def be_followed(draft: Draft, followers: Sequence[int], scope: Scope) -> bool:
         if not motions:
             motions.append(ObjectMotion(usual, draft.objects[leaders[0]].motions[-1].direction))
     return bool(leaders) and draft.relate("follow", list(followers), leaders[:1])
+
+
+def goes_so(usual: str, direction: str) -> bool:
+    """Whether a bare way is a motion: "a car left"; "one hand up" and "umbrella up" go nowhere."""
+    return usual in _RISING if direction in ("up", "down") else usual != "stand"
+
+
+_RISING = frozenset({"fly", "hover", "float", "rise", "fall", "sink"})

@@ -11,6 +11,7 @@ from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.circumstances.courses import (
+    goes_so,
     name_course,
     part_ways,
     place_among,
@@ -24,6 +25,7 @@ from texvent.scenes.language.meaning.circumstances.place_ways import (
     is_somewhere,
     put_on_road,
 )
+from texvent.scenes.language.meaning.circumstances.put import list_put
 from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
 from texvent.scenes.language.meaning.circumstances.relations import (
     WEAK_PREPOSITIONS,
@@ -99,7 +101,7 @@ class CircumstanceReader:
             word.is_used = True
         if not scope.movers and not scope.has_verb and not scope.is_lost:
             for index in scope.subjects:
-                if self._draft.noun(index).motion != "stand":
+                if goes_so(self._draft.noun(index).motion, direction):
                     self._draft.objects[index].motions = [ObjectMotion("move", direction)]
                     word.is_used = True
 
@@ -152,7 +154,8 @@ class CircumstanceReader:
             if one.kind == "part" and scope.subjects and not phrase.preposition.is_used:
                 # As in "sits on the roof of a car": where on it is not shown.
                 phrase.preposition.is_lost = True
-            self.read_group_phrases(one, scope)
+            put = list_put(self._draft, phrase, found, scope) if one is found[-1] else ()
+            self.read_group_phrases(one, scope, put)
 
     def place_among(self, word: Word, things: Sequence[int]) -> None:
         """What a preposition claims besides relations: "lined with trees", "inside the clouds"."""

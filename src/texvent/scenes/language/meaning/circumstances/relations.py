@@ -9,6 +9,14 @@ from texvent.scenes.language.meaning.acts.looking import face
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_followed
 from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
+from texvent.scenes.language.meaning.circumstances.put import (
+    CARRIES,
+    TABLES,
+    VESSELS,
+    is_put,
+    is_small,
+    take_out,
+)
 from texvent.scenes.language.meaning.circumstances.slopes import go_on_slope
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -24,24 +32,12 @@ from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
 _HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
-_CARRIES = frozenset(
-    {"conveyor belt", "tray", "turntable", "plate", "table", "desk", "shelf", "forklift", "pickup",
-     "truck", "wheelbarrow", "sled", "cart", "wagon", "bench", "towel", "raft"}
-)  # fmt: skip
-"""What has the things on it that are "with" it."""
-_VESSELS = frozenset(
-    {"basket", "bowl", "bucket", "box", "cup", "mug", "glass", "vase", "jar", "shopping cart",
-     "wine glass", "bathtub", "flower pot", "stroller", "pot", "pan", "sink"}
-)  # fmt: skip
-"""What has the things in it that are "with" it."""
 _TAKEN_BY = {
     "dog": ("branch", "bone", "frisbee", "ball", "tennis ball", "newspaper", "shoe"),
     "cat": ("mouse", "fish"),
     "bird": ("branch", "fish", "worm"),
 }
 """Animal → what it has in its mouth when it is "with" it."""
-_HELD_AT_MOST_M = 1.3
-"""A person "with" something up to this long holds it."""
 
 
 class RelationReader:
@@ -132,7 +128,7 @@ class RelationReader:
 
     def _is_at_table(self, word: Word, things: list[int], scope: Scope) -> bool:
         """As in "students at their desks": they sit there, unless the prompt has them stand."""
-        if word.text not in ("at", "around") or self._draft.noun(things[0]).name not in _TABLES:
+        if word.text not in ("at", "around") or self._draft.noun(things[0]).name not in TABLES:
             return False
         if not all(is_person(self._draft.noun(index)) for index in scope.subjects):
             return False
@@ -163,8 +159,11 @@ class RelationReader:
         if (is_acted_on or is_goal) and phrase.preposition.text in _RESTING - {"with"}:
             return Scope(near.things, [], has_verb=False)
         names = {self._draft.noun(index).name for index in near.things} if near.is_things else set()
-        if is_acted_on and phrase.preposition.text == "with" and names & (_CARRIES | _VESSELS):
+        if is_acted_on and phrase.preposition.text == "with" and names & (CARRIES | VESSELS):
             # As in "carries a tray with two cups".
+            return Scope(near.things, [], has_verb=False)
+        if names and is_put(self._draft, phrase, near.things, things, scope):
+            take_out(self._draft, near.things)
             return Scope(near.things, [], has_verb=False)
         if set(things) != set(scope.subjects):
             return scope
@@ -195,7 +194,7 @@ class RelationReader:
     def _is_tool(self, scope: Scope, things: Sequence[int]) -> bool:
         noun = self._draft.noun(things[0])
         is_done_by_people = all(is_person(self._draft.noun(index)) for index in scope.subjects)
-        return is_done_by_people and noun.motion == "stand" and self._is_small(things[0])
+        return is_done_by_people and noun.motion == "stand" and is_small(self._draft, things[0])
 
     def read_of(self, preposition: Word, whole: Referent, content: Referent) -> None:
         """As in "a bowl of apples"; "the window of a train" shows a window by itself."""
@@ -235,7 +234,7 @@ class RelationReader:
     def _find_slid(self, word: Word, things: Sequence[int], scope: Scope) -> list[int]:
         """As in "pushes a cup across the table", "a ball rolls over the desk": what goes on it."""
         names = {self._draft.noun(index).name for index in things}
-        if word.text not in ("across", "over") or not names <= _TABLES:
+        if word.text not in ("across", "over") or not names <= TABLES:
             return []
         doers = list(scope.movers or scope.subjects)
         pushed = [
@@ -318,26 +317,28 @@ class RelationReader:
         if is_taken or (is_person(doer) and item.name == "branch"):
             # As in "a boy with a stick", "a dog with a bone".
             return self._draft.relate("hold", scope.subjects, things)
-        is_held = item.name in _HELD or (item.motion == "stand" and self._is_small(things[0]))
+        is_held = item.name in _HELD or (
+            item.motion == "stand" and is_small(self._draft, things[0])
+        )
         motions = [self._draft.objects[i].motions[-1:] for i in scope.movers]
         works = any(one[0].kind in HANDWORK for one in motions if one)
         is_held |= works and item.motion == "stand" and item.habitat == "fixed"
         goes = any(one[0].kind in ("walk", "run") for one in motions if one)
-        is_held |= goes and item.motion == "roll" and self._is_small(things[0])
+        is_held |= goes and item.motion == "roll" and is_small(self._draft, things[0])
         if is_person(doer) and is_held:
             return self._draft.relate("hold", scope.subjects, things)
-        if item.name in _CARRIES and doer.name not in _CARRIES:
+        if item.name in CARRIES and doer.name not in CARRIES:
             return self._draft.relate("on", scope.subjects, things)
         seats = [index for index in things if self._draft.noun(index).name in SEATS]
-        if doer.name in _TABLES and seats:
+        if doer.name in TABLES and seats:
             rest = [index for index in things if index not in seats]
             is_rest = not rest or self._read_with(rest, scope)
             count = sum(self._draft.objects[index].count for index in seats)
             kind = "around" if count > 1 else "beside"
             return self._draft.relate(kind, seats, scope.subjects) and is_rest
-        if doer.name in _CARRIES and self._is_small(things[0]):
+        if doer.name in CARRIES and is_small(self._draft, things[0]):
             return self._draft.relate("on", things, scope.subjects)
-        if doer.name in _VESSELS and (self._is_small(things[0]) or doer.name == "stroller"):
+        if doer.name in VESSELS and (is_small(self._draft, things[0]) or doer.name == "stroller"):
             return self._draft.relate("in", things, scope.subjects)
         return self._draft.relate("with", scope.subjects, things)
 
@@ -361,9 +362,6 @@ class RelationReader:
         ]  # fmt: skip
         return self._draft.relate("ride along", scope.subjects, mounts[-1])
 
-    def _is_small(self, index: int) -> bool:
-        return self._draft.length_m(index) <= _HELD_AT_MOST_M
-
 
 _STEERING = frozenset(
     {"rider", "driver", "pilot", "jockey", "biker", "motorcyclist", "cyclist", "captain", "cowboy"}
@@ -372,7 +370,6 @@ _STEERING = frozenset(
 _ABOARD = ("behind", "in front of", "beside", "next to")
 _PERCHES = SEATS | {"branch", "shelf", "fence", "wall", "rock", "pier", "bridge"}
 """On what one is who watches or waves "from" it."""
-_TABLES = frozenset({"table", "desk"})
 _DECKS = frozenset({"pier", "bridge"})
 _WALKED = {"along": "along", "across": "across", "over": "across", "down": "along"}
 """Preposition → way of who walks or drives over what has a deck."""

@@ -35,6 +35,8 @@ class Antecedents:
         self.lost_object = self._next_is_lost = False
         """Whether what the last verb acts on is not shown: then "it" is not either."""
         self._last_subject: NounGroup | None = None
+        self.place: Referent | None = None
+        """The place that the clause is about: "a kitchen with a sink in it"."""
         self.near: list[int] = []
         """What a pronoun of a phrase hangs on: "a baby in it" is not in itself."""
         self.lost_person = False
@@ -46,6 +48,8 @@ class Antecedents:
         if named and named[0] is not self._last_subject:
             self._last_subject, self._next_is_lost = named[0], False
         self.lost_object = self._next_is_lost
+        is_place = bool(subjects) and subjects[0].kind == "place"
+        self.place = subjects[0] if is_place else None
         for one in subjects:
             head = one.group.head
             if one.is_things and any(is_living(self._draft.noun(i)) for i in one.things):

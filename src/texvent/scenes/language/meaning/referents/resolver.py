@@ -128,7 +128,7 @@ class Referents(Antecedents):
         if head is None:
             return Referent("unknown", group, attributes=read_attributes(group.modifiers))
         if head.pos is Pos.PRONOUN:
-            return self._read_pronoun(group, head)
+            return self._read_pronoun(group, head, preposition)
         if head.pos is Pos.NEGATION or head.text in NOBODY:
             return self._exclude(group, PERSON)
         head = find_head(group)
@@ -226,8 +226,10 @@ class Referents(Antecedents):
         things = owner.things if owner is not None and owner.is_things else []
         return things if all(is_person(self._draft.noun(index)) for index in things) else []
 
-    def _read_pronoun(self, group: NounGroup, head: Word) -> Referent:
+    def _read_pronoun(self, group: NounGroup, head: Word, preposition: str | None) -> Referent:
         head.is_used = True
+        if head.text == "it" and preposition in ("in", "inside") and self.place is not None:
+            return Referent("place", group, value=self.place.value)
         if head.text in VIEWERS:
             return Referent("camera", group)
         if head.text in SOMEONE:

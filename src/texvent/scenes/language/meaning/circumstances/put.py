@@ -1,0 +1,91 @@
+"""What is put somewhere: on a table, or in a bowl, are things, not who looks at them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.language.grammar.syntax import PrepPhrase
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.referents.referent import Referent
+from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.models.people.activities import SEATS
+
+CARRIES = frozenset(
+    {"conveyor belt", "tray", "turntable", "plate", "table", "desk", "shelf", "forklift", "pickup",
+     "truck", "wheelbarrow", "sled", "cart", "wagon", "bench", "towel", "raft"}
+)  # fmt: skip
+"""What has the things on it that are "with" it."""
+VESSELS = frozenset(
+    {"basket", "bowl", "bucket", "box", "cup", "mug", "glass", "vase", "jar", "shopping cart",
+     "wine glass", "bathtub", "flower pot", "stroller", "pot", "pan", "sink"}
+)  # fmt: skip
+"""What has the things in it that are "with" it."""
+TABLES = frozenset({"table", "desk"})
+_HELD_AT_MOST_M = 1.3
+"""A person "with" something up to this long holds it."""
+_ON = ("on", "on top of")
+
+
+def is_small(draft: Draft, index: int) -> bool:
+    """Whether someone may hold it."""
+    return draft.length_m(index) <= _HELD_AT_MOST_M
+
+
+def is_put(
+    draft: Draft, phrase: PrepPhrase, near: Sequence[int], things: Sequence[int], scope: Scope
+) -> bool:
+    """As in "looks through a book on a table": the book is on it, not who looks.
+
+    Args:
+        draft: the scene so far.
+        phrase: says where.
+        near: objects that it follows: the book.
+        things: where that is: the table.
+        scope: what its clause is about.
+    """
+    where = {draft.noun(index).name for index in things}
+    is_on = phrase.preposition.text in _ON and where <= TABLES | CARRIES - SEATS
+    is_in = phrase.preposition.text in ("in", "inside") and where <= VESSELS | {"plate"}
+    if not (is_on or is_in) or set(near) & {*things, *scope.subjects}:
+        return False
+    is_thing = not any(is_living(draft.noun(index)) for index in near)
+    return is_thing and all(is_person(draft.noun(index)) for index in scope.subjects)
+
+
+def take_out(draft: Draft, things: Sequence[int]) -> None:
+    """Things that are said to be elsewhere are no longer in or on what they are "with"."""
+    draft.relations[:] = [
+        one for one in draft.relations if one.kind not in ("in", "on") or one.subject not in things
+    ]
+
+
+def list_put(
+    draft: Draft, phrase: PrepPhrase, found: Sequence[Referent], scope: Scope
+) -> list[int]:
+    """As in "a bowl with rice and beans on a table": the bowl is on it; a lamp with a cup: both.
+
+    Args:
+        draft: the scene so far.
+        phrase: what something has "with" it.
+        found: what its nouns mean; the last one is followed by where that is.
+        scope: what has them.
+
+    Returns:
+        Objects that are there; none where nothing is said, or the last noun alone is there.
+    """
+    last = found[-1].group
+    rests = [
+        group
+        for one in last.phrases
+        for group in one.groups
+        if one.preposition.text in _ON and group.head is not None and group.head.lemma in TABLES
+    ]
+    hosts = scope.subjects
+    if phrase.preposition.text != "with" or not rests or not hosts or scope.has_verb:
+        return []
+    if any(is_living(draft.noun(i)) or not is_small(draft, i) for i in hosts):
+        return []
+    is_vessel = all(draft.noun(i).name in VESSELS | CARRIES for i in hosts)
+    others = [] if is_vessel else [i for one in found if one.is_things for i in one.things]
+    return [*hosts, *others]
