@@ -590,3 +590,22 @@ def test_outside_is_shown_where_nothing_tells_of_a_room(prompt: str) -> None:
     assert not scene.not_understood
     assert scene.surroundings.place not in ("indoor", "kitchen")
     assert parse_prompt("a man stands outside a bathroom").not_understood
+
+
+def test_a_plane_near_people_is_on_the_ground() -> None:
+    kinds = [one.motion.kind for one in parse_prompt("two men next to an airplane").objects
+             if one.motion]  # fmt: skip
+    assert kinds == ["stand", "stand"]
+    assert kinds_of(parse_prompt("a man under an airplane"), "airplane") == ["fly"]
+
+
+def test_what_is_with_someone_at_a_table_is_on_it() -> None:
+    scene = parse_prompt("a man sitting at a table with a laptop")
+    nouns = [one.noun for one in scene.objects]
+    assert {nouns[one.subject]: one.kind for one in scene.relations} == {
+        "man": "at", "laptop": "on"}  # fmt: skip
+
+
+def test_birds_that_eat_are_at_the_ground() -> None:
+    assert parse_prompt("a pigeon pecking").surroundings.place == "grass"
+    assert parse_prompt("a pigeon flying").surroundings.place == "sky"

@@ -206,7 +206,9 @@ def _choose_by_objects(description: SceneDescription, nouns: Mapping[str, Noun])
     if said.has_snow or of_act:
         return "snow" if said.has_snow else of_act[0]
     rests = all(
-        one.motion is not None and one.motion.kind in _AT_GROUND for one in description.objects
+        one.motion is not None
+        and (one.motion.kind in _AT_GROUND or one.motion.kind in nouns[one.noun].acts)
+        for one in description.objects
     )
     return _choose_usual(members, rests=rests, is_wet=said.weather in ("rain", "snow"))
 

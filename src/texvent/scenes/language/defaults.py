@@ -50,8 +50,8 @@ def complete_description(
     objects = tuple(
         replace(scene_object, motion=STANDING)
         if is_at_rest and nouns[scene_object.noun].motion == "fly"
-        else _decide_motion(land(scene_object, description), nouns[scene_object.noun])
-        for scene_object in description.objects
+        else _decide_motion(land(index, description), nouns[scene_object.noun])
+        for index, scene_object in enumerate(description.objects)
     )
     description = _move_followed(replace(description, objects=objects), nouns)
     objects = description.objects

@@ -122,12 +122,26 @@ def stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     return bool(others) and stand and are_beside
 
 
-def land(scene_object: SceneObject, description: SceneDescription) -> SceneObject:
-    """A plane of which only an airport is said is on the ground there."""
-    islanded = scene_object.noun in _PLANES and description.surroundings.place == "runway"
-    if islanded and scene_object.motion is None:
-        return replace(scene_object, motion=STANDING)
-    return scene_object
+def land(index: int, description: SceneDescription) -> SceneObject:
+    """A plane of which only an airport is said is on the ground there, and so is one near others.
+
+    As in "two men next to an airplane".
+    """
+    one = description.objects[index]
+    if one.noun not in _PLANES or one.motion is not None:
+        return one
+    others = [
+        description.objects[other]
+        for relation in description.relations
+        if relation.kind in _NEAR
+        for other in (relation.subject, *relation.targets)
+        if index in (relation.subject, *relation.targets) and other != index
+    ]
+    is_near = any(other.motion is None or other.motion.kind not in _ALOFT for other in others)
+    is_landed = is_near or description.surroundings.place == "runway"
+    return replace(one, motion=STANDING) if is_landed else one
 
 
+_NEAR = frozenset({"beside", "front", "behind", "left of", "right of", "between"})
+_ALOFT = ("fly", "hover", "rise")
 _PLANES = frozenset({"airplane", "jet plane", "biplane", "fighter jet", "helicopter"})

@@ -56,7 +56,10 @@ SENSES: dict[str, tuple[Sense, ...]] = {
         _sense("song music album animal paw snow footprint"),
     ),
     "bat": (
-        _sense("baseball batter pitcher inning homer swing grip", "baseball bat"),
+        _sense("fly flap wing cave vampire colony roost nocturnal insect halloween", "bat"),
+        _sense("baseball batter pitcher inning homer swing grip ball hit hold hand player catcher"
+               " umpire plate glove mitt uniform helmet boy girl man woman child kid",
+               "baseball bat"),
         _sense("cricket cricketer wicket", "cricket bat"),
     ),
     "crane": (_sense("bird wing marsh nest feather wetland heron flock beak shallow wade fish reed"

@@ -281,7 +281,7 @@ _BACKDROP, _BACKDROP_M = 6.0, 6.0
 def is_backdrop(actor: Actor, main: Actor) -> bool:
     """Whether it is too large to be shown whole with the subject, and can stand far behind it."""
     is_large = actor.size_m > max(_BACKDROP * main.size_m, _BACKDROP_M)
-    return is_large and actor.noun.habitat == "fixed" and not actor.is_mover
+    return is_large and actor.noun.habitat in ("fixed", "air") and not actor.is_mover
 
 
 _ANYWHERE = frozenset({"beside", "look at", "past", "towards", "away from", "from"})

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
-from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.placement.contents import is_stem
 from texvent.scenes.staging.placement.faced import hang_clocks
@@ -23,8 +23,9 @@ _OPENING, _LARGEST_VESSEL_M = 0.75, 3.0
 """The same of what is seen to go in or come out; what is larger stays as it is, m."""
 _HOOP = 1.4
 """Width of a hoop that one goes through, in heights of who does."""
-_ROOM = 0.8
-"""Share of a container's longer side that an animal in it may be long."""
+_ROOM, _ON_SEAT = 0.8, 1.6
+"""Share of a container's longer side that an animal in it may be long; of a seat's, on which it
+sits upright."""
 
 
 def fit_contents(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -52,6 +53,7 @@ def fit_contents(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
             continue
         is_swimmer = nouns[objects[inside].noun].motion == "swim"
         room = _SWIMMING_ROOM if is_swimmer else _ROOM
+        room = _ON_SEAT if objects[around].noun in SEATS else room
         room = _OPENING if relation.way in _WAYS else room
         ratio = room * _side(objects[around], nouns) / _side(objects[inside], nouns)
         if ratio < 1.0:

@@ -65,6 +65,19 @@ class ObjectGroup:
         return max(model.length, model.width, model.height)
 
 
+_RESTING = frozenset({"stand", "sit", "lie", "slide"})
+
+
+def rests(noun: Noun, kind: str) -> bool:
+    """Whether it is on something while it does that."""
+    return kind in _RESTING or kind in noun.acts
+
+
+def rests_on_ground(noun: Noun, kind: str) -> bool:
+    """Whether what usually flies is on the ground while it does that."""
+    return noun.habitat == "air" and rests(noun, kind)
+
+
 def place_copies(
     models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator
 ) -> list[Vector]:
@@ -76,6 +89,7 @@ def place_copies(
     along, across = _spacing(models, plan, noun)
     is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
     is_deep = is_centred(noun) and not is_lifting and noun.name not in HAND_NOUNS
+    is_deep = is_deep and not rests_on_ground(noun, plan.motion.kind)
     is_driven = noun.motion == "drive"
     is_herd = _is_herd(count, noun)
     columns = round(math.sqrt(count)) if is_herd else _count_columns(count, is_driven)

@@ -38,6 +38,7 @@ from texvent.scenes.staging.placement.object_groups import (
     overlap,
     part_in_midst,
     place_copies,
+    rests,
     slow_overtaken,
 )
 from texvent.scenes.staging.placement.spatial_relations import (
@@ -74,7 +75,6 @@ follows from the subject's."""
 _POOL_RAD_S = 1.8
 BELT_M_S = 0.22
 """Speed of what lies on a conveyor belt."""
-_RESTING = frozenset({"stand", "sit", "lie", "slide"})
 SCENIC = frozenset({"surround", "among"})
 """Relations whose targets stand around as scenery; `scenery` places them."""
 
@@ -269,11 +269,9 @@ class ObjectPlacer:
     def _height(self, group: ObjectGroup) -> float:
         """Height of the group's origin, m."""
         kind = group.plan.motion.kind
-        rests = (
-            kind in _RESTING or kind in group.noun.acts
-        ) and group.noun.name not in self._level_m
+        is_resting = rests(group.noun, kind) and group.noun.name not in self._level_m
         lifts = kind in ("rise", "sink") and self._level_m.get("air", 0.0) > 0.0
-        if (rests or lifts) and is_centred(group.noun) and group.noun.habitat == "air":
+        if (is_resting or lifts) and is_centred(group.noun) and group.noun.habitat == "air":
             return -lowest_point(group.models[0])
         if group.noun.name in self._level_m:
             return self._level_m[group.noun.name] * group.models[0].height

@@ -126,11 +126,13 @@ _ROADWAYS = frozenset({"road", "lane", "street", "highway", "roadway", "motorway
 
 
 def put_on_road(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
-    """As in "a deer stands in the lane": on it, not beside it."""
+    """As in "a deer stands in the lane", "sheep walk down a road": on it, not beside it."""
     head = one.group.head
-    if word.text not in ("in", "on") or head is None or head.lemma not in _ROADWAYS:
+    is_along = word.text in ("down", "along", "up")
+    if not (is_along or word.text in ("in", "on")) or head is None or head.lemma not in _ROADWAYS:
         return
     for index in scope.subjects:
-        item = draft.objects[index]
-        if item.side is None and draft.noun(index).motion != "drive":
+        item, noun = draft.objects[index], draft.noun(index)
+        may_be = not (is_along and is_person(noun)) and noun.motion != "drive"
+        if item.side is None and may_be:
             item.side = "lane"

@@ -326,6 +326,9 @@ class RelationReader:
         goes = any(one[0].kind in ("walk", "run") for one in motions if one)
         is_held |= goes and item.motion == "roll" and is_small(self._draft, things[0])
         if is_person(doer) and is_held:
+            table = self._find_table(scope.subjects)
+            if table:
+                return self._draft.relate("on", things, table)
             return self._draft.relate("hold", scope.subjects, things)
         if item.name in CARRIES and doer.name not in CARRIES:
             return self._draft.relate("on", scope.subjects, things)
@@ -341,6 +344,11 @@ class RelationReader:
         if doer.name in VESSELS and (is_small(self._draft, things[0]) or doer.name == "stroller"):
             return self._draft.relate("in", things, scope.subjects)
         return self._draft.relate("with", scope.subjects, things)
+
+    def _find_table(self, subjects: Sequence[int]) -> Sequence[int]:
+        """As in "a man at a table with a laptop": the table at which they are, if any."""
+        at = (one for one in self._draft.relations if one.kind == "at" and one.subject in subjects)
+        return next((one.targets for one in at), ())
 
     def _is_carrier(self, index: int, rider: int) -> bool:
         """Whether people "with" it are on it or in it: a vehicle, or a mount with its rider."""
