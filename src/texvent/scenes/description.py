@@ -20,6 +20,10 @@ class NamedColour:
     """Linear-light RGB, 1.0 = white."""
 
 
+CREEPING_M_S = 0.05
+"""Speed of what is stuck in traffic: it is on its way, and stands."""
+
+
 @dataclass(frozen=True)
 class ObjectMotion:
     """How an object moves."""
@@ -52,6 +56,11 @@ class ObjectMotion:
     def is_moving(self) -> bool:
         """Whether the object leaves its place or turns."""
         return self.kind not in ("stand", "hang")
+
+    @property
+    def is_creeping(self) -> bool:
+        """Whether it is stuck in traffic."""
+        return self.speed_m_s == CREEPING_M_S
 
 
 SPIN_RATE_HZ = 0.5

@@ -235,4 +235,7 @@ def _reason(index: int, description: SceneDescription, evidence: Evidence) -> st
 def is_to_move(index: int, description: SceneDescription) -> bool:
     """Whether an object is to move."""
     said = description.objects[index]
-    return any(one is not None and one.kind not in _AT_REST for one in (said.motion, *said.then))
+    return any(
+        one is not None and one.kind not in _AT_REST and not one.is_creeping
+        for one in (said.motion, *said.then)
+    )

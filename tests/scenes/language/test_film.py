@@ -33,6 +33,10 @@ def test_words_of_film_are_no_things(prompt, noun) -> None:
         ("A crane lifts a car.", "crane"),
         ("A drone flies over a field.", "drone"),
         ("A truck drives past a house.", "truck"),
+        ("A truck left on a beach.", "truck"),
+        ("A truck left to rust in a field.", "truck"),
+        ("A pan over a fire.", "frying pan"),
+        ("A pan left in a sink.", "frying pan"),
     ],
 )
 def test_the_same_words_elsewhere_are_things(prompt, noun) -> None:
@@ -54,6 +58,17 @@ def test_the_same_words_elsewhere_are_things(prompt, noun) -> None:
         ("Slow dolly past two houses.", ("truck", None)),
         ("The camera starts on a cat and tilts up to a dog.", ("tilt", "up")),
         ("A steadicam follows a dog.", ("follow", None)),
+        ("A pan left through a market with two dogs.", ("pan", "left")),
+        ("A truck left along a row of houses.", ("truck", "left")),
+        ("The camera trucks right along a beach.", ("truck", "right")),
+        ("A pedestal down from the top of a tower.", ("pedestal", "down")),
+        ("A tilt up to reveal a tower.", ("tilt", "up")),
+        ("An arc left around a statue.", ("orbit", "left")),
+        ("A dolly left past a shelf.", ("dolly", "left")),
+        ("A jib up from a lake.", ("crane", "up")),
+        ("A slow push-in on a man who eats soup.", ("dolly", "in")),
+        ("A pullback from a child.", ("dolly", "out")),
+        ("A flyover of a forest.", ("travel", "forward")),
     ],
 )
 def test_moves_of_the_camera(prompt, move) -> None:
@@ -143,3 +158,22 @@ def test_a_camera_move_has_the_pace_that_is_said_before_or_after_it() -> None:
 def test_who_looks_down_a_street_sees_along_it() -> None:
     assert parse_prompt("the camera looks down a narrow street").shot.view is None
     assert parse_prompt("the camera looks down at a street").shot.view == "aerial"
+
+
+@pytest.mark.parametrize("move", ["push-in on", "pull-out from", "zoom out from"])
+def test_moves_to_and_from_what_is_named_are_listed_and_add_nobody(move) -> None:
+    found = parse_prompt(f"A {move} a woman reading on a bench")
+    assert [one.noun for one in found.objects] == ["woman", "bench"]
+    assert move.rsplit(" ", 1)[0].replace("-", " ") in found.shown
+
+
+def test_what_is_left_somewhere_goes_nowhere() -> None:
+    found = parse_prompt("a dog left alone in a car")
+    assert all(one.motion is None or one.motion.direction is None for one in found.objects)
+    assert "left" in found.not_understood
+
+
+def test_who_turns_on_a_road_switches_nothing_on() -> None:
+    car = parse_prompt("a car turns left on a road").objects[0]
+    assert (car.motion.kind, car.motion.direction, car.blink_hz) == ("turn", "left", None)
+    assert parse_prompt("a car turns on its headlights").objects[0].blink_hz is not None

@@ -770,7 +770,16 @@ def test_a_colour_before_an_animal_is_its_colour(noun):
 def test_traffic_that_holds_somebody_up_stands(prompt):
     objects = parse_prompt(prompt).objects
     assert len(objects) > 2
-    assert not any(one.motion is not None and one.motion.is_moving for one in objects)
+    assert all(one.motion is not None and one.motion.is_creeping for one in objects)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word"),
+    [("a woman walks down a mountain path", "down"), ("a car drives up a steep road", "up")],
+)
+def test_up_and_down_a_slope_are_lost_on_level_ground(prompt, word):
+    assert word in parse_prompt(prompt).not_understood
+    assert not parse_prompt("a car drives down a street").not_understood
 
 
 def test_trains_run_along_the_tracks_of_a_railway():

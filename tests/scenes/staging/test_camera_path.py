@@ -171,3 +171,11 @@ def test_a_place_without_objects_is_looked_at_from_within(place: str, kind: str)
     for time in (0.0, 1.0, 2.0):
         position = scene.camera(time).position
         assert place != "indoor" or np.abs(position[:2]).max() < room
+
+
+def test_a_front_view_does_not_look_down_steeply_on_what_lies_flat() -> None:
+    things = (SceneObject("knife", motion=ObjectMotion("stand")), SceneObject("spoon"))
+    for view, least, most in (("front", 0.0, 0.42), (None, 0.5, 1.0)):
+        described = SceneDescription("", things, shot=Shot(view=view))
+        scene = compose_scene(described, seed=0, size=SIZE, duration_s=DURATION_S)
+        assert least < -float(scene.camera(0.0).rotation[2, 2]) < most

@@ -32,3 +32,16 @@ def test_two_cars_stay_where_they_are_placed():
         seed=0, size=SensorSize(64, 48), duration_s=2.0,
     )  # fmt: skip
     assert all(len(lane) == 1 for lane in find_lanes(scene.actors))
+
+
+def test_a_jam_stands_in_the_lanes_of_a_road_with_its_subject_amid_it():
+    scene = compose_scene(
+        parse_prompt("a bus stuck in traffic"), seed=0, size=SensorSize(64, 48), duration_s=2.0
+    )
+    right, left = find_lanes(scene.actors)
+    assert len(right) + len(left) == len(scene.actors)
+    bus = next(one for one in right if one.noun.name == "bus")
+    along = sorted(one.middle(0.0)[0] for one in right)
+    assert along[0] < bus.middle(0.0)[0] < along[-1]
+    assert abs(bus.middle(2.0)[0] - bus.middle(0.0)[0]) < 0.2
+    assert not scene.not_shown

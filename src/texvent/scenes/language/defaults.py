@@ -211,6 +211,7 @@ def _is_moving(scene_object: SceneObject) -> bool:
         or (
             scene_object.motion is not None
             and scene_object.motion.is_moving
+            and not scene_object.motion.is_creeping
             and scene_object.motion.kind != "sit"
         )
     )

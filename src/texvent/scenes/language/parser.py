@@ -39,7 +39,7 @@ from texvent.scenes.language.word_claims import (
     says_something,
 )
 from texvent.scenes.language.words.english import is_of_other_grammar, list_readings
-from texvent.scenes.language.words.film import read_film_words
+from texvent.scenes.language.words.film.film_words import read_film_words
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.language.words.light_words import read_light_words
 from texvent.scenes.language.words.neighbours import read_neighbours

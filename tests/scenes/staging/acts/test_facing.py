@@ -97,6 +97,33 @@ def test_an_animal_climbs_up_the_trunk(prompt: str) -> None:
     assert np.hypot(*(animal.middle(1.0) - tree.middle(0.0))[:2]) < 1.5
 
 
+@pytest.mark.parametrize(
+    "prompt", ["a woman is talking to a man", "a man chats with a girl", "a man waves at a dog"]
+)
+def test_who_talks_to_somebody_stands_before_them(prompt: str) -> None:
+    scene = stage(prompt)
+    one, other = (actor.trajectory.at(1.0) for actor in scene.actors[:2])
+    apart = (np.array(other.position) - np.array(one.position))[:2]
+    for state, sign in ((one, 1.0), (other, -1.0)):
+        heading = np.array([np.cos(state.yaw), np.sin(state.yaw)])
+        assert sign * float(apart @ heading) > 0.9 * np.hypot(*apart)
+    assert not scene.not_shown
+
+
+def test_a_parked_car_is_overtaken_too() -> None:
+    assert not stage("a cyclist overtakes a parked car").not_shown
+
+
+def test_who_walks_up_and_down_stays_on_the_ground_and_turns_round() -> None:
+    (woman,) = stage("a woman walks up and down a beach").actors
+    states = [woman.trajectory.at(float(t)) for t in np.linspace(0.0, 2.0, 9)]
+    assert {one.position[2] for one in states} == {0.0}
+    way = np.diff([one.position[:2] for one in states], axis=0)
+    headings = [(np.cos(one.yaw), np.sin(one.yaw)) for one in states]
+    going = [step @ np.array(heading) for step, heading in zip(way, headings, strict=False)]
+    assert sum(one > 0.0 for one in going) >= 6
+
+
 def test_a_chased_ball_rolls_and_an_overtaken_truck_drives() -> None:
     moves = {one.noun: one.motion for one in parse_prompt("a dog chases a ball").objects}
     assert moves["ball"] is not None

@@ -48,6 +48,8 @@ LEAST_PORTRAIT = 4.0
 _BEARINGS = {"side": (-0.6, 0.6), "front": (0.6, 1.0), "back": (-1.0, -0.6),
              "shoulder": (-1.0, -0.5)}  # fmt: skip
 """View → least and most cosine of the angle between its heading and the way to the camera."""
+_LEVEL_VIEWS, MOST_STEEP = ("front", "side", "back"), 0.42
+"""Views from one side, and sine of the angle at which their camera looks down at most."""
 _SIZES = {"close": (1.5, math.inf), "medium": (0.7, 2.4), "full": (0.4, 1.05)}
 """Framing → least and most height, in heights of the picture; a person in close-up is cut."""
 
@@ -61,6 +63,8 @@ def judge_camera(picture: Picture, description: SceneDescription, claim: Claim) 
         return "the camera does not look down"
     if claim.word == "up" and -min(down) < LOOKING_UP:
         return "the camera does not look up"
+    if claim.value in _LEVEL_VIEWS and float(np.median(down)) > MOST_STEEP:
+        return "the camera looks down"
     if claim.value == "low":
         return _judge_low(picture) or _judge_below(picture, description, claim)
     if claim.value == "level":

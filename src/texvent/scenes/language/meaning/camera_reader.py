@@ -192,7 +192,9 @@ class CameraReader:
             return
         if means is not None:
             self._travel(word, means, clause, phrases)
-        elif move is not None and (move.value[0] in _TURNED or not self._goes_through(phrases)):
+        elif move is not None and (
+            move.value[0] in _TURNED or word.lemma == "truck" or not self._goes_through(phrases)
+        ):
             kind, direction = move.value
             self._add(CameraMove(kind, direction))
             self._claimed = word
@@ -340,7 +342,9 @@ class CameraReader:
         """As in "moves alongside her", "pans after the ball": it follows what goes."""
         last = self._moves[-1]
         noun = self._draft.noun(referent.things[0])
-        if word.text in _WITH and last.kind in _FREE and last.means is None and noun.speed_m_s:
+        is_led = last.kind == "pan" and last.direction is not None
+        is_free = last.kind in _FREE and last.means is None and not is_led
+        if word.text in _WITH and is_free and noun.speed_m_s:
             self._moves[-1] = replace(last, kind="follow", direction=_WITH[word.text])
             if self._claimed is not None:
                 self._claim(self._claimed)

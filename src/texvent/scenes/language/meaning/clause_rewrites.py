@@ -234,6 +234,8 @@ _WRITTEN_ON = frozenset({"whiteboard", "blackboard", "chalkboard", "white board"
 
 def take_partners(clause: Clause) -> None:
     """As in "crashes into a wall", "collide with each other": what they meet is the object."""
+    if clause.verb is not None and clause.verb.role is Role.CAMERA_MOVE:
+        return  # "pulls out from a child" is said of the camera
     if clause.verb is not None and clause.verb.lemma in _WRITING and not clause.is_passive:
         _take_board(clause)
     _turn_into_hit(clause)

@@ -46,8 +46,7 @@ _PHRASES: dict[str, tuple[str, ...]] = {
         "super slow motion", "extreme slow motion", "ultra slow motion", "very slow motion",
         "slo mo", "super slo mo",
     ),
-    "a pull out shot of": ("a pull out from", "a pull back from", "a pullback from"),
-    "a push in shot of": ("a push in on", "a push in to"),
+    "fly through of": ("flyover of", "drone flyover of", "aerial flyover of"),
     "four people": ("two couples",),
     "six people": ("three couples",),
     "waiting in traffic": (

@@ -79,7 +79,7 @@ CAMERA_VERBS: dict[tuple[str, str | None], tuple[str, ...]] = {
     ("zoom", "out"): ("zoom out",),
     ("dolly", None): ("dolly",),
     ("dolly", "in"): ("dolly in", "push in", "move in", "move closer", "close in", "dolly forward"),
-    ("dolly", "out"): ("dolly out", "pull back", "pull out", "pull away", "move back",
+    ("dolly", "out"): ("dolly out", "pull back", "pullback", "pull out", "pull away", "move back",
                        "dolly back", "back away"),
     ("truck", None): ("truck", "slide"),
     ("crane", "up"): ("crane up",),

@@ -35,6 +35,22 @@ def read_neighbours(words: Sequence[Word]) -> None:
             _put_off(words[number + 1 :])
         if word.text in _ANOTHER and before is not None and _is_goal_alone(words, number):
             word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
+        if word.text == "left" and _is_left_behind(before, after):
+            word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.ADVERB), ()
+            word.is_lost = True
+
+
+def _is_left_behind(before: Word | None, after: Word | None) -> bool:
+    """As in "a bicycle left on a street", "a dog left alone": nothing goes to the left."""
+    is_thing = before is not None and before.role is Role.NOUN and before.pos is Pos.NOUN
+    return is_thing and after is not None and after.text.split()[0] in _LEFT_THERE
+
+
+_LEFT_THERE = frozenset(
+    {"on", "in", "at", "under", "inside", "outside", "behind", "beside", "near", "out", "open",
+     "alone", "unattended", "abandoned", "empty", "over", "by", "next", "to"}
+)  # fmt: skip
+"""What follows "left" where it means that something was left there."""
 
 
 def _forget_game(words: Sequence[Word]) -> None:

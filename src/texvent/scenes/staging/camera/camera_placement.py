@@ -30,7 +30,7 @@ from texvent.scenes.staging.camera.pieces import TOGETHER
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
 from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
-from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles
+from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles, level_out
 from texvent.scenes.staging.placement.tabletop import is_added
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.take import USUAL, Take
@@ -156,7 +156,7 @@ def _fit_path(
         elevation = ELEVATION_RAD
     elif is_on_table(description, main.object_index):
         elevation = max(elevation, ELEVATION_RAD)
-    elevation += take.rise_rad
+    elevation = level_out(description, elevation) + take.rise_rad
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
 

@@ -26,6 +26,7 @@ _BEARINGS = {"side": 0.0, "front": 0.5 * math.pi, "back": -0.5 * math.pi, "shoul
 _FLAT_MOST_M = 3.0
 """What extends further is not looked down upon: a bridge."""
 _FLAT_ELEVATION = 0.85
+_LEVEL_ELEVATION = 0.38
 _FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
 _ROOM_ELEVATION = 0.24
@@ -36,7 +37,8 @@ _BETWEEN_WALLS = 0.06
 _ELONGATED, _ALONG_IT = 4.5, 0.75
 """What is so many times as long as high is seen at an angle to its side, from nearer its front."""
 _HERD, _HERD_ELEVATION = 6, 0.3
-"""From so many copies on the camera stands higher, so that those behind are seen too."""
+"""From so many copies on, and in a traffic jam, the camera stands higher, so that those behind are
+seen too."""
 
 
 def choose_angles(
@@ -56,7 +58,9 @@ def choose_angles(
     azimuth = wander
     if goes_in_depth:
         azimuth = math.copysign(0.42, wander)
-    if _is_elongated(main) and not goes_in_depth:
+    said = description.objects[main.object_index]
+    is_jammed = said.motion is not None and said.motion.is_creeping
+    if (_is_elongated(main) or is_jammed) and not goes_in_depth:
         azimuth = math.copysign(_ALONG_IT, math.cos(state.yaw))
     follow = next((move for move in moves if move.kind == "follow"), None)
     is_tied = follow is not None and follow.direction in ("behind", "front")
@@ -76,9 +80,15 @@ def choose_angles(
     is_in_sky = view == "high" and any(one.kind in _IN_SKY for one in description.effects)
     if elevation is None or is_in_sky:
         elevation = _choose_elevation(main, follow, place, goes_in_depth)
-        if description.objects[main.object_index].count >= _HERD:
+        if said.count >= _HERD or is_jammed:
             elevation = max(elevation, _HERD_ELEVATION) if elevation > 0.0 else elevation
     return azimuth, elevation
+
+
+def level_out(description: SceneDescription, elevation: float) -> float:
+    """A front, side or rear view does not look down steeply, on what lies flat neither."""
+    is_level = description.shot.view in ("front", "side", "back")
+    return min(elevation, _LEVEL_ELEVATION) if is_level else elevation
 
 
 def _choose_elevation(

@@ -152,9 +152,11 @@ def passes(subject: Body, targets: list[Body]) -> bool:
 
 
 def overtakes(subject: Body, targets: list[Body]) -> bool:
-    """Behind the target, which goes on too, at the start, before it in the end."""
+    """Behind the target at the start, before it in the end; what is parked is overtaken too."""
+    if not moves(targets[0]):
+        return moves(subject) and passes(subject, targets)
     ahead = _along(subject, targets[0])
-    return bool(ahead[0] < 0.0 < ahead[-1]) and moves(targets[0])
+    return bool(ahead[0] < 0.0 < ahead[-1])
 
 
 def goes_through(subject: Body, targets: list[Body]) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import cast
 
+from texvent.scenes.description import CREEPING_M_S
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.trajectories.trajectory import Straight
 
@@ -27,7 +28,8 @@ def queue_in_lanes(actors: Sequence[Actor], lane_m: float) -> list[Actor]:
     if not all(lanes) or sum(map(len, lanes)) < FEWEST:
         return list(actors)
     moved: dict[int, Actor] = {}
-    for lane, way in zip(lanes, (1.0, -1.0), strict=True):
+    for queue, way in zip(lanes, (1.0, -1.0), strict=True):
+        lane = _amid_jam(queue)
         ends = [0.0]
         for one in lane:
             ends.append(ends[-1] + one.model.length * (1.0 + GAP))
@@ -37,6 +39,19 @@ def queue_in_lanes(actors: Sequence[Actor], lane_m: float) -> list[Actor]:
             path = replace(_path(one), home=(x, -way * lane_m, 0.0), speed_m_s=speed)
             moved[one.instance] = replace(one, trajectory=path)
     return [moved.get(one.instance, one) for one in actors]
+
+
+def _amid_jam(lane: Sequence[Actor]) -> list[Actor]:
+    """A lane whose first vehicle has others before and behind it, if they hardly move.
+
+    What is smaller stays at the head of its lane, where nothing hides it.
+    """
+    first, *others = lane
+    is_small = bool(others) and first.model.length < others[0].model.length
+    if is_small or _path(first).speed_m_s > CREEPING_M_S:
+        return list(lane)
+    half = (len(others) + 1) // 2
+    return [*others[:half], first, *others[half:]]
 
 
 def find_lanes(actors: Sequence[Actor]) -> tuple[list[Actor], list[Actor]]:

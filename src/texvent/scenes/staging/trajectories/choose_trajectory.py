@@ -89,14 +89,19 @@ def choose_trajectory(
     if direction in ("to and fro", "up and down") and kind != "sway":
         reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
         is_flat = model.length < 0.3 * min(model.width, model.height)
-        yaw = -0.5 * math.pi if is_flat and direction == "up and down" else plan.yaw
+        is_vertical = direction == "up and down" and kind not in _ON_GROUND
+        yaw = -0.5 * math.pi if is_flat and is_vertical else plan.yaw
         period_s = max(plan.duration_s, 1.0)
-        return Shuttle(home, yaw, reach, period_s, _activity(kind), direction == "up and down")
+        return Shuttle(home, yaw, reach, period_s, _activity(kind), is_vertical)
     if kind == "drift":
         return build_drift(home, plan.yaw, 1.2 * plan.speed_m_s, plan.duration_s)
     if kind in PATH_KINDS:
         return _follow_path(plan, model, home, phase)
     return _act_in_place(plan, model, home, phase)
+
+
+_ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
+"""Who goes up and down a street on the ground goes to and fro."""
 
 
 def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:

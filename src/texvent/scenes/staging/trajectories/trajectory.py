@@ -148,7 +148,10 @@ class Rolling:
 
 @dataclass(frozen=True)
 class Shuttle:
-    """Goes to and fro about its home along its heading, as a sine of time."""
+    """Goes to and fro about its home along its heading, as a sine of time.
+
+    Who walks or runs turns round where it goes back.
+    """
 
     home: Vector
     yaw: float
@@ -162,13 +165,21 @@ class Shuttle:
         rate = 2.0 * math.pi / self.period_s
         offset = self.amplitude_m * math.sin(rate * time_s)
         along, up = (0.0, offset) if self.vertical else (offset, 0.0)
+        turned = 0.0
+        if self.activity in ("walk", "run") and not self.vertical:
+            forth = max(-1.0, min(1.0, math.cos(rate * time_s) / _TURNING))
+            turned = 0.5 * math.pi * (1.0 - math.sin(0.5 * math.pi * forth))
         return BodyState(
             ahead(self.home, self.yaw, along, self.home[2] + up),
-            self.yaw,
+            self.yaw + turned,
             distance_m=self.amplitude_m * _sine_path(rate * time_s),
             speed_m_s=abs(self.amplitude_m * rate * math.cos(rate * time_s)),
             activity=self.activity,
         )
+
+
+_TURNING = 0.4
+"""Share of its greatest speed below which who goes to and fro turns round."""
 
 
 def _sine_path(angle: float) -> float:

@@ -182,12 +182,22 @@ SWITCHED_HZ = 0.8
 """How often a lamp is switched on and off."""
 _ON_AND_OFF = frozenset({"switch", "turn", "flick", "go", "toggle"})
 
+_LIGHTS = ("light", "lamp", "siren", "signal", "blinker")
+
 
 def switch_lamps(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
-    """As in "a lamp is switched on and off", "a lamp goes off"."""
-    lamps = [index for index in subjects if draft.objects[index].noun in LAMPS]
+    """As in "a lamp is switched on and off", "a lamp goes off"; not "a car turns left on a road"."""
+    on = {"on", "off"}
+    lights = (group.head.lemma.split()[-1] for one in clause.phrases if one.preposition.text in on
+              for group in one.groups if group.head is not None)  # fmt: skip
+    is_of_lights = bool(clause.objects) or any(one.endswith(_LIGHTS) for one in lights)
+    lamps = [
+        index
+        for index in subjects
+        if draft.objects[index].noun in LAMPS and (is_of_lights or not draft.noun(index).speed_m_s)
+    ]
     text = {word.text for word in clause.adverbs} | {one.preposition.text for one in clause.phrases}
-    if not lamps or clause.verb_word.lemma not in _ON_AND_OFF or not text & {"on", "off"}:
+    if not lamps or clause.verb_word.lemma not in _ON_AND_OFF or not text & on:
         return False
     for index in lamps:
         draft.objects[index].blink_hz = SWITCHED_HZ

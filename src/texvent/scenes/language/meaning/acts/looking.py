@@ -36,6 +36,21 @@ def face(draft: Draft, subjects: Sequence[int], targets: Sequence[int]) -> bool:
 _PAIR = 2
 
 
+_SAID_TO = {"talk": ("to", "with", "at"), "wave": ("to", "at"), "bow": ("to",), "salute": ("to",),
+            "laugh": ("with",), "sing": ("to",), "shout": ("at", "to")}  # fmt: skip
+"""Activity → prepositions before whom it is meant for."""
+
+
+def address(draft: Draft, preposition: str, doers: Sequence[int], others: Sequence[int]) -> bool:
+    """As in "talks to a man", "waves at a dog": they stand before each other; whether it is so."""
+    motions = [draft.objects[index].motions[-1:] for index in doers]
+    is_meant = bool(motions) and all(
+        own and preposition in _SAID_TO.get(own[0].kind, ()) for own in motions
+    )
+    are_alive = all(is_living(draft.noun(index)) for index in others)
+    return is_meant and are_alive and face(draft, doers, others)
+
+
 def look_at(draft: Draft, clause: Clause, subjects: Sequence[int], targets: Sequence[int]) -> bool:
     """As in "a man watches a train": he stays in his place and faces it; whether it is read so."""
     if clause.verb_word.lemma not in LOOKS or not targets or set(targets) & set(subjects):

@@ -27,6 +27,8 @@ _BY_TWO = PAIRED | {"fence"}
 def read_named_act(draft: Draft, around: CircumstanceReader, clause: Clause) -> bool:
     """Whether the clause names an act alone; its doer is added."""
     words = [word for group in clause.subjects for word in group.words]
+    if clause.verb is not None and clause.verb.role is Role.CAMERA_MOVE and not clause.verb.others:
+        return False
     is_act = not draft.objects and _read_motion(draft, around, clause, words)
     if is_act:
         return True

@@ -13,6 +13,9 @@ from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.motion import NO_WAYS, SHORE_WAYS, SHORES, SLOPES
 from texvent.scenes.language.words.word import Word
 
+_SLOPING = frozenset({"mountain", "mountains", "mountainous", "hill", "hills", "hilly", "steep",
+                      "hillside", "mountainside", "sloping", "sloped", "alpine"})  # fmt: skip
+"""Words that say that a road or a path goes up or down."""
 _OPEN = frozenset({"sky", "space", "underwater"})
 """Places into which one rises or dives."""
 _ON_LAND = frozenset({"walk", "run", "move", "jump", "crawl", "roll", "slide", "drive"})
@@ -97,7 +100,8 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     """
     place = str(one.value)
     if word.text in ("up", "down"):
-        return place not in SLOPES or not scope.movers
+        is_sloping = place in SLOPES or any(one.text in _SLOPING for one in one.group.words)
+        return not is_sloping or not scope.movers
     if word.text in _WITHIN and place in _BATHED_IN:
         _wade(draft, scope.movers or scope.subjects)
     if word.text not in NO_WAYS or place in _OPEN or not (scope.movers or scope.subjects):

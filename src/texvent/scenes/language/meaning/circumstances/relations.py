@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.scenes.language.grammar.syntax import PrepPhrase
-from texvent.scenes.language.meaning.acts.looking import face
+from texvent.scenes.language.meaning.acts.looking import address, face
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_followed
 from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
@@ -65,6 +65,8 @@ class RelationReader:
             is_used = self._fill(phrase, things, scope)
         elif scope.has_verb and not scope.is_verb_shown:
             is_used = self._rest(word, kind, things, scope)
+        elif address(self._draft, word.text, scope.subjects, things):
+            is_used = True
         elif word.text == "with":
             is_used = self._read_with(things, scope)
         elif self._ride_along(word, things, scope) or self._is_in_use(scope, things):

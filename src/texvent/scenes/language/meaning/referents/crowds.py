@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from texvent.scenes.description import ObjectMotion
+from dataclasses import replace
+
+from texvent.scenes.description import CREEPING_M_S, ObjectMotion
 from texvent.scenes.language.grammar.syntax import NounGroup
 from texvent.scenes.language.meaning.draft import Draft, PartialObject
 from texvent.scenes.language.words.english import Pos
@@ -48,16 +50,24 @@ def add_traffic(draft: Draft, head: Word) -> list[int]:
 
 
 def hold_up_traffic(draft: Draft) -> None:
-    """As in "a bus waits in traffic", "a traffic jam": nothing drives."""
+    """As in "a bus waits in traffic", "a traffic jam": all stand in the lanes of a road."""
     traffic = [one for one in draft.objects if one.traffic]
-    waits = any(
-        draft.objects[one.subject].motions[-1:] == [ObjectMotion("stand")]
-        and any(draft.objects[target].traffic for target in one.targets)
+    waiting = [
+        draft.objects[one.subject]
         for one in draft.relations
-    )
+        if any(
+            draft.objects[target].traffic in _JAMS
+            or (draft.objects[target].traffic
+                and draft.objects[one.subject].motions[-1:] == [ObjectMotion("stand")])
+            for target in one.targets
+        )
+        and draft.noun(one.subject).motion == "drive"
+    ]
     for item in traffic:
-        if waits or item.traffic in _JAMS:
-            item.motions = [ObjectMotion("stand")]
+        if waiting or item.traffic in _JAMS:
+            item.motions = [replace(item.motions[-1], speed_m_s=CREEPING_M_S)]
+    for item in waiting:
+        item.motions = [ObjectMotion("drive", "right", speed_m_s=CREEPING_M_S)]
     # All vehicles of a road are in its traffic.
     draft.relations[:] = [
         one for one in draft.relations

@@ -11,36 +11,20 @@ from dataclasses import replace
 from itertools import pairwise, takewhile
 
 from texvent.scenes.language.vocabulary.film import FRAMING_ADJECTIVES
-from texvent.scenes.language.words.english import Pos, VerbForm
+from texvent.scenes.language.words.english import Pos
+from texvent.scenes.language.words.film.moves import (
+    FILM_NOUNS,
+    FILM_ROLES,
+    FILMED,
+    direct_moves,
+    is_film,
+    read_move,
+    silence,
+    speaks_of_film,
+)
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
 
-_FILM_ROLES = frozenset({Role.CAMERA, Role.CAMERA_MOVE, Role.VIEW, Role.FRAMING, Role.STYLE})
-_FILM_NOUNS = frozenset({"shot", "view", "footage", "angle", "clip", "video", "framing"})
-_FILMED = frozenset({"filmed", "shot", "seen", "captured", "viewed", "recorded", "taken",
-                     "photographed"})  # fmt: skip
-_MOVES: dict[str, tuple[str, str | None]] = {
-    "pan": ("pan", None), "tilt": ("tilt", None), "zoom": ("zoom", None),
-    "dolly": ("dolly", None), "truck": ("truck", None), "crane": ("crane", "up"),
-    "pedestal": ("pedestal", "up"), "orbit": ("orbit", None), "arc": ("orbit", None),
-    "jib": ("crane", "up"),
-}  # fmt: skip
-"""Noun of a move → the move; most of them are things too."""
-_PLAIN = frozenset({"pan", "tilt", "zoom", "dolly", "pedestal"})
-"""Moves that a way alone tells: "pan across a desert", but not "truck across a desert"."""
-_HOW = frozenset(
-    {"smooth", "gentle", "whip", "swish", "crash", "snap", "steady", "subtle", "lateral",
-     "horizontal", "vertical", "sideways", "short", "long", "continuous", "dramatic", "quick",
-     "slow", "fast", "rapid", "graceful", "sweeping", "final", "camera"}
-)  # fmt: skip
-_SIDEWAYS = frozenset({"lateral", "sideways", "horizontal"})
-_WAYS = frozenset(
-    {"left", "right", "up", "down", "in", "out", "across", "over", "past", "along", "from",
-     "to", "toward", "towards", "around", "through", "into", "upward", "upwards", "downward",
-     "downwards", "forward", "back", "onto", "between"}
-)  # fmt: skip
-_ASKED = {"pan": ("left", "right"), "tilt": ("up", "down"), "zoom": ("in", "out"),
-          "truck": ("left", "right"), "orbit": ("left", "right")}  # fmt: skip
 _GEAR = frozenset(
     {"gimbal", "steadicam", "slider", "dolly", "crane", "jib", "rail", "track", "cable", "rig",
      "boom", "stabilizer", "stabiliser", "gantry", "mount"}
@@ -77,14 +61,14 @@ def read_film_words(words: Sequence[Word]) -> list[str]:
         A note with the words of style that ask for nothing that is seen by itself.
     """
     for begin, end in _list_fragments(words):
-        _read_move(words, begin, end)
+        read_move(words, begin, end)
         _read_gear(words[begin:end])
         _part_adjectives(words[begin:end])
         _read_views(words, begin, end)
         _frame_shots(words[begin:end])
     _read_looks(words)
     _part_fragments(words)
-    _direct_moves(words)
+    direct_moves(words)
     for index, word in enumerate(words):
         _skip_filmed(words, index, word)
         if word.text == "drone" and _is_camera_drone(words, index):
@@ -115,72 +99,6 @@ def _list_fragments(words: Sequence[Word]) -> Iterator[tuple[int, int]]:
         yield begin, len(words)
 
 
-def is_film(word: Word) -> bool:
-    """Whether a word speaks of the camera or of a piece of film."""
-    if word.pos is Pos.VERB:
-        return word.role is Role.CAMERA_MOVE and word.meaning.form is VerbForm.BASE
-    return word.role in _FILM_ROLES or word.text in _FILM_NOUNS
-
-
-def _silence(word: Word, pos: Pos = Pos.ADVERB) -> None:
-    word.meaning, word.is_used = Meaning(Role.FUNCTION, pos), True
-
-
-def _read_move(words: Sequence[Word], begin: int, end: int) -> None:
-    """As in "Slow dolly past the desks": what the camera does, as an order."""
-    at = begin
-    has_determiner = words[at].pos is Pos.DETERMINER
-    at += has_determiner
-    first = at
-    while at < end and (words[at].text in _HOW or words[at].role is Role.PACE):
-        at += 1
-    if at >= end or words[at].lemma not in _MOVES or words[at].text != words[at].lemma:
-        return
-    follower = words[at + 1] if at + 1 < end else None
-    goes = follower is not None and follower.text.split()[0] in _WAYS
-    is_paced = at > first
-    is_plain = words[at].lemma in _PLAIN or (
-        follower is not None and follower.text in ("left", "right")
-    )
-    is_told = is_paced or (is_plain and not has_determiner) or _speaks_of_film(words[begin:end])
-    if not is_told or not (goes or (is_paced and follower is None)):
-        return
-    kind, direction = _MOVES[words[at].lemma]
-    for word in words[begin:at]:
-        pace = word.read_as(Role.PACE)
-        if word.text in _SIDEWAYS:
-            kind, direction = "truck", None
-        if pace is None:
-            _silence(word)
-        else:
-            word.meaning = replace(pace, pos=Pos.ADVERB)
-    words[at].meaning = Meaning(
-        Role.CAMERA_MOVE, Pos.VERB, (kind, direction), VerbForm.BASE
-    )  # fmt: skip
-    words[at].others = ()
-
-
-def _direct_moves(words: Sequence[Word]) -> None:
-    """As in "a slow pan left", "the aerial shot rises": its direction; what has a verb."""
-    for index, word in enumerate(words):
-        if word.pos is not Pos.ADJUNCT or word.role not in (Role.CAMERA_MOVE, Role.VIEW):
-            continue
-        pace = words[index - 1].read_as(Role.PACE) if index else None
-        if pace is not None and word.role is Role.CAMERA_MOVE:
-            words[index - 1].meaning = replace(pace, pos=Pos.ADVERB)
-        if word is words[-1]:
-            return
-        coming = words[index + 1]
-        is_finite = coming.meaning.form is VerbForm.THIRD or coming.role is Role.FUNCTION
-        if coming.pos is Pos.VERB and is_finite and coming.text.endswith("s"):
-            word.meaning = replace(word.meaning, pos=Pos.NOUN)
-        elif word.role is Role.CAMERA_MOVE and word.meaning.value[1] is None:
-            way = coming.meaning.value if coming.role is Role.DIRECTION else coming.text
-            if way in _ASKED.get(word.meaning.value[0], ()):
-                word.meaning = replace(word.meaning, value=(word.meaning.value[0], way))
-                _silence(coming)
-
-
 def _read_looks(words: Sequence[Word]) -> None:
     """As in "a drone shot, looking straight down", "the camera sits low": from where it looks."""
     sentence: list[Word] = []
@@ -198,19 +116,19 @@ def _read_looks(words: Sequence[Word]) -> None:
         else:
             is_straight = None
         if before.lemma in _LOOK and _is_along(words[index + 1 :]):
-            _silence(before)
-            _silence(word)
+            silence(before)
+            silence(word)
             continue
         if before.lemma in _LOOK and word.text in ("down", "up"):
             view = "low" if word.text == "up" else "top" if is_straight else "aerial"
             for one in (before, *([is_straight] if is_straight else [])):
-                _silence(one)
+                silence(one)
         elif word.text in ("high", "low") and (
             coming is None or coming.pos not in (Pos.NOUN, Pos.ADJECTIVE)
         ):
             view = "low" if word.text == "low" else "aerial"
             if coming is not None and coming.text == "above" and _ends(words, index + 2):
-                _silence(coming)
+                silence(coming)
         else:
             continue
         word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, view), ()
@@ -234,13 +152,9 @@ def _is_of_camera(before: Sequence[Word]) -> bool:
     )
 
 
-def _speaks_of_film(words: Sequence[Word]) -> bool:
-    return any(is_film(word) or word.text in _FILMED for word in words)
-
-
 def _read_gear(words: Sequence[Word]) -> None:
     """As in "camera on a tripod", "a shot from a crane"."""
-    if not _speaks_of_film(words):
+    if not speaks_of_film(words):
         return
     for index, word in enumerate(words):
         is_stand = word.lemma in _STANDS
@@ -254,8 +168,8 @@ def _read_gear(words: Sequence[Word]) -> None:
         if not any(is_film(one) for one in words[: first - 1]):
             continue
         for one in words[first - 1 : index]:
-            _silence(one)
-        _silence(word)
+            silence(one)
+        silence(word)
         if is_stand:
             word.meaning = Meaning(Role.CAMERA_MOVE, Pos.ADJUNCT, ("static", None))
             word.is_used = False
@@ -268,12 +182,12 @@ def _read_views(words: Sequence[Word], begin: int, end: int) -> None:
         is_light = before.role in (Role.LIGHT, Role.GLOW) or before.text in _LIT
         if is_light and word.role is Role.VIEW and word.text.startswith("from "):
             word.meaning, word.is_lost = Meaning(Role.UNKNOWN, Pos.ADVERB), True
-    has_verb = any(one.pos is Pos.VERB and one.text not in _FILMED for one in own)
+    has_verb = any(one.pos is Pos.VERB and one.text not in FILMED for one in own)
     for word in own:
         if word.role is not Role.VIEW or word.text not in _OF_SCENE_TOO or not has_verb:
             continue
         others = [one for one in own if one is not word]
-        if not _speaks_of_film(others):
+        if not speaks_of_film(others):
             word.meaning, word.is_lost = Meaning(Role.UNKNOWN, Pos.ADVERB), True
 
 
@@ -285,7 +199,7 @@ def _frame_shots(words: Sequence[Word]) -> None:
         while coming and coming[0].pos is Pos.ADJECTIVE and not is_film(coming[0]):
             coming.pop(0)
         if framing is not None and word.pos is not Pos.VERB and coming and is_film(coming[0]):
-            is_of_shot = coming[0].text in _FILM_NOUNS or coming[0].role is not Role.CAMERA
+            is_of_shot = coming[0].text in FILM_NOUNS or coming[0].role is not Role.CAMERA
             if is_of_shot and coming[0].role is not Role.STYLE:
                 word.meaning = Meaning(Role.FRAMING, Pos.ADJUNCT, framing)
 
@@ -296,7 +210,7 @@ def _part_fragments(words: Sequence[Word]) -> None:
     for number, (begin, end) in enumerate(fragments):
         own = words[begin:end]
         is_shot = any(is_film(one) for one in own) and not any(
-            one.pos is Pos.VERB and not is_film(one) and one.text not in _FILMED for one in own
+            one.pos is Pos.VERB and not is_film(one) and one.text not in FILMED for one in own
         )
         if not is_shot:
             continue
@@ -319,16 +233,16 @@ def _part(sign: Word) -> None:
 
 def _skip_filmed(words: Sequence[Word], index: int, word: Word) -> None:
     """As in "a swimmer, filmed from the side": who films is not in the picture."""
-    if word.text not in _FILMED or (index and words[index - 1].pos is Pos.AUXILIARY):
+    if word.text not in FILMED or (index and words[index - 1].pos is Pos.AUXILIARY):
         return
     coming = list(words[index + 1 : index + 4])
     while coming and (
         coming[0].pos in (Pos.PREPOSITION, Pos.DETERMINER) or coming[0].role is Role.PACE
     ):
         coming.pop(0)
-    is_view = bool(coming) and coming[0].role in _FILM_ROLES and coming[0].pos is not Pos.VERB
+    is_view = bool(coming) and coming[0].role in FILM_ROLES and coming[0].pos is not Pos.VERB
     if is_view and (word.pos is Pos.VERB or word.text == "shot"):
-        _silence(word)
+        silence(word)
 
 
 def _is_camera_drone(words: Sequence[Word], index: int) -> bool:
@@ -350,8 +264,8 @@ def _read_styles(words: Sequence[Word]) -> list[str]:
         word.is_used = True
         before = words[index - 1] if index else None
         if before is not None and before.role is Role.UNKNOWN and before.pos is Pos.ADJECTIVE:
-            _silence(before, Pos.ADJECTIVE)
+            silence(before, Pos.ADJECTIVE)
         if word.meaning.value == "":
             asked[word.text] = None
-            _silence(word, word.pos)
+            silence(word, word.pos)
     return [f"words of style change nothing here: {', '.join(asked)}"] if asked else []

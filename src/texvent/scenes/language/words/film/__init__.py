@@ -1,0 +1,1 @@
+"""Language of film: moves of the camera, and views, framings and styles."""
