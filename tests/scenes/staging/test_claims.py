@@ -17,8 +17,13 @@ from texvent.scenes.description import (
     Shot,
     Surroundings,
 )
-from texvent.scenes.language.meaning.circumstances.relations import WEAK_PREPOSITIONS
-from texvent.scenes.language.vocabulary.motion import APART, LED, PREPOSITION_WAYS, RELATIONS
+from texvent.scenes.language.vocabulary.motion import (
+    APART,
+    LED,
+    PREPOSITION_WAYS,
+    RELATIONS,
+    WEAK_PREPOSITIONS,
+)
 from texvent.scenes.language.vocabulary.verbs import VERBS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor

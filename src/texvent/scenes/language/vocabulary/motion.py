@@ -189,3 +189,7 @@ OTHER_PREPOSITIONS: dict[str, tuple[str, ...]] = {
     "facing": ("facing",),
 }
 """Prepositions that say no relation between two objects, or only with some of them."""
+WEAK_PREPOSITIONS: dict[object, str] = {
+    "at": "beside", "by": "beside", "across": "on", "along": "past", "off": "from",
+}  # fmt: skip
+"""Prepositions of many senses → the relation they mean between two objects."""

@@ -186,7 +186,7 @@ _LIGHTS = ("light", "lamp", "siren", "signal", "blinker")
 
 
 def switch_lamps(draft: Draft, clause: Clause, subjects: list[int]) -> bool:
-    """As in "a lamp is switched on and off", "a lamp goes off"; not "a car turns left on a road"."""
+    """As in "a lamp goes off"; not as in "a car turns left on a road"."""
     on = {"on", "off"}
     lights = (group.head.lemma.split()[-1] for one in clause.phrases if one.preposition.text in on
               for group in one.groups if group.head is not None)  # fmt: skip

@@ -8,6 +8,7 @@ from texvent.scenes.description import STANDING, Relation
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living
 from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.scope import Scope
 
 LOOKS = frozenset({"look", "watch", "stare", "gaze", "observe", "glance", "peer", "glare"})
 """Verbs of looking: "looks at a dog", "watches a train"."""
@@ -41,8 +42,9 @@ _SAID_TO = {"talk": ("to", "with", "at"), "wave": ("to", "at"), "bow": ("to",), 
 """Activity → prepositions before whom it is meant for."""
 
 
-def address(draft: Draft, preposition: str, doers: Sequence[int], others: Sequence[int]) -> bool:
+def address(draft: Draft, preposition: str, scope: Scope, others: Sequence[int]) -> bool:
     """As in "talks to a man", "waves at a dog": they stand before each other; whether it is so."""
+    doers = scope.subjects if scope.is_verb_shown else []
     motions = [draft.objects[index].motions[-1:] for index in doers]
     is_meant = bool(motions) and all(
         own and preposition in _SAID_TO.get(own[0].kind, ()) for own in motions

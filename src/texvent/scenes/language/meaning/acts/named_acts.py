@@ -27,18 +27,18 @@ _BY_TWO = PAIRED | {"fence"}
 def read_named_act(draft: Draft, around: CircumstanceReader, clause: Clause) -> bool:
     """Whether the clause names an act alone; its doer is added."""
     words = [word for group in clause.subjects for word in group.words]
-    if clause.verb is not None and clause.verb.role is Role.CAMERA_MOVE and not clause.verb.others:
-        return False
     is_act = not draft.objects and _read_motion(draft, around, clause, words)
     if is_act:
         return True
-    is_gerund = clause.verb is not None and is_named([*words, clause.verb])
+    is_order = clause.verb is not None and clause.verb.role is Role.CAMERA_MOVE
+    is_order = is_order and not clause.verb_word.others
+    is_gerund = clause.verb is not None and not is_order and is_named([*words, clause.verb])
     if clause.verb is not None and is_gerund:
         words.append(clause.verb)
     elif clause.verb is not None:
         # What seems to be a verb is none if it does not agree: "a tennis serve".
         is_plural = any(word.text != word.lemma for word in words)
-        if clause.verb.text != clause.verb.lemma or clause.auxiliaries or is_plural:
+        if clause.verb.text != clause.verb.lemma or clause.auxiliaries or is_plural or is_order:
             return False
         words.append(clause.verb)
     said = [w for w in (*words, *clause.adverbs) if w.pos is not Pos.DETERMINER]

@@ -27,10 +27,7 @@ from texvent.scenes.language.meaning.circumstances.place_ways import (
 )
 from texvent.scenes.language.meaning.circumstances.put import list_put
 from texvent.scenes.language.meaning.circumstances.quantities import QuantityReader
-from texvent.scenes.language.meaning.circumstances.relations import (
-    WEAK_PREPOSITIONS,
-    RelationReader,
-)
+from texvent.scenes.language.meaning.circumstances.relations import RelationReader
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.parts_shown import list_parts_shown
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -38,7 +35,7 @@ from texvent.scenes.language.meaning.referents.resolver import OWNERS, Referents
 from texvent.scenes.language.meaning.scope import OF_SCENE, Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.vocabulary.acts import WEARABLE
-from texvent.scenes.language.vocabulary.motion import WINDS
+from texvent.scenes.language.vocabulary.motion import WEAK_PREPOSITIONS, WINDS
 from texvent.scenes.language.vocabulary.objects import CHANGES, LIKENESSES, LIQUIDS
 from texvent.scenes.language.vocabulary.scene import LIGHT_PREPOSITIONS, PLACE_PREPOSITIONS, SPELT
 from texvent.scenes.language.words.english import Pos

@@ -24,7 +24,7 @@ from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.unridden import HAS_RIDER
 from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
-from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS
+from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS, WEAK_PREPOSITIONS
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, SEATS
@@ -58,28 +58,30 @@ class RelationReader:
         if phrase.denial is not None:
             self._deny(phrase, things, scope)
             return
-        is_used, before = False, len(self._draft.relations)
+        before = len(self._draft.relations)
+        is_used = address(self._draft, word.text, scope, things)
+        is_used = is_used or self._read(phrase, things, scope)
+        word.is_used, word.is_lost = is_used, not is_used
+        word.relations = tuple(self._draft.relations[before:])
+
+    def _read(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> bool:
+        word = phrase.preposition
         kind = self._at_bench(self._relation_kind(word, things), things, scope)
         kind = "at" if self._is_at_table(word, things, scope) else kind
         if word.text in (*_FULL, *FOLLOWED):
-            is_used = self._fill(phrase, things, scope)
-        elif scope.has_verb and not scope.is_verb_shown:
-            is_used = self._rest(word, kind, things, scope)
-        elif address(self._draft, word.text, scope.subjects, things):
-            is_used = True
-        elif word.text == "with":
-            is_used = self._read_with(things, scope)
-        elif self._ride_along(word, things, scope) or self._is_in_use(scope, things):
-            is_used = True
-        elif word.text in ("up", "down", "facing"):
-            is_used = self._turn_or_climb(word, things, scope)
-        elif self._is_walked(word, things, scope):
+            return self._fill(phrase, things, scope)
+        if scope.has_verb and not scope.is_verb_shown:
+            return self._rest(word, kind, things, scope)
+        if word.text == "with":
+            return self._read_with(things, scope)
+        if self._ride_along(word, things, scope) or self._is_in_use(scope, things):
+            return True
+        if word.text in ("up", "down", "facing"):
+            return self._turn_or_climb(word, things, scope)
+        if self._is_walked(word, things, scope):
             goers = self._find_slid(word, things, scope) or scope.movers or scope.subjects
-            is_used = self._relate("on", goers, things, _WALKED[word.text])
-        elif kind is not None:
-            is_used = self._read_kind(kind, word, things, scope)
-        word.is_used, word.is_lost = is_used, not is_used
-        word.relations = tuple(self._draft.relations[before:])
+            return self._relate("on", goers, things, _WALKED[word.text])
+        return kind is not None and self._read_kind(kind, word, things, scope)
 
     def _deny(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
         """As in "is not on the table": beside it; what is "not behind" it may be anywhere."""
@@ -394,11 +396,6 @@ _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "a
 _OFF_GROUND = frozenset(
     {"jump", "fly", "rise", "fall", "throw", "hover", "swing", "float", "climb"}
 )
-WEAK_PREPOSITIONS: dict[object, str] = {
-    "at": "beside", "by": "beside", "across": "on", "along": "past",
-    "off": "from",
-}  # fmt: skip
-"""Prepositions of many senses → the relation they mean between two objects."""
 _RESTING = frozenset(
     {"on", "under", "beside", "next to", "behind", "in front of", "between", "near", "at", "by",
      "above", "in", "inside", "among", "beneath", "below", "with", "on top of",

@@ -57,8 +57,10 @@ def hold_up_traffic(draft: Draft) -> None:
         for one in draft.relations
         if any(
             draft.objects[target].traffic in _JAMS
-            or (draft.objects[target].traffic
-                and draft.objects[one.subject].motions[-1:] == [ObjectMotion("stand")])
+            or (
+                draft.objects[target].traffic
+                and draft.objects[one.subject].motions[-1:] == [ObjectMotion("stand")]
+            )
             for target in one.targets
         )
         and draft.noun(one.subject).motion == "drive"
