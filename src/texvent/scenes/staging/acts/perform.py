@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import (
@@ -61,8 +61,8 @@ def settle_motions(
              for thing in claim.things}  # fmt: skip
     relations = [_mounted(one, objects, nouns, stays) for one in each_worn(description.relations)]
     relations = [_thrown_to(relation, relations) for relation in relations]
-    relations = _hit_with(objects, relations)
     relations += _implied_acts(objects, relations)
+    relations = _hit_with(objects, relations)
     for relation in relations:
         if relation.kind not in ACTS or not relation.targets:
             continue
@@ -174,7 +174,10 @@ def _implied_acts(objects: list[SceneObject], relations: list[Relation]) -> list
         if person.noun not in PERSON_NOUNS or person.motion is None:
             continue
         act = _ACT_OF_ACTIVITY.get(person.motion.kind)
-        if act is not None and not any(r.subject == index and r.kind in ACTS for r in relations):
+        if act is not None and not any(
+            one.subject == index and one.kind in ACTS and not _is_at_hand(one, objects)
+            for one in relations
+        ):
             ball = next((n for n, thing in enumerate(objects) if thing.noun in _BALLS
                          and n not in bound), None)  # fmt: skip
             if ball is not None:
@@ -188,6 +191,12 @@ def _implied_acts(objects: list[SceneObject], relations: list[Relation]) -> list
                     holds.append(Relation("hold", index, (number,)))
                     bound.add(number)
     return holds
+
+
+def _is_at_hand(one: Relation, objects: Sequence[SceneObject]) -> bool:
+    """What one wears, or holds to hit with, leaves the ball to be hit."""
+    is_tool = objects[one.targets[0]].noun in striking.TOOLS
+    return one.kind == "wear" or (one.kind == "hold" and is_tool)
 
 
 def _opened_or_still(scene_object: SceneObject) -> SceneObject:
