@@ -269,3 +269,7 @@ def test_ways_are_measured_at_start_and_end(way, first, last, is_there) -> None:
         measure([one], np.linspace(0.0, DURATION_S, 13)) for one in (ball, body(1, "box", at()))
     )
     assert WAYS[way](subject, [target]) == is_there
+
+
+def test_that_something_rests_is_missed_only_where_a_word_says_so() -> None:
+    assert unmoved([body(0, "dog", going(0.0))], ObjectMotion("stand")) == []

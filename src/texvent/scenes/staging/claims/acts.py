@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import ObjectMotion, SceneDescription
+from texvent.scenes.description import STANDING, ObjectMotion, SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.models.people.activities import PERSON_NOUNS
@@ -90,12 +90,20 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
             if motion.shore and not all(_goes_to_water(stage, one, motion) for one in copies):
                 missing.append(Unmet(f"{name} {motion.shore} the water"))
         said = (scene_object.motion, *scene_object.then)
+        if said == (STANDING,) and not _is_told(stage, index):
+            continue
         for phase in schedule(said, stage.duration_s):
             if not _is_shown(stage, copies[0], phase, is_carried=index in carried):
                 text = f"{name} {_describe(stage, phase.motion, is_plural=is_plural)}"
                 number = next((n for n, one in enumerate(said) if one is phase.motion), 0)
                 missing.append(Unmet(text, motion=(index, number)))
     return missing
+
+
+def _is_told(stage: Stage, index: int) -> bool:
+    """Whether a word of the prompt says what an object does, or that it rests."""
+    claims = stage.description.claims
+    return any(one.aspect == "motion" and index in one.things for one in claims)
 
 
 _OVER_THINGS = frozenset({"off", "onto", "into", "out of", "through", "up", "down"})
