@@ -86,10 +86,12 @@ def list_acts_not_shown(stage: Stage) -> list[Unmet]:
             missing.append(Unmet(f"{name} on the ground"))
         if scene_object.motion is None or index in bound or _is_in_hand(copies[0]):
             continue
-        for motion in (scene_object.motion, *scene_object.then):
-            if motion.shore and not all(_goes_to_water(stage, one, motion) for one in copies):
-                missing.append(Unmet(f"{name} {motion.shore} the water"))
         said = (scene_object.motion, *scene_object.then)
+        missing += [
+            Unmet(f"{name} {motion.shore} the water")
+            for motion in said
+            if motion.shore and not all(_goes_to_water(stage, one, motion) for one in copies)
+        ]
         if said == (STANDING,) and not _is_told(stage, index):
             continue
         for phase in schedule(said, stage.duration_s):
