@@ -45,6 +45,9 @@ _SCENE_ROLES = frozenset(
 )  # fmt: skip
 
 
+_LAMP_LIT = ("night", "lamp", "moonlight")
+
+
 class SurroundingsReader:
     """Collects the surroundings; the first place and the first light mentioned win."""
 
@@ -276,7 +279,7 @@ class SurroundingsReader:
     def build(self) -> tuple[Surroundings, Illumination]:
         """The surroundings and the light as understood."""
         if self._light is not None or self._flicker_hz is not None:
-            mark_used(self._glows)
+            mark_used(filter(self._is_shown, self._glows))
         surroundings = Surroundings(
             place=self._place or ("sea" if self._wave_height > 1.0 else None),
             colour=self._colour,
@@ -291,6 +294,11 @@ class SurroundingsReader:
             has_snow=self._has_snow or self._weather == "snow",
         )
         return surroundings, Illumination(self._light, self._flicker_hz, self._wave, self._shadows)
+
+    def _is_shown(self, glow: Word) -> bool:
+        """Whether a word for light is more than a time of day: lamps are lit in the dark."""
+        is_dark = self._light in _LAMP_LIT or self._flicker_hz is not None
+        return is_dark or glow.text != "lights"
 
     def _is_lit(self) -> bool:
         return self._light is not None or self._flicker_hz is not None or bool(self._glows)
