@@ -224,3 +224,44 @@ def test_left_is_a_way_where_something_goes() -> None:
     assert parse_prompt("the camera pans left over a street").shot.moves[0].direction == "left"
     assert parse_prompt("The car left the house").summary()[0] == "1 car, drives, from 1 house"
     assert parse_prompt("an astronaut floats in space").surroundings.place == "space"
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word", "noun"),
+    [
+        ("A horse whose body is made of glass.", "glass", "glass"),
+        ("A street lamp with frosted glass.", "glass", "glass"),
+        ("A rug bends under the weight of a box.", "weight", "barbell"),
+        ("A bed with mosquito netting.", "mosquito", "mosquito"),
+        ("A traffic pole on a street.", "traffic", "car"),
+        ("A man is body surfing in the sea.", "body surfing", "surfboard"),
+    ],
+)
+def test_substances_and_parts_of_compounds_are_no_things(prompt, word, noun) -> None:
+    found = parse_prompt(prompt)
+    assert word in " ".join(found.not_understood)
+    assert noun not in {one.noun for one in found.objects}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "first"),
+    [
+        ("a man on skis", "1 man, does 'stand on skis'"),
+        ("a man wearing skis poses", "1 man, does 'stand on skis'"),
+        ("two people on skis going down a hill", "2 people, ski"),
+    ],
+)
+def test_who_is_on_skis_has_them_on(prompt: str, first: str) -> None:
+    found = parse_prompt(prompt)
+    assert found.summary()[0] == first
+    assert "ski" not in {one.noun for one in found.objects}
+
+
+def test_the_baby_of_an_animal_is_no_child() -> None:
+    found = parse_prompt("A koala with her baby")
+    assert [one.noun for one in found.objects] == ["koala", "koala"]
+    assert "baby" in {one.said for one in found.substituted}
+
+
+def test_an_owner_without_its_apostrophe_is_one() -> None:
+    assert [one.count for one in parse_prompt("A persons hand").objects] == [1]

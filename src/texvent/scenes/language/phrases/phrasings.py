@@ -73,7 +73,9 @@ _PHRASES: dict[str, tuple[str, ...]] = {
     "snowboarding": ("snow boarding",), "snowboarder": ("snow boarder",),
     "snowboarders": ("snow boarders",), "skateboarding": ("skate boarding",),
     "skateboarder": ("skate boarder",), "skateboarders": ("skate boarders",),
-    "surfing": ("surf boarding",), "skiing": ("snow skiing",),
+    "surfing": ("surf boarding",), "bodysurfing": ("body surfing",),
+    "parasailing": ("para sailing",), "windsurfing": ("wind surfing",),
+    "kitesurfing": ("kite surfing",), "skiing": ("snow skiing",),
     "wetsuit": ("wet suit",), "wetsuits": ("wet suits",), "shirt": ("tee shirt",),
     "shirts": ("tee shirts",), "cardboard": ("card board",),
     "a crowd of": ("a crow of", "a crows of", "a crowed of"), "crowded": ("crowed",),
@@ -83,7 +85,6 @@ _PHRASES: dict[str, tuple[str, ...]] = {
     "towards": ("to join", "to catch up with"),
     "a woman": ("a women",),
     "a man": ("a men",),
-    "on skis": ("wearing skis",),
     "riding a horse": ("riding on horseback", "riding horseback"),
     "on a horse": ("on horseback",),
     "": (
@@ -136,7 +137,7 @@ _SUBJECTLESS = frozenset({"it", "they", "he", "she", "we", "i", "you", "who", "t
 _HAVING = frozenset({"has", "have", "featuring", "including", "includes", "contains"})
 _OF_FILM = frozenset({"scene", "shot", "view", "video", "clip", "footage", "image", "photo",
                       "picture", "camera"})  # fmt: skip
-_UNREPORTED = frozenset({"a", "on", "in"})
+_UNREPORTED = frozenset({"a", "on", "in", "of"})
 """Words that reports leave out."""
 _OPENS_GROUP = frozenset({"a", "an", "the", "some", "several", "many", "various", "multiple", "its",
                           "their", "his", "her", "no", "lots", "very"})  # fmt: skip
@@ -166,6 +167,8 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
         _take_outing,
         _have,
         _lie,
+        _stand_on_skis,
+        _own,
         _ride_on,
         _seem,
         _name_kind,
@@ -175,9 +178,12 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
 
 def _stand_for(tokens: Sequence[Token], text: str) -> list[Token]:
     """Tokens of the plain words; the first that says something is reported as the prompt has it."""
+    words = text.split()
+    if words[0] == "beside" and words[-1] == tokens[-1].text:
+        # The road of "on the side of the road" is named as it is.
+        return [*_stand_for(tokens[:-1], " ".join(words[:-1])), tokens[-1]]
     said = " ".join(token.text for token in tokens).removeprefix("a ")
     written = " ".join(token.written for token in tokens)
-    words = text.split()
     first = next((at for at, word in enumerate(words) if word not in _UNREPORTED), 0)
     return [
         Token(word, written if at == first else word, said=said if at == first else "")
@@ -243,6 +249,50 @@ def _lie(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
         return None
     after = tokens[at + 1].text if at + 1 < len(tokens) else "."
     return (1, _stand_for(tokens[at : at + 1], _LYING[text])) if _is_after_lying(after) else None
+
+
+def _stand_on_skis(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "a man on skis going down a hill": skiing; "people wearing skis": standing on them."""
+    texts = [token.text for token in tokens[at : at + 5]]
+    is_on = texts[:1] in (["on"], ["wearing"]) and at + 1 < len(tokens)
+    if not is_on or tokens[at + 1].written.casefold() not in ("skis", "ski's") or at == 0:
+        return None
+    forms = {one.form for one in list_readings(tokens[at - 1].text) if one.pos is Pos.VERB}
+    if forms - {VerbForm.BASE} or not _is_noun(tokens[at - 1].text):
+        return None
+    being = texts[2:3] if texts[2:3] in (["is"], ["are"]) else []
+    coming = texts[2 + len(being)] if len(texts) > 2 + len(being) else ""
+    if coming in _GLIDING or coming in _POSING:
+        last = 2 + len(being)
+        said = [*tokens[at : at + 2], tokens[at + last]]
+        plain = "skiing" if coming in _GLIDING else "standing on skis"
+        return last + 1, [*tokens[at + 2 : at + last], *_stand_for(said, plain)]
+    is_other = coming.endswith("ing")
+    return None if is_other else (2, _stand_for(tokens[at : at + 2], "standing on skis"))
+
+
+_POSING = frozenset({"posing", "poses", "pose", "standing", "stands", "stand"})
+_GLIDING = frozenset({"going", "coming", "gliding", "moving", "heading", "traveling", "travelling",
+                      "racing", "sliding", "riding"})  # fmt: skip
+
+
+def _own(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "a persons hand", without the sign of the possessive."""
+    texts = [token.text for token in tokens[at : at + 3]]
+    if len(texts) < 3 or texts[0] not in ("a", "an") or texts[1] not in _OWNERS_BY_PLURAL:
+        return None
+    if not _is_plain_noun(texts[2]):
+        return None
+    owner = _OWNERS_BY_PLURAL[texts[1]]
+    return 2, [tokens[at], Token(owner, f"{owner}'s")]
+
+
+_OWNERS_BY_PLURAL = {
+    f"{one}s": one
+    for one in ("person", "man", "woman", "girl", "boy", "dog", "cat", "child", "horse", "bird",
+                "elephant", "giraffe", "bear", "zebra", "cow", "baby", "player", "lady")
+}  # fmt: skip
+"""Plural that is no plural after "a" → whose something is."""
 
 
 def _ride_on(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:

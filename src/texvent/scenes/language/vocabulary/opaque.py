@@ -30,7 +30,8 @@ _TEXT = """
     evening attire,
     fire screen, window screen, sun screen, sunscreen, smoke screen, screen saver, wind screen,
     rear view mirror, eye ball, eyeball, paint ball, pin ball, wrecking ball, cotton
-    ball, fur ball, dust ball, hair ball, masked ball, mosquito net, hair net, butterfly net, lens
+    ball, fur ball, dust ball, hair ball, masked ball, mosquito net, mosquito netting, traffic
+    pole, hair net, butterfly net, lens
     cap, bottlecap, ice cap, gas cap, hub cap, knee cap, polar cap, brake shoe, snow
     shoe, shoe horn, shoe shop, shoe lace, shoe shiner, sock puppet, bell cote, alarm bell, bell
     boy, bell bottom, dumb waiter, cow bell, barbell squat, door knob, doorknob, trap door, cat

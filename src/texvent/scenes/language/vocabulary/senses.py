@@ -281,6 +281,9 @@ SENSES: dict[str, tuple[Sense, ...]] = {
 }  # fmt: skip
 """Noun → its senses other than the usual one; the first whose cue is said counts."""
 ONLY_WITH: dict[str, frozenset[str]] = {
+    "display": _words("computer screen digital lcd led pixel desk monitor laptop show video text"),
+    "weight": _words("lift lifter gym barbell dumbbell kettlebell scale exercise curl press squat"
+                     " pulley spring pendulum string rope hang oscillate swing crossfit"),
     "top": _words("spin toy whirl wobble twirl wooden"),
     "chip": _words("circuit computer silicon tweezers board solder robot microscope wafer cpu"
                    " electronic electronics"),

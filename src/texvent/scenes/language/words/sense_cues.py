@@ -65,6 +65,7 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
             owner = _find_determiner(words[:index])
             _choose_noun(word, owner, follower, others, known)
             _leave_room(word, words[max(index - 1, 0)])
+            _leave_substance(word, words[:index])
         if word.text == "overhead" and follower is not None and follower.role in _OF_SHOTS:
             word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, "top"), ()
         if word.text == "orange" and follower is not None and follower.lemma in _LIGHTS:
@@ -115,6 +116,16 @@ def _leave_room(word: Word, before: Word) -> None:
     is_kind = before.pos in (Pos.ADJECTIVE, Pos.NOUN) and before.text not in _OUTER
     is_one = before.text in ("a", "an", *_OWNERS)
     if word.lemma == "space" and before is not word and (is_kind or is_one):
+        _forget(word, Pos.NOUN)
+
+
+def _leave_substance(word: Word, before: Sequence[Word]) -> None:
+    """As in "is made of glass", "frosted glass": what something is of, and no thing."""
+    texts = [one.text for one in before[-3:]]
+    is_made = texts[-1:] in (["of"], ["from"]) and "made" in texts
+    is_pane = texts[-1:] in (["frosted"], ["stained"], ["tinted"], ["etched"])
+    is_substance = word.text == "glass" and (is_made or is_pane)
+    if is_substance or (is_made and word.read_as(Role.MATERIAL) is not None):
         _forget(word, Pos.NOUN)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from texvent.scenes.language.grammar.syntax import NounGroup
-from texvent.scenes.language.meaning.capabilities import is_living
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
@@ -282,6 +284,11 @@ def read_young(group: NounGroup, draft: Draft) -> bool:
     """As in "a seal pup", which is a seal; whether the group was one and is now its animal."""
     inner = group.modifiers[-1] if group.modifiers else None
     animal = inner.read_as(Role.NOUN) if inner is not None else None
+    if _is_of_animal(group, draft):
+        head = group.head_word
+        head.meaning = replace(head.meaning, value=draft.objects[-1].noun, is_substitute=True)
+        head.others = ()
+        return False
     if inner is None or animal is None or group.head_word.lemma not in _YOUNG:
         return False
     if draft.nouns[str(animal.value)].motion == "stand":
@@ -290,6 +297,17 @@ def read_young(group: NounGroup, draft: Draft) -> bool:
     group.modifiers.pop()
     group.head = inner
     return True
+
+
+def _is_of_animal(group: NounGroup, draft: Draft) -> bool:
+    """As in "a koala with her baby": no human child."""
+    owner = group.determiner.text if group.determiner is not None else ""
+    nouns = [draft.nouns[item.noun] for item in draft.objects]
+    is_baby = group.head_word.lemma == "baby" and group.head_word.role is Role.NOUN
+    return (
+        is_baby and owner in ("its", "her", "their") and bool(nouns)
+        and is_living(nouns[-1]) and not any(map(is_person, nouns))
+    )  # fmt: skip
 
 
 def read_herd(group: NounGroup, draft: Draft) -> int | None:
