@@ -1,9 +1,8 @@
-"""Openings of sentences: "there is" only says what is there, "a pan right" moves the camera."""
+"""Openings that only say that something is there: "there is", "this is a picture of"."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from texvent.scenes.language.words.tokens import Token
 
@@ -12,17 +11,6 @@ _POINTING = frozenset({"this", "these", "here"})
 _ARTICLES = frozenset({"a", "an", "the", "some", "two", "three", "several", "many"})
 _DENIED = frozenset({"no", "not", "nothing", "nobody", "none", "never", "without"})
 _VIEWERS = frozenset({"i", "we", "you", "he", "she", "they"})
-_WAYS = frozenset({"left", "right", "up", "down"})
-_MOVES = {
-    ("pan", ""): "pans", ("truck", ""): "trucks", ("tilt", ""): "tilts", ("crane", ""): "cranes",
-    ("pedestal", "up"): "rises", ("pedestal", "down"): "descends",
-    ("boom", "up"): "rises", ("boom", "down"): "descends",
-}  # fmt: skip
-"""Noun of a camera's move, and its way where the verb tells it too → the verb."""
-_AFTER_MOVES = frozenset({"over", "across", "along", "past", "from", "to", "through", "around",
-                          "towards", "above"})  # fmt: skip
-"""Words after the way that tell that no thing is meant: unlike "a pan left on a stove"."""
-_STOPS = frozenset({".", "!", "?", ";"})
 
 
 def drop_frames(tokens: Sequence[Token]) -> list[Token]:
@@ -31,28 +19,10 @@ def drop_frames(tokens: Sequence[Token]) -> list[Token]:
     at = 0
     while at < len(tokens):
         length = _there_is(tokens, at) or _this_is(tokens, at)
-        move = () if length else _camera_move(tokens, at)
-        if not length and not move:
+        if not length:
             found.append(tokens[at])
-        found.extend(move)
-        at += length or len(move) or 1
+        at += length or 1
     return found
-
-
-def _camera_move(tokens: Sequence[Token], at: int) -> tuple[Token, ...]:
-    """As in "A truck left along a cliff", "a pan right over a city": as a sentence, or nothing."""
-    coming = [token.text for token in tokens[at : at + 4]]
-    opens = at == 0 or tokens[at - 1].text in _STOPS
-    if not opens or len(coming) < 4 or coming[0] not in ("a", "the"):
-        return ()
-    verb = _MOVES.get((coming[1], coming[2])) or _MOVES.get((coming[1], ""))
-    if verb is None or coming[2] not in _WAYS or coming[3] not in _AFTER_MOVES:
-        return ()
-    is_way_told = (coming[1], coming[2]) in _MOVES
-    said = f"{coming[1]} {coming[2]}" if is_way_told else coming[1]
-    way = replace(tokens[at + 2], said="") if is_way_told else tokens[at + 2]
-    camera = replace(tokens[at], text="camera", said="")
-    return (camera, replace(tokens[at + 1], text=verb, said=said), way)
 
 
 def _being_after(tokens: Sequence[Token], at: int) -> int:

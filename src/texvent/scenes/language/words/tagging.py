@@ -19,8 +19,6 @@ _OF_FILM = (Role.CAMERA, Role.CAMERA_MOVE, Role.VIEW, Role.FRAMING)
 """What a verb follows at once: "the camera pans", "an aerial view shows"."""
 _STATES = frozenset({"open", "clean", "dry", "empty"})
 """Verbs that are adjectives before a bare noun: "open suitcase", unlike "open the suitcase"."""
-_AFTER_LEFT = frozenset({"alone", "behind", "unattended", "unfinished", "open"})
-"""Words after "left" that tell that nobody goes left."""
 _STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
 
 
@@ -169,12 +167,11 @@ class _Tagger(ReadSoFar):
         """As in "is left alone", "left the garage", where "left" is no direction."""
         if self._texts[index] != "left":
             return False
-        coming = self._texts[index + 1] if index + 1 < len(self._texts) else ""
         is_passive = self._before() is Pos.AUXILIARY
         leaves = self._before() is Pos.NOUN and not self._has_verb and self._after(index) == {
             Pos.DETERMINER
         }  # fmt: skip
-        return is_passive or leaves or coming in _AFTER_LEFT
+        return is_passive or leaves
 
     def _is_of_camera(self, index: int, verb: Meaning) -> bool:
         """As in "the camera tracks him": no tracks of a camera."""
