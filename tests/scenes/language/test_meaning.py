@@ -609,3 +609,14 @@ def test_what_is_with_someone_at_a_table_is_on_it() -> None:
 def test_birds_that_eat_are_at_the_ground() -> None:
     assert parse_prompt("a pigeon pecking").surroundings.place == "grass"
     assert parse_prompt("a pigeon flying").surroundings.place == "sky"
+
+
+def test_boards_that_nobody_rides_rest() -> None:
+    assert kinds_of(parse_prompt("a surfboard on the beach"), "surfboard") == ["stand"]
+    assert kinds_of(parse_prompt("a man on a surfboard in the sea"), "surfboard") == ["sail"]
+
+
+def test_nothing_stands_on_a_leash() -> None:
+    scene = parse_prompt("a dog on a leash")
+    assert not scene.relations
+    assert "on" in scene.not_understood

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from texvent.scenes.description import STANDING, SceneDescription
+from texvent.scenes.language.vocabulary.acts import BOARDS
 from texvent.scenes.models.protocol import Noun
 
 RIDES = ("ride", "ride along")
@@ -35,12 +36,16 @@ def _list_ridden(description: SceneDescription) -> set[int]:
 
 
 def leave_unridden(description: SceneDescription) -> SceneDescription:
-    """A bicycle of which nothing is said but how it looks stands there: nobody rides it."""
+    """A bicycle of which nothing is said but how it looks stands there: nobody rides it.
+
+    Boards do so wherever they are.
+    """
     ridden = _list_ridden(description)
     is_plain = description.surroundings.place is None and not description.shot.is_moving
+    resting = BOARDS | {"ski"} | (HAS_RIDER if is_plain else frozenset())
     objects = tuple(
         replace(one, motion=STANDING)
-        if one.noun in HAS_RIDER and one.motion is None and index not in ridden and is_plain
+        if one.noun in resting and one.motion is None and index not in ridden
         else one
         for index, one in enumerate(description.objects)
     )

@@ -30,6 +30,7 @@ _PHRASES: dict[str, tuple[str, ...]] = {
         "in the heart of", "at the heart of", "in the middle of", "in the midst of",
         "in the center of", "in the centre of",
     ),
+    "a row of": ("a line up of", "a lineup of", "a line of"),
     "suit": ("suit and tie", "suit and a tie"),
     "in traffic": (
         "in traffic during rush hour", "in rush hour traffic", "in heavy traffic",

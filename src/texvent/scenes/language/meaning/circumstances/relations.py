@@ -304,7 +304,8 @@ class RelationReader:
         if word.text == "in" and self._draft.noun(things[0]).name in WEARABLE:
             return "wear"
         if word.role is Role.RELATION:
-            return str(word.meaning.value)
+            is_tied = word.text == "on" and self._draft.noun(things[0]).name == "rope"
+            return None if is_tied else str(word.meaning.value)  # "a dog on a leash"
         return WEAK_PREPOSITIONS.get(word.text)
 
     def _read_with(self, things: list[int], scope: Scope) -> bool:
