@@ -620,3 +620,9 @@ def test_nothing_stands_on_a_leash() -> None:
     scene = parse_prompt("a dog on a leash")
     assert not scene.relations
     assert "on" in scene.not_understood
+
+
+def test_who_eats_at_a_table_is_at_it() -> None:
+    scene = parse_prompt("a girl eating a slice of pizza at a table")
+    nouns = [one.noun for one in scene.objects]
+    assert [(nouns[one.subject], one.kind) for one in scene.relations] == [("girl", "at")]

@@ -215,7 +215,8 @@ _PULLED = still(rod(Material((0.62, 0.48, 0.28)), (-0.16, 0.0, -0.02), (3.2, 0.0
 IN_HAND = (
     "apple", "orange", "pear", "banana", "tomato", "carrot", "bread", "sandwich", "hamburger",
     "hot dog", "pizza", "donut", "cupcake", "ice cream", "cheese", "sausage", "lollipop", "corn",
-    "cucumber", "cookie", "strawberry", "cherry", "lemon",
+    "cucumber", "cookie", "strawberry", "cherry", "lemon", "pizza slice", "croissant",
+    "chocolate bar", "waffle", "sushi",
 )  # fmt: skip
 """Food that is eaten from the hand."""
 _SURFBOARD = _board((2.0, 0.52, 0.07), Material(WHITE))

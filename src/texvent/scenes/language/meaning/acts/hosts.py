@@ -60,8 +60,8 @@ def lift_places(clause: Clause, nouns: Mapping[str, Noun]) -> None:
         for phrase in list(group.phrases if _is_alive(group, nouns) else ()):
             if phrase.preposition.text in _HAD_BY and _is_had(phrase.groups[-1], nouns):
                 _lift(phrase.groups[-1].phrases, group)
-    value = clause.verb.meaning.value if clause.verb is not None else None
-    if isinstance(value, Verb) and value.act in _BY_BODIES - {"ride"} and len(clause.subjects) == 1:
+    verb = clause.verb
+    if verb is not None and _is_of_bodies(verb) and len(clause.subjects) == 1:
         host, had = clause.subjects[0], [one for one in clause.objects if _is_had(one, nouns)]
         for phrase in clause.phrases if _is_alive(host, nouns) else ():
             if phrase.near in had and phrase.preposition.text in _PLACED:
