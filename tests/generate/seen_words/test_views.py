@@ -24,6 +24,9 @@ def _report(prompt: str):
         ("A medium shot of a man who waves.", "medium shot of"),
         ("The camera drives forward through a forest.", "forward"),
         ("A static shot of a car that drives left.", "static shot"),
+        ("A knife on the left of a spoon, front view.", "front view"),
+        ("A truck left past a row of trees.", "truck"),
+        ("A pedestal down from the top of a tower.", "down"),
     ],
 )
 def test_what_the_camera_does_is_shown(prompt, word) -> None:

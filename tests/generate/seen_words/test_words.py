@@ -53,6 +53,9 @@ def report_of(prompt: str) -> PromptReport:
         ("a motorboat with white sails on the sea", "sails"),
         ("a cup on a table in a kitchen, backlit", "backlit"),
         ("a boat on a lake, soft light from the left", "from the left"),
+        ("a drone flies past a tall building", "tall"),
+        ("waves crash against the rocks of a coast", "waves crash"),
+        ("a street after a rain shower", "rain"),
     ],
 )  # fmt: skip
 def test_what_the_picture_does_not_show_is_named(prompt: str, word: str) -> None:

@@ -843,3 +843,15 @@ def test_who_falls_down_the_stairs_does_not_climb():
     assert climber.objects[0].motion is not None
     assert (fallen.objects[0].motion.kind, climber.objects[0].motion.kind) == ("fall over", "climb")
     assert "down" in fallen.not_understood
+
+
+@pytest.mark.parametrize("prompt", ["a street after the rain", "a field before a storm"])
+def test_rain_of_another_time_does_not_fall(prompt):
+    assert parse_prompt(prompt).surroundings.weather is None
+
+
+def test_a_time_lapse_of_things_is_reported():
+    assert "time lapse" in {
+        one.said for one in parse_prompt("a time-lapse of a flower").substituted
+    }
+    assert not parse_prompt("a time-lapse of clouds over a mountain").substituted

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
+from texvent.generate.landmarks import WATER, is_marked
 from texvent.generate.seen_words.lighting import sky_share
 from texvent.generate.seen_words.picture import USUAL, Picture, View
 from texvent.scenes.description import Claim, SceneDescription
@@ -131,7 +134,7 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
     if claim.aspect == "clouds" and sky_share(picture) < LEAST_CLOUDED:
         return "hardly any sky in view"
     if claim.aspect != "place":
-        return _judge_water(picture) if claim.aspect == "waves" else None
+        return _judge_waves(picture, description, claim) if claim.aspect == "waves" else None
     fault = _find_lack(picture, claim)
     if fault is not None:
         return fault
@@ -154,6 +157,26 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         return _judge_road(picture, is_trodden=place == "dirt road")
     is_ground = claim.value == place and place in _GROUNDS
     return "out of view" if is_ground and picture.ground_share() < LEAST_GROUND else None
+
+
+def _judge_waves(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
+    """Water is in view; what waves break against stands in it."""
+    fault = _judge_water(picture)
+    if fault is not None:
+        return fault
+    after = description.prompt.casefold().partition(claim.word)[2].split()
+    if not after or after[0] not in ("against", "into", "over", "onto", "on"):
+        return None
+    phrase = " ".join(after[1:6])
+    for name in description.claims:
+        if name.aspect != "name" or not re.search(rf"\b{re.escape(name.word)}\b", phrase):
+            continue
+        met = [one for one in picture.scene.actors if one.object_index in name.things]
+        spots = np.array([one.middle(0.0)[:2] for one in met]).reshape(-1, 2)
+        kind, is_wet = is_marked(picture.scene.environment(0.0), spots)
+        if met and not (kind == WATER and is_wet.any()):
+            return f"they do not reach the {met[0].noun.name}"
+    return None
 
 
 def _find_lack(picture: Picture, claim: Claim) -> str | None:

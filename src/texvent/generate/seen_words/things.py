@@ -12,6 +12,7 @@ from texvent.generate.seen_words.picture import USUAL, Picture, View
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
 from texvent.scenes.evidence import MOST_COUNTED, is_to_move
 from texvent.scenes.language.meaning.capabilities import is_person
+from texvent.scenes.projection import project
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
@@ -21,6 +22,8 @@ LEAST_COLOURED, LEAST_DRESSED = 0.25, 0.12
 in it."""
 _FRAMES = ("bicycle", "motorcycle")
 """What has its colour on its frame or tank alone: most of it are wheels."""
+BUILDING_M = 4.0
+"""Height from which on a thing is told by its edges."""
 LEAST_WORN = 0.08
 """The same for what another wears or holds, whose pixels are counted with the wearer's."""
 LEAST_DETAIL = 0.14
@@ -217,13 +220,23 @@ def _judge_tall(picture: Picture, word: str, index: int) -> str | None:
     own = next(one for one in picture.scene.actors if one.object_index == index)
     height, across = own.model.height, max(own.model.length, own.model.width)
     if own.noun.motion not in ("walk", "run"):
-        is_tall = height >= 1.6 * across and height >= 1.8
-        return None if is_tall and word != "short" else f"not {word}"
+        if not (height >= 1.6 * across and height >= 1.8) or word == "short":
+            return f"not {word}"
+        return None if _has_top_in_view(picture, own) else "with its top out of view"
     ratios = [height / one.model.height for one in picture.scene.actors
               if one.noun.motion == own.noun.motion]  # fmt: skip
     if word == "short":
         ratios = [1.0 / one for one in ratios]
     return None if max(ratios) >= TALLER else "nothing to tell its size by"
+
+
+def _has_top_in_view(picture: Picture, own: Actor) -> bool:
+    """Whether its upper edge is in the picture at some instant."""
+    for view in picture.views:
+        seen = project(view.camera, picture.size, own.corners(view.time_s))
+        if np.all(seen[:, 2] > 0.0) and seen[:, 1].min() >= 0.0:
+            return True
+    return False
 
 
 def _is_seen(picture: Picture, instance: int) -> bool:
@@ -270,6 +283,8 @@ def _is_end_seen(picture: Picture, index: int, end: float) -> bool:
 
 def judge_outline(picture: Picture, instance: int) -> str | None:
     """Why a thing that is in view is not recognised: lost in the dark or the fog, or None."""
+    if _is_cut_all_around(picture, instance):
+        return "cut off"
     noun = picture.scene.class_names.get(instance, "")
     size, contrast = 0.0, -1.0
     edge = np.array([picture.size.width, picture.size.height])
@@ -292,6 +307,17 @@ def judge_outline(picture: Picture, instance: int) -> str | None:
     if 0.0 <= contrast < LEAST_OUTLINE:
         return "not told from what is around it"
     return "too small" if noun in _PATTERNED and 0.0 < size < PATTERN_SIZE else None
+
+
+def _is_cut_all_around(picture: Picture, instance: int) -> bool:
+    """Whether a building is a wall that fills the picture, without any of its edges."""
+    own = next((one for one in picture.scene.actors if one.instance == instance), None)
+    if own is None or own.noun.habitat != "fixed" or own.model.height < BUILDING_M:
+        return False
+    seen = [project(view.camera, picture.size, own.corners(view.time_s)) for view in picture.views]
+    is_outside = all(np.all(one[:, 2] > 0.0) for one in seen)  # the camera is not in it
+    is_wide = all(one[:, 0].max() > picture.size.width for one in seen)
+    return is_outside and is_wide and all(one[:, :2].min(axis=0).max() < 0.0 for one in seen)
 
 
 def extent_of(picture: Picture, index: int) -> float:

@@ -100,6 +100,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     description = meaning.build(prompt, words)
     _name_worn(words, description)
     use_outdoors(words, description.surroundings.place, cues)
+    is_timelapse = _read_timelapse(words, description)
     shown, substituted, unread = _account(words)
     if not meaning.is_anything_shown:
         raise InputError(
@@ -107,9 +108,6 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
             "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
             "models that take any text"
         )
-    is_timelapse = any(word.text in TIMELAPSES for word in words)
-    if is_timelapse:
-        notes.append("a time lapse: clouds and the sun go fast, things move as usual")
     description = replace(
         description,
         light=_join(description.light, light),
@@ -122,6 +120,15 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         notes=(*notes, *description.notes),
     )
     return complete_description(description, nouns, cues)
+
+
+def _read_timelapse(words: Sequence[Word], description: SceneDescription) -> bool:
+    """Whether clouds and the sun go fast; where anything else is named, it moves as usual."""
+    found = [word for word in words if word.text in TIMELAPSES]
+    has_things = any(one.noun != "cloud" for one in description.objects)
+    for word in found if has_things else ():
+        word.shown_as = "clouds and sun that go fast; things move as usual"
+    return bool(found)
 
 
 def _name_worn(words: Sequence[Word], description: SceneDescription) -> None:

@@ -34,7 +34,7 @@ DIRECTIONS: dict[str, tuple[str, ...]] = {
     "down": ("down", "downward", "downwards", "to the ground"),
     "across": (
         "across", "across the frame", "across the screen", "across the picture", "past the camera",
-        "by the camera", "past the viewer", "sideways",
+        "by the camera", "past the viewer",
     ),
     "circle": ("in circles", "in a circle", "around in circles"),
     "eight": ("in a figure eight", "in figure eights", "in a figure of eight", "a figure eight",

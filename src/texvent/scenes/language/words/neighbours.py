@@ -35,8 +35,29 @@ def read_neighbours(words: Sequence[Word]) -> None:
             _put_off(words[number + 1 :])
         if word.text in _ANOTHER and before is not None and _is_goal_alone(words, number):
             word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
+        if word.text in _AT_OTHER_TIMES:
+            _put_aside_weather(word, words[number + 1 : number + 5])
         if word.text == "left" and _is_left_behind(before, after):
             word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.ADVERB), ()
+            word.is_lost = True
+
+
+_AT_OTHER_TIMES = ("after", "before")
+
+
+def _put_aside_weather(preposition: Word, coming: Sequence[Word]) -> None:
+    """As in "after a rain shower", "before a storm": no rain falls yet, or any more."""
+    group: list[Word] = []
+    for word in coming:
+        if word.pos not in _OF_NOUNS:
+            break
+        group.append(word)
+    if not any(word.role in (Role.WEATHER, Role.SNOW) for word in group):
+        return
+    preposition.meaning = Meaning(Role.FUNCTION, preposition.pos)
+    for word in group:
+        if word.pos is not Pos.DETERMINER:
+            word.meaning, word.others = Meaning(Role.UNKNOWN, word.pos), ()
             word.is_lost = True
 
 

@@ -191,6 +191,19 @@ def slow_overtaken(group: ObjectGroup, faster: ObjectGroup) -> None:
         group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
 
 
+LEAST_THROUGH_M_S = 1.4
+"""Speed at which who flies through a gate is seen before it and behind it."""
+
+
+def go_all_through(group: ObjectGroup) -> None:
+    """Let what hovers slowly go through something within the clip, unless its speed is said."""
+    plan = group.plan
+    is_said = plan.motion.speed_m_s is not None or plan.motion.pace != 1.0
+    if plan.is_path and not is_said and plan.speed_m_s < LEAST_THROUGH_M_S:
+        group.plan = replace(plan, speed_m_s=LEAST_THROUGH_M_S)
+        group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+
+
 def hurry_leader(leader: ObjectGroup, follower: ObjectGroup) -> None:
     """Let what is followed be as fast as its follower, unless the prompt says how fast."""
     motion, speed = leader.plan.motion, follower.plan.speed_m_s

@@ -33,6 +33,7 @@ from texvent.scenes.staging.placement.fitting import fit_contents
 from texvent.scenes.staging.placement.formation import form_up
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
+    go_all_through,
     half_extents_over_clip,
     hurry_leader,
     overlap,
@@ -197,6 +198,8 @@ class ObjectPlacer:
             faster = self.groups.get(relation.subject)
             if group.index in relation.targets and relation.kind in ("overtake", "past") and faster:
                 slow_overtaken(group, faster)
+            if relation.subject == group.index and relation.kind == "through":
+                go_all_through(group)
             if relation.subject == group.index and relation.kind == "follow":
                 partner = self.groups.get(relation.targets[0])
             elif group.index in relation.targets and relation.kind == "with":

@@ -175,7 +175,7 @@ def _eat_plate(t: float) -> Posture:
 def _eat_slice(t: float) -> Posture:
     """Both hands bring a slice to the mouth."""
     up = _to_mouth(t)
-    arm = Arm((0.36 - 0.06 * up, -0.06, -0.14 + 0.26 * up), _DOWN)
+    arm = Arm((0.36 - 0.14 * up, -0.06, -0.14 + 0.36 * up), _DOWN)
     return Posture(left=arm, right=arm, nod=0.18)
 
 
