@@ -22,8 +22,8 @@ LEAST_COLOURED, LEAST_DRESSED = 0.25, 0.12
 in it."""
 _FRAMES = ("bicycle", "motorcycle")
 """What has its colour on its frame or tank alone: most of it are wheels."""
-BUILDING_M = 4.0
-"""Height from which on a thing is told by its edges."""
+BUILDING_M, MOST_WALL = 4.0, 0.8
+"""Height from which on a thing is told by its edges, and share of the picture that it may cover."""
 LEAST_WORN = 0.08
 """The same for what another wears or holds, whose pixels are counted with the wearer's."""
 LEAST_DETAIL = 0.14
@@ -310,14 +310,11 @@ def judge_outline(picture: Picture, instance: int) -> str | None:
 
 
 def _is_cut_all_around(picture: Picture, instance: int) -> bool:
-    """Whether a building is a wall that fills the picture, without any of its edges."""
+    """Whether a building is a wall that fills the picture all the time."""
     own = next((one for one in picture.scene.actors if one.instance == instance), None)
     if own is None or own.noun.habitat != "fixed" or own.model.height < BUILDING_M:
         return False
-    seen = [project(view.camera, picture.size, own.corners(view.time_s)) for view in picture.views]
-    is_outside = all(np.all(one[:, 2] > 0.0) for one in seen)  # the camera is not in it
-    is_wide = all(one[:, 0].max() > picture.size.width for one in seen)
-    return is_outside and is_wide and all(one[:, :2].min(axis=0).max() < 0.0 for one in seen)
+    return min(float(np.mean(view.instance == instance)) for view in picture.views) > MOST_WALL
 
 
 def extent_of(picture: Picture, index: int) -> float:

@@ -171,6 +171,10 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     return _act_on_spot(plan, model, home, phase)
 
 
+_LARGEST_AFLOAT_M = 2.5
+"""What is larger bobs no more than that: a moon, a cloud."""
+
+
 def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
     """What goes neither far nor high."""
     kind, pace = plan.motion.kind, plan.motion.pace
@@ -178,7 +182,7 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     if kind == "flip":
         return build_flip(model, home, plan.yaw, pace)
     if kind in ("hover", "float"):
-        return Hover(home, 0.12 * span * pace, plan.yaw, phase)
+        return Hover(home, 0.12 * min(span, _LARGEST_AFLOAT_M) * pace, plan.yaw, phase)
     if kind == "sway":
         return build_sway(model, home, plan.yaw, pace)
     if kind == "roll over":
