@@ -127,3 +127,30 @@ def test_things_are_where_things_go(prompt: str, line: str) -> None:
 def test_what_is_near_a_place_that_is_all_around_is_reported() -> None:
     assert "near" in parse_prompt("two men walk near a garden").not_understood
     assert parse_prompt("a house by a lake").not_understood == ()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "line"),
+    [
+        ("a plate with a fork and a knife next to it", "1 fork, stands still, beside 1 plate"),
+        (
+            "a girl in a jacket and boots with an umbrella",
+            "1 girl, stands still, wearing 1 jacket and 2 boots, holding 1 umbrella",
+        ),
+        ("a man in a hat with a feather", "1 man, stands still, wearing 1 hat"),
+        ("people waiting and flying kites", "3 people, stand still, holding 3 kites"),
+        (
+            "a dog runs after a car",
+            "1 dog, runs at 1.2 times its usual speed, following 1 car",
+        ),
+    ],
+)
+def test_with_and_after_belong_to_who_has_and_who_chases(prompt: str, line: str) -> None:
+    assert line in parse_prompt(prompt).summary()
+
+
+def test_what_has_been_is_reported() -> None:
+    found = parse_prompt("two men after a football game")
+    assert found.not_understood == ("after", "football", "game")
+    assert len(found.objects) == 1
+    assert parse_prompt("a dog runs and stops after two seconds").not_understood == ()

@@ -128,11 +128,21 @@ def _is_attribute(words: Sequence[Word], at: int) -> bool:
     word = words[at]
     if word.pos is not Pos.VERB or word.meaning.form not in _PARTICIPLES:
         return False
+    if _goes_on_doing(words, at):
+        return False
     opens = at == 0 or words[at - 1].pos is Pos.SIGN
     is_gerund = opens and word.meaning.form is VerbForm.ING
     if is_gerund and (is_done_to_things(word.lemma, word.meaning) or _goes_into(words, at)):
         return False
     return _noun_follows(words, at + 1)
+
+
+def _goes_on_doing(words: Sequence[Word], at: int) -> bool:
+    """As in "people meeting and flying kites": they fly them."""
+    if at < 3 or words[at - 1].text != "and" or words[at - 3].pos is not Pos.NOUN:
+        return False
+    first, form = words[at - 2], words[at].meaning.form
+    return first.pos is Pos.VERB and first.meaning.form is form and form is VerbForm.ING
 
 
 def _goes_into(words: Sequence[Word], at: int) -> bool:

@@ -73,7 +73,7 @@ def _is_steady(word: Word, one: Referent) -> bool:
     return is_of_sky or (are_lamps and word.lemma != "flicker")
 
 
-_AIMED_AT = frozenset({"lasers"})
+_AIMED_AT = frozenset({"lasers", "lightning"})
 """Effects that are shown all around, not on what they are said to hit."""
 
 

@@ -171,6 +171,7 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
         _stand_on_skis,
         _own,
         _ride_on,
+        _run_after,
         _seem,
         _name_kind,
     )
@@ -303,6 +304,21 @@ def _ride_on(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
         return None
     is_ridden = any(text.rstrip("s") in _RIDDEN for text in texts[2:])
     return (2, _stand_for(tokens[at : at + 2], texts[0])) if is_ridden else None
+
+
+def _run_after(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "a dog runs after a cat": it chases it."""
+    texts = [token.text for token in tokens[at : at + 4]]
+    form = _form_of(texts[0], ("run",))
+    if form is None or texts[1:2] != ["after"] or len(texts) < 3 or texts[2] not in _CHASED:
+        return None
+    is_time = texts[3:4] and texts[3] in _TIMES
+    return None if is_time else (2, _stand_for(tokens[at : at + 2], _inflect("chase", form)))
+
+
+_CHASED = frozenset({"a", "an", "the", "her", "him", "it", "them", "his", "its", "their", "one",
+                     "another", "two", "three", "each"})  # fmt: skip
+_TIMES = frozenset({"while", "moment", "rain", "storm", "race", "game", "day", "night", "start"})
 
 
 def _seem(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import takewhile
 
 from texvent.scenes.language.vocabulary.senses import (
     DEVICES,
@@ -59,6 +60,8 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
         is_attribute = is_start and follower is not None and follower.pos is Pos.NOUN
         if word.pos is Pos.VERB and not is_attribute:
             _choose_verb(word, words[index + 1 :], others, known)
+        if word.text == "after" and word.pos is Pos.SUBORDINATOR:
+            _lose_time(word, words[index + 1 :])
         if word.lemma in _BECOMING and follower is not None and follower.text in ("to", "into"):
             _forget_result(words[index + 2 :])
         if word.pos is Pos.NOUN:
@@ -66,22 +69,23 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
             _choose_noun(word, owner, follower, others, known)
             _leave_room(word, words[max(index - 1, 0)])
             _leave_substance(word, words[:index])
-        if word.text == "overhead" and follower is not None and follower.role in _OF_SHOTS:
-            word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, "top"), ()
-        if word.text == "orange" and follower is not None and follower.lemma in _LIGHTS:
-            word.meaning, word.others = (
-                next(
-                    (one for one in (word.meaning, *word.others) if one.role is Role.COLOUR),
-                    word.meaning,
-                ),
-                (),
-            )
+        if follower is not None:
+            _choose_before(word, follower)
         if word.text == "water":
             word.is_content = bool(IN_VESSELS & others) and not OPEN_WATER & others
         if word.text == "lamp lights":
             _forget(word, Pos.NOUN)
         if word.text == "spray" and follower is not None and follower.lemma == "paint":
             _forget(word, Pos.ADVERB)
+
+
+def _choose_before(word: Word, follower: Word) -> None:
+    """As in "overhead close-up", "orange sparks"."""
+    if word.text == "overhead" and follower.role in _OF_SHOTS:
+        word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, "top"), ()
+    colour = word.read_as(Role.COLOUR)
+    if word.text == "orange" and follower.lemma in _LIGHTS and colour is not None:
+        word.meaning, word.others = colour, ()
 
 
 def _choose_verb(word: Word, after: Sequence[Word], others: set[str], known: Lexicon) -> None:
@@ -208,6 +212,22 @@ def _give(word: Word, sense: Sense, known: Lexicon, pos: Pos) -> None:
         word.has_other_sense = True
     else:
         word.meaning, word.others = found[0], tuple(found[1:])
+
+
+_OTHER_TIMES = (Role.UNIT, Role.WEATHER, Role.SNOW)
+"""Roles of what "after" is read of elsewhere: "after two seconds", "after the rain"."""
+
+
+def _lose_time(word: Word, after: Sequence[Word]) -> None:
+    """As in "players after a football game": neither the game nor that it is over is shown."""
+    coming = list(takewhile(lambda one: one.pos is not Pos.SIGN, after))
+    is_clause = any(one.pos in (Pos.VERB, Pos.AUXILIARY) for one in coming)
+    if not coming or is_clause or any(one.role in _OTHER_TIMES for one in coming):
+        return
+    word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.PREPOSITION), ()
+    for one in takewhile(lambda one: one.pos is not Pos.PREPOSITION, coming):
+        if one.pos is Pos.NOUN:
+            _forget(one, Pos.NOUN)
 
 
 def _forget_result(after: Sequence[Word]) -> None:

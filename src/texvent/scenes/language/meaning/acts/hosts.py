@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living
 from texvent.scenes.language.meaning.referents.resolver import OWNERS
+from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
@@ -60,6 +61,7 @@ def lift_places(clause: Clause, nouns: Mapping[str, Noun]) -> None:
         for phrase in list(group.phrases if _is_alive(group, nouns) else ()):
             if phrase.preposition.text in _HAD_BY and _is_had(phrase.groups[-1], nouns):
                 _lift(phrase.groups[-1].phrases, group)
+                _lift_held(phrase.groups[-1], group, nouns)
     verb = clause.verb
     if verb is not None and _is_of_bodies(verb) and len(clause.subjects) == 1:
         host, had = clause.subjects[0], [one for one in clause.objects if _is_had(one, nouns)]
@@ -75,6 +77,23 @@ def _lift(phrases: list[PrepPhrase], host: NounGroup) -> None:
     for one in lifted:
         one.near = host
     host.phrases.extend(lifted)
+
+
+def _lift_held(worn: NounGroup, host: NounGroup, nouns: Mapping[str, Noun]) -> None:
+    """As in "a girl in boots with an umbrella": the girl has it; a hat has a feather."""
+    noun = _find(worn, nouns)
+    if noun is None or noun.name not in WEARABLE:
+        return
+    for one in list(worn.phrases):
+        held = _find(one.groups[-1], nouns)
+        if one.preposition.text == "with" and held is not None and held.name not in _TRIMMINGS:
+            worn.phrases.remove(one)
+            one.near = host
+            host.phrases.append(one)
+
+
+_TRIMMINGS = frozenset({"feather", "flower", "rose", "bow", "star", "heart", "leaf", "button",
+                        "ribbon", "letter", "dot", "skull"})  # fmt: skip
 
 
 def _is_had(group: NounGroup, nouns: Mapping[str, Noun]) -> bool:

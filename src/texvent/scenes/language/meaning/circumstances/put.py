@@ -9,6 +9,7 @@ from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import SEATS
 
 CARRIES = frozenset(
@@ -24,6 +25,8 @@ VESSELS = frozenset(
 TABLES = frozenset({"table", "desk"})
 _HELD_AT_MOST_M = 1.3
 """A person "with" something up to this long holds it."""
+OFF_GROUND = frozenset({"jump", "fly", "rise", "fall", "throw", "hover", "swing", "float", "climb"})
+"""Motions in which someone is not on the ground."""
 _ON = ("on", "on top of")
 
 
@@ -75,6 +78,9 @@ def list_put(
         Objects that are there; none where nothing is said, or the last noun alone is there.
     """
     last = found[-1].group
+    if phrase.preposition.text == "with" and any(one.has_pronoun for one in last.phrases):
+        # As in "a plate with a fork and a knife next to it": both are.
+        return [i for one in found if one.is_things for i in one.things]
     rests = [
         group
         for one in last.phrases
@@ -89,3 +95,25 @@ def list_put(
     is_vessel = all(draft.noun(i).name in VESSELS | CARRIES for i in hosts)
     others = [] if is_vessel else [i for one in found if one.is_things for i in one.things]
     return [*hosts, *others]
+
+
+def find_slid(draft: Draft, word: Word, things: Sequence[int], scope: Scope) -> list[int]:
+    """As in "pushes a cup across the table", "a ball rolls over the desk": what goes on it."""
+    names = {draft.noun(index).name for index in things}
+    if word.text not in ("across", "over") or not names <= TABLES:
+        return []
+    doers = list(scope.movers or scope.subjects)
+    pushed = [
+        target
+        for relation in draft.relations
+        if relation.kind in ("push", "pull") and relation.subject in doers
+        for target in relation.targets
+    ]
+    goes = [
+        index
+        for index in doers
+        if draft.noun(index).habitat != "air"
+        and not is_living(draft.noun(index))
+        and any(one.kind not in OFF_GROUND for one in draft.objects[index].motions)
+    ]
+    return pushed or (goes if len(goes) == len(doers) else [])

@@ -11,8 +11,10 @@ from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_f
 from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
 from texvent.scenes.language.meaning.circumstances.put import (
     CARRIES,
+    OFF_GROUND,
     TABLES,
     VESSELS,
+    find_slid,
     is_put,
     is_small,
     take_out,
@@ -79,7 +81,7 @@ class RelationReader:
         if word.text in ("up", "down", "facing"):
             return self._turn_or_climb(word, things, scope)
         if self._is_walked(word, things, scope):
-            goers = self._find_slid(word, things, scope) or scope.movers or scope.subjects
+            goers = find_slid(self._draft, word, things, scope) or scope.movers or scope.subjects
             return self._relate("on", goers, things, _WALKED[word.text])
         return kind is not None and self._read_kind(kind, word, things, scope)
 
@@ -149,7 +151,10 @@ class RelationReader:
             return scope
         if phrase.has_pronoun and near.is_things and set(near.things) != set(things):
             # As in "pushes a stroller with a baby in it": the baby is.
-            return Scope(near.things, [], has_verb=False)
+            moved = scope.subjects if set(near.things) <= set(scope.subjects) else near.things
+            if phrase.preposition.text in _BESIDES:
+                take_out(self._draft, moved)
+            return Scope(moved, [], has_verb=False)
         is_worn = phrase.preposition.text == "in" and self._draft.noun(things[0]).name in WEARABLE
         if is_worn and near.is_things and all(is_person(self._draft.noun(n)) for n in near.things):
             # As in "camels led by a man in a robe".
@@ -231,41 +236,20 @@ class RelationReader:
         return all(
             is_living(self._draft.noun(index))
             and self._draft.noun(index).habitat == "ground"
-            and not any(one.kind in _OFF_GROUND for one in self._draft.objects[index].motions)
+            and not any(one.kind in OFF_GROUND for one in self._draft.objects[index].motions)
             for index in subjects
         )
 
-    def _find_slid(self, word: Word, things: Sequence[int], scope: Scope) -> list[int]:
-        """As in "pushes a cup across the table", "a ball rolls over the desk": what goes on it."""
-        names = {self._draft.noun(index).name for index in things}
-        if word.text not in ("across", "over") or not names <= TABLES:
-            return []
-        doers = list(scope.movers or scope.subjects)
-        pushed = [
-            target
-            for relation in self._draft.relations
-            if relation.kind in ("push", "pull") and relation.subject in doers
-            for target in relation.targets
-        ]
-        goes = [
-            index
-            for index in doers
-            if self._draft.noun(index).habitat != "air"
-            and not is_living(self._draft.noun(index))
-            and any(one.kind not in _OFF_GROUND for one in self._draft.objects[index].motions)
-        ]
-        return pushed or (goes if len(goes) == len(doers) else [])
-
     def _is_walked(self, word: Word, things: Sequence[int], scope: Scope) -> bool:
         """As in "runs along a pier", "drives over a bridge": on it, unless it flies or floats."""
-        if self._find_slid(word, things, scope):
+        if find_slid(self._draft, word, things, scope):
             return True
         names = {self._draft.noun(index).name for index in things}
         if word.text not in _WALKED or not names <= _DECKS:
             return False
         return all(
             self._draft.noun(index).habitat == "ground"
-            and not any(one.kind in _OFF_GROUND for one in self._draft.objects[index].motions)
+            and not any(one.kind in OFF_GROUND for one in self._draft.objects[index].motions)
             for index in scope.movers or scope.subjects
         )
 
@@ -278,7 +262,7 @@ class RelationReader:
     def _stays(self, scope: Scope) -> bool:
         """As in "waves from a window": who does it stays there."""
         motions = [self._draft.objects[index].motions for index in scope.movers]
-        still = ACTIVITIES.keys() - _OFF_GROUND
+        still = ACTIVITIES.keys() - OFF_GROUND
         return bool(motions) and all(
             one and one[-1].kind in still and not ACTIVITIES[one[-1].kind].travels
             for one in motions
@@ -380,6 +364,7 @@ _STEERING = frozenset(
     {"rider", "driver", "pilot", "jockey", "biker", "motorcyclist", "cyclist", "captain", "cowboy"}
 )
 """Words for who steers what they are on."""
+_BESIDES = ("beside", "next to", "near", "by", "behind", "in front of", "under", "around")
 _ABOARD = ("behind", "in front of", "beside", "next to")
 _PERCHES = SEATS | {"branch", "shelf", "fence", "wall", "rock", "pier", "bridge"}
 """On what one is who watches or waves "from" it."""
@@ -394,9 +379,6 @@ _JOURNEYS = frozenset({"towards", "through", "past", "from"})
 _MOVES_OBJECT = ("into", "onto", "from", "off", "out of")
 """Prepositions that say where what is acted on goes to or comes from."""
 _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
-_OFF_GROUND = frozenset(
-    {"jump", "fly", "rise", "fall", "throw", "hover", "swing", "float", "climb"}
-)
 _RESTING = frozenset(
     {"on", "under", "beside", "next to", "behind", "in front of", "between", "near", "at", "by",
      "above", "in", "inside", "among", "beneath", "below", "with", "on top of",
