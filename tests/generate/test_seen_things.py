@@ -295,3 +295,9 @@ def test_a_large_thing_of_which_a_corner_fills_the_picture_is_cut_off() -> None:
 def test_a_bicycle_has_the_colour_of_its_frame(prompt: str) -> None:
     report = ProceduralGenerator(ProceduralConfig(duration=0.5), size=SIZE).report(prompt)
     assert prompt.split()[1] in report.shown
+
+
+def test_what_is_as_thin_as_a_line_is_too_small() -> None:
+    line = Glimpse(points=8, alone=8, extent=0.5, inside=1.0)
+    assert line.fault(1000, 22_490) == "too small"
+    assert line._replace(points=14, alone=14).fault(1000, 22_490) is None

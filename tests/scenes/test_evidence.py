@@ -114,3 +114,13 @@ def test_a_kind_that_is_not_seen_is_no_substitute() -> None:
 def test_words_of_grammar_are_never_shown(prompt: str, shown: set[str]) -> None:
     assert set(parse_prompt(prompt).shown) <= shown
     assert shown - {"wheels", "under"} <= set(parse_prompt(prompt).shown)
+
+
+def test_what_is_said_of_a_speck_is_not_shown() -> None:
+    description = parse_prompt("a red car stands next to a tree")
+    report = report_on(
+        description,
+        Evidence(faults={0: SEEN, 1: SEEN}, qualities={("name", 0): "too small"}),
+    )
+    assert not {"red", "car", "next to"} & set(report.shown)
+    assert "tree" in report.shown

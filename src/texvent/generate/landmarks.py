@@ -17,6 +17,10 @@ from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
 
 SKY, WATER, ROAD = "sky", "water", "road"
 """Marks that are no nouns of scenery."""
+LEAST_MARK = 0.003
+"""Share of the picture that a thing covers by which a place is told."""
+_LEAST = {WATER: 0.02, SKY: 0.05, ROAD: 0.02, "mountain": 0.02}
+"""The same of other marks."""
 _SKY = ("sky", "skies", "clouds", "overcast")
 _SKY_WORDS = frozenset({"stars", "starry", "starry sky", "sunset", "sunrise"})
 _NOUNS = {
@@ -80,6 +84,11 @@ def _marks_of(place: str, *, is_empty: bool) -> frozenset[str]:
     if place in _ROOMS:
         return frozenset(rule.noun for rule in SCENERY.get(place, ()))
     return _NOUNS.get(place, frozenset())
+
+
+def least_share(mark: str) -> float:
+    """Share of the picture that a mark covers at least for its place to be told."""
+    return _LEAST.get(mark, LEAST_MARK)
 
 
 def is_marked(environment: Environment, spots: Float64Array) -> tuple[str, NDArray[np.bool_]]:

@@ -9,7 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.generate.landmarks import ROAD, SKY, WATER, Landmark, is_marked, list_landmarks
+from texvent.generate.landmarks import (
+    LEAST_MARK,
+    SKY,
+    Landmark,
+    is_marked,
+    least_share,
+    list_landmarks,
+)
 from texvent.generate.seen_words.courses import judge_goals, list_walkers_in_air
 from texvent.generate.seen_words.faces import judge_face
 from texvent.generate.seen_words.motion.verbs import judge_verbs
@@ -39,9 +46,6 @@ NO_ROOM = "no room for it"
 """Why an object without a body is not shown."""
 MOST_POINTS = 4000
 """Image points that are looked at per instant."""
-LEAST_MARK, LEAST_GROUND = 0.003, 0.02
-"""Share of the picture's points that what a place is known by covers at least: things; water, a
-road or mountains."""
 IN_FOG = 2.5
 """Distance, as a multiple of that at which colours have faded to 37 %, from which on fog hides."""
 LEAST_MOTION_PX = 1.0
@@ -224,7 +228,7 @@ def look_for_things(
         {
             landmark.word: "out of view"
             for landmark in landmarks
-            if all(marks[mark] < _least(mark) * len(points) for mark in landmark.marks)
+            if all(marks[mark] < least_share(mark) * len(points) for mark in landmark.marks)
         },
         tuple(
             noun
@@ -233,10 +237,6 @@ def look_for_things(
         ),
         tuple(views),
     )
-
-
-def _least(mark: str) -> float:
-    return LEAST_GROUND if mark in (WATER, ROAD, "mountain") else LEAST_MARK
 
 
 def _look(

@@ -11,6 +11,9 @@ LEAST_SIZE = 0.05
 """Share of the picture's width or height below which a thing is a speck."""
 SPECKS = ((0.1, 0.005), (0.2, 0.003), (0.3, 0.002))
 """Sizes of what is seen, and shares of the picture's points below which that is a speck."""
+SLIVER = 0.019
+"""Share of the picture's points, as a multiple of its extent, below which a thing is a line: its
+mean width is less than that share of the picture's width."""
 LEAST_PIXELS = 12
 """Pixels below which nothing can be told of a thing."""
 LEAST_INSIDE, LEAST_UNHIDDEN, LEAST_SEEN = 0.6, 0.45, 0.45
@@ -60,7 +63,9 @@ class Glimpse(NamedTuple):
         if share >= ALL_AROUND and self.inside >= LEAST_PIECE:
             return None
         if self.inside >= LEAST_INSIDE and self.unhidden >= LEAST_UNHIDDEN:
-            return None if self.seen >= LEAST_SEEN else "mostly hidden"
+            if self.seen < LEAST_SEEN:
+                return "mostly hidden"
+            return "too small" if share < SLIVER * self.extent else None
         return "mostly hidden" if self.unhidden < self.inside else "cut off"
 
 

@@ -19,6 +19,7 @@ PLURAL = 3
 MANY = 4
 """Copies that must be seen where there are more than are counted."""
 STILL = "no motion to be seen"
+TOO_SMALL = "too small"
 _AT_REST = frozenset({"hang", "stand", "sit", "lie"})
 MOST_REASONS = 2
 """Lost words that are named for a word in doubt."""
@@ -166,6 +167,18 @@ def _is_unseen(index: int, evidence: Evidence) -> bool:
     return bool(faults) and seen < (MANY if len(faults) > MOST_COUNTED else 1)
 
 
+def _find_speck(claim: Claim, description: SceneDescription, evidence: Evidence) -> str | None:
+    """Why nothing is told of things that are too small to be named; None where they are not."""
+    if claim.aspect == "name":
+        return None
+    ends = {end for one in claim.relations for end in (one.subject, *one.targets)}
+    of = ends or set(claim.things)
+    specks = [one for one in sorted(of) if evidence.qualities.get(("name", one)) == TOO_SMALL]
+    if not specks or (not ends and len(specks) < len(of)):
+        return None
+    return f"{description.objects[specks[0]].noun} {TOO_SMALL}"
+
+
 def _is_alone(index: int, evidence: Evidence) -> bool:
     """Whether of three or more only one is seen, so that a plural is not."""
     faults = evidence.faults.get(index, ())
@@ -199,6 +212,7 @@ def _find_reason(claim: Claim, description: SceneDescription, evidence: Evidence
     if claim.aspect == "name" and any(_is_alone(one, evidence) for one in claim.things):
         return "only one in view"
     poor = _find_poor_quality(claim, description, evidence)
+    poor = poor or _find_speck(claim, description, evidence)
     if poor is not None:
         return poor
     if claim.aspect == "motion":

@@ -118,7 +118,7 @@ def test_what_misleads_is_neither_noun_nor_kind() -> None:
         ("a bald eagle soars", "eagle", "bald eagle"),
         ("a magnolia sways", "tree", "magnolia"),
         ("a trombone", "trumpet", "trombone"),
-        ("a convertible drives left", "car", "convertible"),
+        ("a hatchback drives left", "car", "hatchback"),
         ("a grapefruit", "orange", "grapefruit"),
         ("a vehicle turns", "car", "vehicle"),
     ],

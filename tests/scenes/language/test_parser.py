@@ -56,7 +56,7 @@ THINGS: list[tuple[str, list[str]]] = [
     ("a boy kicks a ball", ["1 child stand", "1 ball stand"]),
     ("a man rides a horse", ["1 man sit", "1 horse walk"]),
     ("a man rides a bicycle to the left", ["1 man sit", "1 bicycle drive left"]),
-    ("a woman drives a blue car", ["1 woman sit", "1 car blue drive"]),
+    ("a woman drives a blue car", ["1 woman sit", "1 open car blue drive"]),
     (
         "a car drives left past a tree and a dog runs right",
         ["1 car drive left", "1 tree stand", "1 dog run right"],

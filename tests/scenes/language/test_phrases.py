@@ -250,3 +250,20 @@ def test_what_a_phrase_stands_for_is_reported_as_the_prompt_has_it() -> None:
 def test_a_room_in_black_and_white_is_no_film() -> None:
     assert not parse_prompt("a kitchen decorated in black and white").is_grey
     assert parse_prompt("a dog filmed in black and white").is_grey
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("A close-up and moody portrait of a fox in a wood", {"fox"}),
+        ("close-up portrait of a fox", {"fox"}),
+        ("a portrait of a queen hangs on a wall", {"picture frame", "wall"}),
+    ],
+)
+def test_who_is_portrayed_is_shown_unless_the_picture_hangs(prompt: str, nouns: set[str]) -> None:
+    assert {one.noun for one in parse_prompt(prompt).objects} == nouns
+
+
+def test_skies_that_one_is_on_are_skis() -> None:
+    assert first_of("a woman on skies in the snow") == "1 woman, does 'stand on skis'"
+    assert "ski" not in {one.noun for one in parse_prompt("a gull under blue skies").objects}

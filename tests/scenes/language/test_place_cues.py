@@ -166,3 +166,35 @@ def test_a_plane_of_which_only_an_airport_is_said_is_on_the_ground() -> None:
     (other,) = parse_prompt("an airplane takes off from a runway").objects
     assert other.motion is not None
     assert other.motion.kind != "stand"
+
+
+def test_a_space_is_that_of_the_stars_only_where_the_words_tell() -> None:
+    assert parse_prompt("a sink in a cramped space").surroundings.place != "space"
+    assert parse_prompt("an astronaut floats in the space").surroundings.place == "space"
+    assert parse_prompt("a rock drifts through space").surroundings.place == "space"
+
+
+def test_a_city_before_another_noun_is_reported_as_a_city() -> None:
+    report = parse_prompt("a cat on a tokyo street at night").report()
+    assert [(one.said, one.shown) for one in report.substituted] == [("tokyo", "city")]
+
+
+def test_to_park_is_no_park() -> None:
+    assert parse_prompt("an arrow shows where to park").surroundings.place != "park"
+    assert parse_prompt("a man walks to the park").surroundings.place == "park"
+
+
+def test_the_backdrop_of_a_landscape_is_that_landscape() -> None:
+    assert parse_prompt("a mill against the backdrop of the hills").surroundings.place == "hills"
+
+
+@pytest.mark.parametrize(
+    "prompt", ["a clock on a tall building", "a clock and a traffic light", "a cup before a shop"]
+)
+def test_what_stands_outdoors_is_in_no_room(prompt: str) -> None:
+    assert parse_prompt(prompt).surroundings.place not in (None, "indoor", "kitchen")
+
+
+def test_snow_that_is_said_is_no_choice_of_the_program() -> None:
+    notes = parse_prompt("a boy stands in the snow").notes
+    assert not [one for one in notes if one.startswith("no place is said")]

@@ -15,6 +15,7 @@ from texvent.scenes.description import (
     SceneObject,
     Surroundings,
 )
+from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize
@@ -58,3 +59,22 @@ def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(
     distances = road.distance(spots)
     assert bool(distances.min() < environment.road_half_width) == is_on
     assert np.ptp(distances) > 0.5 if is_on else np.ptp(distances) < 0.1
+
+
+@pytest.mark.parametrize(
+    ("prompt", "is_on"),
+    [
+        ("a fire hydrant and a street sign", False),
+        ("a cow stands on a street corner", False),
+        ("a dog sits in the middle of the street", True),
+    ],
+)
+def test_what_rests_in_a_city_is_on_the_pavement_unless_it_is_in_the_street(
+    prompt: str, *, is_on: bool
+) -> None:
+    scene = compose_scene(parse_prompt(prompt), seed=0, size=SensorSize(64, 48), duration_s=1.0)
+    environment = scene.environment(0.0)
+    x, y = environment.road_offset
+    road = RoadLine(environment.road_angle, (float(x), float(y)))
+    spots = np.array([one.middle(0.0)[:2] for one in scene.actors])
+    assert bool(road.distance(spots).min() < environment.road_half_width) == is_on

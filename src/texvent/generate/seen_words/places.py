@@ -17,8 +17,10 @@ MOST_RED = 0.04
 """How much more red than blue water may be, as a share of white."""
 LEAST_CLOUDED = 0.1
 """Share of the picture that a sky of clouds covers."""
-LEAST_STRIP, LEAST_EDGE = 0.02, 0.05
-"""Share of the picture that water covers; difference of it, or a road, from the ground beside."""
+LEAST_RIVER, LEAST_SEA = 0.02, 0.08
+"""Share of the picture that a river covers, and a sea or a lake: no line at the horizon."""
+LEAST_EDGE = 0.05
+"""Difference of water, or a road, from the ground beside."""
 _WATER_WORDS = frozenset({"water", "waters"})
 LEAST_ROAD = 0.05
 """Share of the picture that a road covers, no sliver at its edge."""
@@ -100,6 +102,9 @@ _NEEDS: dict[str, tuple[str, ...]] = {
 """Word → things one of which makes a lawn such a place."""
 _WATERS = ("river", "lake", "sea", "beach")
 _TOWNS = ("city", "town", "downtown", "cityscape", "skyline", "city skyline")
+_PAVEMENTS = ("sidewalk", "pavement")
+_STREETS = (*_PAVEMENTS, "street", "city street", "street corner", "intersection", "crossing",
+            "crossroads", "junction")  # fmt: skip
 _TOWN_HOUSES = frozenset({"building", "house", "skyscraper", "wooden house"})
 LEAST_HILLS = 0.03
 """Share of the picture that hills cover by which a hilly land is told."""
@@ -152,9 +157,10 @@ def judge_place(picture: Picture, description: SceneDescription, claim: Claim) -
         return None if place in ("sky", "space", None) else "no water in view"
     if claim.value in _WATERS and place in _WATERS:
         is_ashore = _is_one_of(claim.word, _SHORES) or claim.word.startswith("beach")
-        return _judge_water(picture) or (_judge_land(picture) if is_ashore else None)
-    if claim.value in _ROADS and place in _ROADS and claim.word not in _TOWNS:
-        return _judge_road(picture, is_trodden=place == "dirt road")
+        least = LEAST_RIVER if place == "river" else LEAST_SEA
+        return _judge_water(picture, least) or (_judge_land(picture) if is_ashore else None)
+    if claim.value in _ROADS and claim.word not in _TOWNS:
+        return _judge_way(picture, claim.word, place)
     is_ground = claim.value == place and place in _GROUNDS
     return "out of view" if is_ground and picture.ground_share() < LEAST_GROUND else None
 
@@ -203,11 +209,11 @@ def _is_one_of(word: str, words: tuple[str, ...]) -> bool:
     return word in words or word.removesuffix("s") in words
 
 
-def _judge_water(picture: Picture) -> str | None:
+def _judge_water(picture: Picture, least: float = LEAST_RIVER) -> str | None:
     """Water that mirrors a red sky looks like soil: it must be as blue as it is red."""
     for number in USUAL:
         water, beside = picture.strip(number)
-        if water.mean() < LEAST_STRIP:
+        if water.mean() < least:
             continue
         colours = picture.colours(number)
         red, _, blue = colours[water].mean(axis=0)
@@ -220,6 +226,16 @@ def _judge_land(picture: Picture) -> str | None:
     """A shore has land beside the water."""
     shares = [float(picture.strip(number)[1].mean()) for number in USUAL]
     return None if max(shares) >= LEAST_LAND else "no land in view"
+
+
+def _judge_way(picture: Picture, word: str, place: str | None) -> str | None:
+    """A road, or the pavement beside it."""
+    if place not in _ROADS:
+        return "no street in view" if _is_one_of(word, _STREETS) else None
+    if _is_one_of(word, _PAVEMENTS) and place == "city":
+        beside = max(float(picture.strip(number)[1].mean()) for number in USUAL)
+        return None if beside >= LEAST_GROUND else "out of view"
+    return _judge_road(picture, is_trodden=place == "dirt road")
 
 
 def _judge_road(picture: Picture, *, is_trodden: bool) -> str | None:

@@ -51,6 +51,10 @@ _SIDES = {"left": (0.0, 0.48), "right": (0.52, 1.0), "centre": (0.3, 0.7)}
 """Side → least and greatest place of its middle, in picture widths."""
 MOST_BENT = 0.12
 """Spread of a row across it, as a share of that along it."""
+_GIGANTIC = frozenset({"giant", "gigantic", "enormous", "colossal", "towering"})
+_HIGH = frozenset({"tree", "pine", "palm", "house", "building", "skyscraper"})
+_GIANT_M, _LEAST_TREE = 6.0, 0.02
+"""Height of a giant among trees and houses, and share of the picture that these cover."""
 _GARMENTS = frozenset({"coat", "jacket", "sweater"})
 _AT_FRONT = frozenset({"apron", "tie", "bow tie", "bib", "necklace", "medal"})
 """What is worn before the chest."""
@@ -201,6 +205,10 @@ def _judge_size(
     if word in ("tall", "high", "short"):
         return _judge_tall(picture, word, index)
     is_large = description.objects[index].scale > 1.0
+    if word in _GIGANTIC and own.noun.motion in ("walk", "run") and own.model.height < _GIANT_M:
+        higher = sorted(picture.seen_nouns(_LEAST_TREE) & _HIGH)
+        if higher:
+            return f"the {higher[0]} is higher"
     fault = "nothing to tell its size by"
     for other in picture.scene.actors:
         if other.object_index == index or not _is_seen(picture, other.instance):

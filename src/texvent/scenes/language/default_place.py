@@ -8,6 +8,7 @@ from dataclasses import replace
 from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.vocabulary.place_cues import ENCLOSED
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 
 _FAST_FLYER_M_S = 4.0
@@ -88,7 +89,8 @@ _OUTDOORS = frozenset(
      "airplane", "helicopter", "excavator", "waterfall", "tower", "volcano", "golf club",
      "building", "skyscraper", "shop", "clock tower", "factory building", "fire hydrant",
      "parking meter", "stop sign", "traffic light", "golfer", "baseball", "frisbee",
-     "baseball bat", "baseball batter", "baseball player"}
+     "baseball bat", "baseball batter", "baseball player", "wooden house", "windmill",
+     "crosswalk", "mountain"}
 )  # fmt: skip
 """Nouns that are not found in a room."""
 _NEUTRAL = ("grass", "plain")
@@ -290,6 +292,9 @@ def _fit_stated(
 ) -> str | None:
     """The place as stated; ground below sky, or water beside land, as its things need it."""
     place = description.surroundings.place
+    names = {noun.name for noun in members}
+    if place == "subway station" and names & _TRAINS and not names & PERSON_NOUNS:
+        return "train station"
     has_pier = any(noun.name == _PIER for noun in members)
     if place == "sky" and _needs_ground(description, nouns, _ALOFT):
         usual = _choose_usual(members, rests=False, is_wet=False)
@@ -304,6 +309,8 @@ def _fit_stated(
     return place
 
 
+_TRAINS = frozenset({"train", "steam locomotive", "tram"})
+"""What is too large for a hall: a station with one, and nobody on its tracks, is outdoors."""
 _ON_SNOW = frozenset({"stand on skis", "ski", "snowboard", "ski trick", "snowboard trick"})
 
 

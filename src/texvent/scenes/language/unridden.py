@@ -1,4 +1,4 @@
-"""Bicycles and motorcycles that nobody rides, and birds that fly: models of their own."""
+"""Bicycles that nobody rides, cars with somebody in them, birds that fly: models of their own."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ RIDES = ("ride", "ride along")
 """Relations of who sits on what is ridden."""
 HAS_RIDER = frozenset({"bicycle", "motorcycle"})
 """Nouns whose models come with the person who rides them."""
+_ABOARD = (*RIDES, "in")
+"""Relations of who is to be seen in a car: it has no roof then."""
 _IN_AIR = frozenset({"fly", "hover", "rise", "orbit", "sink"})
 _RIDERS = frozenset({"cyclist", "bicyclist", "motorcyclist", "biker"})
 """Words for who rides them."""
@@ -53,7 +55,10 @@ def leave_unridden(description: SceneDescription) -> SceneDescription:
 
 
 def park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Bicycles and motorcycles that only stand there have no rider; an owl that flies has wings."""
+    """Bicycles and motorcycles that only stand there have no rider; an owl that flies has wings.
+
+    A car with somebody in it is an open one.
+    """
     ridden = _list_ridden(description)
     objects = list(description.objects)
     for index, one in enumerate(objects):
@@ -63,4 +68,9 @@ def park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescr
         kinds = {motion.kind for motion in (one.motion, *one.then) if motion is not None}
         if kinds & _IN_AIR and f"flying {one.noun}" in nouns:
             objects[index] = replace(one, noun=f"flying {one.noun}")
+    for relation in description.relations:
+        rider = nouns[objects[relation.subject].noun]
+        for index in relation.targets if relation.kind in _ABOARD else ():
+            if objects[index].noun == "car" and rider.motion == "walk" and "open car" in nouns:
+                objects[index] = replace(objects[index], noun="open car")
     return replace(description, objects=tuple(objects))

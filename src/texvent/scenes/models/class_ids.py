@@ -204,6 +204,7 @@ _NOUNS: tuple[str, ...] = (
     "upright otter", "upright beaver", "upright meerkat", "upright moose", "upright llama",
     "upright skunk", "upright badger", "upright red panda", "upright elephant calf",
     "upright panda cub", "upright wolf pup", "upright fox cub",
+    "open car", "station platform",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

@@ -74,8 +74,8 @@ _STATUS = Lamp(0.0004, boost=1.2)
 _CANDLE = Lamp(0.15, is_single=True, blink_hz=7.0, wave="flame", boost=1.5)
 
 LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
-    **dict.fromkeys(("car", "suv", "van", "pickup", "truck", "bus", "taxi", "tractor", "train",
-                     "motorcycle", "bicycle", "scooter", "forklift"), _VEHICLE),
+    **dict.fromkeys(("car", "open car", "suv", "van", "pickup", "truck", "bus", "taxi", "tractor",
+                     "train", "motorcycle", "bicycle", "scooter", "forklift"), _VEHICLE),
     **dict.fromkeys(("police car", "fire engine"), (*_BEACONS, *_VEHICLE)),
     **dict.fromkeys(("street lamp", "park lamp"), (
         Lamp(26.0, is_single=True, always_on=False, boost=2.0, wave="sine"),)),

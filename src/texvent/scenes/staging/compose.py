@@ -49,7 +49,7 @@ from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.light.said_light import choose_lighting
 from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road_choice import find_beside, find_road
-from texvent.scenes.staging.surroundings.scatter_rule import is_structure
+from texvent.scenes.staging.surroundings.scatter_rule import is_structure, under_snow
 from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
 from texvent.scenes.staging.surroundings.scenery_along import is_placed_by_view, line_route
 from texvent.scenes.staging.surroundings.scenery_tables import BACKDROPS, SCENERY, ScatterRule
@@ -307,7 +307,7 @@ def _describe_view(
     else:
         road = find_road(actors, float(path.framing.target[1]), 0.5 * half,
                          description.surroundings.road,
-                         beside=find_beside(description, place))  # fmt: skip
+                         beside=find_beside(description, place, actors))  # fmt: skip
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
         for t in times
@@ -356,6 +356,7 @@ def _scatter_all(
     rules = [rule for rule in SCENERY.get(place, ()) if is_structure(rule) or not is_empty]
     for backdrop in description.surroundings.backdrops:
         rules.extend(BACKDROPS[backdrop])
+    rules = under_snow(rules) if description.surroundings.has_snow else rules
     taken = [item for _, item in around]
     rng = seeded(seed, "scenery", place)
     if view.travel is not None:

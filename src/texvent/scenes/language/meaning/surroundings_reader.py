@@ -206,6 +206,8 @@ class SurroundingsReader:
         read = self._readers.get(word.role)
         is_used = read is not None and read(said, is_negated)
         word.is_used = word.is_used or is_used
+        if is_used and word.role is Role.PLACE and word.meaning.is_substitute:
+            word.shown_as = str(word.meaning.value)
         return is_used
 
     def read_weather_of_things(self, words: Sequence[Word]) -> None:

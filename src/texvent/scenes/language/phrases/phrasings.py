@@ -28,7 +28,8 @@ _PHRASES: dict[str, tuple[str, ...]] = {
     "near the": ("nearby the",),
     "in": (
         "in the heart of", "at the heart of", "in the middle of", "in the midst of",
-        "in the center of", "in the centre of",
+        "in the center of", "in the centre of", "against the backdrop of", "against a backdrop of",
+        "set against the backdrop of", "set against a backdrop of",
     ),
     "a row of": ("a line up of", "a lineup of", "a line of"),
     "suit": ("suit and tie", "suit and a tie"),
@@ -257,7 +258,7 @@ def _stand_on_skis(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] 
     """As in "a man on skis going down a hill": skiing; "people wearing skis": standing on them."""
     texts = [token.text for token in tokens[at : at + 5]]
     is_on = texts[:1] in (["on"], ["wearing"]) and at + 1 < len(tokens)
-    if not is_on or tokens[at + 1].written.casefold() not in ("skis", "ski's") or at == 0:
+    if not is_on or tokens[at + 1].written.casefold() not in ("skis", "ski's", "skies") or at == 0:
         return None
     forms = {one.form for one in list_readings(tokens[at - 1].text) if one.pos is Pos.VERB}
     if forms - {VerbForm.BASE} or not _is_noun(tokens[at - 1].text):

@@ -76,7 +76,15 @@ def set_styles_aside(tokens: Sequence[Token]) -> list[Token]:
     """
     rest = list(tokens)
     styles: list[Token] = []
-    for find in (_find_of, _find_grey, _find_in_style, _find_lone, _find_artist, _find_age):
+    for find in (
+        _find_of,
+        _find_portrait,
+        _find_grey,
+        _find_in_style,
+        _find_lone,
+        _find_artist,
+        _find_age,
+    ):
         while (found := find(rest)) is not None:
             begin, end, kept = found
             styles.append(_join(rest[begin:end], kept))
@@ -91,7 +99,7 @@ def set_styles_aside(tokens: Sequence[Token]) -> list[Token]:
 
 def _join(tokens: Sequence[Token], reason: str) -> Token:
     words = [token for token in tokens if token.text not in _SIGNS]
-    while len(words) > 1 and words[0].text in ("a", "an", "the", "in"):
+    while len(words) > 1 and words[0].text in ("a", "an", "the", "in", "and"):
         words.pop(0)
     while len(words) > 1 and words[-1].text in ("of", "is"):
         words.pop()
@@ -127,6 +135,26 @@ def _find_of(tokens: Sequence[Token]) -> tuple[int, int, str] | None:
                 is_plain = tokens[end - 1].text == "tableau"
                 return begin, end + 1, "" if is_plain else PLAIN_SHAPES
     return None
+
+
+def _find_portrait(tokens: Sequence[Token]) -> tuple[int, int, str] | None:
+    """As in "a detailed portrait of", "close-up portrait of": who is portrayed is shown."""
+    for at, (token, after) in enumerate(pairwise(tokens)):
+        if token.text != "portrait" or after.text != "of" or _sentence_from(tokens, 0) & _HANGING:
+            continue
+        begin = at
+        while begin and _is_of_portrait(tokens[begin - 1]):
+            begin -= 1
+        has_article = bool(begin) and tokens[begin - 1].text in ("a", "an", "the")
+        is_first = begin == has_article or tokens[begin - has_article - 1].text in _SIGNS
+        if is_first or not has_article:
+            return begin - has_article, at + 1 + is_first, ""
+    return None
+
+
+def _is_of_portrait(token: Token) -> bool:
+    is_framing = token.text.replace("-", "") in ("close", "up", "closeup", "wide", "full")
+    return token.text == "and" or (_is_adjective([token]) and not is_framing)
 
 
 def _medium_end(tokens: Sequence[Token], at: int) -> int | None:

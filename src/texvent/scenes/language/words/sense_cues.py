@@ -65,8 +65,7 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
         if word.lemma in _BECOMING and follower is not None and follower.text in ("to", "into"):
             _forget_result(words[index + 2 :])
         if word.pos is Pos.NOUN:
-            owner = _find_determiner(words[:index])
-            _choose_noun(word, owner, follower, others, known)
+            _choose_noun(word, words[:index], follower, others, known)
             _leave_room(word, words[max(index - 1, 0)])
             _leave_substance(word, words[:index])
         if follower is not None:
@@ -160,8 +159,13 @@ def _find_sense(senses: Sequence[Sense], others: set[str]) -> Sense | None:
 
 
 def _choose_noun(
-    word: Word, before: Word | None, follower: Word | None, others: set[str], known: Lexicon
+    word: Word, words: Sequence[Word], follower: Word | None, others: set[str], known: Lexicon
 ) -> None:
+    """Give a noun after `words` its sense."""
+    if word.text == "park" and words and words[-1].text == "to":
+        _forget(word, Pos.VERB)  # as in "looks for where to park"
+        return
+    before = _find_determiner(words)
     is_of = follower is not None and follower.text == "of"
     needed = ONLY_WITH.get(word.lemma)
     is_owned = before is not None and (before.text in _OWNERS or before.is_possessive)

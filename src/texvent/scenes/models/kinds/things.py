@@ -9,7 +9,7 @@ ONE_THING = frozenset(
 """Nouns whose bare plural, or mass, is one thing: "climbs stairs", "a plate of vegetables"."""
 THING_KINDS: dict[str, str] = {
     "car": """
-        vehicle, hatchback, coupe, convertible, cabriolet, limousine, racer, roadster,
+        vehicle, hatchback, coupe, limousine, racer,
         station wagon, beach wagon, beetle car, muscle car, supercar, model t, electric
         car, self driving car, autonomous car, compact car, traffic vehicle, hot rod,
         passenger vehicle, sports car, hearse, limo""",

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
+
+import numpy as np
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import (
@@ -191,13 +194,15 @@ def build_pendulum(*, colour: Colour | None, scale: float, seed: int) -> Articul
 
 
 def build_umbrella(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a garden umbrella, 2.4 m; `colour` is its cloth."""
+    """Make a large umbrella, 2.4 m, with a hooked handle; `colour` is its cloth."""
     hue = paint(colour, seed, "cloth", (RED, YELLOW, (0.05, 0.2, 0.5)))
+    turns = np.linspace(0.0, -math.pi, 5)
+    hook = [(0.22 * math.cos(a) - 0.22, 0.0, 0.22 * math.sin(a) + 0.28) for a in map(float, turns)]
     parts = [
-        post(DARK, (0.0, 0.0, 0.04), (0.50, 0.50, 0.08)),
-        post(WOOD, (0.0, 0.0, 1.20), (0.06, 0.06, 2.40)),
-        peak(Material(hue), (0.0, 0.0, 2.12), (2.60, 2.60, 0.56)),
-        post(Material(shade(hue, 0.6)), (0.0, 0.0, 1.80), (2.56, 2.56, 0.08)),
+        post(DARK, (0.0, 0.0, 1.30), (0.05, 0.05, 2.20)),
+        *(limb(WOOD, start, end, 0.06) for start, end in pairwise(hook)),
+        peak(Material(hue), (0.0, 0.0, 2.09), (2.60, 2.60, 0.66)),
+        post(Material(shade(hue, 0.6)), (0.0, 0.0, 1.76), (2.56, 2.56, 0.04)),
         ball(Material(WHITE), (0.0, 0.0, 2.41), (0.10, 0.10, 0.10)),
     ]
     return ArticulatedModel(parts, scale=scale)

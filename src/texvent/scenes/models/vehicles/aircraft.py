@@ -54,6 +54,11 @@ def build_airplane(*, colour: Colour | None, scale: float, seed: int) -> Articul
         box(accent, (1.5, 0.0, -0.35), (18.0, 3.60, 0.28)),
         upright_fin(accent, (-11.8, 0.0, 1.0), (-15.8, 0.0, 6.6), 4.6, 0.5),
     ]
+    for x, y in ((9.5, 0.0), (-1.5, 2.6), (-1.5, -2.6)):
+        parts += [
+            rod(STEEL, (x, y, -1.2), (x, y, -3.4), 0.2),
+            rod(DARK, (x, y - 0.45, -3.4), (x, y + 0.45, -3.4), 0.7),
+        ]
     for side in (1.0, -1.0):
         bend, tail = (-2.5, side * 8.0, -0.2), (-16.2, side * 5.4, 1.4)
         parts += [

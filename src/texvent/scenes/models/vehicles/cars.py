@@ -46,11 +46,12 @@ class CarShape:
     """Distance of the axles from the middle."""
     clearance: float = 0.24
     extra: str = ""
-    """What it carries: "rack", "taxi", "police", "bed"."""
+    """What it carries: "rack", "taxi", "police", "bed"; "open": it has no roof."""
     colours: tuple[Colour, ...] = CAR_COLOURS
 
 
 SEDAN = CarShape(4.4, 1.75, 1.45, 0.90, 0.80, (1.05, 0.35, -0.85, -1.60))
+OPEN_CAR = CarShape(4.4, 1.75, 1.15, 0.90, 0.76, (1.05, 0.85, -0.95, -1.15), extra="open")
 TAXI = CarShape(
     4.5, 1.78, 1.50, 0.90, 0.82, (1.05, 0.35, -0.95, -1.65), extra="taxi", colours=(YELLOW,)
 )
@@ -114,6 +115,8 @@ def _cabin(shape: CarShape, body: Material) -> list[ModelPart]:
     low, high = shape.hood - 0.02, shape.height - 0.06
     rise, middle = high - low, 0.5 * (low + high)
     width = shape.width - 0.22
+    if shape.extra == "open":
+        return _open_cabin(shape, body)
     depth = max(top_front - top_rear, 0.52 * (foot_front - foot_rear))
     front_lean = (top_front - foot_front) / rise
     rear_lean = (top_rear - foot_rear) / rise
@@ -139,6 +142,24 @@ def _cabin(shape: CarShape, body: Material) -> list[ModelPart]:
             (foot_front - foot_rear - 0.10, wide + 0.02, max(shape.belt - low, 0.02)),
         ),
     ]
+
+
+def _open_cabin(shape: CarShape, body: Material) -> list[ModelPart]:
+    """A windscreen in its frame, and the backs of two rows of seats."""
+    foot, top, *_ = shape.cabin
+    low, high, wide = shape.hood - 0.02, shape.height, shape.width - 0.3
+    middle = 0.5 * (low + high)
+    lean = (top - foot) / (high - low)
+    frame = [
+        box(body, (0.5 * (foot + top), y, middle), (0.05, 0.06, high - low), lean=lean)
+        for y in (0.5 * wide, -0.5 * wide)
+    ]
+    backs = [
+        box(DARK, (x, y, low + 0.12), (0.14, 0.5, 0.34))
+        for x in (-0.02, -0.9)
+        for y in (0.38, -0.38)
+    ]
+    return [*frame, box(body, (top, 0.0, high), (0.06, wide, 0.05)), *backs]
 
 
 def _lights(shape: CarShape) -> list[ModelPart]:
@@ -219,6 +240,10 @@ NOUNS = (
     Noun(
         "car", partial(build_car, SEDAN), "ground", 10.0, "drive",
         ("automobile", "sedan", "auto"),
+    ),
+    Noun(
+        "open car", partial(build_car, OPEN_CAR), "ground", 10.0, "drive",
+        ("convertible", "cabriolet", "roadster"),
     ),
     Noun(
         "suv", partial(build_car, SUV), "ground", 9.0, "drive",

@@ -186,6 +186,10 @@ def _improve(stage: _Stage, actors: Sequence[Actor], own: Sequence[int]) -> Floa
     return shift
 
 
+_ALOFT_M = 0.1
+"""Height of what is in the air, m; what rests on the ground stays there."""
+
+
 def _candidates(
     stage: _Stage, actors: Sequence[Actor], own: Sequence[int], weak: Sequence[int]
 ) -> Iterator[Float64Array]:
@@ -195,7 +199,8 @@ def _candidates(
     spots = stage.corners[half][list(weak)]
     anchor = spots.reshape(-1, 3).mean(axis=0)
     extent = float(np.median(np.ptp(spots, axis=1).max(axis=1)))
-    is_up = all(actors[n].noun.habitat == "air" for n in own)
+    lowest = float(stage.corners[half][own][..., 2].min())
+    is_up = lowest > _ALOFT_M and all(actors[n].noun.habitat == "air" for n in own)
     is_far = any(extent > 6.0 and is_backdrop(actors[n], actors[0]) for n in weak)
     right, below, forward = np.asarray(camera.rotation)
     own_depth = float((anchor - camera.position) @ forward)

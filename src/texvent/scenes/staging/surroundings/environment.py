@@ -25,6 +25,7 @@ from texvent.scenes.staging.surroundings.light.lightning import STROKE_HZ, light
 from texvent.scenes.staging.surroundings.light.said_light import choose_lighting, towards_light
 from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.scatter_rule import SNOW
 
 FLICKER_DEPTH = 0.8
 """Share of the light that a flicker takes away at its darkest."""
@@ -46,7 +47,6 @@ _SUN_RAD_S = 2.0 * math.pi / 600.0
 """How fast the sun goes in a time lapse, per second of sky time."""
 
 
-_SNOW: Colour = (0.78, 0.82, 0.88)
 _SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE)
 """Grounds whose grass is white when snow lies on it."""
 _WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
@@ -220,8 +220,8 @@ def _ground_colours(ground: GroundAppearance, said: Surroundings) -> tuple[Colou
     """Both colours of the ground, under snow or painted as the prompt says."""
     colour, second = ground.colour, ground.second_colour
     if said.has_snow and ground.ground in _SNOWED_OVER:
-        colour = _SNOW
-        second = _SNOW if ground.ground is Ground.GRASS else second
+        colour = SNOW
+        second = SNOW if ground.ground is Ground.GRASS else second
     if said.colour is not None:
         # Grass is darker than paint: blades shade one another.
         depth = 0.45 if ground.ground is Ground.GRASS else 0.8

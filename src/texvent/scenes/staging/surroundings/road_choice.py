@@ -55,11 +55,16 @@ def find_road(
     return road
 
 
-def find_beside(description: SceneDescription, place: str) -> str:
+def find_beside(description: SceneDescription, place: str, actors: Sequence[Actor] = ()) -> str:
     """Who is beside the road: on the pavement of a city, or as the prompt says."""
     if any(one.value == BESIDE_ROAD for one in description.claims):
         return "all"
-    return "walkers" if place == "city" else ""
+    if place != "city":
+        return ""
+    if any(one.side == "lane" for one in description.objects):
+        return ""
+    has_traffic = any(one.noun.motion == "drive" or one.noun.name == "crosswalk" for one in actors)
+    return "walkers" if has_traffic else "all"
 
 
 def _straight_road(actors: Sequence[Actor], usual_y: float, lane_m: float, beside: str) -> RoadLine:

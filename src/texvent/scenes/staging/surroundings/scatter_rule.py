@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 from texvent.scenes.scene import Colour
+
+SNOW: Colour = (0.78, 0.82, 0.88)
+_IN_BLOOM = ("flower", "crop row", "corn row")
+_IN_LEAF = ("tree", "bush")
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,19 @@ class ScatterRule:
 def is_structure(rule: ScatterRule) -> bool:
     """Whether it is part of a place that is empty, too."""
     return rule.encloses or rule.is_beyond
+
+
+def under_snow(rules: Iterable[ScatterRule]) -> list[ScatterRule]:
+    """The same where snow lies: nothing blooms, pines for trees in leaf, white hills."""
+    found = []
+    for rule in rules:
+        if rule.noun in _IN_LEAF:
+            found.append(replace(rule, noun="pine"))
+        elif rule.noun == "green hill":
+            found.append(replace(rule, colours=(SNOW,)))
+        elif rule.noun not in _IN_BLOOM:
+            found.append(rule)
+    return found
 
 
 def along_walls(*furniture: tuple[str, int], is_told: bool = True) -> tuple[ScatterRule, ...]:

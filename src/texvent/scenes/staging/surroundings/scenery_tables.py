@@ -32,7 +32,7 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
     "grass": (
         ScatterRule("bush", 5, 0.6, 3.0, (0.6, 1.2)),
         ScatterRule("tree", 5, 1.0, 4.0),
-        ScatterRule("flower", 8, 0.1, 0.8, (0.8, 1.3)),
+        ScatterRule("flower", 8, 0.1, 0.8, (0.4, 0.7)),
     ),
     "savanna": (
         ScatterRule("tree", 5, 1.2, 4.5, (0.9, 1.3)),

@@ -129,6 +129,24 @@ def _rock_wall(p: Material, size: Point, layers: int) -> list[ModelPart]:
     return parts
 
 
+def _platform(p: Material) -> list[ModelPart]:
+    """A raised platform with its yellow line, a roof on posts, a name board and the station."""
+    house, roof = Material((0.50, 0.22, 0.14)), Material((0.06, 0.22, 0.16))
+    return [
+        box(mottled(p.colour), (-2.2, 0.0, 0.45), (4.4, 60.0, 0.9)),
+        box(Material((0.80, 0.60, 0.04)), (-0.5, 0.0, 0.91), (0.3, 60.0, 0.03)),
+        box(house, (-6.0, 0.0, 2.9), (3.0, 46.0, 4.2)),
+        *(box(PALE, (-4.49, -20.0 + 5.0 * k, 2.4), (0.04, 1.6, 1.7)) for k in range(9)),
+        box(roof, (-2.4, 0.0, 4.5), (4.6, 50.0, 0.3)),
+        *(rod(IRON, (-1.4, 6.0 * k, 0.9), (-1.4, 6.0 * k, 4.4), 0.12) for k in range(-4, 5)),
+        *(
+            box(Material((0.02, 0.08, 0.35)), (-1.0, 15.0 * k, 3.6), (0.1, 4.0, 0.8))
+            for k in (-1, 0, 1)
+        ),
+        *(box(Material(WHITE), (-0.94, 15.0 * k, 3.6), (0.02, 3.0, 0.25)) for k in (-1, 0, 1)),
+    ]
+
+
 def _row(skin: Material, count: int, tall: float) -> list[ModelPart]:
     """Plants in a row along y."""
     return [
@@ -217,6 +235,7 @@ NOUNS = (
         *(box(SILVER, (0.0, 0.75 * s, 0.19), (40.0, 0.09, 0.14)) for s in (1.0, -1.0))],
         ("train track", "rail", "train tracks", "railroad track", "tracks", "railway line"),
         plurals=("rails", "railway tracks")),
+    thing("station platform", ((0.46, 0.45, 0.43),), _platform),
     thing("parking lines", (PALE.colour,), lambda p: [
         *(_line(0.0, -12.5 + 2.5 * k, 5.0, 0.12) for k in range(11)), _line(-2.5, 0.0, 0.12,
             25.0)]),
@@ -283,7 +302,7 @@ NOUNS = (
         ()),
     thing("green hill", ((0.09, 0.20, 0.03),), lambda p: [
         ball(grass_like(p.colour), (0.0, 0.0, 0.0), (26.0, 44.0, 15.0)),
-        ball(grass_like((0.07, 0.16, 0.025)), (-5.0, 13.0, 0.0), (24.0, 30.0, 19.0))],
+        ball(grass_like(shade(p.colour, 0.8)), (-5.0, 13.0, 0.0), (24.0, 30.0, 19.0))],
         ("grassy hill", "hillock", "knoll")),
     thing("cliff", ((0.44, 0.36, 0.28),), lambda p: _rock_wall(p, (9.0, 22.0, 18.0), 9),
           ("cliff face", "rock face", "crag", "bluff")),
