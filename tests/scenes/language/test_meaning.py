@@ -626,3 +626,21 @@ def test_who_eats_at_a_table_is_at_it() -> None:
     scene = parse_prompt("a girl eating a slice of pizza at a table")
     nouns = [one.noun for one in scene.objects]
     assert [(nouns[one.subject], one.kind) for one in scene.relations] == [("girl", "at")]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "lost"),
+    [
+        ("a couple walking hand in hand on a beach", ("hand", "in")),
+        ("a man with his arm around a woman", ("around",)),
+        ("a girl with her arms crossed", ("crossed",)),
+    ],
+)
+def test_where_limbs_are_is_reported(prompt: str, lost: tuple[str, ...]) -> None:
+    assert parse_prompt(prompt).not_understood == lost
+
+
+def test_the_place_of_a_part_is_that_of_its_whole() -> None:
+    scene = parse_prompt("a man with a bag in his hand near a car")
+    assert not scene.not_understood
+    assert "beside" in {one.kind for one in scene.relations}

@@ -87,6 +87,8 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None
     for at, group in enumerate(clause.subjects):
         if group.head is not None:
             find_head(group)
+        if clause.is_passive and group.head is not None and _name(group.head) in _LIMBS:
+            continue  # "with her arms crossed": no arms of people are shown so
         owner = _find_owner(group, nouns) or _find_host(clause, group, before, nouns)
         whole = _find_whole(group, nouns) if owner is None else _find_noun(owner.head, nouns)
         if whole is None:

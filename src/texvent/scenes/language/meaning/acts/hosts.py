@@ -22,10 +22,11 @@ _THERE = frozenset(
 )  # fmt: skip
 """Prepositions of where someone is who does something there."""
 _HAD_BY = ("with", "in")
-_PLACED = frozenset(
+PLACED = frozenset(
     {"next to", "near", "beside", "by", "close to", "in front of", "behind", "outside",
      "outside of", "at", "along", "across from"}
 )  # fmt: skip
+"""Prepositions of where a whole is, not what it has."""
 _ON_FEET = frozenset({"walk", "run", "jump", "crawl", "climb"})
 _POSED = frozenset({"stand", "sit", "lie"})
 _DRESSED = frozenset({"robot", "mannequin", "doll", "teddy bear", "snowman", "scarecrow", "statue",
@@ -66,13 +67,13 @@ def lift_places(clause: Clause, nouns: Mapping[str, Noun]) -> None:
     if verb is not None and _is_of_bodies(verb) and len(clause.subjects) == 1:
         host, had = clause.subjects[0], [one for one in clause.objects if _is_had(one, nouns)]
         for phrase in clause.phrases if _is_alive(host, nouns) else ():
-            if phrase.near in had and phrase.preposition.text in _PLACED:
+            if phrase.near in had and phrase.preposition.text in PLACED:
                 phrase.near = host
 
 
 def _lift(phrases: list[PrepPhrase], host: NounGroup) -> None:
     """Move the phrases of place to the host."""
-    lifted = [one for one in phrases if one.preposition.text in _PLACED]
+    lifted = [one for one in phrases if one.preposition.text in PLACED]
     phrases[:] = [one for one in phrases if one not in lifted]
     for one in lifted:
         one.near = host

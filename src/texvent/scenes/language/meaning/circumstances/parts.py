@@ -28,6 +28,7 @@ _PLACES: Mapping[tuple[str, str], str] = MappingProxyType(
 """Preposition and part of a body → kind of the relation of who has the thing there."""
 _ON_PARTS = frozenset({"on", "over", "under", "above", "behind", "in front of", "around"})
 """Prepositions that say where something is: "a board on his head" is carried in the hands."""
+_LIMBS = ("hand", "arm")
 _HAVING = frozenset({"hold", "carry", "with", "wear"})
 _OF_ANIMALS = ("mouth", "beak", "paw")
 _OF_ANIMAL = frozenset({"on back", "on head"})
@@ -101,7 +102,9 @@ class PartReader:
         return list(self._draft.subjects) if is_owned and one.kind in ("part", "unknown") else []
 
     def read_own(self, one: Referent, things: Sequence[int]) -> None:
-        """As in "wiggles its tail": shown where the model has one."""
+        """As in "wiggles its tail", not "walk hand in hand": shown where the model has one."""
+        if one.value in _LIMBS and one.group.determiner is None and one.group.owner is None:
+            return
         if list_parts_shown(self._draft, things, str(one.value)):
             self.use(one, things)
 
@@ -120,7 +123,8 @@ class PartReader:
             word.is_used = list_parts_shown(self._draft, wearers, str(one.value))
             self.use(one, wearers if word.is_used else [])
         elif list_parts_shown(self._draft, things, str(one.value)):
-            is_place = word.text in _ON_PARTS and not word.is_used
+            is_place = word.text in _ON_PARTS or (word.text == "in" and one.value in _LIMBS)
+            is_place = is_place and not word.is_used
             word.is_used, word.is_lost = not is_place, is_place
             if not is_place:
                 self.use(one, things)

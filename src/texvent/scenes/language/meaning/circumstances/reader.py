@@ -8,6 +8,7 @@ from dataclasses import replace
 from texvent.scenes.description import ObjectMotion, Picture
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.devices import light_up
+from texvent.scenes.language.meaning.acts.hosts import PLACED
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.meaning.circumstances.courses import (
@@ -183,12 +184,14 @@ class CircumstanceReader:
         if referent.is_things:
             inner = Scope(list(listed or referent.things), [], has_verb=False)
         elif referent.kind in ("unknown", "part"):
-            inner = Scope([], [], is_lost=referent.kind == "unknown")
+            inner = Scope([], [], is_lost=True)  # "with his arm around a woman"
         else:
             inner = scope
         for phrase in group.phrases:
             if phrase.preposition.text == "of":
                 self._read_of(phrase, referent, scope)
+            elif referent.kind == "part" and phrase.preposition.text in PLACED:
+                self.read_phrase(phrase, scope)  # "a car with black wheels next to a house"
             else:
                 self.read_phrase(phrase, inner)
 
