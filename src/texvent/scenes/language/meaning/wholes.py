@@ -85,10 +85,8 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None
         if whole is not None and _name(group.head_word) not in _ALONE:
             _show_whole(group, whole)
     for at, group in enumerate(clause.subjects):
-        if group.head is not None:
-            find_head(group)
-        if clause.is_passive and group.head is not None and _name(group.head) in _LIMBS:
-            continue  # "with her arms crossed": no arms of people are shown so
+        if _is_posed_limb(clause, group):
+            continue
         owner = _find_owner(group, nouns) or _find_host(clause, group, before, nouns)
         whole = _find_whole(group, nouns) if owner is None else _find_noun(owner.head, nouns)
         if whole is None:
@@ -106,6 +104,14 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None
             _let_stand(clause)
         elif not is_by_part:
             _lose_verb(clause)
+
+
+def _is_posed_limb(clause: Clause, group: NounGroup) -> bool:
+    """As in "with her arms crossed": no limbs are shown so. Finds the head of the group."""
+    if group.head is None:
+        return False
+    find_head(group)
+    return clause.is_passive and _name(group.head_word) in _LIMBS
 
 
 def _leave_owner(group: NounGroup) -> None:
