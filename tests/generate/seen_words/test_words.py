@@ -98,3 +98,10 @@ def test_what_an_act_brings_along_is_noted() -> None:
 def test_a_window_of_something_is_a_window_by_itself() -> None:
     report = report_of("a woman looks out of the window of a train")
     assert "window" not in report.shown
+
+
+def test_an_empty_street_is_told_by_its_kerb() -> None:
+    report = ProceduralGenerator(ProceduralConfig(duration=0.5), size=SensorSize(96, 72)).report(
+        "a car drives down an empty street"
+    )
+    assert "street" in report.shown

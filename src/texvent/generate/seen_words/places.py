@@ -196,13 +196,19 @@ def _find_lack(picture: Picture, claim: Claim) -> str | None:
         return "not told as a roof"
     needed = _NEEDS.get(claim.word)
     names = picture.seen_nouns(LEAST_TELLING) if needed or claim.value == "hills" else set()
-    if needed is not None and not names & set(needed):
+    if needed is not None and not names & set(needed) and not _has_kerb(picture, claim):
         return f"no {' or '.join(needed)}"
     sky = max(float(view.is_sky.mean()) for view in picture.views)
     is_hilly = "green hill" in names and picture.scenery_share({"green hill"}) >= LEAST_HILLS
     if claim.value == "hills" and (not is_hilly or sky < LEAST_GROUND):
         return "not told as hills"
     return None
+
+
+def _has_kerb(picture: Picture, claim: Claim) -> bool:
+    """Whether a street without houses is told by its roadway and pavement."""
+    strips = [[float(part.mean()) for part in picture.strip(number)] for number in USUAL]
+    return _is_one_of(claim.word, _STREETS) and max(map(min, strips)) >= LEAST_ROAD
 
 
 def _is_one_of(word: str, words: tuple[str, ...]) -> bool:
