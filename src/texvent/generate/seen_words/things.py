@@ -208,7 +208,7 @@ def _judge_size(
     if word in _GIGANTIC and own.noun.motion in ("walk", "run") and own.model.height < _GIANT_M:
         higher = sorted(picture.seen_nouns(_LEAST_TREE) & _HIGH)
         if higher:
-            return f"the {higher[0]} is higher"
+            return f"lower than a {higher[0]}"
     fault = "nothing to tell its size by"
     for other in picture.scene.actors:
         if other.object_index == index or not _is_seen(picture, other.instance):
