@@ -855,3 +855,18 @@ def test_a_time_lapse_of_things_is_reported():
         one.said for one in parse_prompt("a time-lapse of a flower").substituted
     }
     assert not parse_prompt("a time-lapse of clouds over a mountain").substituted
+
+
+@pytest.mark.parametrize(
+    ("prompt", "place"),
+    [
+        ("a bottle floats down a river", "river"),
+        ("three bottles drift on a lake", "lake"),
+        ("a bottle floats in the sea", "sea"),
+    ],
+)
+def test_things_that_float_are_on_the_water(prompt, place):
+    said = parse_prompt(prompt)
+    assert said.surroundings.place == place
+    assert (said.objects[0].motion.kind, said.objects[0].motion.shore) == ("slide", "in")
+    assert parse_prompt("a balloon floats over a lake").objects[0].motion.shore is None

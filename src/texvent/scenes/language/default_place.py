@@ -227,6 +227,10 @@ _OFFSHORE = frozenset({_PIER, "bridge", "lighthouse", "oil rig", "iceberg", "roc
 """Things that stand in the sea."""
 
 
+_AFLOAT = ("in", "slide")
+"""Shore and kind of the motion of things that drift on water."""
+
+
 def _needs_ground(
     description: SceneDescription, nouns: Mapping[str, Noun], kinds: frozenset[str]
 ) -> bool:
@@ -303,8 +307,10 @@ def _fit_stated(
         return "underwater"
     if has_pier and place in (None, "sea", BEACH):
         return "sea"
-    goes_in = any(one.motion is not None and one.motion.shore for one in description.objects)
-    if place == "sea" and (goes_in or _needs_ground(description, nouns, _AT_SEA)):
+    ways = {(one.motion.shore, one.motion.kind) for one in description.objects if one.motion}
+    goes_in = any(shore is not None and (shore, kind) != _AFLOAT for shore, kind in ways)
+    at_sea = _AT_SEA | {kind for shore, kind in ways if (shore, kind) == _AFLOAT}
+    if place == "sea" and (goes_in or _needs_ground(description, nouns, at_sea)):
         return BEACH
     return place
 

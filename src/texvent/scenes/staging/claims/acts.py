@@ -229,7 +229,7 @@ def _is_on_road(stage: Stage, actor: Actor) -> bool:
 def _goes_to_water(stage: Stage, actor: Actor, motion: ObjectMotion) -> bool:
     """It is on land first and in the water in the end, or nearer to it; or the other way round."""
     if stage.place not in WATERSIDE:
-        return False
+        return stage.place in _ON_WATER and motion.shore == "in"
     line, shore = _road_of(stage), find_water(stage.place, stage.environment.road_half_width)
     start, end = (
         line.across(actor.middle(t)[:2]) - shore for t in (0.0, stage.duration_s)

@@ -86,6 +86,23 @@ def _wade(draft: Draft, members: Sequence[int]) -> None:
             motions[-1] = replace(motions[-1], shore="in")
 
 
+_ON_WATER = ("in", "on", "down", "along", "across", "through")
+_AFLOAT, _FLOATING_PACE = ("hover", "drift", "move", "slide", "fly"), 0.6
+
+
+def _set_afloat(draft: Draft, word: Word, place: str, scope: Scope) -> None:
+    """As in "a bottle floats down a river": things drift on the water, not in the air above it."""
+    is_on_water = word.text in _ON_WATER and place in (*_BATHED_IN, "sea")
+    floats = is_on_water and scope.verb in ("float", "drift", "bob")
+    for index in scope.movers if floats else ():
+        motions, noun = draft.objects[index].motions, draft.noun(index)
+        is_thing = noun.habitat == "fixed" or noun.motion == "roll"
+        if not is_thing or not motions or motions[-1].kind not in _AFLOAT:
+            continue
+        way = motions[-1].direction
+        motions[-1] = ObjectMotion("slide", way, motions[-1].pace * _FLOATING_PACE, shore="in")
+
+
 def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     """Let those who move go to the water of a place, or come from it.
 
@@ -99,6 +116,7 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
         False where the preposition says a way that is not shown.
     """
     place = str(one.value)
+    _set_afloat(draft, word, place, scope)
     if word.text in ("up", "down"):
         is_sloping = place in SLOPES or any(one.text in _SLOPING for one in one.group.words)
         return not is_sloping or not scope.movers
