@@ -234,6 +234,7 @@ def test_left_is_a_way_where_something_goes() -> None:
         ("A rug bends under the weight of a box.", "weight", "barbell"),
         ("A bed with mosquito netting.", "mosquito", "mosquito"),
         ("A traffic pole on a street.", "traffic", "car"),
+        ("A woman in ski gear.", "ski", "ski"),
         ("A man is body surfing in the sea.", "body surfing", "surfboard"),
     ],
 )

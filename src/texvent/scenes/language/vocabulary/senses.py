@@ -113,6 +113,7 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "pen": (_sense("pig sheep cow goat hen chicken lamb calf piglet farmer livestock elephant"
                    " giraffe zebra horse pony donkey bear cattle bull animal zoo holding dirt"
                    " puppy fence enclosure bison rhino ostrich llama alpaca duck"),),
+    "ski": (_sense("gear equipment outfit clothing apparel attire"),),
     "pool": (_sense("billiard billiards cue shoot"),),
     "present": (_sense("food people person guest dish meal"),),
     "plate": (_sense("tectonic licence license number weight barbell batter umpire catcher home"),),
