@@ -66,7 +66,8 @@ class ObjectMotion:
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
 STANDING = ObjectMotion("stand")
-FORMATIONS = frozenset({"row", "ring"})
+TOGETHER = "together"
+FORMATIONS = frozenset({"row", "ring", TOGETHER})
 """Values of `SceneObject.side` that say how copies stand to each other."""
 
 
@@ -96,7 +97,8 @@ class SceneObject:
     """What it does; None = not stated."""
     side: str | None = None
     """Where in the image: "left", "right", "centre", "far" or "near"; "lane" = on the road; or how
-    copies stand to each other: "row", "ring"; None = not stated."""
+    copies stand to each other: "row", "ring", "together" (at each other's side); None = not
+    stated."""
     then: tuple[ObjectMotion, ...] = ()
     """What it does after `motion`, in order."""
     material: str | None = None

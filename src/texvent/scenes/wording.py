@@ -84,6 +84,7 @@ _SIDES = {
     "lane": "on the road",
     "near": "in the foreground",
     "row": "in a row",
+    "together": "side by side",
     "ring": "in a circle",
 }
 RELATION_WORDS = {

@@ -35,7 +35,7 @@ def relations_of(prompt: str) -> set[tuple[str, str, str]]:
     [
         ("a woman ties her shoes", "shoe", 2),
         ("two hands and three shoes", "shoe", 3),
-        ("her skis slide down the hill", "ski", 2),
+        ("her skis slide down the hill", "ski", 1),
         ("five camels walk, each rider in red", "person", 5),
         ("a camel and each rider", "person", 1),
     ],

@@ -1,4 +1,4 @@
-"""Whether one thing is seen behind another, or before it."""
+"""Whether one thing is seen behind another, before it, or copies at each other's side."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import numpy as np
 from texvent.generate.seen_words.picture import Picture, View
 from texvent.scenes.description import Claim, Relation
 from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.claims.bodies import gap, part_boxes
 from texvent.scenes.staging.placement.faced import LOOKED_AT
 
 _IN_DEPTH = ("behind", "front")
@@ -14,6 +16,10 @@ ASIDE = 0.1
 """Gap to the side in the picture up to which they are in line, as a share of the wider one."""
 LEAST_DEEPER = 0.5
 """Share of the instants at which it must be farther away."""
+APART = 0.5
+"""Gap to the nearest copy from which on they are not together, as a share of their width."""
+IN_FILE = 0.94
+"""Cosine between the heading and the way to the next copy from which on they go in file."""
 
 
 def judge_position(picture: Picture, claim: Claim) -> str | None:
@@ -61,3 +67,34 @@ def _find(picture: Picture, view: View, index: int) -> Float64Array | None:
         return None
     columns = picture.points[where, 0]
     return np.array([columns.min(), columns.max(), np.median(view.depth[where])])
+
+
+def judge_together(picture: Picture, index: int) -> str | None:
+    """Why copies of an object are not seen at each other's side, or None."""
+    copies = [one for one in picture.scene.actors if one.object_index == index]
+    if len(copies) < 2:
+        return None
+    furniture = [prop.furniture for one in copies for prop in one.props if prop.furniture]
+    if len(furniture) >= len(copies):
+        return f"each at a {furniture[0]} of its own"
+    time_s = 0.5 * picture.views[-1].time_s
+    boxes = [part_boxes(one, time_s) for one in copies]
+    for number, own in enumerate(boxes):
+        gaps = {k: gap(own, other) for k, other in enumerate(boxes) if k != number}
+        nearest = min(gaps, key=lambda k: gaps[k])
+        low, high = own.hull
+        if gaps[nearest] > APART * float(np.mean((high - low)[:2])):
+            return "apart"
+        if _goes_behind(copies[number], copies[nearest], time_s):
+            return "one behind the other"
+    return None
+
+
+def _goes_behind(one: Actor, other: Actor, time_s: float) -> bool:
+    """Whether two that go along go in single file."""
+    if not one.is_mover:
+        return False
+    between = (other.middle(time_s) - one.middle(time_s))[:2]
+    yaw = one.trajectory.at(time_s).yaw
+    along = abs(float(between @ np.array([np.cos(yaw), np.sin(yaw)])))
+    return along > IN_FILE * float(np.linalg.norm(between))

@@ -9,10 +9,12 @@ import numpy as np
 from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.materials import judge_material
 from texvent.generate.seen_words.picture import USUAL, Picture, View
+from texvent.generate.seen_words.positions import judge_together
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
 from texvent.scenes.evidence import MOST_COUNTED, is_to_move
 from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.projection import project
+from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
@@ -104,11 +106,20 @@ def _judge_garment(picture: Picture, description: SceneDescription, index: int) 
         return "is shown as a shirt"
     if noun == "hoodie" and bearers:
         return "without a hood"
+    if noun in WEARABLE and not bearers and _lies_by_itself(picture, description, index):
+        return "worn by nobody"
     if noun not in _AT_FRONT:
         return None
     wearers = [one for one in picture.scene.actors if one.instance in bearers]
     seen = [sum(_is_from_front(one, view) for view in picture.views) for one in wearers]
     return "seen from the side" if seen and max(seen) < LEAST_FRONT_VIEWS else None
+
+
+def _lies_by_itself(picture: Picture, description: SceneDescription, index: int) -> bool:
+    """Whether clothes lie about that no relation names, where people are who may wear them."""
+    ends = {end for one in description.relations for end in (one.subject, *one.targets)}
+    people = [one for one in picture.scene.actors if is_person(one.noun)]
+    return bool(people) and index not in ends and description.objects[index].motion is None
 
 
 def _judge_tool(description: SceneDescription, index: int) -> str | None:
@@ -357,6 +368,8 @@ def _judge_side(picture: Picture, description: SceneDescription, index: int) -> 
     ]
     if side == "row":
         return _judge_order(picture, "row", index)
+    if side == "together":
+        return judge_together(picture, index)
     if not centres or side not in _SIDES:
         return None
     middle = float(np.median(centres))
@@ -374,8 +387,10 @@ def _judge_depth(picture: Picture, index: int, *, is_far: bool) -> str | None:
         own += [float(np.median(view.depth[mine]))] if mine.any() else []
         rest = (view.instance > 0) & ~mine
         others += [float(np.median(view.depth[rest]))] if rest.any() else []
-    if not own or not others:
+    if not own:
         return None
+    if not others:
+        return "nothing is before it" if is_far else None
     if is_far:
         return None if np.median(own) > np.median(others) else "not behind the others"
     return None if np.median(own) < np.median(others) else "not before the others"

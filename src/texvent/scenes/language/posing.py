@@ -9,7 +9,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 def list_posing(description: SceneDescription) -> set[int]:
     """People, and animals, of whom only is said what they hold or wear: they stand and show it.
 
-    What they hold and what is sat on rests, too: "sits on a motorcycle".
+    What they hold and what is sat or stood on rests, too: "sits on a motorcycle", "poses on skis".
     """
     shown = [
         relation
@@ -17,16 +17,20 @@ def list_posing(description: SceneDescription) -> set[int]:
         if relation.kind == "wear"
         or (relation.kind == "hold" and description.objects[relation.subject].noun in PERSON_NOUNS)
     ]
-    sat_on = [
+    rested_on = [
         relation.targets
         for relation in description.relations
-        if relation.kind in ("on", "ride") and _sits(description.objects[relation.subject])
+        if relation.kind in ("on", "ride") and _rests(description.objects[relation.subject])
     ]
     if not any(word.startswith(("sit", "sat", "perch")) for word in description.shown):
-        sat_on = []
+        rested_on = []
     posing = {one.subject for one in shown} | {n for one in shown for n in one.targets}
-    return posing | {n for targets in sat_on for n in targets}
+    return posing | {n for targets in rested_on for n in targets}
 
 
-def _sits(one: SceneObject) -> bool:
-    return one.motion is not None and one.motion.kind == "sit"
+_AT_REST = ("sit", "sat", "perch", "stand", "stood", "pos")
+"""How the words begin that say so: who only rides something sits on it too."""
+
+
+def _rests(one: SceneObject) -> bool:
+    return one.motion is not None and one.motion.kind in ("sit", "stand")

@@ -28,6 +28,7 @@ from texvent.scenes.language.meaning.circumstances.effects import (
 )
 from texvent.scenes.language.meaning.circumstances.reader import CircumstanceReader
 from texvent.scenes.language.meaning.clause_rewrites import (
+    is_likeness,
     list_brought,
     list_other_phrases,
     rewrite_objects,
@@ -136,6 +137,8 @@ class ClauseMeaning:
         if not clause.objects and read_named_act(self._draft, self._around, clause):
             return
         show_speaker(clause, is_first_person=self._camera.is_first_person)
+        for group in clause.subjects if is_likeness(clause) else ():
+            self._referents.forget(group)
         self._referents.verb = clause.verb.lemma if clause.verb is not None else ""
         subjects = [self._referents.resolve(group) for group in clause.subjects]
         self._referents.verb = ""

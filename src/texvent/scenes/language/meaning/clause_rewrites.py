@@ -40,6 +40,14 @@ _SIDES = frozenset({"from above", "from below", "from behind", "from the side", 
 _FROM = {"from above": "down", "from below": "up"}
 
 
+def is_likeness(clause: Clause) -> bool:
+    """As in "a shelf set up as a bar", "dressed as a clown": no second thing is there."""
+    first = clause.subjects[0] if clause.subjects else None
+    is_as = clause.opener is not None and clause.opener.text == "as"
+    is_one = first is not None and first.determiner is not None
+    return is_as and is_one and clause.verb is None and not clause.auxiliaries
+
+
 def rewrite_objects(clause: Clause) -> None:
     """Put right what the verb and its objects mean together."""
     take_juggled(clause)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from itertools import pairwise
 
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.phrases.moods import MOODS
@@ -22,6 +23,7 @@ _PHRASES: dict[str, tuple[str, ...]] = {
         "on the bottom of", "on the underside of", "beneath the shade of", "under the shade of",
         "in the shade of",
     ),
+    "atop": ("on the back of", "on the roof of", "on the rooftop of"),
     "inside": ("inside of", "in side of", "on the inside of", "in the inside of"),
     "outside": ("outside of", "outdoors", "out of doors"),
     "near a": ("nearby a",),
@@ -95,7 +97,7 @@ _PHRASES: dict[str, tuple[str, ...]] = {
         "of all kinds", "of various kinds", "of different kinds", "of all sizes", "etc",
         "on display",
     ),
-    "in a row": (
+    "side by side": (
         "next to each other", "next to one another", "beside each other", "alongside each other",
         "side by side with each other",
     ),
@@ -165,6 +167,7 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
     """Number of tokens that a phrase takes, and what it becomes; None where none begins."""
     rules = (
         _replace_fixed,
+        _surround,
         _go_the_way,
         _take_outing,
         _have,
@@ -175,6 +178,8 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
         _run_after,
         _seem,
         _name_kind,
+        _name_another,
+        _call,
     )
     return next((one for rule in rules if (one := rule(tokens, at)) is not None), None)
 
@@ -200,6 +205,8 @@ def _replace_fixed(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] 
         plain = table.get(tuple(token.text for token in tokens[at : at + length]))
         if plain is None or any(token.picture for token in tokens[at : at + length]):
             continue
+        if plain == _UPON and not _is_borne(tokens, at + length):
+            return None
         coming = {token.text for token in tokens[at + length : at + length + 3]}
         if plain == "under" and coming & _WATERS:
             return None
@@ -207,6 +214,30 @@ def _replace_fixed(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] 
             plain = plain.replace("a horse", "horses")  # as in "two men on horseback"
         return length, _stand_for(tokens[at : at + length], plain) if plain else []
     return None
+
+
+def _is_borne(tokens: Sequence[Token], at: int) -> bool:
+    """Whether an animal follows, on whose back one is, or an animal is on the roof of a car."""
+    texts = {token.text for token in tokens[at : at + 3]}
+    before = {token.text for token in tokens[:at]}
+    return bool(texts & _BACKS) or bool(texts & _ROOFED and before & _ON_ROOFS)
+
+
+_UPON = "atop"
+_BACKS = frozenset(
+    {"cow", "horse", "elephant", "camel", "donkey", "pony", "rhino", "zebra", "bull", "buffalo",
+     "giraffe", "hippo", "sheep", "turtle", "dog", "goat", "ox"}
+)  # fmt: skip
+_ROOFED = frozenset({"car", "van", "bus", "suv", "jeep", "taxi", "truck"})
+_ON_ROOFS = frozenset({"cat", "dog", "bird", "pigeon", "gull", "seagull", "kitten", "monkey"})
+
+
+def _surround(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "people surrounding a cake": around it; "the surrounding hills" are something else."""
+    if tokens[at].text != "surrounding" or at == 0 or at + 1 >= len(tokens):
+        return None
+    is_around = tokens[at + 1].text in _OPENS_GROUP and _is_noun(tokens[at - 1].text)
+    return (1, _stand_for(tokens[at : at + 1], "around")) if is_around else None
 
 
 def _go_the_way(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
@@ -338,6 +369,38 @@ def _name_kind(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | No
     if first is None:
         return None
     return 3, _stand_for(tokens[at : at + 3], f"of {pluralise(first)}")
+
+
+def _name_another(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "one dog follows another": another dog."""
+    if tokens[at].text != "another" or (at + 1 < len(tokens) and not _ends_group(tokens[at + 1])):
+        return None
+    if any(token.text == "from" for token in tokens[:at]):
+        return None  # as in "from one table to another"
+    first = next(
+        (two.text for one, two in pairwise(tokens[:at])
+         if one.text in ("a", "an", "one", "the") and _is_noun(two.text)), None
+    )  # fmt: skip
+    return None if first is None else (1, _stand_for(tokens[at : at + 1], f"another {first}"))
+
+
+def _ends_group(token: Token) -> bool:
+    return token.is_punctuation or token.text in _AFTER_LYING
+
+
+def _call(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "holding a phone up to his ear": talking on it."""
+    form = _form_of(tokens[at].text, ("hold", "have", "put", "press"))
+    texts = [token.text for token in tokens[at : at + 9]]
+    ear = next((n for n, text in enumerate(texts) if text in ("ear", "ears")), 0)
+    if form is None or not ear or not _PHONES & {*texts[:ear]} or texts[ear - 1] not in _OWN_EAR:
+        return None
+    plain = _inflect("talk", form)
+    return ear + 1, _stand_for(tokens[at : at + ear + 1], f"{plain} on a cell phone")
+
+
+_PHONES = frozenset({"phone", "cellphone", "telephone", "smartphone", "phones"})
+_OWN_EAR = frozenset({"his", "her", "their", "the", "its", "an"})
 
 
 def _is_plain_noun(word: str) -> bool:

@@ -183,7 +183,7 @@ JOBS: dict[str, tuple[frozenset[str], str]] = {
 HANDLED: dict[str, str] = {"robot arm": "block", "gripper": "ball"}
 """Machine → what its model handles, whatever the prompt names."""
 BOARDS = frozenset(
-    {"skateboard", "surfboard", "snowboard", "scooter", "skis", "wave", "sled", "carousel horse"}
+    {"skateboard", "surfboard", "snowboard", "scooter", "ski", "wave", "sled", "carousel horse"}
 )
 """What is ridden besides vehicles and animals."""
 WEARABLE = frozenset(

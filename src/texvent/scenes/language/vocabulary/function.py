@@ -69,7 +69,7 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
         *sorted(MOODS),
     ),
     Pos.ADVERB: (
-        "also", "here", "how", "please", "quite", "really", "so", "too", "very", "why", "together",
+        "also", "here", "how", "please", "quite", "really", "so", "too", "very", "why",
         "somewhat", "almost", "again", "silently", "quietly", "loudly", "noisily",
         "from a standstill", "from standstill", "from rest", "extremely", *sorted(MANNERS),
     ),

@@ -52,8 +52,9 @@ SIDES: dict[str, tuple[str, ...]] = {
     "far": ("in the distance", "in the background", "far away", "distant"),
     "near": ("in the foreground",),
     "row": ("in a row", "in a line", "in line", "in a queue", "in single file", "single file",
-            "side by side", "lined up", "in a straight line"),
+            "lined up", "in a straight line"),
     "ring": ("in a ring",),
+    "together": ("side by side", "together"),
 }  # fmt: skip
 
 PACES: dict[float, tuple[str, ...]] = {

@@ -160,7 +160,22 @@ COMPOUNDS: dict[str, tuple[str, ...]] = {
 """Noun → compounds that mean it, though their last word alone does not."""
 
 LIQUIDS = frozenset(
-    {"coffee", "tea", "water", "milk", "juice", "soup", "beer", "wine", "lemonade", "cocoa"}
+    {
+        "coffee",
+        "tea",
+        "water",
+        "milk",
+        "juice",
+        "soup",
+        "beer",
+        "wine",
+        "lemonade",
+        "cocoa",
+        "champagne",
+        "whiskey",
+        "cider",
+        "vodka",
+    }
 )
 """What fills a vessel: "a cup of coffee" is one thing."""
 LIKENESSES = frozenset(

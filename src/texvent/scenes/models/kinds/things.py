@@ -4,7 +4,7 @@ from __future__ import annotations
 
 ONE_THING = frozenset(
     {"stairs", "kitchen cabinet", "kitchen counter", "vegetables", "fruit", "rice", "food", "meat",
-     "peas", "cutlery", "railway track", "glasses"}
+     "peas", "cutlery", "railway track", "glasses", "ski", "broccoli"}
 )  # fmt: skip
 """Nouns whose bare plural, or mass, is one thing: "climbs stairs", "a plate of vegetables"."""
 THING_KINDS: dict[str, str] = {

@@ -228,9 +228,15 @@ def _is_in(subject: Body, targets: list[Body]) -> bool:
     if targets[0].copies[0].noun.name in GATES:
         return goes_through(subject, targets) or WAYS["into"](subject, targets)
     is_caged = targets[0].copies[0].noun.name in CAGES
-    return holds_for_all(
-        is_in, subject.copies, targets[0].copies, subject.duration_s, always=is_caged
-    )
+    copies = subject.copies
+    if len(copies) >= _PILED and copies[0].noun.habitat == "fixed":
+        # The upper ones of a pile lie on those that are in it.
+        upwards = sorted(copies, key=lambda one: float(one.middle(0.0)[2]))
+        copies = tuple(upwards[: len(copies) // 2])
+    return holds_for_all(is_in, copies, targets[0].copies, subject.duration_s, always=is_caged)
+
+
+_PILED = 4
 
 
 def _is_with(subject: Body, targets: list[Body]) -> bool:

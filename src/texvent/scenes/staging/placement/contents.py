@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import math
 
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.protocol import Model
+from texvent.scenes.models.wrapped.hollow import HOLLOW, HollowModel
+from texvent.scenes.models.wrapped.opened import OPENED, OpenedModel
+from texvent.scenes.models.wrapped.served import OWN_DISH, ServedModel
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 
 SLIM = 1.5
@@ -21,6 +25,38 @@ _SEEN = 0.6
 """Share of the height of the first layer that looks out."""
 _ROUND = 0.62
 """From one thing to the next in a layer, as a share of its width: what lies in a pile overlaps."""
+
+_DISHES = frozenset({"plate", "bowl", "frying pan", "pizza pan", "pot", "cup", "mug"})
+"""What food is on or in without a dish of its own."""
+_HOLDING = frozenset({"in", "on", "through", "from"})
+
+
+def with_contents(
+    models: list[Model], noun: str, description: SceneDescription, index: int
+) -> list[Model]:
+    """The models as what they hold, or what holds them, asks for.
+
+    A window without its pane, an open box, noodles without their bowl on a plate.
+    """
+    relations = description.relations
+    kinds = {one.kind for one in relations if one.targets[0] == index}
+    if noun in OPENED and kinds & _HOLDING:
+        return [OpenedModel(one, noun) for one in models]
+    if noun in HOLLOW and "in" in kinds:
+        return [HollowModel(one) for one in models]
+    if is_served(noun, description, index):
+        return [ServedModel(one, noun) for one in models]
+    return models
+
+
+def is_served(noun: str, description: SceneDescription, index: int) -> bool:
+    """Whether it is food that has a dish of its own, on or in another one."""
+    return noun in OWN_DISH and any(
+        one.subject == index
+        and one.kind in ("in", "on")
+        and description.objects[one.targets[0]].noun in _DISHES
+        for one in description.relations
+    )
 
 
 def is_stem(model: Model) -> bool:

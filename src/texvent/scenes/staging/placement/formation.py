@@ -7,10 +7,18 @@ import math
 import numpy as np
 
 from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.protocol import Pose
+from texvent.scenes.models.shapes import bounds
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 
 FACE_TO_FACE = frozenset({"talk", "shake hands", "high five", "hug", "fence", "box"})
 """What two people do turned to each other, and more in a half ring."""
+_AT_EASE = frozenset({"stand", "sit", "talk", "laugh", "smile", "walk", "run", "pose"})
+"""What people do who need no more room than their shoulders have."""
+_SHOULDERS_M, _BUSY_M = 0.56, 0.95
+"""Room from shoulder to shoulder, and of who does something with the arms, m."""
+_CLOSE, _AHEAD, _ONE_ROW = 1.12, 0.75, 6
+"""From one to the next, in widths; how far one is ahead of the other, in lengths; most of a row."""
 _TO_CAMERA = 0.35
 """How far who faces another is turned to the camera, radians."""
 
@@ -22,6 +30,8 @@ def form_up(group: ObjectGroup) -> None:
         return
     if side == "row":
         _stand_in_row(group)
+    elif side == "together":
+        _stand_together(group)
     elif side == "ring":
         _stand_in_ring(group)
     elif group.noun.name in PERSON_NOUNS and group.plan.motion.kind in FACE_TO_FACE:
@@ -40,6 +50,34 @@ def _stand_in_row(group: ObjectGroup) -> None:
     step = 1.25 * (model.length if is_along else max(model.length, model.width)) + 0.15
     places = [step * (number - 0.5 * (count - 1)) for number in range(count)]
     group.offsets = [(0.0, at, 0.0) if goes_away else (at, 0.0, 0.0) for at in places]
+
+
+def _stand_together(group: ObjectGroup) -> None:
+    """Shoulder to shoulder, in two rows where they are many; who goes along, nearly abreast."""
+    count, model = len(group.models), group.models[0]
+    scale = float(getattr(model, "scale", 1.0))
+    low, high = bounds(model.parts(Pose(0.0, 0.0, 0.0, "stand")))
+    long, wide = (float(size) for size in (high - low)[:2])
+    if group.noun.name in PERSON_NOUNS and group.plan.motion.kind != "lie":
+        busy = group.plan.motion.kind not in _AT_EASE
+        long = wide = (_BUSY_M if busy else _SHOULDERS_M) * scale
+    if group.plan.is_path:
+        step, abreast = _AHEAD * long, 1.25 * wide + 0.05 * scale
+        turn = group.plan.yaw
+        group.offsets = [
+            (step * at * math.cos(turn) - abreast * at * math.sin(turn),
+             step * at * math.sin(turn) + abreast * at * math.cos(turn), 0.0)
+            for at in (number - 0.5 * (count - 1) for number in range(count))
+        ]  # fmt: skip
+        return
+    cosine, sine = abs(math.cos(group.plan.yaw)), abs(math.sin(group.plan.yaw))
+    across, deep = cosine * long + sine * wide, sine * long + cosine * wide
+    columns = count if count <= _ONE_ROW else math.ceil(count / 2)
+    group.offsets = []
+    for number in range(count):
+        row, column = divmod(number, columns)
+        at = column - 0.5 * (columns - 1) + 0.5 * row
+        group.offsets.append((_CLOSE * across * at, 1.1 * deep * row, 0.0))
 
 
 def _stand_in_ring(group: ObjectGroup) -> None:

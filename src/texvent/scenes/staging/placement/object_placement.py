@@ -11,7 +11,6 @@ import numpy as np
 from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.protocol import Model, Noun
-from texvent.scenes.models.wrapped.opened import OPENED, OpenedModel
 from texvent.scenes.models.wrapped.opening import opening
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
@@ -21,6 +20,7 @@ from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
 from texvent.scenes.staging.placement.at_table import set_before
+from texvent.scenes.staging.placement.contents import with_contents
 from texvent.scenes.staging.placement.dressing import (
     choose_copy,
     choose_props,
@@ -145,8 +145,7 @@ class ObjectPlacer:
             )
             for number in range(scene_object.count)
         ]
-        if noun.name in OPENED and self._holds_something(index):
-            models = [OpenedModel(one, noun.name) for one in models]
+        models = with_contents(models, noun.name, self._description, index)
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions = (scene_object.motion or STANDING, *scene_object.then)
@@ -163,13 +162,6 @@ class ObjectPlacer:
         group = ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
         form_up(group)
         return group
-
-    def _holds_something(self, index: int) -> bool:
-        """Whether the prompt has something in it, on it or going through it."""
-        return any(
-            relation.kind in ("in", "on", "through", "from") and relation.targets[0] == index
-            for relation in self._description.relations
-        )
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
         """Place an object, after the objects its place depends on."""

@@ -11,7 +11,9 @@ import numpy as np
 from texvent.scenes.description import Relation, SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.models.wrapped.served import ServedModel
 from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.placement.contents import is_served
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 from texvent.scenes.staging.placement.tabletop import TABLES
 
@@ -61,6 +63,8 @@ def dish_up(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDe
         radius = 0.5 * min(body.length, body.width)
         for i in on:
             own = _model(objects[i], nouns)
+            if is_served(objects[i].noun, description, i):
+                own = ServedModel(own, objects[i].noun)
             extent = max(own.length, own.width, 0.7 * own.height)
             goal = radius * _ROOM.get(count, _LEAST_ROOM)
             if objects[i].noun == "candle":

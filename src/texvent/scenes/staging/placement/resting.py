@@ -19,6 +19,7 @@ from texvent.scenes.models.people.posture import ANKLE
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.support_surface import Support, find_support, top_heights
+from texvent.scenes.models.wrapped.hollow import HollowModel
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.acts.riding import CLOSED, LOADS, SEATS_OF
@@ -117,15 +118,15 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     if group.noun.habitat == "fixed" and len(target.models) == 1 and not _is_shelf(target):
         own = len(group.offsets)
         first, count = own * neighbours.index(group.index), own * len(neighbours)
-        low = pack(group, target, _find_surface(target).height, first, count)
+        low = pack(group, target, _rim_of(target), first, count)
         group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
         if target.plan.motion.is_moving:
             group.carrier = target
         return np.asarray(target.centre + np.array([0.0, 0.0, low + _origin_height(group)]))
     place = rest_on(group, target, neighbours)
     tall, deep = group.models[0].height, target.models[0].height
-    top = _find_surface(target).height
-    seen = _SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
+    top, is_hollow = _rim_of(target), isinstance(target.models[0], HollowModel)
+    seen = _SEEN_SHARE if group.noun.habitat == "fixed" or is_hollow else _ALIVE_SHARE
     if group.noun.motion == "swim":
         seen = _SWIMMER_SHARE
         inside = 0.5 * min(target.models[0].length, target.models[0].width)
@@ -136,11 +137,17 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     return np.array([place[0], place[1], base])
 
 
+def _rim_of(target: ObjectGroup) -> float:
+    """Height over its foot up to which a container reaches, m."""
+    model = target.models[0]
+    return model.height if isinstance(model, HollowModel) else _find_surface(target).height
+
+
 def _sink(group: ObjectGroup, target: ObjectGroup, place: Float64Array) -> Float64Array:
     """Where a person in a tub stands: on its floor, or deep enough in it; others at their place."""
     if group.noun.name not in PERSON_NOUNS or target.noun.name not in TUBS:
         return place
-    sunk = _find_surface(target).height - _TUB_SHARE * group.models[0].height
+    sunk = _rim_of(target) - _TUB_SHARE * group.models[0].height
     return np.array([place[0], place[1], target.centre[2] + max(sunk, _TUB_FLOOR_M)])
 
 
@@ -209,7 +216,7 @@ def _find_surface(target: ObjectGroup, *, is_person: bool = False) -> Support:
         scale = float(getattr(model, "scale", 1.0))
         x, y, z = (scale * value for value in LOADS[target.noun.name])
         return Support(z, (x, y), (x, y))
-    if target.noun.name in SEATS_OF:
+    if target.noun.name in SEATS_OF and (is_person or target.noun.name not in CLOSED):
         x, y, _ = SEATS_OF[target.noun.name].places[0]
         height = top_heights(
             model.parts(Pose(0.0, 0.0, 0.0, "stand")), np.array([x]), np.array([y])

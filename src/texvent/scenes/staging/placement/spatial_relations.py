@@ -77,13 +77,26 @@ def _place_around(group: ObjectGroup, targets: list[ObjectGroup], height: float)
 
 def _stand_in_ring(group: ObjectGroup, target: ObjectGroup) -> None:
     count, own = len(group.models), group.models[0]
-    radius = max(target.models[0].length, target.models[0].width) * 0.5 + 0.6 * own.length + 0.1
+    within = max(target.models[0].length, target.models[0].width) * 0.5
+    if len(target.models) > 1:
+        within = float(max(target.half[:2]))
+    radius = within + 0.6 * own.length + 0.1
     wide = 0.5 * count * 1.15 * own.width / math.pi
     radius = max(radius, wide)
-    angles = [2.0 * math.pi * (number + 0.5) / count for number in range(count)]
+    angles = _ring_open_to_camera(count)
     group.offsets = [(radius * math.cos(a), radius * math.sin(a), 0.0) for a in angles]
     group.yaws = [a + math.pi for a in angles]
     group.half = np.array([radius + own.length, radius + own.length, 0.5 * own.height])
+
+
+def _ring_open_to_camera(count: int) -> list[float]:
+    """Directions from the middle of a ring to those in it; none stands right before the middle."""
+    if count <= _OPPOSITE:
+        return [math.pi * number for number in range(count)]
+    return [float(a) for a in np.linspace(-_OPEN_RAD, math.pi + _OPEN_RAD, count)]
+
+
+_OPPOSITE, _OPEN_RAD = 2, 0.7
 
 
 def _place_above(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:

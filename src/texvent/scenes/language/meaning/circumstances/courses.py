@@ -29,6 +29,8 @@ _WIDE = frozenset({"lake", "sea", "harbour", "mountain"})
 _ATOP = frozenset({"on", "atop", "on top of", "upon"})
 _TOPS = frozenset({"ridge", "cliff", "summit", "peak", "hilltop", "mountaintop", "mountain"})
 """Mountains stand around; nobody is on them."""
+_RAILS = frozenset({"track", "rail", "railroad track", "train track", "railway track"})
+_ON_RAILS = frozenset({"train", "steam locomotive", "tram", "subway train", "locomotive"})
 _IN_THE_BACK = frozenset({"mountain"})
 """What the scene is in front of anyway."""
 _BESIDE = frozenset({"beside", "next to", "near", "by", "alongside"})
@@ -53,6 +55,10 @@ def name_course(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
         return
     elif _is_elsewhere(word.text, str(one.value), head, scope):
         word.is_used, word.is_lost = False, True
+    elif word.text in _ATOP and one.value == "railway" and head in _RAILS:
+        # The track lies behind whoever is no train.
+        word.is_lost = any(draft.noun(index).name not in _ON_RAILS for index in scope.subjects)
+        word.is_used = not word.is_lost
     elif word.text in _BESIDE and one.value in _ROADS and head in _ROAD_WORDS and scope.subjects:
         word.course = "beside road"
         link([word], scope.subjects)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import ObjectMotion, Picture
+from texvent.scenes.description import TOGETHER, ObjectMotion, Picture
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.acts.hosts import PLACED
 from texvent.scenes.language.meaning.adjectives import read_attributes, show_picture
 from texvent.scenes.language.meaning.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.meaning.circumstances.company import stand_together
 from texvent.scenes.language.meaning.circumstances.courses import (
     goes_so,
     name_course,
@@ -18,6 +19,7 @@ from texvent.scenes.language.meaning.circumstances.courses import (
     place_among,
 )
 from texvent.scenes.language.meaning.circumstances.effects import add_effect
+from texvent.scenes.language.meaning.circumstances.fillings import read_of
 from texvent.scenes.language.meaning.circumstances.parts import PartReader
 from texvent.scenes.language.meaning.circumstances.place_ways import (
     BESIDE,
@@ -112,6 +114,8 @@ class CircumstanceReader:
                 word.is_used = True
 
     def _read_side(self, word: Word, scope: Scope) -> None:
+        if word.meaning.value == TOGETHER and stand_together(self._draft, word, scope.subjects):
+            return
         for index in scope.subjects:
             self._draft.objects[index].side = word.meaning.value
             word.is_used = True
@@ -160,7 +164,7 @@ class CircumstanceReader:
         place_among(self._draft, word, things)
 
     def _is_likeness(self, phrase: PrepPhrase, scope: Scope) -> bool:
-        """As in "Shaped like a dragon", "curls into a ball": nothing of the sort is there."""
+        """As in "shaped like a dragon", "curls into a ball": nothing of the sort is there."""
         name = phrase.preposition.text
         is_change = name == "into" and not scope.is_verb_shown and scope.verb in CHANGES
         heads = [group.head for group in phrase.groups if group.head is not None]
@@ -246,7 +250,7 @@ class CircumstanceReader:
         found = [self._referents.resolve(group, "of") for group in phrase.groups]
         for one in found:
             if one.is_things and whole.is_things:
-                self._relations.read_of(phrase.preposition, whole, one)
+                read_of(self._draft, phrase.preposition, whole, one)
             elif one.kind == "picture":
                 self.show_on(one, whole.things)
             elif not one.is_things:

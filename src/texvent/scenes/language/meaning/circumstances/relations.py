@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from texvent.scenes.description import Relation
 from texvent.scenes.language.grammar.syntax import PrepPhrase
 from texvent.scenes.language.meaning.acts.looking import address, face
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
+from texvent.scenes.language.meaning.circumstances.company import gather, is_company, keep_company
 from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_followed
+from texvent.scenes.language.meaning.circumstances.fillings import FULL, fill
+from texvent.scenes.language.meaning.circumstances.nearest import has_nearest, put_down
 from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
 from texvent.scenes.language.meaning.circumstances.put import (
     CARRIES,
@@ -21,7 +25,6 @@ from texvent.scenes.language.meaning.circumstances.put import (
 )
 from texvent.scenes.language.meaning.circumstances.slopes import go_on_slope
 from texvent.scenes.language.meaning.draft import Draft
-from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.unridden import HAS_RIDER
@@ -29,11 +32,12 @@ from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS, WEAK_PREPOSITIONS
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, SEATS
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.people.work.verbs import HANDWORK
 
-_HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
+_HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "ski"})
 _TAKEN_BY = {
     "dog": ("branch", "bone", "frisbee", "ball", "tennis ball", "newspaper", "shoe"),
     "cat": ("mouse", "fish"),
@@ -48,6 +52,7 @@ class RelationReader:
     def __init__(self, draft: Draft, referents: Referents) -> None:
         self._draft = draft
         self._referents = referents
+        self._loosely_held: list[Relation] = []
 
     def read(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
         """Relate the clause's subjects to the things; report what cannot be honoured."""
@@ -61,17 +66,23 @@ class RelationReader:
             self._deny(phrase, things, scope)
             return
         before = len(self._draft.relations)
+        kind = self._at_bench(self._relation_kind(word, things), things, scope)
+        kind = "at" if self._is_at_table(word, things, scope) else kind
         is_used = address(self._draft, word.text, scope, things)
-        is_used = is_used or self._read(phrase, things, scope)
+        is_used = is_used or self._read_sense(phrase, kind, things, scope)
         word.is_used, word.is_lost = is_used, not is_used
         word.relations = tuple(self._draft.relations[before:])
 
-    def _read(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> bool:
+    def _read_sense(
+        self, phrase: PrepPhrase, kind: str | None, things: list[int], scope: Scope
+    ) -> bool:
+        """A preposition in one of its senses; `kind` is the relation that it usually means."""
         word = phrase.preposition
-        kind = self._at_bench(self._relation_kind(word, things), things, scope)
-        kind = "at" if self._is_at_table(word, things, scope) else kind
-        if word.text in (*_FULL, *FOLLOWED):
-            return self._fill(phrase, things, scope)
+        if word.text in FOLLOWED:
+            return be_followed(self._draft, things, scope)
+        if word.text in FULL:
+            near = self._referents.recall(phrase.near)
+            return fill(self._draft, word, near, things, scope)
         if scope.has_verb and not scope.is_verb_shown:
             return self._rest(word, kind, things, scope)
         if word.text == "with":
@@ -97,10 +108,16 @@ class RelationReader:
 
     def _read_kind(self, kind: str, word: Word, things: list[int], scope: Scope) -> bool:
         """A relation of the clause's subjects, or of what is acted on."""
+        if self._is_beyond(kind, word, things, scope):
+            return False
+        if kind == "on" and not scope.has_verb and self._draft.noun(things[0]).name in TABLES:
+            put_down(self._draft, scope.subjects, things, self._loosely_held)
         if kind == "above" and self._is_on_ground(scope.movers or scope.subjects):
             # As in "play badminton over a net": they stand at it, which "over" does not say.
             self._relate("beside", scope.subjects, things)
             return False
+        if is_company(self._draft, kind, scope.subjects, things):
+            return gather(self._draft, scope.subjects, things)
         if kind == "from" and self._stays(scope):
             name = self._draft.noun(things[0]).name
             place = "in" if name == "window" else "on" if name in _PERCHES else "beside"
@@ -114,6 +131,15 @@ class RelationReader:
             # As in "drops a box into a bin", "takes a book off a shelf".
             subjects = list(scope.acted_on)
         return self._relate(kind, subjects, things, PREPOSITION_WAYS.get(word.text, ""))
+
+    def _is_beyond(self, kind: str, word: Word, things: list[int], scope: Scope) -> bool:
+        """As in "a dog in the fruit"; a clock on top of a tower is shown on its front, as usual."""
+        nouns = [self._draft.noun(index) for index in scope.subjects]
+        if kind == "in" and self._draft.noun(things[0]).name in _FOOD:
+            return any(map(is_living, nouns))
+        are_clocks = word.text in _AT_TOP and all(noun.name == "clock" for noun in nouns)
+        is_crown = are_clocks and self._draft.length_m(things[0]) > _TALL_M
+        return is_crown and self._relate(kind, scope.subjects, things)
 
     def _bounce(self, scope: Scope) -> bool:
         """As in "bounces off a wall", which is no way down from it."""
@@ -173,12 +199,25 @@ class RelationReader:
             return Scope(near.things, [], has_verb=False)
         if names and is_put(self._draft, phrase, near.things, things, scope):
             take_out(self._draft, near.things)
+            put_down(self._draft, near.things, things, self._loosely_held)
             return Scope(near.things, [], has_verb=False)
+        own = near.things if near.is_things and not set(near.things) & {*scope.subjects} else []
+        if own and self._is_nearer(phrase.preposition.text, own, things, scope):
+            return Scope(own, [], has_verb=False)
         if set(things) != set(scope.subjects):
             return scope
         if not near.is_things or set(near.things) == set(things):
             return scope
         return Scope(near.things, [], has_verb=False)
+
+    def _is_nearer(
+        self, word: str, near: Sequence[int], things: Sequence[int], scope: Scope
+    ) -> bool:
+        """As in "looks through a book on a table", of which the looking is not shown."""
+        if word == "with":
+            return has_nearest(self._draft, near, things, scope)
+        is_lost = scope.has_verb and not scope.is_verb_shown
+        return is_lost and word in _RESTING - {"at", "by"}
 
     def _turn_or_climb(self, word: Word, things: list[int], scope: Scope) -> bool:
         if word.text == "facing":
@@ -204,32 +243,6 @@ class RelationReader:
         noun = self._draft.noun(things[0])
         is_done_by_people = all(is_person(self._draft.noun(index)) for index in scope.subjects)
         return is_done_by_people and noun.motion == "stand" and is_small(self._draft, things[0])
-
-    def read_of(self, preposition: Word, whole: Referent, content: Referent) -> None:
-        """As in "a bowl of apples"; "the window of a train" shows a window by itself."""
-        is_whole = content.group.determiner is not None or content.group.owner is not None
-        preposition.is_used, preposition.is_lost = not is_whole, is_whole
-        if not is_whole:
-            self._draft.relate("in", content.things, whole.things)
-            return
-        head = whole.group.head
-        is_body = set(whole.things) <= set(content.things)
-        if head is not None and head.shown_as is None and not is_body:
-            head.shown_as = f"{head.text} by itself"
-
-    def _fill(self, phrase: PrepPhrase, things: Sequence[int], scope: Scope) -> bool:
-        """As in "a basket full of tulips"; what a harbour is full of, is few.
-
-        As in "a duck followed by ducklings".
-        """
-        if phrase.preposition.text in FOLLOWED:
-            return be_followed(self._draft, things, scope)
-        near = self._referents.recall(phrase.near)
-        if near is not None and near.kind == "place":
-            phrase.preposition.is_lost = True
-            return False
-        vessels = near.things if near is not None and near.is_things else scope.subjects
-        return self._draft.relate("in", things, vessels)
 
     def _is_on_ground(self, subjects: Sequence[int]) -> bool:
         """Whether they are people or animals whose motion leaves them on the ground."""
@@ -318,7 +331,10 @@ class RelationReader:
             table = self._find_table(scope.subjects)
             if table:
                 return self._draft.relate("on", things, table)
-            return self._draft.relate("hold", scope.subjects, things)
+            before = len(self._draft.relations)
+            is_related = self._draft.relate("hold", scope.subjects, things)
+            self._loosely_held += self._draft.relations[before:]
+            return is_related
         if item.name in CARRIES and doer.name not in CARRIES:
             return self._draft.relate("on", scope.subjects, things)
         seats = [index for index in things if self._draft.noun(index).name in SEATS]
@@ -332,6 +348,7 @@ class RelationReader:
             return self._draft.relate("on", things, scope.subjects)
         if doer.name in VESSELS and (is_small(self._draft, things[0]) or doer.name == "stroller"):
             return self._draft.relate("in", things, scope.subjects)
+        keep_company(self._draft, scope.subjects, things)
         return self._draft.relate("with", scope.subjects, things)
 
     def _find_table(self, subjects: Sequence[int]) -> Sequence[int]:
@@ -372,7 +389,11 @@ _DECKS = frozenset({"pier", "bridge"})
 _WALKED = {"along": "along", "across": "across", "over": "across", "down": "along"}
 """Preposition → way of who walks or drives over what has a deck."""
 _DENIED = ("on", "in", "inside", "on top of", "into", "onto")
-_FULL = ("full of", "filled with", "loaded with", "packed with")
+_AT_TOP, _TALL_M = ("on top of", "atop", "upon"), 4.0
+_FOOD = frozenset(
+    noun.name for kind in ("food", "helpings") for noun in FAMILIES[f"objects kitchen {kind}"]
+)
+"""In what no animal is."""
 _LEANT_ON = frozenset({"fence", "wall", "gate", "door", "railing", "car", "tree", "lamp post"})
 _GOALS = ("towards", "past")
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})

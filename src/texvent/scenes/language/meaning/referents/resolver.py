@@ -288,6 +288,7 @@ class Referents(Antecedents):
         is_plural = attributes.is_many or (meaning.is_plural and not is_one) or is_drinks
         names_one = head.text == noun and noun.endswith("s")  # "random dots", "scissors"
         is_plural = is_plural or (meaning.can_be_both and is_bare and not names_one)
+        is_plural &= attributes.is_many or not _is_one(group)
         said = name_kind(head) if meaning.is_substitute else None
         is_either = meaning.can_be_both and not attributes.is_many
         index = self._recall(group, noun, None if is_either else is_plural, attributes, said)
@@ -382,6 +383,12 @@ def name_kind(head: Word) -> str:
     return next((one.lemma for one in list_readings(last) if one.pos is Pos.NOUN), last)
 
 
+def _is_one(group: NounGroup) -> bool:
+    """As in "a persons hand"; "a car traffic lights" are two things without a comma."""
+    has_article = group.determiner is not None and group.determiner.text in ("a", "an")
+    return has_article and not any(one.pos is Pos.NOUN for one in group.modifiers)
+
+
 def find_head(group: NounGroup) -> Word:
     """Its head; the noun before it where the last word names nothing: "a fireworks finale"."""
     head = group.head_word
@@ -395,6 +402,6 @@ def find_head(group: NounGroup) -> Word:
     return group.head_word
 
 
-PAIRED = frozenset({"hand", "shoe", "boot", "sandal", "high heel", "ski", "glove", "sock"})
+PAIRED = frozenset({"hand", "shoe", "boot", "sandal", "high heel", "glove", "sock"})
 """Nouns of which a bare plural means two: "her boots"."""
 OWNERS = ("its", "their", "his", "her")
