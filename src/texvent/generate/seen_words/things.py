@@ -13,8 +13,8 @@ from texvent.generate.seen_words.positions import judge_together
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
 from texvent.scenes.evidence import MOST_COUNTED, is_to_move
 from texvent.scenes.language.meaning.capabilities import is_person
-from texvent.scenes.projection import project
 from texvent.scenes.language.vocabulary.acts import WEARABLE
+from texvent.scenes.projection import project
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS

@@ -17,8 +17,9 @@ _AT_EASE = frozenset({"stand", "sit", "talk", "laugh", "smile", "walk", "run", "
 """What people do who need no more room than their shoulders have."""
 _SHOULDERS_M, _BUSY_M = 0.56, 0.95
 """Room from shoulder to shoulder, and of who does something with the arms, m."""
-_CLOSE, _AHEAD, _ONE_ROW = 1.12, 0.75, 6
-"""From one to the next, in widths; how far one is ahead of the other, in lengths; most of a row."""
+_CLOSE, _AHEAD, _ONE_ROW, _FEW = 1.12, 0.75, 6, 3
+"""From one to the next, in widths; how far one is ahead of the other, in lengths; most
+people, and others, of a row."""
 _TO_CAMERA = 0.35
 """How far who faces another is turned to the camera, radians."""
 
@@ -72,7 +73,8 @@ def _stand_together(group: ObjectGroup) -> None:
         return
     cosine, sine = abs(math.cos(group.plan.yaw)), abs(math.sin(group.plan.yaw))
     across, deep = cosine * long + sine * wide, sine * long + cosine * wide
-    columns = count if count <= _ONE_ROW else math.ceil(count / 2)
+    most = _ONE_ROW if group.noun.name in PERSON_NOUNS else _FEW
+    columns = count if count <= most else math.ceil(count / 2)
     group.offsets = []
     for number in range(count):
         row, column = divmod(number, columns)

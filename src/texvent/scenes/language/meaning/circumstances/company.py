@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.description import STANDING
+from texvent.scenes.description import STANDING, TOGETHER
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.words.word import Word
@@ -67,6 +67,13 @@ def stand_together(draft: Draft, word: Word, subjects: Sequence[int]) -> bool:
 
     Copies of one object are set up where they are placed.
     """
+    alive = [index for index in subjects if is_living(draft.noun(index))]
+    if len(alive) == 1 < len(subjects):
+        # As in "two men in caps stand together": the caps do not.
+        item = draft.objects[alive[0]]
+        item.side, word.is_used = TOGETHER, item.count > 1
+        word.is_lost = not word.is_used
+        return True
     if len(subjects) > 1:
         before = len(draft.relations)
         word.is_used = draft.relate("beside", subjects[1:], subjects[:1])

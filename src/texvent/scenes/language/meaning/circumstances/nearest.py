@@ -9,7 +9,7 @@ from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.scope import Scope
 
-_DISHES = frozenset({"plate", "bowl", "tray", "frying pan", "pan", "pot", "cup", "mug", "glass",
+DISHES = frozenset({"plate", "bowl", "tray", "frying pan", "pan", "pot", "cup", "mug", "glass",
                      "basket", "box", "jar", "vase"})  # fmt: skip
 
 
@@ -41,7 +41,7 @@ def put_down(
         things: what it is on or in.
         loosely: relations of who is said to be "with" something, not to hold it.
     """
-    is_dish = draft.noun(things[0]).name in _DISHES
+    is_dish = draft.noun(things[0]).name in DISHES
     for number, relation in reversed([*enumerate(draft.relations)]):
         if relation not in loosely or not set(relation.targets) <= set(near):
             continue

@@ -11,7 +11,7 @@ from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.circumstances.company import gather, is_company, keep_company
 from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_followed
 from texvent.scenes.language.meaning.circumstances.fillings import FULL, fill
-from texvent.scenes.language.meaning.circumstances.nearest import has_nearest, put_down
+from texvent.scenes.language.meaning.circumstances.nearest import DISHES, has_nearest, put_down
 from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
 from texvent.scenes.language.meaning.circumstances.put import (
     CARRIES,
@@ -24,6 +24,7 @@ from texvent.scenes.language.meaning.circumstances.put import (
     take_out,
 )
 from texvent.scenes.language.meaning.circumstances.slopes import go_on_slope
+from texvent.scenes.language.meaning.circumstances.walked import WALKED, is_walked
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
@@ -91,9 +92,9 @@ class RelationReader:
             return True
         if word.text in ("up", "down", "facing"):
             return self._turn_or_climb(word, things, scope)
-        if self._is_walked(word, things, scope):
+        if is_walked(self._draft, word, things, scope):
             goers = find_slid(self._draft, word, things, scope) or scope.movers or scope.subjects
-            return self._relate("on", goers, things, _WALKED[word.text])
+            return self._relate("on", goers, things, WALKED[word.text])
         return kind is not None and self._read_kind(kind, word, things, scope)
 
     def _deny(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
@@ -110,7 +111,8 @@ class RelationReader:
         """A relation of the clause's subjects, or of what is acted on."""
         if self._is_beyond(kind, word, things, scope):
             return False
-        if kind == "on" and not scope.has_verb and self._draft.noun(things[0]).name in TABLES:
+        is_laid = self._draft.noun(things[0]).name in TABLES | DISHES
+        if kind in ("on", "in") and not scope.has_verb and is_laid:
             put_down(self._draft, scope.subjects, things, self._loosely_held)
         if kind == "above" and self._is_on_ground(scope.movers or scope.subjects):
             # As in "play badminton over a net": they stand at it, which "over" does not say.
@@ -253,19 +255,6 @@ class RelationReader:
             for index in subjects
         )
 
-    def _is_walked(self, word: Word, things: Sequence[int], scope: Scope) -> bool:
-        """As in "runs along a pier", "drives over a bridge": on it, unless it flies or floats."""
-        if find_slid(self._draft, word, things, scope):
-            return True
-        names = {self._draft.noun(index).name for index in things}
-        if word.text not in _WALKED or not names <= _DECKS:
-            return False
-        return all(
-            self._draft.noun(index).habitat == "ground"
-            and not any(one.kind in OFF_GROUND for one in self._draft.objects[index].motions)
-            for index in scope.movers or scope.subjects
-        )
-
     def _is_in_use(self, scope: Scope, things: Sequence[int]) -> bool:
         """As in "talks on her phone": the activity shows where it is."""
         motions = [one for index in scope.movers for one in self._draft.objects[index].motions[-1:]]
@@ -385,9 +374,6 @@ _BESIDES = ("beside", "next to", "near", "by", "behind", "in front of", "under",
 _ABOARD = ("behind", "in front of", "beside", "next to")
 _PERCHES = SEATS | {"branch", "shelf", "fence", "wall", "rock", "pier", "bridge"}
 """On what one is who watches or waves "from" it."""
-_DECKS = frozenset({"pier", "bridge"})
-_WALKED = {"along": "along", "across": "across", "over": "across", "down": "along"}
-"""Preposition → way of who walks or drives over what has a deck."""
 _DENIED = ("on", "in", "inside", "on top of", "into", "onto")
 _AT_TOP, _TALL_M = ("on top of", "atop", "upon"), 4.0
 _FOOD = frozenset(

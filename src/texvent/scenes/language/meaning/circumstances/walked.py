@@ -1,0 +1,28 @@
+"""What goes on something: "runs along a pier", "a ball rolls over the desk"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.language.meaning.circumstances.put import OFF_GROUND, find_slid
+from texvent.scenes.language.meaning.draft import Draft
+from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.words.word import Word
+
+_DECKS = frozenset({"pier", "bridge"})
+WALKED = {"along": "along", "across": "across", "over": "across", "down": "along"}
+"""Preposition → way of who walks or drives over what has a deck."""
+
+
+def is_walked(draft: Draft, word: Word, things: Sequence[int], scope: Scope) -> bool:
+    """As in "runs along a pier", "drives over a bridge": on it, unless it flies or floats."""
+    if find_slid(draft, word, things, scope):
+        return True
+    names = {draft.noun(index).name for index in things}
+    if word.text not in WALKED or not names <= _DECKS:
+        return False
+    return all(
+        draft.noun(index).habitat == "ground"
+        and not any(one.kind in OFF_GROUND for one in draft.objects[index].motions)
+        for index in scope.movers or scope.subjects
+    )
