@@ -23,5 +23,5 @@ def test_what_is_together_is_not_reported(prompt: str) -> None:
 
 
 def test_clothes_that_nobody_wears_are_reported() -> None:
-    shown = report_of("a man runs, a red helmet and a coat")
+    shown = report_of("Three people walk. Four helmets are there.")
     assert any("worn by nobody" in one for one in shown.not_shown)

@@ -46,7 +46,6 @@ def test_one_alone_is_not_together() -> None:
         ("a woman gazing past a vase on top of a shelf", ("vase", "on", "shelf")),
         ("a girl with a donut on a plate", ("donut", "on", "plate")),
         ("two girls stand around a boy with an umbrella", ("child", "hold", "umbrella")),
-        ("a lady on skis", ("woman", "ride", "ski")),
         ("a gull on the back of a cow", ("gull", "on", "cow")),
         ("a cat on the roof of a car", ("cat", "on", "car")),
         ("a desk filled with laptops", ("laptop", "on", "desk")),
@@ -60,8 +59,7 @@ def test_who_is_where(prompt: str, relation: tuple[str, str, str]) -> None:
 @pytest.mark.parametrize(
     ("prompt", "noun", "count"),
     [
-        ("two women on skis", "ski", 2),
-        ("a boy wearing skis", "ski", 1),
+        ("a boy holds skis", "ski", 1),
         ("a cows tail beside a gate", "cow", 1),
         ("one goat follows another", "goat", 1),
         ("a bottle of champagne", "bottle", 1),

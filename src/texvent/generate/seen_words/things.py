@@ -18,6 +18,7 @@ from texvent.scenes.projection import project
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.claims.bodies import gap, part_boxes
 
 LEAST_COLOURED, LEAST_DRESSED = 0.25, 0.12
 """Share of a thing's pixels that have the colour that is said of it; of a person's, who is dressed
@@ -62,6 +63,8 @@ _AT_FRONT = frozenset({"apron", "tie", "bow tie", "bib", "necklace", "medal"})
 """What is worn before the chest."""
 FRONT_COSINE, LEAST_FRONT_VIEWS = 0.5, 3
 """Cosine between a heading and the way to the camera of who is seen from the front; views."""
+AT_BODY_M = 0.05
+"""Gap up to which clothes are worn or held."""
 SIDE_COSINE = -0.1
 """The same from which on lamps of an end are seen: from the side, as glow."""
 _LAMP_ENDS = {"headlight": 1.0, "tail light": -1.0, "taillight": -1.0, "brake light": -1.0}
@@ -116,10 +119,14 @@ def _judge_garment(picture: Picture, description: SceneDescription, index: int) 
 
 
 def _lies_by_itself(picture: Picture, description: SceneDescription, index: int) -> bool:
-    """Whether clothes lie about that no relation names, where people are who may wear them."""
+    """Whether clothes lie about that no relation names, away from people who may wear them."""
     ends = {end for one in description.relations for end in (one.subject, *one.targets)}
-    people = [one for one in picture.scene.actors if is_person(one.noun)]
-    return bool(people) and index not in ends and description.objects[index].motion is None
+    if index in ends or is_to_move(index, description):
+        return False
+    actors = picture.scene.actors
+    people = [part_boxes(one, 0.0) for one in actors if is_person(one.noun)]
+    own = [part_boxes(one, 0.0) for one in actors if one.object_index == index]
+    return bool(people) and all(gap(one, body) > AT_BODY_M for one in own for body in people)
 
 
 def _judge_tool(description: SceneDescription, index: int) -> str | None:
