@@ -206,9 +206,8 @@ class RelationReader:
         own = near.things if near.is_things and not set(near.things) & {*scope.subjects} else []
         if own and self._is_nearer(phrase.preposition.text, own, things, scope):
             return Scope(own, [], has_verb=False)
-        if set(things) != set(scope.subjects):
-            return scope
-        if not near.is_things or set(near.things) == set(things):
+        is_of_subjects = set(things) == set(scope.subjects) and set(near.things) != set(things)
+        if not (is_of_subjects and near.is_things):
             return scope
         return Scope(near.things, [], has_verb=False)
 
