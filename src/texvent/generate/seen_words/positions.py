@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from texvent.generate.seen_words.picture import Picture, View
-from texvent.scenes.description import Claim, Relation
+from texvent.generate.seen_words.picture import USUAL, Picture, View
+from texvent.scenes.description import Claim, Relation, SceneDescription
+from texvent.scenes.evidence import is_to_move
+from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.claims.bodies import gap, part_boxes
@@ -18,6 +20,8 @@ LEAST_DEEPER = 0.5
 """Share of the instants at which it must be farther away."""
 APART = 0.5
 """Gap to the nearest copy from which on they are not together, as a share of their width."""
+AT_BODY_M = 0.05
+"""Gap up to which clothes are worn or held."""
 IN_FILE = 0.94
 """Cosine between the heading and the way to the next copy from which on they go in file."""
 
@@ -98,3 +102,33 @@ def _goes_behind(one: Actor, other: Actor, time_s: float) -> bool:
     yaw = one.trajectory.at(time_s).yaw
     along = abs(float(between @ np.array([np.cos(yaw), np.sin(yaw)])))
     return along > IN_FILE * float(np.linalg.norm(between))
+
+
+def judge_depth(picture: Picture, index: int, *, is_far: bool) -> str | None:
+    """What is in the background lies behind all other things in view, or is small."""
+    own, others = [], []
+    copies = [one for one, of in picture.scene.object_of.items() if of == index]
+    for number in USUAL:
+        view = picture.views[number]
+        mine = np.isin(view.instance, copies)
+        own += [float(np.median(view.depth[mine]))] if mine.any() else []
+        rest = (view.instance > 0) & ~mine
+        others += [float(np.median(view.depth[rest]))] if rest.any() else []
+    if not own:
+        return None
+    if not others:
+        return "nothing is before it" if is_far else None
+    if is_far:
+        return None if np.median(own) > np.median(others) else "not behind the others"
+    return None if np.median(own) < np.median(others) else "not before the others"
+
+
+def lies_by_itself(picture: Picture, description: SceneDescription, index: int) -> bool:
+    """Whether clothes lie about that no relation names, away from people who may wear them."""
+    ends = {end for one in description.relations for end in (one.subject, *one.targets)}
+    if index in ends or is_to_move(index, description):
+        return False
+    actors = picture.scene.actors
+    people = [part_boxes(one, 0.0) for one in actors if is_person(one.noun)]
+    own = [part_boxes(one, 0.0) for one in actors if one.object_index == index]
+    return bool(people) and all(gap(one, body) > AT_BODY_M for one in own for body in people)

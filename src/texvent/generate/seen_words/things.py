@@ -9,7 +9,7 @@ import numpy as np
 from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.materials import judge_material
 from texvent.generate.seen_words.picture import USUAL, Picture, View
-from texvent.generate.seen_words.positions import judge_together
+from texvent.generate.seen_words.positions import judge_depth, judge_together, lies_by_itself
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
 from texvent.scenes.evidence import MOST_COUNTED, is_to_move
 from texvent.scenes.language.meaning.capabilities import is_person
@@ -18,7 +18,6 @@ from texvent.scenes.projection import project
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
-from texvent.scenes.staging.claims.bodies import gap, part_boxes
 
 LEAST_COLOURED, LEAST_DRESSED = 0.25, 0.12
 """Share of a thing's pixels that have the colour that is said of it; of a person's, who is dressed
@@ -63,8 +62,6 @@ _AT_FRONT = frozenset({"apron", "tie", "bow tie", "bib", "necklace", "medal"})
 """What is worn before the chest."""
 FRONT_COSINE, LEAST_FRONT_VIEWS = 0.5, 3
 """Cosine between a heading and the way to the camera of who is seen from the front; views."""
-AT_BODY_M = 0.05
-"""Gap up to which clothes are worn or held."""
 SIDE_COSINE = -0.1
 """The same from which on lamps of an end are seen: from the side, as glow."""
 _LAMP_ENDS = {"headlight": 1.0, "tail light": -1.0, "taillight": -1.0, "brake light": -1.0}
@@ -109,24 +106,13 @@ def _judge_garment(picture: Picture, description: SceneDescription, index: int) 
         return "is shown as a shirt"
     if noun == "hoodie" and bearers:
         return "without a hood"
-    if noun in WEARABLE and not bearers and _lies_by_itself(picture, description, index):
+    if noun in WEARABLE and not bearers and lies_by_itself(picture, description, index):
         return "worn by nobody"
     if noun not in _AT_FRONT:
         return None
     wearers = [one for one in picture.scene.actors if one.instance in bearers]
     seen = [sum(_is_from_front(one, view) for view in picture.views) for one in wearers]
     return "seen from the side" if seen and max(seen) < LEAST_FRONT_VIEWS else None
-
-
-def _lies_by_itself(picture: Picture, description: SceneDescription, index: int) -> bool:
-    """Whether clothes lie about that no relation names, away from people who may wear them."""
-    ends = {end for one in description.relations for end in (one.subject, *one.targets)}
-    if index in ends or is_to_move(index, description):
-        return False
-    actors = picture.scene.actors
-    people = [part_boxes(one, 0.0) for one in actors if is_person(one.noun)]
-    own = [part_boxes(one, 0.0) for one in actors if one.object_index == index]
-    return bool(people) and all(gap(one, body) > AT_BODY_M for one in own for body in people)
 
 
 def _judge_tool(description: SceneDescription, index: int) -> str | None:
@@ -367,7 +353,7 @@ def _box(picture: Picture, view: View, instances: Sequence[int]) -> Float64Array
 def _judge_side(picture: Picture, description: SceneDescription, index: int) -> str | None:
     side = description.objects[index].side
     if side in ("far", "near"):
-        return _judge_depth(picture, index, is_far=side == "far")
+        return judge_depth(picture, index, is_far=side == "far")
     centres = [
         float(box.mean(axis=0)[0]) / picture.size.width
         for view in picture.views
@@ -382,25 +368,6 @@ def _judge_side(picture: Picture, description: SceneDescription, index: int) -> 
     middle = float(np.median(centres))
     low, high = _SIDES[side]
     return None if low <= middle <= high else f"not in the picture's {side}"
-
-
-def _judge_depth(picture: Picture, index: int, *, is_far: bool) -> str | None:
-    """What is in the background lies behind all other things in view, or is small."""
-    own, others = [], []
-    copies = copies_of(picture, index)
-    for number in USUAL:
-        view = picture.views[number]
-        mine = np.isin(view.instance, copies)
-        own += [float(np.median(view.depth[mine]))] if mine.any() else []
-        rest = (view.instance > 0) & ~mine
-        others += [float(np.median(view.depth[rest]))] if rest.any() else []
-    if not own:
-        return None
-    if not others:
-        return "nothing is before it" if is_far else None
-    if is_far:
-        return None if np.median(own) > np.median(others) else "not behind the others"
-    return None if np.median(own) < np.median(others) else "not before the others"
 
 
 def _judge_count(picture: Picture, description: SceneDescription, index: int) -> str | None:
