@@ -107,8 +107,18 @@ def hangs_on(subject: Actor, target: Actor, time_s: float) -> bool:
     return bool(is_up) and gap(own, other) <= _tolerance(own, other)
 
 
+_SHUT = frozenset(
+    {"suitcase", "handbag", "backpack", "briefcase", "chest", "treasure chest", "safe"}
+)
+
+
 def is_in(subject: Actor, target: Actor, time_s: float) -> bool:
-    """It is no larger than the target, over its ground, and partly below its rim."""
+    """It is no larger than the target, over its ground, and partly below its rim.
+
+    Nothing is in what has no opening.
+    """
+    if target.noun.name in _SHUT:
+        return False
     own, other = part_boxes(subject, time_s), part_boxes(target, time_s)
     (low, high), (base, top) = own.hull, other.hull
     size, room = high - low, top - base
