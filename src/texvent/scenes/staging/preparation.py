@@ -40,7 +40,7 @@ def prepare(
                 f"(the clip ends at {duration_s:g} s)"
             )
             missing.append(Unmet(text, motion=(number, said.index(motion))))
-    description = _line_up(_face_passages(description))
+    description = _shade(_line_up(_face_passages(description)))
     follows = any(move.kind == "follow" for move in description.shot.moves)
     if not follows or not description.objects:
         return description, missing
@@ -91,6 +91,23 @@ def _line_up(description: SceneDescription) -> SceneDescription:
             if objects[index].side is None:
                 objects[index] = replace(objects[index], side="row")
     return replace(description, objects=tuple(objects))
+
+
+def _shade(description: SceneDescription) -> SceneDescription:
+    """With parasols for umbrellas that nobody holds: over people, or on a beach."""
+    objects = list(description.objects)
+    relations = description.relations
+    held = {i for one in relations if one.kind in _IN_HANDS for i in one.targets}
+    over = {i for one in relations if one.kind == "under" for i in one.targets}
+    is_beach = description.surroundings.place in _BEACHES
+    for index, one in enumerate(objects):
+        if one.noun == "umbrella" and index not in held and (is_beach or index in over):
+            objects[index] = replace(one, noun="parasol")
+    return replace(description, objects=tuple(objects))
+
+
+_IN_HANDS = frozenset({"hold", "carry"})
+_BEACHES = frozenset({"sand"})
 
 
 def _moves_on(motion: ObjectMotion | None) -> bool:

@@ -6,11 +6,13 @@ import math
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.protocol import Model, Noun
 
 _MOST = 3
 _BESIDE = frozenset({"beside", "left of", "right of", "with"})
 """Relations that things side by side may have."""
 _TURNED_RAD = 0.4
+_STICK = 2.0
 _RESTS = frozenset({"stand", "hang", "sit", "lie", "work"})
 _CLOSER, _LARGEST = 2.0, 3.5
 """Things are brought closer in size from this ratio on, and by this factor at most."""
@@ -30,9 +32,22 @@ def is_still_life(description: SceneDescription) -> bool:
     )
 
 
-def front_yaw(yaw: float) -> float:
-    """Heading of what shows its front to the camera, which looks north, and some of its side."""
-    return -0.5 * math.pi + math.copysign(_TURNED_RAD, math.cos(yaw))
+def still_yaw(description: SceneDescription, noun: Noun, model: Model, yaw: float) -> float:
+    """Heading of a thing in a still life, else that which it has; the camera looks north.
+
+    What is long and thin lies across the view, so that it is seen whole: a bat, an open umbrella.
+    """
+    is_still = is_still_life(description)
+    is_long = model.length > _STICK * max(model.width, model.height) or noun.name in _FROM_SIDE
+    if is_long and noun.habitat == "fixed" and (is_still or len(description.objects) == 1):
+        return math.copysign(_TURNED_RAD, math.cos(yaw))
+    if is_still and description.shot.view == "front":
+        # Its front to the camera, and some of its side.
+        return -0.5 * math.pi + math.copysign(_TURNED_RAD, math.cos(yaw))
+    return yaw
+
+
+_FROM_SIDE = frozenset({"umbrella"})
 
 
 def enlarge_beside(size_m: float, largest_m: float) -> float:

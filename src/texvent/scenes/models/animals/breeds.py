@@ -164,13 +164,13 @@ _CATS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
                            second_colour=(0.42, 0.14, 0.02)), 1.0,
      ("orange tabby", "marmalade cat")),
     ("siamese", replace(CAT, colours=((0.70, 0.60, 0.46),), dark=(0.05, 0.03, 0.02),
-                        leg_colour=(0.05, 0.03, 0.02)), 1.0, ("siamese cat",)),
+                        leg_colour=(0.05, 0.03, 0.02), extras=None), 1.0, ("siamese cat",)),
     ("kitten", young(CAT), 0.55, ("kitty cat", "baby cat", "young cat")),
 )  # fmt: skip
 
 _BROWN_COW = replace(quadrupeds.COW, build=replace(quadrupeds.COW.build, patches=False))
-_BULL = replace(_BROWN_COW, colours=((0.05, 0.025, 0.015),), dark=(0.02, 0.015, 0.012),
-                build=replace(_BROWN_COW.build, thick=1.25, body=(1.85, 0.72, 0.90)))  # fmt: skip
+_BULL = replace(_BROWN_COW, extras=None, colours=((0.05, 0.025, 0.015),), dark=(0.02, 0.015, 0.012),
+                build=replace(_BROWN_COW.build, thick=1.35, body=(1.90, 0.78, 0.98)))  # fmt: skip
 _PONY = replace(HORSE, build=replace(
     HORSE.build, neck=0.50, body=(1.40, 0.52, 0.64), thick=1.35, shoulder=1.22, head=(0.36, 0.26)),
     colours=((0.42, 0.22, 0.08), (0.62, 0.58, 0.52)), dark=(0.66, 0.58, 0.42))  # fmt: skip
@@ -183,8 +183,8 @@ _PANTHER = replace(
 _LIONESS = replace(quadrupeds.LION, build=replace(quadrupeds.LION.build, mane=""))
 
 _OTHERS: tuple[tuple[str, Animal, float, tuple[str, ...]], ...] = (
-    ("calf", young(replace(quadrupeds.COW, colours=((0.45, 0.22, 0.09),)),
-                    dark=(0.30, 0.15, 0.07)),
+    ("calf", young(replace(quadrupeds.COW, extras=None, muzzle_colour=None,
+                           colours=((0.45, 0.22, 0.09),)), dark=(0.30, 0.15, 0.07)),
      0.55, ("baby cow",)),
     ("bull", _BULL, 1.1, ("ox", "steer")),
     ("foal", young(HORSE, dark=(0.06, 0.03, 0.02)), 0.58, ("colt", "filly", "baby horse")),

@@ -121,7 +121,7 @@ PANDA = replace(
 )  # fmt: skip
 KOALA = replace(
     BEAR, build=replace(BEAR.build, shoulder=0.42, body=(0.40, 0.30, 0.34), neck=0.05, rise=0.7,
-                        head=(0.27, 0.04), ear=(0.22, "wide"), stride=0.5, tail=(0.02, 0.0),
+                        head=(0.30, 0.03), ear=(0.25, "wide"), stride=0.5, tail=(0.02, 0.0),
                         thick=1.7),
     colours=((0.36, 0.35, 0.37),), dark=(0.03, 0.03, 0.03), muzzle_colour=None, face=big_nose,
     extras=pale_front((0.74, 0.72, 0.70)),
@@ -131,7 +131,7 @@ RACCOON = replace(
                        thick=1.4, body=(0.44, 0.23, 0.26), head=(0.16, 0.055), shoulder=0.30),
     colours=((0.30, 0.29, 0.27),), dark=(0.03, 0.03, 0.03), face=mask,
     leg_colour=(0.06, 0.055, 0.05), muzzle_colour=(0.62, 0.60, 0.56),
-    tail_ring=(0.03, 0.03, 0.03),
+    extras=None, tail_ring=(0.03, 0.03, 0.03),
 )  # fmt: skip
 RHINO = Animal(
     Build(1.65, (2.60, 1.05, 1.25), 0.30, 0.1, (0.52, 0.42), (0.55, -0.9), (0.18, "prick"),

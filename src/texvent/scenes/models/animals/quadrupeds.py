@@ -8,7 +8,14 @@ from functools import partial
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.animals.four_legged.animal import Animal, build_animal
 from texvent.scenes.models.animals.four_legged.build import Build
-from texvent.scenes.models.animals.four_legged.marks import cheeks, hump, snout, whiskers
+from texvent.scenes.models.animals.four_legged.marks import (
+    bib,
+    cheeks,
+    hump,
+    snout,
+    udder,
+    whiskers,
+)
 from texvent.scenes.models.materials import BLACK, WHITE
 from texvent.scenes.models.protocol import Noun
 
@@ -27,17 +34,19 @@ DOG = Animal(
 )
 CAT = Animal(
     Build(
-        0.27,
-        (0.40, 0.13, 0.14),
-        0.05,
-        0.75,
-        (0.135, 0.03),
+        0.26,
+        (0.36, 0.14, 0.155),
+        0.04,
+        0.80,
+        (0.170, 0.02),
         tail=(0.30, 1.15),
-        ear=(0.065, "prick"),
-        waist=0.85,
+        ear=(0.095, "prick"),
+        thick=1.3,
+        waist=0.88,
     ),
-    ((0.45, 0.22, 0.07), (0.20, 0.20, 0.21), (0.025, 0.025, 0.028)),
+    ((0.52, 0.25, 0.07), (0.30, 0.28, 0.26), (0.025, 0.025, 0.028)),
     face=whiskers,
+    extras=bib,
 )
 FOX = Animal(
     Build(
@@ -104,19 +113,23 @@ ZEBRA = Animal(
 )
 COW = Animal(
     Build(
-        1.35,
-        (1.75, 0.62, 0.74),
-        0.42,
-        0.35,
-        (0.36, 0.26),
-        tail=(0.80, -1.45),
-        ear=(0.16, "side"),
+        1.38,
+        (1.85, 0.72, 0.90),
+        0.34,
+        0.30,
+        (0.40, 0.34),
+        tail=(0.85, -1.45),
+        ear=(0.20, "side"),
         stride=1.7,
+        thick=1.25,
         horns="short",
         patches=True,
     ),
     (WHITE,),
-    dark=(0.55, 0.36, 0.30),
+    dark=(0.40, 0.22, 0.18),
+    muzzle_colour=(0.72, 0.46, 0.40),
+    ear_colour=(0.03, 0.03, 0.03),
+    extras=udder,
 )
 ELEPHANT = Animal(
     Build(

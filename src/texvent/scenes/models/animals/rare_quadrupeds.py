@@ -53,7 +53,7 @@ BADGER = replace(
     build=replace(CAT.build, tail=(0.14, 0.0), body=(0.55, 0.26, 0.26), ear=(0.03, "round"),
                   head=(0.16, 0.10), thick=1.5, neck=0.04, rise=0.3),
     colours=((0.36, 0.35, 0.33),), dark=(0.02, 0.02, 0.02), leg_colour=(0.03, 0.03, 0.03),
-    face=mask, muzzle_colour=(0.80, 0.79, 0.76),
+    face=mask, muzzle_colour=(0.80, 0.79, 0.76), extras=None,
 )  # fmt: skip
 RED_PANDA = replace(
     FOX,

@@ -147,7 +147,7 @@ THING_KINDS: dict[str, str] = {
     "shopping bag": "plastic bag, paper bag, grocery bag",
     "backpack": "mailbag",
     "suitcase": "baggage, travel bag",
-    "umbrella": "sunshade",
+    "parasol": "sunshade",
     "tie": "windsor tie, bolo tie, bow tie",
     "guitar": "lute, sitar",
     "ukulele": "banjo, mandolin",
@@ -162,7 +162,7 @@ THING_KINDS: dict[str, str] = {
     "accordion": "concertina, bandoneon",
     "speaker": "amplifier, subwoofer",
     "ball": """
-        toy, sports ball, sport ball, croquet ball, bouncy ball, rubber ball, exercise
+        toy, croquet ball, bouncy ball, rubber ball, exercise
         ball, gym ball""",
     "baseball": "softball, cricket ball",
     "tennis racket": "squash racket",

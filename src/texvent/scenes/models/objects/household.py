@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from itertools import pairwise
 
-import numpy as np
 
-from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.articulated_model import STANDING_POSES, ArticulatedModel
 from texvent.scenes.models.materials import (
     BLACK,
     CHROME,
@@ -30,10 +29,13 @@ from texvent.scenes.models.shapes import (
     limb,
     moved,
     peak,
+    plank,
     post,
     rod,
     shift,
     turn_x,
+    turn_y,
+    turn_z,
 )
 from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
@@ -193,16 +195,56 @@ def build_pendulum(*, colour: Colour | None, scale: float, seed: int) -> Articul
     return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
+_RESTS_RAD = math.atan(0.87)
+"""From the ground to the shaft of an open umbrella that lies on its rim and its handle."""
+
+
 def build_umbrella(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a large umbrella, 2.4 m, with a hooked handle; `colour` is its cloth."""
-    hue = paint(colour, seed, "cloth", (RED, YELLOW, (0.05, 0.2, 0.5)))
-    turns = np.linspace(0.0, -math.pi, 5)
-    hook = [(0.22 * math.cos(a) - 0.22, 0.0, 0.22 * math.sin(a) + 0.28) for a in map(float, turns)]
+    """Make an open umbrella for the hand, 0.9 m; `colour` is its cloth.
+
+    It lies on its rim and its handle; carried ("move") its shaft is upright.
+    """
+    hue = paint(colour, seed, "cloth", (RED, (0.05, 0.2, 0.5), YELLOW))
+    cloth, other, rib = Material(hue), Material(shade(hue, 0.72)), Material(shade(hue, 0.4))
+    dome = [(0.62, 0.52), (0.73, 0.45), (0.82, 0.29), (0.86, 0.08)]
     parts = [
-        post(DARK, (0.0, 0.0, 1.30), (0.05, 0.05, 2.20)),
-        *(limb(WOOD, start, end, 0.06) for start, end in pairwise(hook)),
-        peak(Material(hue), (0.0, 0.0, 2.09), (2.60, 2.60, 0.66)),
-        post(Material(shade(hue, 0.6)), (0.0, 0.0, 1.76), (2.56, 2.56, 0.04)),
+        rod(STEEL, (0.0, 0.0, 0.08), (0.0, 0.0, 0.93), 0.010),
+        *(limb(WOOD, start, end, 0.018) for start, end in (
+            ((0.0, 0.0, 0.16), (0.0, 0.0, 0.05)), ((0.0, 0.0, 0.05), (0.0, 0.04, 0.015)),
+            ((0.0, 0.04, 0.015), (0.0, 0.08, 0.05)))),
+    ]  # fmt: skip
+    for index in range(8):
+        start, end = (math.tau * (index + k) / 8.0 for k in (0.0, 1.0))
+        middle = 0.5 * (start + end)
+        for (low, wide), (high, slim) in itertools.pairwise(dome):
+            across = wide * 2.1 * math.sin(math.pi / 8.0)
+            foot = (wide * math.cos(middle), wide * math.sin(middle), low)
+            tip = (slim * math.cos(middle), slim * math.sin(middle), high)
+            chord = (-across * math.sin(middle), across * math.cos(middle), 0.0)
+            parts.append(
+                plank(other if index % 2 else cloth, foot, tip, chord=chord,
+                      thickness=(0.008 * math.cos(middle), 0.008 * math.sin(middle), 0.008))
+            )  # fmt: skip
+            ends = [(r * math.cos(start), r * math.sin(start), z) for z, r in
+                    ((low, wide), (high, slim))]  # fmt: skip
+            parts.append(rod(rib, ends[0], ends[1], 0.009))
+    parts.append(ball(cloth, (0.0, 0.0, 0.86), (0.2, 0.2, 0.03)))
+    laid = moved(parts, compose(turn_z(-0.9), turn_y(0.5 * math.pi - _RESTS_RAD)))
+
+    def articulate(pose: Pose) -> list[ModelPart]:
+        return parts if pose.activity == "move" else laid
+
+    return ArticulatedModel([], scale=scale, articulate=articulate, poses=STANDING_POSES)
+
+
+def build_parasol(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+    """Make a garden umbrella, 2.4 m; `colour` is its cloth."""
+    hue = paint(colour, seed, "cloth", (RED, YELLOW, (0.05, 0.2, 0.5)))
+    parts = [
+        post(DARK, (0.0, 0.0, 0.04), (0.50, 0.50, 0.08)),
+        post(WOOD, (0.0, 0.0, 1.20), (0.06, 0.06, 2.40)),
+        peak(Material(hue), (0.0, 0.0, 2.12), (2.60, 2.60, 0.56)),
+        post(Material(shade(hue, 0.6)), (0.0, 0.0, 1.80), (2.56, 2.56, 0.08)),
         ball(Material(WHITE), (0.0, 0.0, 2.41), (0.10, 0.10, 0.10)),
     ]
     return ArticulatedModel(parts, scale=scale)
@@ -216,5 +258,10 @@ NOUNS = (
     fixed_noun("candle", build_candle, ("candle flame", "burning candle", "lit candle")),
     working_noun("fan", build_fan, ("electric fan", "table fan")),
     working_noun("pendulum", build_pendulum, (), ("pendula",)),
-    fixed_noun("umbrella", build_umbrella, ("parasol",)),
+    fixed_noun("umbrella", build_umbrella),
+    fixed_noun(
+        "parasol",
+        build_parasol,
+        ("beach umbrella", "patio umbrella", "garden umbrella", "sun umbrella", "table umbrella"),
+    ),
 )

@@ -148,7 +148,14 @@ def _stretch_z(factor: float) -> Affine:
 
 NOUNS = (
     Noun("ball", partial(build_ball, BEACH_BALL), "ground", 2.0, "roll", ("beach ball",)),
-    Noun("football", partial(build_ball, FOOTBALL), "ground", 4.0, "roll", ("soccer ball",)),
+    Noun(
+        "football",
+        partial(build_ball, FOOTBALL),
+        "ground",
+        4.0,
+        "roll",
+        ("soccer ball", "sports ball", "sport ball"),
+    ),
     Noun("basketball", partial(build_ball, BASKETBALL), "ground", 3.0, "roll"),
     Noun("tennis ball", partial(build_ball, TENNIS_BALL), "ground", 5.0, "roll"),
     Noun("balloon", build_balloon, "air", 0.4, "float"),

@@ -247,7 +247,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
         "skate": (Prop("ground", _board((0.86, 0.22, 0.03), _LEATHER, True), ("skateboard",)),),
         "snowboard": (Prop("ground", _board((1.5, 0.28, 0.04), Material(BLUE)), ("snowboard",)),),
         "ski": (
-            Prop("ground", _SKIS, ("ski",)),
+            Prop("ground", _SKIS, ("ski",), is_own=True),
             Prop("right hand", _POLE),
             Prop("left hand", _LEFT_POLE),
         ),

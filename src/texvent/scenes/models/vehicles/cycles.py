@@ -53,7 +53,12 @@ def build_bicycle(
         rod(frame, (-0.54, 0.0, 0.34), crank, 0.022),
         rod(frame, (-0.54, 0.0, 0.34), (-0.19, 0.0, 0.78), 0.020),
         rod(frame, (0.54, 0.0, 0.34), (0.36, 0.0, 0.96), 0.026),
-        rod(DARK, (grip[0], -0.26, grip[2]), (grip[0], 0.26, grip[2]), 0.022),
+        rod(STEEL, (0.36, 0.0, 0.93), (grip[0], 0.0, grip[2]), 0.024),
+        rod(STEEL, (grip[0], -0.26, grip[2]), (grip[0], 0.26, grip[2]), 0.018),
+        *(
+            rod(DARK, (grip[0], 0.14 * s, grip[2]), (grip[0], 0.27 * s, grip[2]), 0.024)
+            for s in (1.0, -1.0)
+        ),
         ball(DARK, (-0.24, 0.0, 0.91), (0.28, 0.15, 0.08)),
     ]
     if rider is not None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -12,6 +14,7 @@ from texvent.scenes.models.shapes import (
     Point,
     box,
     compose,
+    limb,
     moved,
     rod,
     shift,
@@ -34,7 +37,7 @@ def car_wheels(wheels: Iterable[Wheel], distance: float) -> list[ModelPart]:
 
 
 def spoked_wheels(wheels: Iterable[Wheel], distance: float) -> list[ModelPart]:
-    """Thin discs that look like rims with spokes, for cycles, turned by a distance, m."""
+    """Thin tyres on spokes, for cycles, turned by a distance travelled, m."""
     return [part for wheel in wheels for part in rolled(_cycle_wheel(wheel), wheel, distance)]
 
 
@@ -71,15 +74,27 @@ def _disc_wheel(wheel: Wheel) -> list[ModelPart]:
     ]
 
 
+_RIM_PIECES, _SPOKES = 18, 8
+
+
 def _cycle_wheel(wheel: Wheel) -> list[ModelPart]:
-    """A tyre, the air between its spokes, and a dark cross."""
-    radius, width = wheel.radius, wheel.width
-    half = 0.5 * width
-    spoke = 0.03 * radius + 0.006
-    air = Material((0.30, 0.31, 0.32))
+    """A tyre and its rim, thin spokes and a hub; one sees through between them."""
+    radius, half = wheel.radius, 0.5 * wheel.width
+    around = [2.0 * math.pi * k / _RIM_PIECES for k in range(_RIM_PIECES + 1)]
+
+    def hoop(skin: Material, far: float, thick: float, wide: float) -> list[ModelPart]:
+        spots = [(far * math.cos(a), 0.0, far * math.sin(a)) for a in around]
+        return [
+            limb(skin, start, end, thick, side_radius=wide)
+            for start, end in itertools.pairwise(spots)
+        ]
+
+    spokes = [math.pi * k / _SPOKES for k in range(_SPOKES)]
+    thin, reach = 0.012 * radius + 0.002, 0.90 * radius
     return [
-        rod(RUBBER, (0.0, -half, 0.0), (0.0, half, 0.0), radius),
-        rod(air, (0.0, -half - 0.002, 0.0), (0.0, half + 0.002, 0.0), 0.86 * radius),
-        box(DARK, (0.0, 0.0, 0.0), (1.72 * radius, width + 0.01, 2.0 * spoke)),
-        box(DARK, (0.0, 0.0, 0.0), (2.0 * spoke, width + 0.01, 1.72 * radius)),
-    ]
+        *hoop(RUBBER, 0.94 * radius, 0.06 * radius, half),
+        *hoop(CHROME, 0.87 * radius, 0.03 * radius, 0.7 * half),
+        rod(DARK, (0.0, -half, 0.0), (0.0, half, 0.0), 0.12 * radius),
+        *(rod(CHROME, (-reach * math.cos(a), 0.0, -reach * math.sin(a)),
+              (reach * math.cos(a), 0.0, reach * math.sin(a)), thin) for a in spokes),
+    ]  # fmt: skip

@@ -41,13 +41,16 @@ class HeldAt:
     is_upright: bool = False
     """Whether it stays upright, facing as its holder does."""
     activity: str = "stand"
+    turns: bool = True
+    """Whether its axes turn with its holder, where it is upright."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         axes = self.holder.anchor(self.anchor, time_s)
         holder = self.holder.trajectory.at(time_s)
         if self.is_upright:
-            axes = np.column_stack([rotation(holder.yaw, 0.0, 0.0), axes[:, 3]])
+            yaw = holder.yaw if self.turns else 0.0
+            axes = np.column_stack([rotation(yaw, 0.0, 0.0), axes[:, 3]])
         state = state_of(compose(axes, self.offset))
         return replace(
             state,
@@ -55,6 +58,24 @@ class HeldAt:
             speed_m_s=holder.speed_m_s,
             activity=self.activity,
         )
+
+
+@dataclass(frozen=True)
+class Swaying:
+    """To and fro in the wind about where another trajectory has it, as a kite."""
+
+    path: Trajectory
+    aside_m: float = 0.28
+    up_m: float = 0.14
+    roll_rad: float = 0.30
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        state = self.path.at(time_s)
+        x, y, z = state.position
+        side, rise = math.sin(2.6 * time_s), math.sin(4.1 * time_s + 0.7)
+        place = (x + self.aside_m * side, y, z + self.up_m * rise)
+        return replace(state, position=place, roll=state.roll + self.roll_rad * side)
 
 
 _UPRIGHT = 0.7

@@ -29,8 +29,8 @@ class Hold:
     style: str
     """"tool" (along what the right hand holds), "upright" (in the raised right hand), "hanging"
     (from a hand at the side), "front" (in both arms), "string" (floats above the hand),
-    "kite" (flies above), "page" (flat before the chest), "guitar", "mouth", or the name of a
-    place it is worn at."""
+    "kite" (flies above), "glove" (on the left hand), "page" (flat before the chest), "guitar",
+    "mouth", or the name of a place it is worn at."""
     activity: str | None = None
     """What a person who only stands does with it."""
 
@@ -59,6 +59,7 @@ HOLDS: Mapping[str, Hold] = MappingProxyType(
         **{noun: Hold("tool") for noun in _TOOLS},
         **{noun: Hold("upright") for noun in _UPRIGHTS},
         **{noun: Hold("hanging") for noun in _HANGING},
+        "baseball glove": Hold("glove"),
         "balloon": Hold("string"),
         "hot air balloon": Hold("kite"),
         "kite": Hold("kite"),
@@ -112,14 +113,13 @@ IN_ITS_COLOUR = frozenset({"shirt", "jacket", "coat", "dress", "robe", "sweater"
                            "wetsuit", "suit", "pyjamas"})  # fmt: skip
 """Those of them that give their colour to the shirt."""
 
-HELD_SCALE: Mapping[str, float] = MappingProxyType(
-    {"umbrella": 0.5, "flag": 0.3, "sign": 0.45, "branch": 0.75}
-)
+HELD_SCALE: Mapping[str, float] = MappingProxyType({"flag": 0.3, "sign": 0.45, "branch": 0.75})
 """Noun → size of what is carried relative to what stands on the ground."""
 LARGE_M = 0.36
 """What is larger is held in both arms."""
 _RAISED: Vector = (0.30, -0.24, 1.16)
 """Right hand of who holds something up, adult's body coordinates."""
+_GLOVED: Vector = (0.30, 0.22, 1.22)
 _UP_HIGH: Vector = (0.24, -0.24, 1.55)
 
 
@@ -179,26 +179,50 @@ def place_in_hold(hold: Hold, holder: Actor, thing: Actor) -> tuple[str, Affine,
         return "right hand", along_tool(thing, lift), False, grips
     if hold.style == "page":
         return _page(size, model, lift)
-    if hold.style == "guitar":
-        return "torso", _guitar(size), False, ()
+    if hold.style in ("guitar", "glove"):
+        return _guitar(size) if hold.style == "guitar" else _on_left_hand(size)
     if hold.style == "upright":
-        grip = _UP_HIGH if thing.noun.name in ("flag", "sign", "torch") else _RAISED
-        low = 0.16 * model.height if thing.noun.name == "umbrella" else 0.0
-        low = low or min(0.35 * model.height, 0.06)
-        x = 0.5 * model.length if model.height < 1.6 * model.length else 0.0
-        offset = _shifted(min(x, 0.06), 0.0, lift - low)
-        return "right hand", offset, True, (("right hand", _scaled(grip, size)),)
+        return _upright(holder, thing, size, lift)
     if hold.style == "hanging":
         return "right hand", _shifted(0.0, 0.0, lift - model.height + 0.02), True, ()
     if hold.style in ("string", "kite"):
         grips = (("right hand", _scaled(_UP_HIGH if hold.style == "kite" else _RAISED, size)),)
-        return "right hand", _fly(hold.style, model, lift), True, grips
+        return "right hand", _fly(hold.style, holder, lift), True, grips
     if hold.style == "mouth":
         drop = 0.0 if thing.is_centred else -0.5 * model.height
         return "mouth", _shifted(0.35 * model.length, 0.0, drop), False, ()
     if hold.style == "front":
         return _hold_in_front(holder, thing, size, lift)
     return hold.style, _shifted(0.0, 0.0, lift), False, ()
+
+
+def _upright(
+    holder: Actor, thing: Actor, size: float, lift: float
+) -> tuple[str, Affine, bool, Grips]:
+    """In the raised right hand, upright."""
+    model = thing.model
+    grip = _UP_HIGH if thing.noun.name in ("flag", "sign", "torch") else _RAISED
+    low = min(0.35 * model.height, 0.06)
+    if thing.noun.name == "umbrella":
+        low = _CROOK_M
+    elif holder.trajectory.at(0.0).activity == "drink":
+        low = _RIM * model.height
+    x = 0.5 * model.length if model.height < 1.6 * model.length else 0.0
+    offset = _shifted(min(x, 0.06), 0.0, lift - low)
+    return "right hand", offset, True, (("right hand", _scaled(grip, size)),)
+
+
+def _on_left_hand(size: float) -> tuple[str, Affine, bool, Grips]:
+    """A glove upright on the raised left hand, its pocket ahead."""
+    turn = rotation(0.0, 0.5 * math.pi, 0.0)
+    offset = np.column_stack([turn, np.array([0.0, 0.0, 0.08])])
+    return "left hand", offset, True, (("left hand", _scaled(_GLOVED, size)),)
+
+
+_RIM = 0.8
+"""Share of its height at which one holds what one drinks from, so that its rim is at the mouth."""
+_CROOK_M = 0.12
+"""From the end of an umbrella's handle to the hand, m."""
 
 
 def _hold_in_front(
@@ -227,13 +251,17 @@ def _hold_in_front(
     return "ground", offset, True, grips
 
 
-def _fly(style: str, model: Model, lift: float) -> Affine:
-    """Above the hand at the end of a string."""
+def _fly(style: str, holder: Actor, lift: float) -> Affine:
+    """Above the hand at the end of a string; a kite shows its face to the camera's side.
+
+    It trails behind who goes on, and is beside who stands; along the axes of the world.
+    """
     if style == "string":
         return _shifted(0.0, 0.0, lift - 0.02)
-    return np.column_stack(
-        [rotation(0.5 * math.pi - 0.3, 0.0, 0.0), np.array([-1.1, 0.3, 0.8 + lift])]
-    )
+    yaw = holder.trajectory.at(0.0).yaw
+    along = (-math.cos(yaw), -math.sin(yaw)) if holder.is_mover else (1.0, 0.2)
+    place = np.array([1.1 * along[0], 1.1 * along[1], 0.9 + lift])
+    return np.column_stack([rotation(0.3 - 0.5 * math.pi, 0.0, 0.0), place])
 
 
 def _shifted(x: float, y: float, z: float) -> Affine:
@@ -313,6 +341,7 @@ def _page(size: float, model: Model, lift: float) -> tuple[str, Affine, bool, Gr
     return "ground", np.column_stack([turn, place]), True, grips
 
 
-def _guitar(size: float) -> Affine:
+def _guitar(size: float) -> tuple[str, Affine, bool, Grips]:
     """Across the chest, the neck up to the left hand."""
-    return np.column_stack([rotation(0.0, 0.0, -1.05), size * np.array([0.20, -0.42, -0.08])])
+    place = size * np.array([0.20, -0.42, -0.08])
+    return "torso", np.column_stack([rotation(0.0, 0.0, -1.05), place]), False, ()

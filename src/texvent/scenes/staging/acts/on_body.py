@@ -15,7 +15,7 @@ from texvent.scenes.models.animals.four_legged.clothing import (
     wears_on_trunk,
 )
 from texvent.scenes.staging.actors import Actor, Tether
-from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
+from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed, Swaying
 from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged
 from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.acts.holding import (
@@ -29,7 +29,7 @@ from texvent.scenes.staging.acts.holding import (
     place_in_hold,
     size_of,
 )
-from texvent.scenes.staging.trajectories.trajectory import Vector
+from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector
 
 
 @dataclass(frozen=True)
@@ -141,12 +141,14 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         subject = replace(subject, trajectory=Performed(subject.trajectory, None, grips))
     if is_person(subject) and not busy and way.activity and not subject.is_mover:
         subject = replace(subject, trajectory=Performed(subject.trajectory, way.activity))
-    held = HeldAt(subject, anchor, offset, is_upright, "move" if way.style == "kite" else "stand")
-    target = _carried(target, held, subject)
-    if way.style == "kite":
+    is_kite = way.style == "kite"
+    activity = "move" if is_kite or target.noun.name == "umbrella" else "stand"
+    held = HeldAt(subject, anchor, offset, is_upright, activity, turns=not is_kite)
+    target = _carried(target, Swaying(held) if is_kite else held, subject)
+    if is_kite:
         target = replace(target, tether=Tether(subject, "right hand", (0.0, 0.0, 0.0), 0.008))
     return subject, target
 
 
-def _carried(target: Actor, held: HeldAt, holder: Actor) -> Actor:
+def _carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:
     return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0, extras=())

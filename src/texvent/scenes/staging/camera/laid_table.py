@@ -28,7 +28,7 @@ def list_laid(description: SceneDescription, nouns: Mapping[int, Noun]) -> froze
         nouns: of its objects that are staged, by their index.
     """
     objects = description.objects
-    tops = {n for n in nouns if objects[n].noun in _TOPS}
+    tops = {n for n, one in enumerate(objects) if one.noun in _TOPS}
     laid: set[int] = set()
     for _ in objects:  # a cake on a plate on a table
         laid |= {

@@ -10,6 +10,7 @@ import numpy as np
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.placement.at_wall import list_at_wall
+from texvent.scenes.staging.placement.plating import DISHES
 from texvent.scenes.staging.still_life import is_still_life
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
@@ -80,6 +81,7 @@ def choose_angles(
     is_in_sky = view == "high" and any(one.kind in _IN_SKY for one in description.effects)
     if elevation is None or is_in_sky:
         elevation = _choose_elevation(main, follow, place, goes_in_depth)
+        elevation = max(elevation, _into_dish(description, main.object_index))
         if said.count >= _HERD or is_jammed:
             elevation = max(elevation, _HERD_ELEVATION) if elevation > 0.0 else elevation
     return azimuth, elevation
@@ -89,6 +91,18 @@ def level_out(description: SceneDescription, elevation: float) -> float:
     """A front, side or rear view does not look down steeply, on what lies flat neither."""
     is_level = description.shot.view in ("front", "side", "back")
     return min(elevation, _LEVEL_ELEVATION) if is_level else elevation
+
+
+_INTO_DISH = 0.55
+"""Elevation from which one sees what is in a bowl."""
+
+
+def _into_dish(description: SceneDescription, index: int) -> float:
+    """Least elevation for a bowl, a tray or a pan that something is in, else nothing to heed."""
+    is_filled = description.objects[index].noun in DISHES and any(
+        one.kind in ("in", "on") and one.targets == (index,) for one in description.relations
+    )
+    return _INTO_DISH if is_filled else -math.inf
 
 
 def _choose_elevation(

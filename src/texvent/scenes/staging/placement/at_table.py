@@ -33,7 +33,7 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     Args:
         group: the people; they sit unless what they do is done standing.
         target: the table, or several that they share out.
-        neighbours: indices of all objects at the table.
+        neighbours: indices of all objects at the table, one for each copy.
 
     Returns:
         [3] the middle of the group, m.
@@ -41,8 +41,8 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     doing = _sit_doing(group)
     scale = float(getattr(group.models[0], "scale", 1.0))
     count, tables = len(group.models), len(target.offsets)
-    first = count * neighbours.index(group.index)
-    whole = math.ceil(count * len(neighbours) / tables)
+    first = neighbours.index(group.index)
+    whole = math.ceil(len(neighbours) / tables)
     edge_m, lift = (_STANDING_M, 0.0) if doing is None else (_KNEES_M, _lift(scale))
     places = list_places(target.models[0], target.plan.yaw, whole, edge_m * scale)
     group.offsets, group.yaws = [], []

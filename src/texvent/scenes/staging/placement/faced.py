@@ -111,7 +111,7 @@ def hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     Args:
         group: flat things; they get the target's heading.
         target: what they hang on.
-        neighbours: indices of all objects there, which share its width.
+        neighbours: indices of all objects there, one for each copy, which share its width.
 
     Returns:
         [3] the middle of the group, m.
@@ -129,7 +129,7 @@ def hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
         for shift in (step * (n - 0.5 * (count - 1)) for n in range(count))
     ]
     group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
-    share = (neighbours.index(group.index) + 0.5) / len(neighbours) - 0.5
+    share = (neighbours.index(group.index) + 0.5 * len(group.offsets)) / len(neighbours) - 0.5
     out, along = 0.5 * (face.length + model.length), -share * face.width
     middle = min(_EYE_M, face.height - 0.5 * model.height - _UNDER_TOP_M)
     if target.noun.name in _FACADES:

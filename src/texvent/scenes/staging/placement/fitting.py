@@ -9,6 +9,7 @@ from dataclasses import replace
 from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS, SEATS
+from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.placement.contents import is_stem
 from texvent.scenes.staging.placement.faced import hang_clocks
@@ -98,6 +99,7 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
     description = hang_clocks(description, nouns)
     objects = list(_lower_trees(description, nouns))
     worn = {i for one in description.relations if one.kind == "wear" for i in one.targets}
+    tasted = _list_at_mouth(description)
     sizes = [extent(one, nouns) for one in objects]
     is_alone = is_still_life(description)
     for index, (one, size) in enumerate(zip(objects, sizes, strict=True)):
@@ -112,13 +114,27 @@ def enlarge_small(description: SceneDescription, nouns: Mapping[str, Noun]) -> S
             objects[index] = replace(one, scale=one.scale * enlarge_beside(size, max(sizes)))
             continue
         most = _LARGER_BALL if noun.name in _BY_HAND else _LARGER
-        most = _LARGER_WORN if index in worn else _LARGER_BIRD if is_bird else most
+        most = _LARGER_WORN if index in worn | tasted else _LARGER_BIRD if is_bird else most
         goal_m = _SMALL_BIRD_M if is_bird else _SMALL_M
         if noun.name in _BY_HAND and "ball" in noun.name:
             most, goal_m = _LARGER_SMALL_BALL, _BALL_M
         factor = min(max(goal_m / size, 1.0), most)
         objects[index] = replace(one, scale=one.scale * factor)
     return replace(description, objects=tuple(objects))
+
+
+def _list_at_mouth(description: SceneDescription) -> set[int]:
+    """Objects that go to somebody's mouth; larger they would hide the face."""
+    objects = description.objects
+    nouns = {
+        noun for one in objects for motion in (one.motion, *one.then)
+        if motion is not None and motion.kind in _AT_MOUTH
+        for prop in PROPS.get(motion.kind, ()) for noun in prop.nouns
+    }  # fmt: skip
+    return {index for index, one in enumerate(objects) if one.noun in nouns}
+
+
+_AT_MOUTH = frozenset({"drink", "eat", "eat plate", "eat slice", "phone", "sing"})
 
 
 _LOWERED = {**dict.fromkeys(("tree", "pine", "palm", "ramp", "slide"), 0.4), "house": 0.75}

@@ -51,7 +51,7 @@ from texvent.scenes.staging.placement.spatial_relations import (
     side_offset,
 )
 from texvent.scenes.staging.placement.tabletop import is_added
-from texvent.scenes.staging.still_life import front_yaw, is_still_life
+from texvent.scenes.staging.still_life import is_still_life, still_yaw
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
 from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
@@ -155,8 +155,7 @@ class ObjectPlacer:
         if is_curved and noun.motion == "drive" and plan.is_path:
             path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
             plan = replace(plan, path=path, yaw=path.yaw)
-        if self._description.shot.view == "front" and is_still_life(self._description):
-            plan = replace(plan, yaw=front_yaw(plan.yaw))
+        plan = replace(plan, yaw=still_yaw(self._description, noun, models[0], plan.yaw))
         offsets = place_copies(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
         group = ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
@@ -212,6 +211,7 @@ class ObjectPlacer:
                     other.subject
                     for other in self._description.relations
                     if other.kind == relation.kind and other.targets == relation.targets
+                    for _ in range(self._description.objects[other.subject].count)
                 ]
                 return place_on_targets(group, relation.kind, targets, height, shared)
         for relation in related:
@@ -297,7 +297,8 @@ class ObjectPlacer:
                 reach = step * attempt
             # To either side, but always nearer or always further away.
             way = np.array([reach, abs(reach), reach])
-            ways = [slide, _BEFORE] if slide[1] < 0.0 != slide[0] else [slide]
+            may_go_before = slide[1] < 0.0 != slide[0] and not is_still_life(self._description)
+            ways = [slide, _BEFORE] if may_go_before else [slide]
             for centre in (wanted + way * one for one in ways):
                 if not any(overlap(centre, group, other) for other in self.groups.values()):
                     return np.asarray(centre)

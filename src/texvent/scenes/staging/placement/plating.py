@@ -25,6 +25,11 @@ HELPINGS = frozenset(
     for noun in FAMILIES[f"objects kitchen {family}"]
 ) | {"bacon", "french fries", "roast chicken", "shrimp", "chocolate bar", "candle"}
 """Nouns of food, and what stands on cakes."""
+_WITHOUT_DISH = {
+    "noodles": "helping of noodles", "soup": "helping of soup", "salad": "helping of salad",
+    "pancake": "helping of pancakes", "steak": "helping of steak", "meal": "food",
+}  # fmt: skip
+"""Food that comes in a dish of its own → the same on another dish."""
 _ROOM = {1: 1.45, 2: 1.02, 3: 0.94, 4: 0.84, 5: 0.70, 6: 0.66}
 """Things on a dish → how long one is, in radii of the dish."""
 _LEAST_ROOM = 0.52
@@ -57,6 +62,9 @@ def dish_up(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDe
         count = sum(objects[i].count for i in on)
         if dish.noun not in DISHES or dish.count != 1 or not count:
             continue
+        for i in on:
+            plain = _WITHOUT_DISH.get(objects[i].noun, objects[i].noun)
+            objects[i] = replace(objects[i], noun=plain)
         wider = 1.0 if dish.noun == "cake" else _WIDER.get(count, _WIDEST)
         objects[index] = replace(dish, scale=dish.scale * wider)
         body = _model(objects[index], nouns)
@@ -161,14 +169,14 @@ def lay_on_dish(
         group: the food; its offsets change.
         target: the dish.
         top_m: height of the dish's surface over its foot, m.
-        neighbours: how many kinds of things are on it.
+        neighbours: how many things are on it.
 
     Returns:
         [3] the middle of the group, m.
     """
     own, before = len(group.models), target.laden
     target.laden += own
-    count = max(own * neighbours, target.laden)
+    count = max(neighbours, target.laden)
     radius = 0.5 * min(target.models[0].length, target.models[0].width)
     group.offsets = [_spot(number, count, radius) for number in range(before, before + own)]
     group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
@@ -181,7 +189,8 @@ def _spot(number: int, count: int, radius: float) -> tuple[float, float, float]:
     if count == 1:
         return (0.0, 0.0, 0.0)
     if count <= _CROWD:
-        far, angle = 0.5 * radius, 2.0 * math.pi * (number + 0.15) / count
+        far = (0.5 if count <= 4 else 0.6) * radius
+        angle = 2.0 * math.pi * (number + 0.15) / count
     else:
         far = 0.68 * radius * math.sqrt((number + 0.5) / count)
         angle = math.pi * (3.0 - math.sqrt(5.0)) * number

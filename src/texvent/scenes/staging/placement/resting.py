@@ -53,7 +53,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     Args:
         group: what rests; people who sit or lie take that posture and the target's heading.
         target: what it rests on; where that moves, it carries the group along.
-        neighbours: indices of all objects on the target: each takes its part of the row.
+        neighbours: indices of all objects on the target, one for each copy: its part of the row.
 
     Returns:
         [3] the middle of the group, m.
@@ -116,9 +116,8 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> F
     if is_person or target.noun.habitat == "ground":
         return _sink(group, target, rest_on(group, target, neighbours))
     if group.noun.habitat == "fixed" and len(target.models) == 1 and not _is_shelf(target):
-        own = len(group.offsets)
-        first, count = own * neighbours.index(group.index), own * len(neighbours)
-        low = pack(group, target, _rim_of(target), first, count)
+        first = neighbours.index(group.index)
+        low = pack(group, target, _rim_of(target), first, len(neighbours))
         group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
         if target.plan.motion.is_moving:
             group.carrier = target
@@ -234,7 +233,7 @@ def _line_up(
 ) -> None:
     """Spread the copies along the longer side of the surface."""
     body, own = target.models[0], len(group.offsets)
-    count, first = own * len(neighbours), own * neighbours.index(group.index)
+    count, first = len(neighbours), neighbours.index(group.index)
     is_wide = body.width > body.length
     axis = 1 if is_wide else 0
     extent = support.high[axis] - support.low[axis]

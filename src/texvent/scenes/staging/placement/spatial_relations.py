@@ -50,7 +50,7 @@ def place_on_targets(
         kind: one of `object_placement.ON_TARGET`.
         targets: what it is related to.
         height: of its origin where the relation does not decide it, m.
-        neighbours: for "on" and "in", the indices of all objects there.
+        neighbours: for "on" and "in", the indices of all objects there, one for each copy.
     """
     if kind == "at":
         return Goal(place_at(group, targets[0], neighbours), _FIXED)
@@ -130,7 +130,7 @@ def _place_under(group: ObjectGroup, targets: list[ObjectGroup], height: float) 
 GATES = frozenset({"tunnel", "arch", "gate", "door"})
 """Nouns that one goes through, along their length."""
 _TRUNKS = frozenset({"tree", "pine", "palm", "street lamp", "traffic light", "sign", "flag",
-                     "windmill", "wind turbine", "umbrella"})  # fmt: skip
+                     "windmill", "wind turbine", "parasol"})  # fmt: skip
 """Nouns that one stands under beside what holds them up."""
 _CROWN_M = 2.5
 """Height from which such a thing hides with its trunk alone."""

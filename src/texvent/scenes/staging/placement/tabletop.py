@@ -24,6 +24,9 @@ _FAMILIES = (
 )  # fmt: skip
 _SMALL = frozenset(noun.name for name in _FAMILIES for noun in FAMILIES[name])
 _LARGEST_M = 0.45
+_AT_DESK = frozenset({"monitor", "laptop", "keyboard", "computer mouse", "printer"})
+"""Computers and what belongs to them; several stand on a desk."""
+_SCREEN_M = 0.8
 _NOT_ON_TABLES = frozenset({
     "campfire", "torch", "soap bubble", "paper plane", "water balloon", "feather", "toy train",
     "rubber duck", "paper boat", "dart", "ice skate", "roller skate", "poster", "sign", "rope",
@@ -56,7 +59,7 @@ def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     if any(move.kind == "travel" for move in description.shot.moves):
         return description
     if not people:
-        return _lay(description, loose)
+        return _lay(description, loose, nouns)
     loaded = {i for one in description.relations for i in (one.subject, *one.targets)}
     held: list[Relation] = []
     for index in loose:
@@ -75,22 +78,39 @@ def set_on_table(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     is_inside = is_room(place) and place not in _SPORT
     if _find_table(objects) is None and not is_inside:
         return description
-    return _add_table(description, rest, people[0])
+    return _add_table(description, rest, people[0], nouns)
 
 
-def _lay(description: SceneDescription, loose: Sequence[int]) -> SceneDescription:
+def _lay(
+    description: SceneDescription, loose: Sequence[int], nouns: Mapping[str, Noun]
+) -> SceneDescription:
     """The description with small things on the table that it names, as in a still life."""
     table = _find_table(description.objects)
+    if table is None and loose and _needs_desk(description, loose):
+        return _add_table(description, loose, None, nouns)
     is_led_away = table is None or any(
         one.kind not in _LOOSE and table in (one.subject, *one.targets) and one.kind != "on"
         for one in description.relations
     )
-    return description if is_led_away or not loose else _add_table(description, loose, 0)
+    return description if is_led_away or not loose else _add_table(description, loose, 0, nouns)
+
+
+def _needs_desk(description: SceneDescription, loose: Sequence[int]) -> bool:
+    """Whether several computers and what belongs to them would stand on the floor of a room."""
+    objects = description.objects
+    some = [objects[index] for index in loose if objects[index].noun in _AT_DESK]
+    place = description.surroundings.place or "grass"
+    is_free = not {"table", "desk"} & set(description.absent)
+    return sum(one.count for one in some) > 1 and is_room(place) and is_free
 
 
 def _add_table(
-    description: SceneDescription, loose: Sequence[int], person: int
+    description: SceneDescription,
+    loose: Sequence[int],
+    person: int | None,
+    nouns: Mapping[str, Noun],
 ) -> SceneDescription:
+    """`person` is whom an added table stands before; None = a desk for what stands there alone."""
     objects = description.objects
     chosen: list[int] = []
     for index in loose:
@@ -99,8 +119,9 @@ def _add_table(
     table = _find_table(objects)
     added: tuple[Relation, ...] = ()
     if table is None:
-        table, objects = len(objects), (*objects, SceneObject("table"))
-        added = (Relation("front", table, (person,)),)
+        kind = "table" if person is not None else "desk"
+        table, objects = len(objects), (*objects, SceneObject(kind))
+        added = (Relation("front", table, (person,)),) if person is not None else ()
     kept = [
         one
         for one in description.relations
@@ -108,10 +129,36 @@ def _add_table(
     ]
     on = [Relation("on", index, (table,)) for index in chosen]
     notes = description.notes
-    if added:
+    if table == len(description.objects):
         names = ", ".join(dict.fromkeys(objects[index].noun for index in chosen))
-        notes = (*notes, f"a table is added, on which is: {names}")
-    return replace(description, objects=objects, relations=(*kept, *added, *on), notes=notes)
+        notes = (*notes, f"a {objects[table].noun} is added, on which is: {names}")
+    description = replace(description, relations=(*kept, *added, *on), notes=notes)
+    if any(objects[index].noun in _AT_DESK for index in chosen):
+        objects = _widen(objects, table, description.relations, nouns)
+    return replace(description, objects=objects)
+
+
+def _widen(
+    objects: Sequence[SceneObject],
+    table: int,
+    relations: Sequence[Relation],
+    nouns: Mapping[str, Noun],
+) -> tuple[SceneObject, ...]:
+    """The objects with a desk that has room for all that stands on it in a row."""
+    wide = sum(
+        objects[one.subject].count * _width(objects[one.subject], nouns)
+        for one in relations if one.kind == "on" and one.targets == (table,)
+    )  # fmt: skip
+    factor = min(max(_ROOM_BESIDE * wide / _width(objects[table], nouns), 1.0), _WIDEST_DESK)
+    larger = replace(objects[table], scale=factor * objects[table].scale)
+    return (*objects[:table], larger, *objects[table + 1 :])
+
+
+_ROOM_BESIDE, _WIDEST_DESK = 1.25, 1.7
+
+
+def _width(one: SceneObject, nouns: Mapping[str, Noun]) -> float:
+    return nouns[one.noun].build(colour=None, scale=one.scale, seed=0).width
 
 
 def _list_loose(description: SceneDescription, nouns: Mapping[str, Noun]) -> list[int]:
@@ -120,7 +167,8 @@ def _list_loose(description: SceneDescription, nouns: Mapping[str, Noun]) -> lis
     A book that one reads is in the reader's hands.
     """
     objects = description.objects
-    small = {n for n, one in enumerate(objects) if _is_small(one, nouns)}
+    is_alone = not any(one.noun in PERSON_NOUNS for one in objects)
+    small = {n for n, one in enumerate(objects) if _is_small(one, nouns, is_alone=is_alone)}
     in_use = {
         noun for one in objects if one.noun in PERSON_NOUNS
         for motion in (one.motion, *one.then) if motion is not None
@@ -142,11 +190,14 @@ def _has_free_hands(one: SceneObject) -> bool:
     return kinds <= {"stand", "walk", "sit", "talk", "run"}
 
 
-def _is_small(one: SceneObject, nouns: Mapping[str, Noun]) -> bool:
+def _is_small(one: SceneObject, nouns: Mapping[str, Noun], *, is_alone: bool) -> bool:
+    """Whether it belongs on a table; a screen does where it hides nobody who sits at it."""
     is_named = one.noun in _SMALL and one.noun not in _NOT_ON_TABLES and one.side is None
     is_still = one.motion is None or one.motion.kind in ("stand", "lie", "sit")
     is_free = is_named and is_still and not one.then and one.count <= _MOST
-    return is_free and extent(one, nouns) <= _LARGEST_M
+    return is_free and extent(one, nouns) <= (
+        _SCREEN_M if is_alone and one.noun in _AT_DESK else _LARGEST_M
+    )
 
 
 def _has_way(one: SceneObject) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.holding import is_person
 from texvent.scenes.staging.placement.lanes import FEWEST, find_lanes
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
@@ -87,12 +88,30 @@ def _straight_road(actors: Sequence[Actor], usual_y: float, lane_m: float, besid
         return RoadLine(movers[0].trajectory.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
     if movers:
         return _road_of(movers, lane_m, has_pavement=bool(beside))
-    if beside == "all" and actors:
+    if actors and (beside == "all" or _belong_at_kerb(actors)):
         farthest = max(float(one.corners(0.0)[:, 1].max()) for one in actors)
         return RoadLine(offset=(0.0, farthest + 2.0 * lane_m + _VERGE_M))
     if grounded:
         return RoadLine(offset=(0.0, grounded[0].trajectory.at(0.0).position[1]))
     return RoadLine(offset=(0.0, usual_y))
+
+
+_AT_KERB = frozenset({
+    "street lamp", "traffic light", "park lamp", "fire hydrant", "parking meter", "stop sign",
+    "sign", "mailbox", "dustbin", "dumpster", "bus stop", "phone booth", "bollard", "bench", "tree",
+    "autumn tree", "cherry tree", "bare tree", "pine", "palm", "bush", "vending machine", "statue",
+    "fountain", "fence", "power pylon",
+})  # fmt: skip
+"""What stands beside a road, not on it."""
+_ON_ROAD = frozenset({"crosswalk", "barrier", "traffic cone", "manhole cover", "puddle"})
+
+
+def _belong_at_kerb(actors: Sequence[Actor]) -> bool:
+    """Whether something stands here that no road leads through, and nothing that is on a road."""
+    nouns = {actor.noun.name for actor in actors}
+    others = [one for one in actors if one.noun.habitat != "fixed"]
+    is_quiet = all(is_person(one) and not one.is_mover for one in others)
+    return bool(nouns & _AT_KERB) and not nouns & _ON_ROAD and is_quiet
 
 
 def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool = False) -> RoadLine:

@@ -214,14 +214,14 @@ def _torso(build: Build, coat: Coat) -> list[ModelPart]:
                 parts.append(ball(coat.trunk, puff, (0.46 * length, 0.62 * width, 0.74 * height)))
     if build.patches:
         dark = Material(BLACK)
-        for x, y, up in (
-            (0.22, 0.30, 0.10),
-            (-0.20, 0.30, 0.06),
-            (0.05, -0.30, 0.12),
-            (-0.3, -0.3, 0.0),
-        ):
+        for x, y, up, long, tall in (
+            (0.26, 0.30, 0.06, 0.34, 0.70), (0.10, 0.30, 0.24, 0.26, 0.42),
+            (-0.22, 0.30, 0.16, 0.30, 0.52), (-0.32, 0.26, -0.06, 0.20, 0.50),
+            (0.05, -0.30, 0.14, 0.34, 0.56), (0.20, -0.28, -0.06, 0.22, 0.50),
+            (-0.30, -0.28, 0.04, 0.30, 0.66),
+        ):  # fmt: skip
             spot = (x * length, y * width, z + up * height)
-            parts.append(ball(dark, spot, (0.26 * length, 0.46 * width, 0.62 * height)))
+            parts.append(ball(dark, spot, (long * length, 0.46 * width, tall * height)))
     return parts
 
 

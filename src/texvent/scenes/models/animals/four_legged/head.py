@@ -92,7 +92,7 @@ def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> Mo
         return ball(material, (root[0], root[1], root[2] + 0.05 * skull), (0.5 * long, long, long))
     if kind == "wide":
         middle = (root[0], root[1] + side * 0.42 * long, root[2] - 0.05 * skull)
-        return ball(material, middle, (0.35 * long, 1.1 * long, long))
+        return ball(material, middle, (0.75 * long, 1.1 * long, long))
     if kind == "flop":
         tip = (root[0] - 0.1 * long, root[1] + side * 0.3 * skull, root[2] - long)
         return limb(material, root, tip, 0.34 * long, side_radius=0.15 * long)

@@ -89,7 +89,7 @@ def snout(hue: Colour) -> FaceDraw:
 
 
 def whiskers(build: Build, top: Point) -> list[ModelPart]:
-    """White cheeks at the nose with whiskers, as a cat has."""
+    """White cheeks at the nose with whiskers, and slit eyes, as a cat has."""
     skull, muzzle = build.head
     x, z = top[0] + 0.38 * skull + 0.8 * muzzle, top[2] - 0.40 * muzzle - 0.14 * skull
     pale = Material(WHITE)
@@ -106,6 +106,9 @@ def whiskers(build: Build, top: Point) -> list[ModelPart]:
             root = (x + 0.08 * skull, 0.16 * side * skull, z)
             tip = (x - 0.05 * skull, 0.75 * side * skull, z + up * skull)
             parts.append(rod(pale, root, tip, 0.012 * skull))
+        iris, slit = (0.40, 0.27 * side, 0.15), (0.48, 0.285 * side, 0.15)
+        parts.append(_on_skull(build, top, iris, (0.20, 0.19, 0.19), Material((0.50, 0.55, 0.06))))
+        parts.append(_on_skull(build, top, slit, (0.06, 0.06, 0.17), Material(BLACK)))
     return parts
 
 
@@ -152,6 +155,31 @@ def pale_front(hue: Colour) -> Extras:
         return [chest, belly]
 
     return draw
+
+
+def bib(build: Build, coat: Coat) -> list[ModelPart]:
+    """The white chest that many cats have; a black one has none."""
+    if max(coat.trunk.colour) < _BLACK_COAT:
+        return []
+    return pale_front((0.80, 0.78, 0.74))(build, coat)
+
+
+_BLACK_COAT = 0.06
+"""Brightest channel of a coat that passes for black."""
+
+
+def udder(build: Build, coat: Coat) -> list[ModelPart]:
+    """A cow's udder with its teats."""
+    length, width, height = build.body
+    pink = skin((0.72, 0.44, 0.40))
+    x, z = -0.24 * length, build.shoulder - 0.98 * height
+    bag = ball(pink, (x, 0.0, z), (0.24 * length, 0.56 * width, 0.38 * height))
+    teats = [
+        limb(pink, (x + 0.05 * a, 0.1 * b, z - 0.14 * height),
+             (x + 0.05 * a, 0.1 * b, z - 0.26 * height), 0.022)
+        for a in (1.0, -1.0) for b in (1.0, -1.0)
+    ]  # fmt: skip
+    return [bag, *teats]
 
 
 def white_back(build: Build, coat: Coat) -> list[ModelPart]:

@@ -155,6 +155,17 @@ def _row(skin: Material, count: int, tall: float) -> list[ModelPart]:
     ]
 
 
+def _track(sleeper: Material, long: float) -> list[ModelPart]:
+    """Rails on sleepers in ballast."""
+    ballast = mottled((0.30, 0.28, 0.26), contrast=0.5, scale=30.0)
+    return [
+        box(ballast, (0.0, 0.0, 0.03), (long, 3.2, 0.06)),
+        *(box(sleeper, (k - 0.5 * long + 1.0, 0.0, 0.09), (0.3, 2.5, 0.08))
+          for k in range(round(long) - 1)),
+        *(box(SILVER, (0.0, 0.75 * s, 0.19), (long, 0.09, 0.14)) for s in (1.0, -1.0)),
+    ]  # fmt: skip
+
+
 NOUNS = (
     thing("market stall", ((0.55, 0.03, 0.02), (0.03, 0.12, 0.45), (0.05, 0.30, 0.08)), _stall,
           ("stall", "fruit stall", "food stall", "market stand", "vegetable stall",
@@ -228,14 +239,11 @@ NOUNS = (
     thing("gravel path lines", ((0.48, 0.40, 0.28),), lambda p: [
         box(mottled(p.colour), (0.0, 0.0, 0.006), (60.0, 2.4, 0.012)),
         *(box(STONE, (0.0, 1.25 * s, 0.03), (60.0, 0.12, 0.06)) for s in (1, -1))], ()),
-    thing("railway track", ((0.16, 0.09, 0.05),), lambda p: [
-        box(mottled((0.30, 0.28, 0.26), contrast=0.5, scale=30.0), (0.0, 0.0, 0.03), (40.0, 3.2,
-            0.06)),
-        *(box(p, (-19.0 + 1.0 * k, 0.0, 0.09), (0.3, 2.5, 0.08)) for k in range(39)),
-        *(box(SILVER, (0.0, 0.75 * s, 0.19), (40.0, 0.09, 0.14)) for s in (1.0, -1.0))],
+    thing("railway track", ((0.16, 0.09, 0.05),), lambda p: _track(p, 40.0),
         ("train track", "rail", "train tracks", "railroad track", "tracks", "railway line"),
         plurals=("rails", "railway tracks")),
     thing("station platform", ((0.46, 0.45, 0.43),), _platform),
+    thing("long railway track", ((0.16, 0.09, 0.05),), lambda p: _track(p, 240.0)),
     thing("parking lines", (PALE.colour,), lambda p: [
         *(_line(0.0, -12.5 + 2.5 * k, 5.0, 0.12) for k in range(11)), _line(-2.5, 0.0, 0.12,
             25.0)]),

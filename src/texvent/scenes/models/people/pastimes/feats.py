@@ -273,12 +273,17 @@ FEAT_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
 )  # fmt: skip
 """Feat → posture of the whole body over time."""
 
+_BOOT = (
+    ball(Material(WHITE), (-0.10, 0.0, 0.03), (0.33, 0.14, 0.13)),
+    rod(Material(WHITE), (-0.20, 0.0, 0.03), (-0.20, 0.0, 0.17), 0.072),
+)
 _BLADE = still(
-    box(Material(WHITE), (-0.11, 0.0, 0.02), (0.28, 0.11, 0.10)),
-    box(STEEL, (-0.11, 0.0, -0.06), (0.34, 0.016, 0.07)),
+    *_BOOT,
+    *(box(DARK, (x, 0.0, -0.035), (0.05, 0.03, 0.05)) for x in (-0.02, -0.20)),
+    box(STEEL, (-0.11, 0.0, -0.075), (0.36, 0.016, 0.04)),
 )
 _WHEELS = still(
-    box(Material(WHITE), (-0.11, 0.0, 0.02), (0.28, 0.11, 0.10)),
+    *_BOOT,
     *(rod(Material(RED), (x, y - 0.02, -0.06), (x, y + 0.02, -0.06), 0.035)
       for x in (-0.20, -0.02) for y in (-0.04, 0.04)),
 )  # fmt: skip

@@ -63,8 +63,13 @@ _TENNIS = Prop(
 _BAT = Prop("right hand", props.BAT, ("baseball bat", "cricket bat"))
 _CLUB = Prop("right hand", props.CLUB, ("golf club",))
 _MITT = _in(
-    "left hand", ball(_LEATHER, (0.06, 0.0, 0.0), (0.20, 0.26, 0.28)), same=("baseball glove",)
-)
+    "left hand",
+    ball(_LEATHER, (0.05, 0.0, 0.03), (0.09, 0.24, 0.26)),
+    *(limb(_LEATHER, (0.05, y, 0.08), (0.07, 1.3 * y, z), 0.032)
+      for y, z in ((-0.09, 0.20), (-0.03, 0.24), (0.03, 0.24), (0.09, 0.20))),
+    ball(Material((0.07, 0.025, 0.01)), (0.09, 0.0, 0.04), (0.05, 0.15, 0.16)),
+    same=("baseball glove",),
+)  # fmt: skip
 _HOCKEY_STICK = _in(
     "right hand",
     _stick(WOOD, -0.35, 0.95, 0.020),
