@@ -107,7 +107,7 @@ def _shade(description: SceneDescription) -> SceneDescription:
 
 
 _IN_HANDS = frozenset({"hold", "carry"})
-_BEACHES = frozenset({"sand"})
+_BEACHES = frozenset({"sand", "beach", "swimming pool"})
 
 
 def _moves_on(motion: ObjectMotion | None) -> bool:
