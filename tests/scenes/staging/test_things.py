@@ -16,8 +16,6 @@ from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.placement.fitting import enlarge_small
 from texvent.scenes.staging.placement.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
-from texvent.scenes.staging.surroundings.scatter_rule import under_snow
-from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(128, 96)
@@ -29,12 +27,6 @@ def stage(prompt: str) -> ComposedScene:
 
 def find(scene: ComposedScene, noun: str) -> list[Actor]:
     return [actor for actor in scene.actors if actor.noun.name == noun]
-
-
-def test_no_flowers_and_no_leaves_are_in_the_snow() -> None:
-    nouns = {rule.noun for rule in under_snow(SCENERY["grass"])}
-    assert nouns == {"bare tree", "pine"}
-    assert not {"flower", "tree"} & set(stage("a dog runs in a snowy field").still_nouns)
 
 
 @pytest.mark.parametrize("prompt", ["a fire hydrant and a mailbox", "a man stands beside a sign"])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 
-
 from texvent.scenes.models.articulated_model import STANDING_POSES, ArticulatedModel
 from texvent.scenes.models.materials import (
     BLACK,

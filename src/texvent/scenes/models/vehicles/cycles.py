@@ -65,7 +65,7 @@ def build_bicycle(
         rigid += _upper_body(outfit, hips, (0.10, 0.0, 1.44), grip)
 
     def articulate(pose: Pose) -> list[ModelPart]:
-        parts = spoked_wheels(wheels, pose.distance_m)
+        parts = spoked_wheels(wheels, pose.distance_m, is_open=rider is None)
         turn = _GEAR * pose.distance_m / 0.34
         for side, phase in ((1.0, 0.0), (-1.0, math.pi)):
             c, s = math.cos(turn + phase), math.sin(turn + phase)

@@ -36,9 +36,13 @@ def car_wheels(wheels: Iterable[Wheel], distance: float) -> list[ModelPart]:
     return [part for wheel in wheels for part in rolled(_disc_wheel(wheel), wheel, distance)]
 
 
-def spoked_wheels(wheels: Iterable[Wheel], distance: float) -> list[ModelPart]:
-    """Thin tyres on spokes, for cycles, turned by a distance travelled, m."""
-    return [part for wheel in wheels for part in rolled(_cycle_wheel(wheel), wheel, distance)]
+def spoked_wheels(wheels: Iterable[Wheel], distance: float, *, is_open: bool) -> list[ModelPart]:
+    """Wheels of a cycle, turned by a distance travelled, m.
+
+    Open ones have many parts; others are thin discs that look like rims with spokes.
+    """
+    draw = _open_wheel if is_open else _cycle_wheel
+    return [part for wheel in wheels for part in rolled(draw(wheel), wheel, distance)]
 
 
 def wheeled_model(
@@ -74,10 +78,10 @@ def _disc_wheel(wheel: Wheel) -> list[ModelPart]:
     ]
 
 
-_RIM_PIECES, _SPOKES = 18, 8
+_RIM_PIECES, _SPOKES = 16, 5
 
 
-def _cycle_wheel(wheel: Wheel) -> list[ModelPart]:
+def _open_wheel(wheel: Wheel) -> list[ModelPart]:
     """A tyre and its rim, thin spokes and a hub; one sees through between them."""
     radius, half = wheel.radius, 0.5 * wheel.width
     around = [2.0 * math.pi * k / _RIM_PIECES for k in range(_RIM_PIECES + 1)]
@@ -90,11 +94,24 @@ def _cycle_wheel(wheel: Wheel) -> list[ModelPart]:
         ]
 
     spokes = [math.pi * k / _SPOKES for k in range(_SPOKES)]
-    thin, reach = 0.012 * radius + 0.002, 0.90 * radius
+    thin, reach = 0.014 * radius + 0.002, 0.90 * radius
     return [
         *hoop(RUBBER, 0.94 * radius, 0.06 * radius, half),
-        *hoop(CHROME, 0.87 * radius, 0.03 * radius, 0.7 * half),
         rod(DARK, (0.0, -half, 0.0), (0.0, half, 0.0), 0.12 * radius),
         *(rod(CHROME, (-reach * math.cos(a), 0.0, -reach * math.sin(a)),
               (reach * math.cos(a), 0.0, reach * math.sin(a)), thin) for a in spokes),
     ]  # fmt: skip
+
+
+def _cycle_wheel(wheel: Wheel) -> list[ModelPart]:
+    """A tyre, the air between its spokes, and a dark cross."""
+    radius, width = wheel.radius, wheel.width
+    half = 0.5 * width
+    spoke = 0.03 * radius + 0.006
+    air = Material((0.30, 0.31, 0.32))
+    return [
+        rod(RUBBER, (0.0, -half, 0.0), (0.0, half, 0.0), radius),
+        rod(air, (0.0, -half - 0.002, 0.0), (0.0, half + 0.002, 0.0), 0.86 * radius),
+        box(DARK, (0.0, 0.0, 0.0), (1.72 * radius, width + 0.01, 2.0 * spoke)),
+        box(DARK, (0.0, 0.0, 0.0), (2.0 * spoke, width + 0.01, 1.72 * radius)),
+    ]

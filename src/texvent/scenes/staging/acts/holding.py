@@ -260,7 +260,8 @@ def _fly(style: str, holder: Actor, lift: float) -> Affine:
         return _shifted(0.0, 0.0, lift - 0.02)
     yaw = holder.trajectory.at(0.0).yaw
     along = (-math.cos(yaw), -math.sin(yaw)) if holder.is_mover else (1.0, 0.2)
-    place = np.array([1.1 * along[0], 1.1 * along[1], 0.9 + lift])
+    size = size_of(holder.model)
+    place = np.array([size * along[0], size * along[1], 0.8 * size + lift])
     return np.column_stack([rotation(0.3 - 0.5 * math.pi, 0.0, 0.0), place])
 
 

@@ -56,7 +56,7 @@ def _strands(skin: Material) -> list[ModelPart]:
         middle = (far * math.cos(angle), far * math.sin(angle), 0.044 - 0.22 * far)
         wide = 0.042 + 0.006 * (k % 3)
         parts += ring(toned(skin, 0.9 + 0.1 * (k % 3)), middle, (wide, 0.8 * wide), 0.007,
-                      axis="z", pieces=10)  # fmt: skip
+                      axis="z", pieces=8)  # fmt: skip
     return parts
 
 

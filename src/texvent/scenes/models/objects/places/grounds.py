@@ -158,10 +158,12 @@ def _row(skin: Material, count: int, tall: float) -> list[ModelPart]:
 def _track(sleeper: Material, long: float) -> list[ModelPart]:
     """Rails on sleepers in ballast."""
     ballast = mottled((0.30, 0.28, 0.26), contrast=0.5, scale=30.0)
+    count = min(round(long), 54)
+    step = long / count
     return [
         box(ballast, (0.0, 0.0, 0.03), (long, 3.2, 0.06)),
-        *(box(sleeper, (k - 0.5 * long + 1.0, 0.0, 0.09), (0.3, 2.5, 0.08))
-          for k in range(round(long) - 1)),
+        *(box(sleeper, (step * (k + 0.5) - 0.5 * long, 0.0, 0.09), (0.3, 2.5, 0.08))
+          for k in range(count)),
         *(box(SILVER, (0.0, 0.75 * s, 0.19), (long, 0.09, 0.14)) for s in (1.0, -1.0)),
     ]  # fmt: skip
 
@@ -243,7 +245,7 @@ NOUNS = (
         ("train track", "rail", "train tracks", "railroad track", "tracks", "railway line"),
         plurals=("rails", "railway tracks")),
     thing("station platform", ((0.46, 0.45, 0.43),), _platform),
-    thing("long railway track", ((0.16, 0.09, 0.05),), lambda p: _track(p, 240.0)),
+    thing("long railway track", ((0.16, 0.09, 0.05),), lambda p: _track(p, 80.0)),
     thing("parking lines", (PALE.colour,), lambda p: [
         *(_line(0.0, -12.5 + 2.5 * k, 5.0, 0.12) for k in range(11)), _line(-2.5, 0.0, 0.12,
             25.0)]),
