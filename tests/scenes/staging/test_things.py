@@ -39,12 +39,6 @@ def test_what_belongs_at_the_kerb_is_not_on_the_road(prompt: str) -> None:
         assert away > ground.road_half_width
 
 
-def test_food_that_comes_in_a_bowl_lies_in_another_bowl_without_its_own() -> None:
-    names = [actor.noun.name for actor in stage("a bowl of noodles and eggs").actors]
-    assert "helping of noodles" in names
-    assert find(stage("noodles"), "noodles")
-
-
 def test_one_has_one_pair_of_skis() -> None:
     assert [
         one.count for one in parse_prompt("skis lie in the snow").objects if one.noun == "ski"

@@ -205,8 +205,7 @@ _NOUNS: tuple[str, ...] = (
     "upright skunk", "upright badger", "upright red panda", "upright elephant calf",
     "upright panda cub", "upright wolf pup", "upright fox cub",
     "open car", "station platform",
-    "long railway track", "parasol", "helping of noodles", "helping of soup", "helping of salad",
-    "helping of pancakes", "helping of steak",
+    "long railway track", "parasol",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

@@ -25,11 +25,6 @@ HELPINGS = frozenset(
     for noun in FAMILIES[f"objects kitchen {family}"]
 ) | {"bacon", "french fries", "roast chicken", "shrimp", "chocolate bar", "candle"}
 """Nouns of food, and what stands on cakes."""
-_WITHOUT_DISH = {
-    "noodles": "helping of noodles", "soup": "helping of soup", "salad": "helping of salad",
-    "pancake": "helping of pancakes", "steak": "helping of steak", "meal": "food",
-}  # fmt: skip
-"""Food that comes in a dish of its own → the same on another dish."""
 _ROOM = {1: 1.45, 2: 1.02, 3: 0.94, 4: 0.84, 5: 0.70, 6: 0.66}
 """Things on a dish → how long one is, in radii of the dish."""
 _LEAST_ROOM = 0.52
@@ -62,9 +57,6 @@ def dish_up(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDe
         count = sum(objects[i].count for i in on)
         if dish.noun not in DISHES or dish.count != 1 or not count:
             continue
-        for i in on:
-            plain = _WITHOUT_DISH.get(objects[i].noun, objects[i].noun)
-            objects[i] = replace(objects[i], noun=plain)
         wider = 1.0 if dish.noun == "cake" else _WIDER.get(count, _WIDEST)
         objects[index] = replace(dish, scale=dish.scale * wider)
         body = _model(objects[index], nouns)

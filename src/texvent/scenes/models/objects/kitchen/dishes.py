@@ -28,60 +28,11 @@ def _plate(z: float = 0.008) -> list[ModelPart]:
     ]
 
 
-def _pancakes(skin: Material, low: float) -> list[ModelPart]:
-    """A stack with butter and syrup, from that height."""
-    return [
-        *(post(skin if k % 2 else toned(skin, 0.8), (0.0, 0.0, low + 0.018 * k),
-               (0.17, 0.17, 0.016)) for k in range(5)),
-        box(YELLOW_PAINT, (0.0, 0.0, low + 0.095), (0.04, 0.04, 0.02)),
-        ball(Material((0.30, 0.12, 0.02)), (0.06, 0.04, low + 0.07), (0.06, 0.05, 0.06)),
-    ]  # fmt: skip
-
-
-def _steak(skin: Material, z: float) -> list[ModelPart]:
-    """A grilled piece with dark stripes, and parsley."""
-    return [
-        ball(skin, (0.0, 0.0, z), (0.15, 0.11, 0.035)),
-        *(box(INK, (0.03 * k - 0.04, 0.0, z + 0.017), (0.006, 0.08, 0.003)) for k in range(4)),
-        ball(Material((0.08, 0.28, 0.04)), (0.06, 0.07, z - 0.005), (0.05, 0.04, 0.03)),
-    ]
-
-
-def _strands(skin: Material) -> list[ModelPart]:
-    """A heap of noodles in loops, without a dish."""
-    parts = [ball(toned(skin, 0.75), (0.0, 0.0, 0.018), (0.17, 0.17, 0.05))]
-    for k in range(7):
-        angle = 2.4 * k
-        far = 0.03 * math.sqrt(k)
-        middle = (far * math.cos(angle), far * math.sin(angle), 0.044 - 0.22 * far)
-        wide = 0.042 + 0.006 * (k % 3)
-        parts += ring(toned(skin, 0.9 + 0.1 * (k % 3)), middle, (wide, 0.8 * wide), 0.007,
-                      axis="z", pieces=8)  # fmt: skip
-    return parts
-
-
-def _soup(skin: Material) -> list[ModelPart]:
-    """What fills a dish: its surface, with herbs."""
-    spots = [(0.05 * math.cos(a), 0.05 * math.sin(a), 0.012) for a in (0.3, 1.9, 3.4, 5.2)]
-    return [
-        post(skin, (0.0, 0.0, 0.006), (0.18, 0.18, 0.012)),
-        *(ball(Material((0.08, 0.28, 0.04)), spot, (0.016, 0.016, 0.004)) for spot in spots),
-    ]
-
-
-def _leaves(skin: Material) -> list[ModelPart]:
-    """Salad leaves and tomatoes in a heap, without a dish."""
-    green = mottled(skin.colour, contrast=0.5)
-    around = [(math.cos(a), math.sin(a)) for a in (0.0, 1.05, 2.1, 3.14, 4.2, 5.24)]
-    return [
-        *(ball(green, (0.055 * c, 0.055 * s, 0.03), (0.075, 0.075, 0.05)) for c, s in around),
-        ball(green, (0.0, 0.0, 0.05), (0.085, 0.085, 0.06)),
-        *(ball(RED_PAINT, (0.05 * c, 0.05 * s, 0.062), (0.034,) * 3) for c, s in around[::2]),
-    ]
-
-
 NOUNS = (
-    thing("pancake", ((0.62, 0.36, 0.10),), lambda p: [*_plate(), *_pancakes(p, 0.03)], ("crepe",)),
+    thing("pancake", ((0.62, 0.36, 0.10),), lambda p: [*_plate(), *(post(p if k % 2 else toned(p,
+        0.8), (0.0, 0.0, 0.03 + 0.018 * k), (0.17, 0.17, 0.016)) for k in range(5)),
+        box(YELLOW_PAINT, (0.0, 0.0, 0.125), (0.04, 0.04, 0.02)), ball(Material((0.30, 0.12,
+            0.02)), (0.06, 0.04, 0.10), (0.06, 0.05, 0.06))], ("crepe",)),
     thing("popcorn", ((0.82, 0.78, 0.60),), lambda p: [*(box(c, (0.075 * math.cos(a),
         0.075 * math.sin(a), 0.09), (0.05, 0.05, 0.18)) for c, a in (
         (RED_PAINT, 0.0), (PALE, 0.785), (RED_PAINT, 1.57), (PALE, 2.36), (RED_PAINT, 3.14),
@@ -100,8 +51,11 @@ NOUNS = (
             0.0, 0.09), (-0.12, 0.10 + 0.02 * s, 0.16), 0.004) for s in (1, -1)),
         ball(Material((0.82, 0.5, 0.1)), (0.03, -0.03, 0.11), (0.04, 0.04, 0.02))],
             ("ramen", "spaghetti", "pasta")),
-    thing("steak", ((0.28, 0.09, 0.05),), lambda p: [*_plate(), *_steak(p, 0.035)],
-          ("beef steak",)),
+    thing("steak", ((0.28, 0.09, 0.05),), lambda p: [*_plate(), ball(p, (0.0, 0.0, 0.035), (0.15,
+        0.11, 0.035)), *(box(INK, (0.03 * k - 0.04, 0.0, 0.052), (0.006, 0.08,
+            0.003)) for k in range(4)),
+        ball(Material((0.08, 0.28, 0.04)), (0.06, 0.07, 0.03), (0.05, 0.04, 0.03))],
+            ("beef steak",)),
     thing("sushi", (PALE.colour,), lambda p: [box(_WOOD, (0.0, 0.0, 0.01), (0.14, 0.26, 0.02)),
         *(part for k in range(4) for part in (ball(p, (0.0, -0.09 + 0.06 * k, 0.035), (0.07,
             0.04, 0.03)), ball(
@@ -135,9 +89,4 @@ NOUNS = (
             0.16), (0.0, 0.0, 0.08), 0.055),
         rod(RED_PAINT, (0.0, 0.02, 0.12), (0.0, 0.06, 0.22), 0.003), disc(YELLOW_PAINT, (-0.05,
             0.16), 0.022, 0.006)], ("cocktail glass", "margarita", "martini")),
-    thing("helping of noodles", ((0.75, 0.60, 0.30),), _strands),
-    thing("helping of soup", ((0.60, 0.24, 0.04),), _soup),
-    thing("helping of salad", ((0.16, 0.40, 0.05),), _leaves),
-    thing("helping of pancakes", ((0.62, 0.36, 0.10),), lambda p: _pancakes(p, 0.008)),
-    thing("helping of steak", ((0.28, 0.09, 0.05),), lambda p: _steak(p, 0.018)),
 )  # fmt: skip
