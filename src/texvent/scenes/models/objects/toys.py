@@ -106,7 +106,7 @@ def build_balloon(*, colour: Colour | None, scale: float, seed: int) -> Articula
     return ArticulatedModel([], scale=scale, articulate=articulate, is_centred=True)
 
 
-_TO_SIDE = 1.0
+KITE_TURN_RAD = 1.0
 """Turn of a kite's face from ahead, radians."""
 
 
@@ -124,7 +124,7 @@ def build_kite(*, colour: Colour | None, scale: float, seed: int) -> Articulated
         rod(spar, (0.02, 0.0, -0.44), (0.02, 0.0, 0.44), 0.012),
         rod(spar, (0.02, -0.44, 0.0), (0.02, 0.44, 0.0), 0.012),
     ]
-    stretched = compose(turn_z(_TO_SIDE), compose(shift(z=0.25), _stretch_z(1.25)))
+    stretched = compose(turn_z(KITE_TURN_RAD), compose(shift(z=0.25), _stretch_z(1.25)))
     body = moved(face, stretched)
     start = 2.0 * math.pi * fraction(seed, "flutter")
 

@@ -10,6 +10,7 @@ from types import MappingProxyType
 import numpy as np
 
 from texvent.scenes.description import Relation
+from texvent.scenes.models.objects.toys import KITE_TURN_RAD
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.roles.dressing import DRESSED
 from texvent.scenes.models.protocol import Model, Pose
@@ -262,7 +263,7 @@ def _fly(style: str, holder: Actor, lift: float) -> Affine:
     along = (-math.cos(yaw), -math.sin(yaw)) if holder.is_mover else (1.0, 0.2)
     size = size_of(holder.model)
     place = np.array([size * along[0], size * along[1], 0.8 * size + lift])
-    return np.column_stack([rotation(0.3 - 0.5 * math.pi, 0.0, 0.0), place])
+    return np.column_stack([rotation(0.3 - 0.5 * math.pi - KITE_TURN_RAD, 0.0, 0.0), place])
 
 
 def _shifted(x: float, y: float, z: float) -> Affine:
