@@ -7,7 +7,7 @@ import pytest
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.language.vocabulary.place_cues import BUILDINGS, ENCLOSED, ROOMS
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.staging.placement.tabletop import set_on_table
+from texvent.scenes.staging.placement.tables.tabletop import set_on_table
 from texvent.scenes.staging.surroundings.places import PLACES, is_room
 
 

@@ -10,7 +10,7 @@ import pytest
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.placement.at_table import list_places, turned_to
+from texvent.scenes.staging.placement.tables.at_table import list_places, turned_to
 from texvent.sensor import SensorSize
 
 TABLE = NOUNS["table"].build(colour=None, scale=1.0, seed=0)

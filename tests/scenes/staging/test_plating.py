@@ -9,7 +9,7 @@ from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import compose_scene
-from texvent.scenes.staging.placement.plating import dish_up
+from texvent.scenes.staging.placement.tables.plating import dish_up
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(128, 96)

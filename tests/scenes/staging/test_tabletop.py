@@ -11,7 +11,7 @@ from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.projection import project
 from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.placement.fitting import enlarge_small, extent
-from texvent.scenes.staging.placement.tabletop import set_on_table
+from texvent.scenes.staging.placement.tables.tabletop import set_on_table
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(173, 130)

@@ -15,7 +15,7 @@ from texvent.scenes.models.shapes import bounds
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.placement.fitting import enlarge_small
-from texvent.scenes.staging.placement.tabletop import set_on_table
+from texvent.scenes.staging.placement.tables.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
 from texvent.sensor import SensorSize
 

@@ -40,8 +40,8 @@ from texvent.scenes.staging.placement.fitting import enlarge_again, enlarge_smal
 from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
-from texvent.scenes.staging.placement.plating import dish_up
-from texvent.scenes.staging.placement.tabletop import set_on_table
+from texvent.scenes.staging.placement.tables.plating import dish_up
+from texvent.scenes.staging.placement.tables.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.crosswalks import lay_crosswalks
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.staging.placement.tabletop import TABLES
+from texvent.scenes.staging.placement.tables.tabletop import TABLES
 
 ELEVATION_RAD = 0.5
 """Of a camera that looks at things on a table: plates are seen from above,

@@ -9,7 +9,7 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.placement.tabletop import TABLES
+from texvent.scenes.staging.placement.tables.tabletop import TABLES
 
 TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",

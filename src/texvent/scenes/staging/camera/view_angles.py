@@ -10,7 +10,7 @@ import numpy as np
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.placement.at_wall import list_at_wall
-from texvent.scenes.staging.placement.plating import DISHES
+from texvent.scenes.staging.placement.tables.plating import DISHES
 from texvent.scenes.staging.still_life import is_still_life
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.surroundings.scenery_tables import SCENERY

@@ -57,10 +57,10 @@ from texvent.scenes.staging.claims.positions import (
     size_of,
 )
 from texvent.scenes.staging.claims.ways import WAYS
-from texvent.scenes.staging.placement.at_table import turned_to
 from texvent.scenes.staging.placement.cages import CAGES
 from texvent.scenes.staging.placement.faced import LOOKED_AT, hangs
 from texvent.scenes.staging.placement.spatial_relations import GATES
+from texvent.scenes.staging.placement.tables.at_table import turned_to
 from texvent.scenes.wording import RELATION_WORDS
 
 _INSTANTS = 13

@@ -15,8 +15,8 @@ from texvent.scenes.models.people.roles.dressing import DRESSED, dress
 from texvent.scenes.models.people.roles.held import HOLDS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
-from texvent.scenes.staging.placement.at_table import draw_chair
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
+from texvent.scenes.staging.placement.tables.at_table import draw_chair
 from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 

@@ -19,7 +19,6 @@ from texvent.scenes.staging.acts.attached import OnEnd, OnPart, Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
-from texvent.scenes.staging.placement.at_table import set_before
 from texvent.scenes.staging.placement.contents import with_contents
 from texvent.scenes.staging.placement.dressing import (
     choose_copy,
@@ -50,7 +49,8 @@ from texvent.scenes.staging.placement.spatial_relations import (
     place_on_targets,
     side_offset,
 )
-from texvent.scenes.staging.placement.tabletop import is_added
+from texvent.scenes.staging.placement.tables.at_table import set_before
+from texvent.scenes.staging.placement.tables.tabletop import is_added
 from texvent.scenes.staging.still_life import is_still_life, still_yaw
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
 from texvent.scenes.staging.trajectories.manoeuvres import bend_path

@@ -26,7 +26,7 @@ from texvent.scenes.staging.acts.riding import CLOSED, LOADS, SEATS_OF
 from texvent.scenes.staging.placement.cages import CAGES, keep_in_cage
 from texvent.scenes.staging.placement.contents import pack
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
-from texvent.scenes.staging.placement.plating import is_dished, lay_on_dish
+from texvent.scenes.staging.placement.tables.plating import is_dished, lay_on_dish
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GATEWAYS = frozenset({"door", "gate", "arch"})

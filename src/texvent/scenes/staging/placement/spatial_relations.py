@@ -12,15 +12,15 @@ import numpy as np
 from texvent.scenes.description import STANDING, SceneObject
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.placement.at_table import place_at
 from texvent.scenes.staging.placement.faced import hang_on, hangs
 from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
     half_extents_over_clip,
 )
-from texvent.scenes.staging.placement.plating import is_dished
 from texvent.scenes.staging.placement.resting import rest_in, rest_on
+from texvent.scenes.staging.placement.tables.at_table import place_at
+from texvent.scenes.staging.placement.tables.plating import is_dished
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 from texvent.scenes.staging.trajectories.trajectory import Circle, Trajectory
 

@@ -15,7 +15,7 @@ from texvent.scenes.models.wrapped.served import ServedModel
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.placement.contents import is_served
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
-from texvent.scenes.staging.placement.tabletop import TABLES
+from texvent.scenes.staging.placement.tables.tabletop import TABLES
 
 DISHES = frozenset({"plate", "bowl", "tray", "frying pan", "pizza pan", "chopping board", "cake"})
 """What food lies on in full view; candles stand on a cake."""
