@@ -644,3 +644,17 @@ def test_the_place_of_a_part_is_that_of_its_whole() -> None:
     scene = parse_prompt("a man with a bag in his hand near a car")
     assert not scene.not_understood
     assert "beside" in {one.kind for one in scene.relations}
+
+
+@pytest.mark.parametrize("prompt", ["a woman with a cat on her lap",
+                                    "a woman sits on a sofa with a cat on her lap"])  # fmt: skip
+def test_who_has_a_cat_on_the_lap_sits_and_so_does_the_cat(prompt: str) -> None:
+    scene = parse_prompt(prompt)
+    assert (kinds_of(scene, "woman"), kinds_of(scene, "cat")) == (["sit"], ["sit"])
+    assert "on lap" in {one.kind for one in scene.relations}
+
+
+def test_an_elephant_sprays_water_with_its_trunk() -> None:
+    scene = parse_prompt("an elephant spraying water with its trunk")
+    assert kinds_of(scene, "elephant") == ["spray"]
+    assert not scene.not_understood

@@ -9,6 +9,7 @@ from texvent.scenes.description import (
     STANDING,
     CameraMove,
     ObjectMotion,
+    Relation,
     SceneDescription,
     SceneObject,
 )
@@ -223,6 +224,21 @@ _KEEPS_PLACE = frozenset(
 """Relations that what moves off would undo."""
 
 
+_ON_BODIES = ("on lap", "on shoulder", "on head", "on back")
+
+
+def _rest_on_body(
+    objects: list[SceneObject], relation: Relation, nouns: Mapping[str, Noun]
+) -> None:
+    """Who has something on the lap sits, and an animal there does; the list changes."""
+    who, thing = relation.subject, relation.targets[0]
+    rest = ObjectMotion("sit") if relation.kind == "on lap" else STANDING
+    own = ObjectMotion("sit") if nouns[objects[thing].noun].motion == "walk" else STANDING
+    for index, motion in ((who, rest), (thing, own)):
+        if objects[index].motion is None:
+            objects[index] = replace(objects[index], motion=motion)
+
+
 def _rest_in_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """What the prompt only says the place of stays there: "a dog behind a fence".
 
@@ -236,6 +252,8 @@ def _rest_in_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
                 objects[relation.subject] = replace(subject, motion=ObjectMotion("sit"))
             elif subject.motion is None and (relation.kind == "in" or target.motion is None):
                 objects[relation.subject] = replace(subject, motion=STANDING)
+        elif relation.kind in _ON_BODIES:
+            _rest_on_body(objects, relation, nouns)
         elif relation.kind in ("hold", "carry"):
             if target.motion is None and nouns[target.noun].motion in ("sail", "paddle"):
                 objects[relation.targets[0]] = replace(target, motion=STANDING)

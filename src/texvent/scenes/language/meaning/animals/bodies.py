@@ -104,8 +104,9 @@ def lie(clause: Clause) -> bool:
 
 
 def spray(clause: Clause, following: Clause | None) -> bool:
-    """As in "sprays itself with water using its trunk"."""
-    if clause.verb_word.lemma not in _SPRAYING or not any(is_own(one) for one in clause.objects):
+    """As in "sprays itself with water using its trunk", "sprays water with its trunk"."""
+    is_sprayed = any(is_own(one) or one.text == "water" for one in clause.objects)
+    if clause.verb_word.lemma not in _SPRAYING or not is_sprayed or not clause.subjects:
         return False
     animal = clause.subjects[0].head
     if animal is None or animal.meaning.value not in ("elephant", "upright elephant"):

@@ -47,7 +47,10 @@ class PartReader:
         kind = _PLACES.get((phrase.preposition.text, head.lemma)) if head is not None else None
         if head is None or kind is None or not (scope.acted_on or scope.subjects):
             return False
+        near = self._referents.recall(phrase.near)
         items = list(scope.acted_on or scope.subjects)
+        if near is not None and near.is_things and self._find(near.things) is not None:
+            items = near.things  # "sits on a sofa with a cat on her lap"
         relation = self._find(items)
         owner = relation.subject if relation is not None else self._owner(one, items)
         if owner is None or not self._fits(kind, head.lemma, owner):
