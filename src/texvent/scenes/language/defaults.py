@@ -9,7 +9,6 @@ from texvent.scenes.description import (
     STANDING,
     CameraMove,
     ObjectMotion,
-    Relation,
     SceneDescription,
     SceneObject,
 )
@@ -46,7 +45,8 @@ def complete_description(
     """
     is_at_rest = is_still_life(description)
     description = _wheel_seats(ride_waves(add_sources(add_crew(description, nouns))))
-    description = _rest_in_place(_limit_bodies(_move_to_background(description, nouns)), nouns)
+    description = _limit_bodies(_move_to_background(description, nouns))
+    description = _rest_in_place(_rest_on_bodies(description, nouns), nouns)
     description = leave_unridden(description)
     objects = tuple(
         replace(scene_object, motion=STANDING)
@@ -227,16 +227,19 @@ _KEEPS_PLACE = frozenset(
 _ON_BODIES = ("on lap", "on shoulder", "on head", "on back")
 
 
-def _rest_on_body(
-    objects: list[SceneObject], relation: Relation, nouns: Mapping[str, Noun]
-) -> None:
-    """Who has something on the lap sits, and an animal there does; the list changes."""
-    who, thing = relation.subject, relation.targets[0]
-    rest = ObjectMotion("sit") if relation.kind == "on lap" else STANDING
-    own = ObjectMotion("sit") if nouns[objects[thing].noun].motion == "walk" else STANDING
-    for index, motion in ((who, rest), (thing, own)):
-        if objects[index].motion is None:
-            objects[index] = replace(objects[index], motion=motion)
+def _rest_on_bodies(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Who has something on the lap sits, and an animal there does."""
+    objects = list(description.objects)
+    for relation in description.relations:
+        if relation.kind not in _ON_BODIES:
+            continue
+        who, thing = relation.subject, relation.targets[0]
+        rest = ObjectMotion("sit") if relation.kind == "on lap" else STANDING
+        own = ObjectMotion("sit") if nouns[objects[thing].noun].motion == "walk" else STANDING
+        for index, motion in ((who, rest), (thing, own)):
+            if objects[index].motion is None:
+                objects[index] = replace(objects[index], motion=motion)
+    return replace(description, objects=tuple(objects))
 
 
 def _rest_in_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -252,8 +255,6 @@ def _rest_in_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
                 objects[relation.subject] = replace(subject, motion=ObjectMotion("sit"))
             elif subject.motion is None and (relation.kind == "in" or target.motion is None):
                 objects[relation.subject] = replace(subject, motion=STANDING)
-        elif relation.kind in _ON_BODIES:
-            _rest_on_body(objects, relation, nouns)
         elif relation.kind in ("hold", "carry"):
             if target.motion is None and nouns[target.noun].motion in ("sail", "paddle"):
                 objects[relation.targets[0]] = replace(target, motion=STANDING)
