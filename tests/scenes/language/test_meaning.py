@@ -658,3 +658,37 @@ def test_an_elephant_sprays_water_with_its_trunk() -> None:
     scene = parse_prompt("an elephant spraying water with its trunk")
     assert kinds_of(scene, "elephant") == ["spray"]
     assert not scene.not_understood
+
+
+def test_what_is_lost_is_on_nothing() -> None:
+    scene = parse_prompt("a man stands near a table with computer equipment on it")
+    assert [one.kind for one in scene.relations] == ["beside"]
+    assert "on" in scene.not_understood
+
+
+@pytest.mark.parametrize("prompt", ["a man on a cell phone", "a man sits on a bench on his phone"])
+def test_who_is_on_the_phone_talks(prompt: str) -> None:
+    assert kinds_of(parse_prompt(prompt), "man") == ["phone"]
+
+
+def test_who_plays_on_a_seat_sits_and_does_not_stand() -> None:
+    assert parse_prompt("a man standing on a bed playing guitar").not_understood == ("standing",)
+    assert not parse_prompt("a man standing on a bed").not_understood
+
+
+def test_the_day_is_not_switched_off() -> None:
+    scene = parse_prompt("as day turns to dusk, a car drives")
+    assert scene.light.flicker_hz is None
+    assert parse_prompt("the light turns on and off").light.flicker_hz is not None
+
+
+def test_steam_that_rises_lifts_no_cup() -> None:
+    scene = parse_prompt("a cup of tea with tendrils of steam rising")
+    assert kinds_of(scene, "mug") == ["stand"]
+    assert {one.kind for one in scene.effects} == {"steam"}
+
+
+def test_the_flames_of_a_fireplace_are_its_own() -> None:
+    scene = parse_prompt("a fireplace with flames")
+    assert not scene.effects
+    assert not scene.not_understood

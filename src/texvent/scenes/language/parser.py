@@ -29,6 +29,7 @@ from texvent.scenes.language.phrases.names import join_names
 from texvent.scenes.language.phrases.phrasings import plain_phrases
 from texvent.scenes.language.phrases.styles import set_styles_aside
 from texvent.scenes.language.place_cues import find_cues, read_outsides, read_titles, use_outdoors
+from texvent.scenes.language.posing import lose_standing
 from texvent.scenes.language.vocabulary.film import GREYSCALE
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.word_claims import (
@@ -99,6 +100,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         meaning.read(clause)
     description = meaning.build(prompt, words)
     _name_worn(words, description)
+    lose_standing(words, description)
     use_outdoors(words, description.surroundings.place, cues)
     is_timelapse = _read_timelapse(words, description)
     shown, substituted, unread = _account(words)

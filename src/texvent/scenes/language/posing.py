@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from texvent.scenes.description import SceneDescription, SceneObject
-from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.people.activities import DONE_SEATED, PERSON_NOUNS, SEATS
 
 
 def list_posing(description: SceneDescription) -> set[int]:
@@ -26,6 +29,20 @@ def list_posing(description: SceneDescription) -> set[int]:
         rested_on = []
     posing = {one.subject for one in shown} | {n for one in shown for n in one.targets}
     return posing | {n for targets in rested_on for n in targets}
+
+
+def lose_standing(words: Sequence[Word], description: SceneDescription) -> None:
+    """As in "stands on a bed playing the guitar": who does that on a seat is shown seated."""
+    seated = {
+        one.subject
+        for one in description.relations
+        if one.kind == "on" and description.objects[one.targets[0]].noun in SEATS
+        and (motion := description.objects[one.subject].motion) is not None
+        and motion.kind in DONE_SEATED
+    }  # fmt: skip
+    for word in words:
+        if word.lemma == "stand" and word.is_used and seated & set(word.things):
+            word.is_used, word.is_lost = False, True
 
 
 _AT_REST = ("sit", "sat", "perch", "stand", "stood", "pos")

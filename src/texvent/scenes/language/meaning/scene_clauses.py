@@ -63,8 +63,8 @@ _FROM_THE_SKY = frozenset({"day", "sunny", "overcast", "dawn", "dusk", "moonligh
 
 
 def _is_steady(word: Word, one: Referent) -> bool:
-    """Whether the verb says that it flickers, and it cannot."""
-    if word.role is not Role.FLICKER:
+    """Whether the verb says that it flickers or is switched, and it cannot: "day turns to dusk"."""
+    if word.role is not Role.FLICKER and word.lemma not in _SWITCHES:
         return False
     head = one.group.head
     # Of several lights that blink, each does so by itself: not the light of the scene.

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+_PARTS_OF_AIR = ("tendrils", "wisps", "plumes", "curls", "puffs", "a plume", "a wisp", "a curl",
+                 "a puff")  # fmt: skip
+
 SET_PHRASES: dict[str, tuple[str, ...]] = {
     "on top of": (
         "on the top of", "at the top of", "in the top of", "up on top of", "at top of",
@@ -22,6 +25,8 @@ SET_PHRASES: dict[str, tuple[str, ...]] = {
         "set against the backdrop of", "set against a backdrop of",
     ),
     "a row of": ("a line up of", "a lineup of", "a line of"),
+    "steam": tuple(f"{part} of steam" for part in _PARTS_OF_AIR),
+    "smoke": tuple(f"{part} of smoke" for part in _PARTS_OF_AIR),
     "suit": ("suit and tie", "suit and a tie"),
     "in traffic": (
         "in traffic during rush hour", "in rush hour traffic", "in heavy traffic",

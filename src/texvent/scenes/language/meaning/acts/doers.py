@@ -72,6 +72,22 @@ def type_on_laps(draft: Draft) -> None:
             motions[-1] = replace(motions[-1], kind="type on lap")
 
 
+_RESTING = ("sit", "stand")
+
+
+def talk_on_phone(draft: Draft, subjects: Sequence[int], things: Sequence[int]) -> bool:
+    """As in "a man on a cell phone": who does nothing else talks; whether that is meant."""
+    items = [draft.objects[index] for index in subjects if is_person(draft.noun(index))]
+    is_phone = bool(things) and draft.noun(things[0]).name == "cell phone"
+    if not is_phone or not items or len(items) < len(subjects):
+        return False
+    if any(motion.kind not in _RESTING for item in items for motion in item.motions):
+        return False
+    for item in items:
+        item.motions[:] = [ObjectMotion("phone")]
+    return True
+
+
 _BALL_OF = {"swing bat": "baseball", "swing racket": "tennis ball", "swing club": "golf ball",
             "dribble": "basketball", "dunk": "basketball"}  # fmt: skip
 

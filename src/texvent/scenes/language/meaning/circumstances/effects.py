@@ -68,12 +68,27 @@ def _find_liquid(one: Referent) -> NamedColour | None:
     return None if rgb is None else NamedColour(name, rgb)
 
 
+def _take_colour(one: Referent) -> NamedColour | None:
+    """The colour that is said of it, or that of its liquid."""
+    for colour, words in one.attributes.colours[:1]:
+        mark_used(words)
+        return colour
+    return _find_liquid(one)
+
+
+_BURNING = frozenset({"fireplace", "campfire", "torch", "candle"})
+"""Things whose models have flames."""
+
+
 def add_effect(draft: Draft, one: Referent, scope: Scope, near: Sequence[int] = ()) -> bool:
     """Add smoke, sparks ... to the clause's subjects; whether there is something to add it to.
 
     Steam comes from no person but from what is `near` the word, acted on, or named last.
     """
     kind = str(one.value)
+    if kind == "fire" and any(item.noun in _BURNING for item in draft.objects):
+        mark_used(one.group.words[-1:])  # "the flames" of the fireplace
+        return True
     source = scope.subjects[0] if scope.subjects and not EFFECTS[kind].is_around else None
     if source is not None and kind in _OF_THINGS and is_person(draft.noun(source)):
         named = reversed(range(len(draft.objects))) if kind == "steam" else ()
@@ -81,10 +96,7 @@ def add_effect(draft: Draft, one: Referent, scope: Scope, near: Sequence[int] = 
         source = next((one for one in found if not is_living(draft.noun(one))), source)
     if source is None and EFFECTS[kind].needs_source:
         return False
-    colours = one.attributes.colours
-    colour = colours[0][0] if colours else _find_liquid(one)
-    for _, words in colours[:1]:
-        mark_used(words)
+    colour = _take_colour(one)
     if EFFECTS[kind].is_around:
         mark_used(word for word in one.group.modifiers if word.text in _OF_LIGHT_SHOWS)
         if any(effect.kind == kind for effect in draft.effects):

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from texvent.scenes.description import Relation
 from texvent.scenes.language.grammar.syntax import PrepPhrase
+from texvent.scenes.language.meaning.acts.doers import talk_on_phone
 from texvent.scenes.language.meaning.acts.looking import address, face
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.circumstances.company import gather, is_company, keep_company
@@ -58,7 +59,11 @@ class RelationReader:
     def read(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
         """Relate the clause's subjects to the things; report what cannot be honoured."""
         word = phrase.preposition
-        scope = self._narrow(phrase, things, scope)
+        near = self._referents.recall(phrase.near)
+        if phrase.has_pronoun and near is not None and near.kind == "unknown":
+            scope = Scope([], [], is_lost=True)  # "a table with equipment on it"
+        else:
+            scope = self._narrow(phrase, things, scope)
         if not scope.subjects:
             word.is_used = not scope.is_lost
             word.is_lost = scope.is_lost
@@ -114,6 +119,8 @@ class RelationReader:
         is_laid = self._draft.noun(things[0]).name in TABLES | DISHES
         if kind in ("on", "in") and not scope.has_verb and is_laid:
             put_down(self._draft, scope.subjects, things, self._loosely_held)
+        if kind == "on" and talk_on_phone(self._draft, scope.subjects, things):
+            return True
         if kind == "above" and self._is_on_ground(scope.movers or scope.subjects):
             # As in "play badminton over a net": they stand at it, which "over" does not say.
             self._relate("beside", scope.subjects, things)

@@ -338,7 +338,7 @@ _STEEL = still(rod(DARK, (0.0, 0.0, -0.08), (0.0, 0.0, 0.06), 0.020),
 
 CRAFT_PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
     {
-        "make pottery": (Prop("ground", _pot),),
+        "make pottery": (Prop("ground", _pot, ("potter wheel",), is_own=True),),
         "sharpen knife": (Prop("right hand", _KNIFE, ("knife",)), Prop("left hand", _STEEL)),
         "count money": (
             Prop("left hand", still(*(box(_NOTE, (0.03 + 0.008 * k, 0.0, 0.06), (0.006, 0.22, 0.11))
