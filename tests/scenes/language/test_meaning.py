@@ -692,3 +692,9 @@ def test_the_flames_of_a_fireplace_are_its_own() -> None:
     scene = parse_prompt("a fireplace with flames")
     assert not scene.effects
     assert not scene.not_understood
+
+
+def test_who_hikes_up_a_trail_on_level_ground_is_told_so() -> None:
+    assert "up" in parse_prompt("a man hikes up a trail").not_understood
+    assert not parse_prompt("a man walks down a path").not_understood
+    assert not parse_prompt("a woman walks up the street").not_understood

@@ -13,6 +13,8 @@ from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.vocabulary.motion import NO_WAYS, SHORE_WAYS, SHORES, SLOPES
 from texvent.scenes.language.words.word import Word
 
+_CLIMBED = ("trail", "path", "footpath", "track", "drive", "driveway")
+"""What goes "up" rises, though one walks "down" a level one; one drives up a level street."""
 _SLOPING = frozenset({"mountain", "mountains", "mountainous", "hill", "hills", "hilly", "steep",
                       "hillside", "mountainside", "sloping", "sloped", "alpine"})  # fmt: skip
 """Words that say that a road or a path goes up or down."""
@@ -118,7 +120,10 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     place = str(one.value)
     _set_afloat(draft, word, place, scope)
     if word.text in ("up", "down"):
-        is_sloping = place in SLOPES or any(one.text in _SLOPING for one in one.group.words)
+        is_sloping = place in SLOPES or any(each.text in _SLOPING for each in one.group.words)
+        is_sloping |= word.text == "up" and one.group.head is not None and (
+            one.group.head.lemma in _CLIMBED
+        )  # fmt: skip
         return not is_sloping or not scope.movers
     if word.text in _WITHIN and place in _BATHED_IN:
         _wade(draft, scope.movers or scope.subjects)
