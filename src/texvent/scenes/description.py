@@ -51,16 +51,13 @@ class ObjectMotion:
     shore: str | None = None
     """Where it goes with respect to the water of the place: "into", "out of", "towards",
     "away from" or "in"; None = not stated."""
+    is_stuck: bool = False
+    """Whether it creeps along in traffic."""
 
     @property
     def is_moving(self) -> bool:
         """Whether the object leaves its place or turns."""
         return self.kind not in ("stand", "hang")
-
-    @property
-    def is_creeping(self) -> bool:
-        """Whether it is stuck in traffic."""
-        return self.speed_m_s == CREEPING_M_S
 
 
 SPIN_RATE_HZ = 0.5

@@ -250,6 +250,6 @@ def is_to_move(index: int, description: SceneDescription) -> bool:
     """Whether an object is to move."""
     said = description.objects[index]
     return any(
-        one is not None and one.kind not in _AT_REST and not one.is_creeping
+        one is not None and one.kind not in _AT_REST and not one.is_stuck
         for one in (said.motion, *said.then)
     )

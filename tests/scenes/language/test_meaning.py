@@ -698,3 +698,27 @@ def test_who_hikes_up_a_trail_on_level_ground_is_told_so() -> None:
     assert "up" in parse_prompt("a man hikes up a trail").not_understood
     assert not parse_prompt("a man walks down a path").not_understood
     assert not parse_prompt("a woman walks up the street").not_understood
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [
+        ("a man holding a pen", "pen"),
+        ("a woman next to a horse writes with a pen", "pen"),
+        ("a person opens a present", "gift"),
+        ("a cake on a plate at home", "plate"),
+        ("a player swings a bat and the baseball flies away", "baseball bat"),
+        ("a bat flies out of a cave", "fruit bat"),
+        ("a man stands before a snowy mountain", "mountain"),
+        ("a cat goes after a mouse", "mouse"),
+    ],
+)
+def test_common_words_around_it_take_no_noun_away(prompt: str, noun: str) -> None:
+    assert noun in {one.noun for one in parse_prompt(prompt).objects}
+
+
+def test_only_what_is_in_a_jam_is_stuck() -> None:
+    past = parse_prompt("a motorcycle drives past a traffic jam").objects[0].motion
+    within = parse_prompt("a bus in a traffic jam").objects[0].motion
+    slow = parse_prompt("a snail crawls at 0.05 m/s").objects[0].motion
+    assert [one.is_stuck for one in (past, within, slow) if one] == [False, True, False]

@@ -770,7 +770,7 @@ def test_a_colour_before_an_animal_is_its_colour(noun):
 def test_traffic_that_holds_somebody_up_stands(prompt):
     objects = parse_prompt(prompt).objects
     assert len(objects) > 2
-    assert all(one.motion is not None and one.motion.is_creeping for one in objects)
+    assert all(one.motion is not None and one.motion.is_stuck for one in objects)
 
 
 @pytest.mark.parametrize(

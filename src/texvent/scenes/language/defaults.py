@@ -212,7 +212,7 @@ def _is_moving(scene_object: SceneObject) -> bool:
         or (
             scene_object.motion is not None
             and scene_object.motion.is_moving
-            and not scene_object.motion.is_creeping
+            and not scene_object.motion.is_stuck
             and scene_object.motion.kind != "sit"
         )
     )

@@ -8,6 +8,9 @@ from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.people.activities import DONE_SEATED, PERSON_NOUNS, SEATS
 
+_AT_REST = ("sit", "sat", "perch", "stand", "stood", "pos")
+"""How the words begin that say so: who only rides something sits on it too."""
+
 
 def list_posing(description: SceneDescription) -> set[int]:
     """People, and animals, of whom only is said what they hold or wear: they stand and show it.
@@ -25,7 +28,7 @@ def list_posing(description: SceneDescription) -> set[int]:
         for relation in description.relations
         if relation.kind in ("on", "ride") and _rests(description.objects[relation.subject])
     ]
-    if not any(word.startswith(("sit", "sat", "perch")) for word in description.shown):
+    if not any(word.startswith(_AT_REST) for word in description.shown):
         rested_on = []
     posing = {one.subject for one in shown} | {n for one in shown for n in one.targets}
     return posing | {n for targets in rested_on for n in targets}
@@ -43,10 +46,6 @@ def lose_standing(words: Sequence[Word], description: SceneDescription) -> None:
     for word in words:
         if word.lemma == "stand" and word.is_used and seated & set(word.things):
             word.is_used, word.is_lost = False, True
-
-
-_AT_REST = ("sit", "sat", "perch", "stand", "stood", "pos")
-"""How the words begin that say so: who only rides something sits on it too."""
 
 
 def _rests(one: SceneObject) -> bool:

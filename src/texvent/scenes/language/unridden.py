@@ -44,7 +44,7 @@ def leave_unridden(description: SceneDescription) -> SceneDescription:
     """
     ridden = _list_ridden(description)
     is_plain = description.surroundings.place is None and not description.shot.is_moving
-    resting = BOARDS | {"ski"} | (HAS_RIDER if is_plain else frozenset())
+    resting = BOARDS | (HAS_RIDER if is_plain else frozenset())
     objects = tuple(
         replace(one, motion=STANDING)
         if one.noun in resting and one.motion is None and index not in ridden

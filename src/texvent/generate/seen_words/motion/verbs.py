@@ -362,7 +362,7 @@ class _Judge:
 def _is_seen_moving(phase: Phase, found: ImageMotion) -> bool:
     """Whether a motion is to be seen."""
     kind = phase.motion.kind
-    if kind in _STILL or phase.motion.is_creeping:
+    if kind in _STILL or phase.motion.is_stuck:
         return True
     if kind in _GOING:
         share = min(1.0, phase.duration_s)

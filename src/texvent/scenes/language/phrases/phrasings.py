@@ -227,9 +227,9 @@ def _ride_on(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
 
 
 def _run_after(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
-    """As in "a dog runs after a cat": it chases it."""
+    """As in "a dog runs after a cat", "goes after it": it chases it."""
     texts = [token.text for token in tokens[at : at + 4]]
-    form = _form_of(texts[0], ("run",))
+    form = _form_of(texts[0], ("run", "go"))
     if form is None or texts[1:2] != ["after"] or len(texts) < 3 or texts[2] not in _CHASED:
         return None
     is_time = texts[3:4] and texts[3] in _TIMES
@@ -266,10 +266,14 @@ def _name_another(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] |
     if any(token.text == "from" for token in tokens[:at]):
         return None  # as in "from one table to another"
     first = next(
-        (two.text for one, two in pairwise(tokens[:at])
-         if one.text in ("a", "an", "one", "the") and _is_noun(two.text)), None
+        (two.text for number, (one, two) in enumerate(pairwise(tokens[:at]))
+         if one.text in ("a", "an", "one", "the") and _is_noun(two.text)
+         and (number == 0 or tokens[number - 1].text not in _WHERE)), None
     )  # fmt: skip
     return None if first is None else (1, _stand_for(tokens[at : at + 1], f"another {first}"))
+
+
+_WHERE = frozenset({"on", "in", "at", "near", "under", "by", "behind", "beside", "of", "with"})
 
 
 def _ends_group(token: Token) -> bool:

@@ -6,7 +6,7 @@ None of them can be shown, and none is to be shown as its last word.
 from __future__ import annotations
 
 _TEXT = """
-    sea horse, sea
+    holding pen, sea horse, sea
     cucumber, sea urchin, sea cow, sea pen, ant lion, antlion, star fish, jelly bean, cuttle fish,
     silver fish, butter cup, water bear, gummy bear, horse shoe, horseshoe, sea dragon, bearded
     dragon, tasmanian devil, cray fish, lion fish, dog fish, catwalk, fox glove,

@@ -56,9 +56,10 @@ SENSES: dict[str, tuple[Sense, ...]] = {
         _sense("song music album animal paw snow footprint"),
     ),
     "bat": (
+        _sense("baseball batter pitcher inning homer swing grip umpire catcher glove mitt",
+               "baseball bat"),
         _sense("fly flap wing cave vampire colony roost nocturnal insect halloween", "bat"),
-        _sense("baseball batter pitcher inning homer swing grip ball hit hold hand player catcher"
-               " umpire plate glove mitt uniform helmet boy girl man woman child kid",
+        _sense("ball hit hold hand player plate uniform helmet boy girl man woman child kid",
                "baseball bat"),
         _sense("cricket cricketer wicket", "cricket bat"),
     ),
@@ -111,12 +112,12 @@ SENSES: dict[str, tuple[Sense, ...]] = {
     "train": (_sense("bride gown wedding veil"),),
     "pupil": (_sense("iris dilate eyelash eyelid"),),
     "pen": (_sense("pig sheep cow goat hen chicken lamb calf piglet farmer livestock elephant"
-                   " giraffe zebra horse pony donkey bear cattle bull animal zoo holding dirt"
-                   " puppy fence enclosure bison rhino ostrich llama alpaca duck"),),
+                   " giraffe zebra cattle bull zoo fence enclosure bison rhino ostrich llama"
+                   " alpaca"),),
     "ski": (_sense("gear equipment outfit clothing apparel attire"),),
     "pool": (_sense("billiard billiards cue shoot"),),
-    "present": (_sense("food people person guest dish meal"),),
-    "plate": (_sense("tectonic licence license number weight barbell batter umpire catcher home"),),
+    "present": (_sense("food dish meal"),),
+    "plate": (_sense("tectonic licence license number weight barbell batter umpire catcher"),),
     "key": (_sense("piano pianist typewriter laptop organ accordion press type keyboard organist"
                    " synthesizer xylophone"),),
     "bass": (_sense("band guitar jazz musician stage concert amplifier drummer"),),

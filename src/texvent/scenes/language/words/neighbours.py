@@ -43,6 +43,7 @@ def read_neighbours(words: Sequence[Word]) -> None:
 
 
 _AT_OTHER_TIMES = ("after", "before")
+_SPELLS = ("shower", "storm", "day", "night", "spell")
 
 
 def _put_aside_weather(preposition: Word, coming: Sequence[Word]) -> None:
@@ -52,8 +53,12 @@ def _put_aside_weather(preposition: Word, coming: Sequence[Word]) -> None:
         if word.pos not in _OF_NOUNS:
             break
         group.append(word)
-    if not any(word.role in (Role.WEATHER, Role.SNOW) for word in group):
-        return
+    is_of_weather = any(word.role in (Role.WEATHER, Role.SNOW) for word in group)
+    is_last = bool(group) and (
+        group[-1].role in (Role.WEATHER, Role.SNOW) or group[-1].lemma in _SPELLS
+    )
+    if not (is_of_weather and is_last):
+        return  # "before a snowy mountain"
     preposition.meaning = Meaning(Role.FUNCTION, preposition.pos)
     for word in group:
         if word.pos is not Pos.DETERMINER:

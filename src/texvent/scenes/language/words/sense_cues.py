@@ -228,8 +228,11 @@ def _lose_time(word: Word, after: Sequence[Word]) -> None:
     is_clause = any(one.pos in (Pos.VERB, Pos.AUXILIARY) for one in coming)
     if not coming or is_clause or any(one.role in _OTHER_TIMES for one in coming):
         return
+    group = list(takewhile(lambda one: one.pos is not Pos.PREPOSITION, coming))
+    if group and group[-1].read_as(Role.NOUN) is not None:
+        return  # "goes after a mouse"
     word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.PREPOSITION), ()
-    for one in takewhile(lambda one: one.pos is not Pos.PREPOSITION, coming):
+    for one in group:
         if one.pos is Pos.NOUN:
             _forget(one, Pos.NOUN)
 

@@ -60,7 +60,7 @@ def choose_angles(
     if goes_in_depth:
         azimuth = math.copysign(0.42, wander)
     said = description.objects[main.object_index]
-    is_jammed = said.motion is not None and said.motion.is_creeping
+    is_jammed = said.motion is not None and said.motion.is_stuck
     if (_is_elongated(main) or is_jammed) and not goes_in_depth:
         azimuth = math.copysign(_ALONG_IT, math.cos(state.yaw))
     follow = next((move for move in moves if move.kind == "follow"), None)

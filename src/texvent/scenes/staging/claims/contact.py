@@ -107,9 +107,7 @@ def hangs_on(subject: Actor, target: Actor, time_s: float) -> bool:
     return bool(is_up) and gap(own, other) <= _tolerance(own, other)
 
 
-_SHUT = frozenset(
-    {"suitcase", "handbag", "backpack", "briefcase", "chest", "treasure chest", "safe"}
-)
+_SHUT = frozenset({"suitcase", "handbag", "backpack", "briefcase", "chest", "safe"})
 
 
 def is_in(subject: Actor, target: Actor, time_s: float) -> bool:

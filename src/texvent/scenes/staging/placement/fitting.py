@@ -134,7 +134,7 @@ def _list_at_mouth(description: SceneDescription) -> set[int]:
     return {index for index, one in enumerate(objects) if one.noun in nouns}
 
 
-_AT_MOUTH = frozenset({"drink", "eat", "eat plate", "eat slice", "phone", "sing"})
+_AT_MOUTH = frozenset({"drink", "eat", "eat watermelon", "phone", "sing"})
 
 
 _LOWERED = {**dict.fromkeys(("tree", "pine", "palm", "ramp", "slide"), 0.4), "house": 0.75}

@@ -55,7 +55,8 @@ def hold_up_traffic(draft: Draft) -> None:
     waiting = [
         draft.objects[one.subject]
         for one in draft.relations
-        if any(
+        if one.kind == "in"
+        and any(
             draft.objects[target].traffic in _JAMS
             or (
                 draft.objects[target].traffic
@@ -67,9 +68,9 @@ def hold_up_traffic(draft: Draft) -> None:
     ]
     for item in traffic:
         if waiting or item.traffic in _JAMS:
-            item.motions = [replace(item.motions[-1], speed_m_s=CREEPING_M_S)]
+            item.motions = [replace(item.motions[-1], speed_m_s=CREEPING_M_S, is_stuck=True)]
     for item in waiting:
-        item.motions = [ObjectMotion("drive", "right", speed_m_s=CREEPING_M_S)]
+        item.motions = [ObjectMotion("drive", "right", speed_m_s=CREEPING_M_S, is_stuck=True)]
     # All vehicles of a road are in its traffic.
     draft.relations[:] = [
         one for one in draft.relations
