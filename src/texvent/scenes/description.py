@@ -285,9 +285,9 @@ class SceneDescription:
     light: Illumination = field(default_factory=Illumination)
     surroundings: Surroundings = field(default_factory=Surroundings)
     is_timelapse: bool = False
+    """Whether the sky goes much faster than in life."""
     is_grey: bool = False
     """Whether it is filmed in black and white."""
-    """Whether the sky goes much faster than in life."""
     absent: tuple[str, ...] = ()
     """Nouns that the prompt excludes; no scenery shows them."""
     shown: tuple[str, ...] = ()

@@ -263,7 +263,7 @@ class ClauseMeaning:
             self._sentence = clause.sentence
 
     def _find_wholes(self, clause: Clause, objects: Sequence[Referent]) -> Sequence[Referent]:
-        """As in "brushes the mane of a pony": hands are at the pony."""
+        """As in "brushes the mane of a pony": hands are at it; not at the hair of a person."""
         if clause.verb is None or clause.verb.lemma not in HANDWORK:
             return objects
         if any(one.is_things for one in objects):
@@ -277,11 +277,9 @@ class ClauseMeaning:
         ]
         owners = [one.group.owner for one in objects if one.group.owner is not None]
         inner += [self._referents.resolve(owner) for owner in owners]
-        # The hair of a person is at no place where hands work.
-        wholes = [one for one in inner if one.is_things and not self._is_of_person(one)]
-        return [*objects, *wholes]
+        return [*objects, *(one for one in inner if one.is_things and not self._has_people(one))]
 
-    def _is_of_person(self, one: Referent) -> bool:
+    def _has_people(self, one: Referent) -> bool:
         return any(is_person(self._draft.noun(index)) for index in one.things)
 
     def _read_subject_phrases(

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
-from texvent.scenes.language.meaning.referents.resolver import find_head
+from texvent.scenes.language.meaning.referents.heads import find_head
 from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Meaning, Role

@@ -154,6 +154,8 @@ SHORES = frozenset({"sea", "lake", "river", "swimming pool", "harbour"})
 """Places with water beside land, or that become one."""
 WINDS = frozenset({"wind", "breeze", "gust", "gusts", "winds"})
 """Nouns of moving air."""
+ROAD_WORDS = frozenset({"road", "street", "highway", "lane", "motorway", "roadway"})
+"""Words for what vehicles drive on."""
 FLOWING = frozenset({"river"})
 """Places whose water goes one way."""
 NO_WAYS = frozenset(

@@ -26,7 +26,7 @@ from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.laid_table import ELEVATION_RAD, is_on_table, list_laid
 from texvent.scenes.staging.camera.main_actor import choose_main
-from texvent.scenes.staging.camera.pieces import TOGETHER
+from texvent.scenes.staging.camera.pieces import KEPT_TOGETHER
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
 from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
@@ -358,7 +358,7 @@ def _plan_moves(
     span = max(main.model.length, main.model.height)
     start, end = main.middle(0.0), main.middle(duration_s)
     travel = float(np.hypot(*(end - start)[:2]))
-    if has_landmark(description, main, TOGETHER) or goes_in_depth(description, main):
+    if has_landmark(description, main, KEPT_TOGETHER) or goes_in_depth(description, main):
         return ()
     if main.is_mover and travel > TRACKING_LENGTHS * span:
         return (CameraMove("follow", "side"),)

@@ -8,9 +8,9 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.camera.pieces import TOGETHER
+from texvent.scenes.staging.camera.pieces import KEPT_TOGETHER
 
-_LANDMARKS = TOGETHER | {"through", "past", "from", "towards", "away from"}
+_LANDMARKS = KEPT_TOGETHER | {"through", "past", "from", "towards", "away from"}
 
 
 _CROSSED = 0.7

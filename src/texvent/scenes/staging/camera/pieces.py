@@ -11,7 +11,7 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.placement.tables.tabletop import TABLES
 
-TOGETHER = frozenset(
+KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
      "left of", "right of", "look at"}
 )  # fmt: skip
@@ -35,7 +35,7 @@ def list_partners(
     by_object = {actor.object_index: actor for actor in reversed(actors)}
     partners: dict[int, Actor] = {}
     for relation in description.relations:
-        if relation.kind not in TOGETHER:
+        if relation.kind not in KEPT_TOGETHER:
             continue
         for one, other in [(relation.subject, t) for t in relation.targets]:
             for large, small in ((one, other), (other, one)):

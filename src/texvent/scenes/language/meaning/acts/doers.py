@@ -76,7 +76,11 @@ _RESTING = ("sit", "stand")
 
 
 def talk_on_phone(draft: Draft, subjects: Sequence[int], things: Sequence[int]) -> bool:
-    """As in "a man on a cell phone": who does nothing else talks; whether that is meant."""
+    """Let who is "on a cell phone", and does nothing else, talk on it.
+
+    Returns:
+        Whether the prompt means that.
+    """
     items = [draft.objects[index] for index in subjects if is_person(draft.noun(index))]
     is_phone = bool(things) and draft.noun(things[0]).name == "cell phone"
     if not is_phone or not items or len(items) < len(subjects):

@@ -271,12 +271,9 @@ class ActReader:
         """Whether an activity that the verb alone names is what the clause says."""
         if lacks_thing(name, objects) or not is_played(name, clause, self._draft):
             return False
-        return not (self._is_act(clause, objects) or is_of_own_part(name, objects))
-
-    def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
-        """Whether the verb acts on an object of the scene, or moves in a plain way."""
         is_verb = isinstance(clause.verb_word.meaning.value, Verb)
-        return is_verb and any(one.is_things for one in objects)
+        is_act = is_verb and any(one.is_things for one in objects)
+        return not (is_act or is_of_own_part(name, objects))
 
     def _do_to(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]

@@ -10,6 +10,7 @@ from texvent.scenes.description import ObjectMotion
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
+from texvent.scenes.language.vocabulary.motion import ROAD_WORDS
 from texvent.scenes.language.words.word import Word, link
 
 _ABOVE = ("over", "above")
@@ -34,7 +35,6 @@ _ON_RAILS = frozenset({"train", "steam locomotive", "tram", "subway train", "loc
 _IN_THE_BACK = frozenset({"mountain"})
 """What the scene is in front of anyway."""
 _BESIDE = frozenset({"beside", "next to", "near", "by", "alongside"})
-_ROAD_WORDS = frozenset({"road", "street", "highway", "lane", "motorway", "roadway"})
 _ALL_ROUND = frozenset({"plain", "underwater", "sky", "space"})
 """Places that are behind and below everything."""
 
@@ -59,7 +59,7 @@ def name_course(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
         # The track lies behind whoever is no train.
         word.is_lost = any(draft.noun(index).name not in _ON_RAILS for index in scope.subjects)
         word.is_used = not word.is_lost
-    elif word.text in _BESIDE and one.value in _ROADS and head in _ROAD_WORDS and scope.subjects:
+    elif word.text in _BESIDE and one.value in _ROADS and head in ROAD_WORDS and scope.subjects:
         word.course = "beside road"
         link([word], scope.subjects)
     elif word.text in _ABOVE and one.value in _TOWNS and head not in _OF_STREETS:

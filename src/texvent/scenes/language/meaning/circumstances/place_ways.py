@@ -10,8 +10,14 @@ from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
-from texvent.scenes.language.vocabulary.motion import NO_WAYS, SHORE_WAYS, SHORES, SLOPES
-from texvent.scenes.language.words.word import Word
+from texvent.scenes.language.vocabulary.motion import (
+    NO_WAYS,
+    ROAD_WORDS,
+    SHORE_WAYS,
+    SHORES,
+    SLOPES,
+)
+from texvent.scenes.language.words.word import Word, mark_used
 
 _CLIMBED = ("trail", "path", "footpath", "track", "drive", "driveway")
 """What goes "up" rises, though one walks "down" a level one; one drives up a level street."""
@@ -149,17 +155,31 @@ def go_to(draft: Draft, word: Word, one: Referent, scope: Scope) -> bool:
     return is_led
 
 
-_ROADWAYS = frozenset({"road", "lane", "street", "highway", "roadway", "motorway"})
-
-
 def put_on_road(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
     """As in "a deer stands in the lane", "sheep walk down a road": on it, not beside it."""
     head = one.group.head
     is_along = word.text in ("down", "along", "up")
-    if not (is_along or word.text in ("in", "on")) or head is None or head.lemma not in _ROADWAYS:
+    if not (is_along or word.text in ("in", "on")) or head is None or head.lemma not in ROAD_WORDS:
         return
     for index in scope.subjects:
         item, noun = draft.objects[index], draft.noun(index)
         may_be = not (is_along and is_person(noun)) and noun.motion != "drive"
         if item.side is None and may_be:
             item.side = "lane"
+
+
+_BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
+              "from": "away", "at": "towards"}  # fmt: skip
+
+
+def go_by_camera(draft: Draft, word: Word, one: Referent, scope: Scope) -> None:
+    """As in "walks towards the camera"; "in front of the camera" is wherever it looks."""
+    if word.text == "in front of" and (scope.movers or scope.subjects):
+        mark_used([word, *one.group.words])
+        return
+    direction = _BY_CAMERA.get(word.text)
+    for index in scope.movers if direction is not None else ():
+        motions = draft.objects[index].motions
+        if motions:
+            motions[-1] = replace(motions[-1], direction=direction)
+            mark_used([word, *one.group.words])

@@ -23,6 +23,7 @@ from texvent.scenes.language.meaning.circumstances.fillings import read_of
 from texvent.scenes.language.meaning.circumstances.parts import PartReader
 from texvent.scenes.language.meaning.circumstances.place_ways import (
     BESIDE,
+    go_by_camera,
     go_to,
     is_outside,
     is_somewhere,
@@ -286,7 +287,7 @@ class CircumstanceReader:
 
     def _read_camera_or_style(self, word: Word, one: Referent, scope: Scope) -> None:
         if one.kind == "camera":
-            self._read_towards_camera(word, one, scope)
+            go_by_camera(self._draft, word, one, scope)
         else:
             self.read_style(one)
             word.is_used = True
@@ -344,19 +345,6 @@ class CircumstanceReader:
         if one.group.head is not None and one.group.head.text == "motion" and pace is not None:
             self._draft.tempo, pace[1].is_used = 0.3, True
 
-    def _read_towards_camera(self, word: Word, one: Referent, scope: Scope) -> None:
-        if word.text == "in front of" and (scope.movers or scope.subjects):
-            mark_used([word, *one.group.words])
-            return
-        direction = _BY_CAMERA.get(word.text)
-        if direction is None:
-            return
-        for index in scope.movers:
-            motions = self._draft.objects[index].motions
-            if motions:
-                motions[-1] = replace(motions[-1], direction=direction)
-                mark_used([word, *one.group.words])
-
     def show_on(self, one: Referent, things: Sequence[int]) -> bool:
         """Put a picture on the first of the objects that has a face for it."""
         picture = one.value
@@ -399,7 +387,3 @@ class CircumstanceReader:
             if is_person(self._draft.noun(index)):
                 return index
         return None
-
-
-_BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
-              "from": "away", "at": "towards"}  # fmt: skip

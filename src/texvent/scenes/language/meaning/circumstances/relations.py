@@ -19,13 +19,12 @@ from texvent.scenes.language.meaning.circumstances.put import (
     OFF_GROUND,
     TABLES,
     VESSELS,
-    find_slid,
     is_put,
     is_small,
     take_out,
 )
 from texvent.scenes.language.meaning.circumstances.slopes import go_on_slope
-from texvent.scenes.language.meaning.circumstances.walked import WALKED, is_walked
+from texvent.scenes.language.meaning.circumstances.walked import WALKED, list_goers
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.resolver import Referents
 from texvent.scenes.language.meaning.scope import Scope
@@ -97,8 +96,8 @@ class RelationReader:
             return True
         if word.text in ("up", "down", "facing"):
             return self._turn_or_climb(word, things, scope)
-        if is_walked(self._draft, word, things, scope):
-            goers = find_slid(self._draft, word, things, scope) or scope.movers or scope.subjects
+        goers = list_goers(self._draft, word, things, scope)
+        if goers:
             return self._relate("on", goers, things, WALKED[word.text])
         return kind is not None and self._read_kind(kind, word, things, scope)
 

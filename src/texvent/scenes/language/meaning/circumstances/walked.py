@@ -14,15 +14,22 @@ WALKED = {"along": "along", "across": "across", "over": "across", "down": "along
 """Preposition → way of who walks or drives over what has a deck."""
 
 
-def is_walked(draft: Draft, word: Word, things: Sequence[int], scope: Scope) -> bool:
-    """As in "runs along a pier", "drives over a bridge": on it, unless it flies or floats."""
-    if find_slid(draft, word, things, scope):
-        return True
+def list_goers(draft: Draft, word: Word, things: Sequence[int], scope: Scope) -> Sequence[int]:
+    """As in "runs along a pier", "drives over a bridge": who goes on it, unless it flies or floats.
+
+    Returns:
+        Nothing where the preposition does not say so.
+    """
+    slid = find_slid(draft, word, things, scope)
+    if slid:
+        return slid
+    goers = scope.movers or scope.subjects
     names = {draft.noun(index).name for index in things}
     if word.text not in WALKED or not names <= _DECKS:
-        return False
-    return all(
+        return ()
+    are_on_foot = all(
         draft.noun(index).habitat == "ground"
         and not any(one.kind in OFF_GROUND for one in draft.objects[index].motions)
-        for index in scope.movers or scope.subjects
+        for index in goers
     )
+    return goers if are_on_foot else ()

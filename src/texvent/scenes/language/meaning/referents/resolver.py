@@ -16,6 +16,7 @@ from texvent.scenes.language.meaning.referents.crowds import (
     name_kind_before,
 )
 from texvent.scenes.language.meaning.referents.earlier import find_coloured, find_kind
+from texvent.scenes.language.meaning.referents.heads import find_head, is_said_once, name_kind
 from texvent.scenes.language.meaning.referents.parts_shown import (
     BODY_PARTS,
     is_own_hand,
@@ -41,14 +42,13 @@ from texvent.scenes.language.meaning.referents.senses import (
 from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.language.vocabulary.function import (
     DEFINITE,
-    HAPPENINGS,
     NOBODY,
     SOMEONE,
     UNNAMED,
     VIEWERS,
 )
 from texvent.scenes.language.vocabulary.objects import MAX_COUNT, PLURAL_COUNT, SURROUND_COUNT
-from texvent.scenes.language.words.english import Pos, list_readings
+from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word, link, mark_used
 from texvent.scenes.models.kinds.looks import LOOKS
@@ -61,8 +61,6 @@ OUR = ("our", "my")
 """Owners that make a vehicle the camera's: "our car leaves a tunnel"."""
 _ONE_BARBELL = "weights"
 """Of who lifts weights, one is shown."""
-_SHOWN = (Role.PLACE, Role.EFFECT)
-"""Roles of nouns that are shown, but for things."""
 _LOCATIVE = frozenset(
     {"in", "on", "through", "across", "along", "at", "into", "up", "down", "onto", "over", "inside",
      "to", "from", "past", "around", "within", "above", "towards", "toward"}
@@ -288,7 +286,7 @@ class Referents(Antecedents):
         is_plural = attributes.is_many or (meaning.is_plural and not is_one) or is_drinks
         names_one = head.text == noun and noun.endswith("s")  # "random dots", "scissors"
         is_plural = is_plural or (meaning.can_be_both and is_bare and not names_one)
-        is_plural &= attributes.is_many or not _is_one(group)
+        is_plural &= attributes.is_many or not is_said_once(group)
         said = name_kind(head) if meaning.is_substitute else None
         is_either = meaning.can_be_both and not attributes.is_many
         index = self._recall(group, noun, None if is_either else is_plural, attributes, said)
@@ -375,31 +373,6 @@ class Referents(Antecedents):
             kind, word = attributes.effect
             self._draft.effects.append(Effect(kind, source=things[0]))
             word.is_used = True
-
-
-def name_kind(head: Word) -> str:
-    """The last word of a noun in the singular: "collie" for "border collies"."""
-    last = head.tokens[-1].text
-    return next((one.lemma for one in list_readings(last) if one.pos is Pos.NOUN), last)
-
-
-def _is_one(group: NounGroup) -> bool:
-    """As in "a persons hand"; "a car traffic lights" are two things without a comma."""
-    has_article = group.determiner is not None and group.determiner.text in ("a", "an")
-    return has_article and not any(one.pos is Pos.NOUN for one in group.modifiers)
-
-
-def find_head(group: NounGroup) -> Word:
-    """Its head; the noun before it where the last word names nothing: "a fireworks finale"."""
-    head = group.head_word
-    readings = list_readings(head.text)
-    is_noun = len(head.text) > 1 and any(one.pos is Pos.NOUN for one in readings)
-    is_head = is_noun and head.lemma not in HAPPENINGS
-    is_lost = head.role in (Role.UNKNOWN, Role.UNIT) and not is_head and bool(group.modifiers)
-    before = group.modifiers[-1] if is_lost else None
-    if before is not None and (before.read_as(Role.NOUN) is not None or before.role in _SHOWN):
-        group.head = group.modifiers.pop()
-    return group.head_word
 
 
 PAIRED = frozenset({"hand", "shoe", "boot", "sandal", "high heel", "glove", "sock"})
