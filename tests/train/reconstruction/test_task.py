@@ -128,8 +128,11 @@ def test_examples_depend_on_chance_alone(folder: Path) -> None:
 
 
 def test_training_lowers_the_loss_on_a_fixed_set(folder: Path, tmp_path: Path) -> None:
-    # Everything moves, so that events tell what the image shows.
-    moving = TEXT.replace("a {colour} ball flies {way}", "a {colour} wall, the camera pans {way}")
+    # Everything moves, and strong edges everywhere let sixteen steps teach something (from each of
+    # four seeds the loss falls below 0.62 of what it was).
+    moving = TEXT.replace(
+        "a {colour} ball flies {way}", "a {colour} checkerboard, the camera pans {way}"
+    )
     (folder / "moving.toml").write_text(moving)
     text = TRAINING.replace("epochs = 2", "epochs = 8").replace("tiny.toml", "moving.toml") + (
         "[augmentation]\nflip = false\nnoise = 0\nhot_pixels = 0\npause_begin = 0\n"
