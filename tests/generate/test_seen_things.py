@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from typing import ClassVar
 
 import numpy as np
@@ -30,6 +31,11 @@ SIZE = SensorSize(173, 130)
 def ball_scene(scale: float = 1.0):
     description = SceneDescription("a ball", objects=(SceneObject("ball", scale=scale),))
     return compose.compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
+
+
+@cache
+def usual_surroundings(time_s: float):
+    return ball_scene().environment(time_s)
 
 
 def test_a_thing_before_the_camera_is_seen():
@@ -109,7 +115,7 @@ class Discs:
         return Camera(np.zeros(3), axes, 1.0)
 
     def environment(self, time_s):
-        return ball_scene().environment(time_s)
+        return usual_surroundings(time_s)
 
 
 @pytest.mark.parametrize(

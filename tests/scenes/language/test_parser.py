@@ -420,7 +420,7 @@ def test_a_phrase_of_the_camera_before_a_noun_is_read_to_its_end() -> None:
 
 
 def test_a_very_long_prompt_is_read() -> None:
-    description = parse_prompt("a red car drives left past a tree and " * 2000 + "stops")
+    description = parse_prompt("a red car drives left past a tree and " * 500 + "stops")
     assert len(description.objects) == MAX_OBJECTS
 
 

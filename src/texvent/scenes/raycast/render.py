@@ -151,7 +151,10 @@ def light_of_rows(
     """
     first, last = rows
     image = np.empty((last, size.width, 3), dtype=np.float64)
-    chosen = np.ones((last, size.width), dtype=np.bool_) if wanted is None else wanted
+    # The kernel is compiled for contiguous masks alone.
+    chosen = np.ascontiguousarray(
+        np.ones((last, size.width), dtype=np.bool_) if wanted is None else wanted
+    )
     pattern = sample_pattern((4 * samples) ** 2)
 
     def draw(top: int) -> None:

@@ -49,8 +49,9 @@ def see_glows(world: World | OwnedWorld, rays: Rays) -> np.ndarray:
     front = seen[:, 2] > NEAR_M
     lamps, offset, seen = lamps[front], offset[front], seen[front]
     glows = np.zeros(len(lamps), dtype=GLOW_RECORD)
-    depth = seen[:, 2]
-    glows["place"] = seen[:, :2] / depth[:, None]
+    depth = seen[:, 2].copy()  # contiguous, as the kernel is compiled for
+    place = seen[:, :2] / depth[:, None]
+    glows["place"] = place
     pixel = float(instant["step"])
     distance = np.linalg.norm(offset, axis=1)
     radius = lamps[:, RADIUS] / (pixel * distance)
@@ -58,7 +59,7 @@ def see_glows(world: World | OwnedWorld, rays: Rays) -> np.ndarray:
     glows["halo"] = np.hypot(HALO_WIDTH * _width(rays), radius)
     visible = np.zeros(len(lamps))
     probes = _disc(_PROBES) * np.maximum(radius, 0.7)[:, None, None]
-    see_lamps(world, lamps, glows["place"], depth, probes, visible)
+    see_lamps(world, lamps, place, depth, probes, visible)
     share = visible * _towards_camera(lamps, offset, distance)
     share *= np.exp(-distance * float(instant["fog"]))
     # A surface at 1 m that the lamp lights by 1 has radiance 1: intensity π, per pixel's solid
