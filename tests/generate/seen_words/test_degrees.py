@@ -4,13 +4,28 @@ from __future__ import annotations
 
 import pytest
 
-from texvent.generate.seen_words.degrees import MEASURED_ELSEWHERE, MEASURED_HERE, UNMEASURED
+from texvent.generate.seen_words.degrees import MEASURED_HERE, UNMEASURED
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.models.nouns import NOUNS
 
 OF_DEGREE = {Role.SIZE, Role.SHADE, Role.PACE, Role.ROAD, Role.STEEP}
+MEASURED_ELSEWHERE: dict[str, tuple[str, ...]] = {
+    "things": ("tiny", "miniature", "small", "little", "big", "large", "huge", "massive", "giant",
+               "enormous", "gigantic", "tall", "short", "in the background", "in the foreground"),
+    "verbs": ("very slowly", "slowly", "slow", "lazily", "at low speed", "gently", "gentle",
+              "leisurely", "calmly", "quickly", "quick", "swiftly", "fast", "faster", "rapidly",
+              "rapid", "very fast", "at top speed", "at high speed", "at full speed", "wildly",
+              "speeding", "steadily"),
+    "light": ("bright", "dark", "unlit", "well lit", "brightly lit", "bright day", "clear day",
+              "bright sun", "bright sunlight", "long shadows", "hazy", "low sun", "full moon",
+              "full of stars"),
+    "lighting": ("harsh", "strong", "brilliant", "dim", "dimly lit", "low light"),
+    "places": ("steep", "uphill", "downhill", "sloping", "hilly"),
+    "views": ("low", "high", "close", "tight", "wide", "medium", "full", "mid", "panoramic"),
+}  # fmt: skip
+"""Module of `seen_words` → words that it measures."""
 KNOWN = {
     word
     for table in (MEASURED_HERE, MEASURED_ELSEWHERE, UNMEASURED)

@@ -19,9 +19,7 @@ from texvent.scenes.raycast.surfaces.catalogue import (
     CHANNELS,
     LEVELS,
     SURFACES,
-    TEXELS,
     build_tile,
-    level_start,
 )
 from texvent.scenes.raycast.surfaces.fields import SIDE
 from texvent.scenes.scene import Ground, Shape, Texture
@@ -66,9 +64,9 @@ def test_what_a_pixel_shows_is_the_mean_of_what_it_covers(texture: Texture) -> N
 @pytest.mark.parametrize("texture", SURFACES, ids=lambda texture: str(texture.name))
 def test_a_material_keeps_its_mean_at_every_size(texture: Texture) -> None:
     tile = build_tile(texture).astype(np.float64)
-    assert tile.shape == (TEXELS, CHANNELS)
-    starts = [level_start(level) for level in range(LEVELS)] + [TEXELS]
-    means = [tile[a:b].mean(axis=0) for a, b in itertools.pairwise(starts)]
+    ends = list(itertools.accumulate(SIDE * SIDE >> (2 * level) for level in range(LEVELS)))
+    assert tile.shape == (ends[-1], CHANNELS)
+    means = [tile[a:b].mean(axis=0) for a, b in itertools.pairwise([0, *ends])]
     np.testing.assert_allclose(means, np.broadcast_to(means[0], (LEVELS, CHANNELS)), atol=1e-5)
     assert means[0][:2].sum() == pytest.approx(1.0, abs=1e-5)
     assert np.abs(means[0][2:]).max() < 0.05

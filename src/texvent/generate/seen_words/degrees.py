@@ -203,21 +203,6 @@ MEASURED_HERE: Mapping[Judge, tuple[str, ...]] = {
                  "clear skies", "cloudless", "partly cloudy"),
 }  # fmt: skip
 """What measures a word of degree → the words."""
-MEASURED_ELSEWHERE: Mapping[str, tuple[str, ...]] = {
-    "things": ("tiny", "miniature", "small", "little", "big", "large", "huge", "massive", "giant",
-               "enormous", "gigantic", "tall", "short", "in the background", "in the foreground"),
-    "verbs": ("very slowly", "slowly", "slow", "lazily", "at low speed", "gently", "gentle",
-              "leisurely", "calmly", "quickly", "quick", "swiftly", "fast", "faster", "rapidly",
-              "rapid", "very fast", "at top speed", "at high speed", "at full speed", "wildly",
-              "speeding", "steadily"),
-    "light": ("bright", "dark", "unlit", "well lit", "brightly lit", "bright day", "clear day",
-              "bright sun", "bright sunlight", "long shadows", "hazy", "low sun", "full moon",
-              "full of stars"),
-    "lighting": ("harsh", "strong", "brilliant", "dim", "dimly lit", "low light"),
-    "places": ("steep", "uphill", "downhill", "sloping", "hilly"),
-    "views": ("low", "high", "close", "tight", "wide", "medium", "full", "mid", "panoramic"),
-}  # fmt: skip
-"""Module of `seen_words` → words that it measures."""
 UNMEASURED: Mapping[str, tuple[str, ...]] = {
     "how much is not told": ("slightly", "deep", "pale", "light", "vivid"),
     _BENDS: ("winding", "twisting"),

@@ -84,9 +84,7 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None
         whole = _find_whole(group, nouns)
         if whole is not None and _name(group.head_word) not in _ALONE:
             _show_whole(group, whole)
-    for at, group in enumerate(clause.subjects):
-        if _is_posed_limb(clause, group):
-            continue
+    for at, group in _list_doers(clause):
         owner = _find_owner(group, nouns) or _find_host(clause, group, before, nouns)
         whole = _find_whole(group, nouns) if owner is None else _find_noun(owner.head, nouns)
         if whole is None:
@@ -106,12 +104,12 @@ def take_wholes(clause: Clause, nouns: Mapping[str, Noun], before: Clause | None
             _lose_verb(clause)
 
 
-def _is_posed_limb(clause: Clause, group: NounGroup) -> bool:
-    """As in "with her arms crossed": no limbs are shown so. Finds the head of the group."""
-    if group.head is None:
-        return False
-    find_head(group)
-    return clause.is_passive and _name(group.head_word) in _LIMBS
+def _list_doers(clause: Clause) -> Iterator[tuple[int, NounGroup]]:
+    """Subjects, their heads found; but no limbs that are not shown so: "her arms crossed"."""
+    for at, group in enumerate(clause.subjects):
+        head = find_head(group) if group.head is not None else None
+        if head is None or not clause.is_passive or _name(head) not in _LIMBS:
+            yield at, group
 
 
 def _leave_owner(group: NounGroup) -> None:

@@ -45,7 +45,6 @@ from texvent.scenes.models.people.posture import (
     Arm,
     Leg,
     Posture,
-    Skeleton,
     blend,
     fill,
     solve,
@@ -105,11 +104,6 @@ def build_person(
         return locate_anchor(name, solve(choose_posture(kind, pose)), kind.head)
 
     return ArticulatedModel([], scale=scale * kind.height, articulate=articulate, anchor=anchor)
-
-
-def pose_joints(pose: Pose, kind: PersonKind = ADULT) -> Skeleton:
-    """The joints of a person at a pose, for an adult of the usual size."""
-    return solve(choose_posture(kind, pose))
 
 
 def choose_posture(kind: PersonKind, pose: Pose) -> Posture:

@@ -99,8 +99,6 @@ _KICK = (
     (0.50, (0.22, 0.20, 0.1, -0.05, 0.1)),
     (0.80, (0.02, ANKLE, 0.0, 0.00, 0.0)),
 )
-KICK_FOOT: Point = (0.30, -0.09, 0.115)
-"""Ankle of the kicking foot when it meets the ball."""
 
 
 def kick(t: float) -> Posture:

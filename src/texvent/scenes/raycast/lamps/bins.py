@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.raycast.acceleration import Bins, IntArray, bin_rectangles
+from texvent.scenes.raycast.lamps.light import CASTS
 from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Primitives, Shape
 
 LONGITUDES, LATITUDES = 48, 24
@@ -20,7 +21,7 @@ _LONGEST_PIECES = 8
 def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[Float64Array, int]:
     """The lamps that cast shadows first, and how many they are; `shadows` False: none does."""
     rows = np.asarray(lamps, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
-    casts = np.flatnonzero(rows[:, 13] > 0.0)[: MOST_SHADOW_LAMPS if shadows else 0]
+    casts = np.flatnonzero(rows[:, CASTS] > 0.0)[: MOST_SHADOW_LAMPS if shadows else 0]
     rest = np.setdiff1d(np.arange(len(rows)), casts)
     return np.ascontiguousarray(rows[np.concatenate([casts, rest])]), len(casts)
 

@@ -17,8 +17,6 @@ from texvent.scenes.scene import FIRST_SURFACE, Texture
 LEVELS = 9
 """A tile, and its averages over 2 × 2, 4 × 4, ... texels up to the whole tile."""
 CHANNELS = 4
-TEXELS = (4 * SIDE * SIDE - 1) // 3
-"""Texels of all levels together."""
 STEEPEST = 1.2
 """Slopes of relief are cut off here."""
 _FRACTION = 1 << 16
@@ -95,8 +93,8 @@ def build_tile(texture: Texture) -> NDArray[np.float32]:
         texture: one of `SURFACES`.
 
     Returns:
-        [TEXELS, CHANNELS], kept while the process runs; level l begins at `level_start(l)`, with
-        rows along v.
+        [n, CHANNELS], kept while the process runs: one level after the other, the finest first,
+        each with its rows along v.
     """
     kind = SURFACES[texture]
     pattern = kind.pattern()
@@ -117,11 +115,6 @@ def build_tile(texture: Texture) -> NDArray[np.float32]:
         fine = levels[-1]
         levels.append((fine[::2, ::2] + fine[1::2, ::2] + fine[::2, 1::2] + fine[1::2, 1::2]) / 4.0)
     return np.concatenate([each.reshape(-1, CHANNELS) for each in levels]).astype(np.float32)
-
-
-def level_start(level: int) -> int:
-    """Where a level's texels begin in a tile of `build_tile`."""
-    return int((4 * SIDE * SIDE - (4 * SIDE * SIDE >> (2 * level))) // 3)
 
 
 @cache

@@ -113,7 +113,7 @@ class RelationReader:
 
     def _read_kind(self, kind: str, word: Word, things: list[int], scope: Scope) -> bool:
         """A relation of the clause's subjects, or of what is acted on."""
-        if self._is_beyond(kind, word, things, scope):
+        if self._is_in_food(kind, things, scope) or self._hang_on(kind, word, things, scope):
             return False
         is_laid = self._draft.noun(things[0]).name in TABLES | DISHES
         if kind in ("on", "in") and not scope.has_verb and is_laid:
@@ -140,13 +140,16 @@ class RelationReader:
             subjects = list(scope.acted_on)
         return self._relate(kind, subjects, things, PREPOSITION_WAYS.get(word.text, ""))
 
-    def _is_beyond(self, kind: str, word: Word, things: list[int], scope: Scope) -> bool:
-        """As in "a dog in the fruit"; a clock on top of a tower is shown on its front, as usual."""
-        nouns = [self._draft.noun(index) for index in scope.subjects]
-        if kind == "in" and self._draft.noun(things[0]).name in _FOOD:
-            return any(map(is_living, nouns))
-        are_clocks = word.text in _AT_TOP and all(noun.name == "clock" for noun in nouns)
-        is_crown = are_clocks and self._draft.length_m(things[0]) > _TALL_M
+    def _is_in_food(self, kind: str, things: list[int], scope: Scope) -> bool:
+        """As in "a dog in the fruit"."""
+        is_food = kind == "in" and self._draft.noun(things[0]).name in _FOOD
+        return is_food and any(is_living(self._draft.noun(index)) for index in scope.subjects)
+
+    def _hang_on(self, kind: str, word: Word, things: list[int], scope: Scope) -> bool:
+        """As in "a clock on top of a tower": it is on its front, as usual; the words are lost."""
+        names = {self._draft.noun(index).name for index in scope.subjects}
+        is_clock = word.text in _AT_TOP and names == {"clock"}
+        is_crown = is_clock and self._draft.length_m(things[0]) > _TALL_M
         return is_crown and self._relate(kind, scope.subjects, things)
 
     def _bounce(self, scope: Scope) -> bool:
