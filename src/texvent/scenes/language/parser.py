@@ -18,6 +18,7 @@ from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.grammar.clauses import read_clauses
 from texvent.scenes.language.grammar.companions import link_companions
 from texvent.scenes.language.grammar.made_of import bring_materials_forward
+from texvent.scenes.language.meaning.acts.hosts import take_hosts
 from texvent.scenes.language.meaning.animals.acts import read_animal_acts
 from texvent.scenes.language.meaning.animals.characters import stand_upright
 from texvent.scenes.language.meaning.clause_meaning import ClauseMeaning
@@ -94,6 +95,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
     )
     clauses = read_clauses(words[:MOST_WORDS])
     link_companions(clauses)
+    take_hosts(clauses, nouns)
     read_animal_acts(clauses, nouns)
     notes += stand_upright(clauses, words, nouns)
     for clause in clauses:

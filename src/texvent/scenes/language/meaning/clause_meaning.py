@@ -13,7 +13,7 @@ from texvent.scenes.language.meaning.acts.doers import play_own, settle_doings, 
 from texvent.scenes.language.meaning.acts.first_person import show_speaker
 from texvent.scenes.language.meaning.acts.fitting import is_plain_past
 from texvent.scenes.language.meaning.acts.hand_work import give_bodies
-from texvent.scenes.language.meaning.acts.hosts import lift_places, take_host
+from texvent.scenes.language.meaning.acts.hosts import lift_places
 from texvent.scenes.language.meaning.acts.named_acts import read_named_act
 from texvent.scenes.language.meaning.acts.partners import take_fellows, take_receivers
 from texvent.scenes.language.meaning.acts.reader import ActReader
@@ -121,7 +121,6 @@ class ClauseMeaning:
 
     def read(self, clause: Clause) -> None:
         """Add what a clause says."""
-        take_host(clause, self._draft.nouns)
         lift_places(clause, self._draft.nouns)
         take_wholes(clause, self._draft.nouns, self._before)
         self._before = clause

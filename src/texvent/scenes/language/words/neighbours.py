@@ -37,9 +37,8 @@ def read_neighbours(words: Sequence[Word]) -> None:
             word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
         if word.text in _AT_OTHER_TIMES:
             _put_aside_weather(word, words[number + 1 : number + 5])
-        if word.text == "left" and _is_left_behind(before, after):
-            word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.ADVERB), ()
-            word.is_lost = True
+        if word.text == "left":
+            _stay_behind(word, before, after)
 
 
 _AT_OTHER_TIMES = ("after", "before")
@@ -66,10 +65,18 @@ def _put_aside_weather(preposition: Word, coming: Sequence[Word]) -> None:
             word.is_lost = True
 
 
-def _is_left_behind(before: Word | None, after: Word | None) -> bool:
-    """As in "a bicycle left on a street", "a dog left alone": nothing goes to the left."""
-    is_thing = before is not None and before.role is Role.NOUN and before.pos is Pos.NOUN
-    return is_thing and after is not None and after.text.split()[0] in _LEFT_THERE
+def _stay_behind(word: Word, before: Word | None, after: Word | None) -> None:
+    """As in "is left alone", "a bicycle left on a street": nothing goes, to the left neither."""
+    if word.pos is Pos.VERB:
+        is_left = after is None or after.pos is not Pos.DETERMINER  # "left the garage"
+    else:
+        is_thing = before is not None and before.role is Role.NOUN and before.pos is Pos.NOUN
+        is_left = is_thing and after is not None and after.text.split()[0] in _LEFT_THERE
+    if is_left:
+        pos = Pos.VERB if word.pos is Pos.VERB else Pos.ADVERB
+        form = word.meaning.form if word.pos is Pos.VERB else None
+        word.meaning, word.others = Meaning(Role.UNKNOWN, pos, form=form), ()
+        word.is_lost = True
 
 
 _LEFT_THERE = frozenset(

@@ -98,9 +98,6 @@ def _choose_verb(word: Word, after: Sequence[Word], others: set[str], known: Lex
         if follower.pos is Pos.PREPOSITION:
             _forget(follower, Pos.ADVERB)  # a coat that is put on is not under who does it
         return
-    if word.text == "left" and (follower is None or follower.pos is not Pos.DETERMINER):
-        _forget(word, Pos.VERB)  # "is left alone": it goes nowhere
-        return
     if NO_OBJECT.get(word.lemma, frozenset()) & {
         one.lemma.split()[-1] for one in _take_object(after)
     }:

@@ -146,7 +146,7 @@ class _Tagger(ReadSoFar):
             return None  # "a woman's hands"
         adverb = by_pos.get(Pos.ADVERB)
         is_adverb = adverb is not None and adverb.role is not Role.UNKNOWN
-        if self._is_left_behind(index):
+        if self._is_of_leave(index):
             return Pos.VERB
         if is_adverb and (verb.role is Role.UNKNOWN or verb.form is VerbForm.PAST):
             return None
@@ -163,8 +163,8 @@ class _Tagger(ReadSoFar):
             return None
         return self._verb_by_context(index, verb, others)
 
-    def _is_left_behind(self, index: int) -> bool:
-        """As in "is left alone", "left the garage", where "left" is no direction."""
+    def _is_of_leave(self, index: int) -> bool:
+        """As in "is left alone", "left the garage": a form of "leave", and no direction."""
         if self._texts[index] != "left":
             return False
         is_passive = self._before() is Pos.AUXILIARY

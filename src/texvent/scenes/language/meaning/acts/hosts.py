@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.capabilities import can_do, is_hand, is_living
@@ -35,13 +35,18 @@ _DRESSED = frozenset({"robot", "mannequin", "doll", "teddy bear", "snowman", "sc
 _LIFELESS = frozenset({Role.PLACE, Role.WEATHER, Role.SNOW, Role.SKY, Role.LIGHT, Role.PART})
 
 
-def take_host(clause: Clause, nouns: Mapping[str, Noun]) -> None:
-    """As in "a fox runs through the snow looking for food": the fox looks; the clause changes.
+def take_hosts(clauses: Sequence[Clause], nouns: Mapping[str, Noun]) -> None:
+    """As in "a fox runs through the snow looking for food": the fox looks; the clauses change.
 
     Args:
-        clause: any clause; only participles right after a noun have hosts.
+        clauses: of the prompt; only participles right after a noun have hosts.
         nouns: the objects that can be shown, by name.
     """
+    for clause in clauses:
+        _take_host(clause, nouns)
+
+
+def _take_host(clause: Clause, nouns: Mapping[str, Noun]) -> None:
     verb = clause.verb
     if not clause.hosts or verb is None or not clause.subjects or clause.is_passive:
         return

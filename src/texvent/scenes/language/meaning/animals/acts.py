@@ -12,7 +12,6 @@ from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.animals.bodies import (
     build_nest,
     drop_role,
-    give_to_hosts,
     give_to_wearers,
     go_to_herd,
     lie,
@@ -43,7 +42,6 @@ def read_animal_acts(clauses: Sequence[Clause], nouns: Mapping[str, Noun]) -> No
         clauses: of the prompt; they change.
         nouns: the objects that can be shown, by name.
     """
-    give_to_hosts(clauses, nouns)
     give_to_wearers(clauses)
     mean_parents(clauses, nouns)
     for at, clause in enumerate(clauses):

@@ -12,7 +12,6 @@ from texvent.scenes.language.meaning.animals.words import (
     OWN,
     find_animal,
     find_verb,
-    is_of_person,
     is_own,
     list_heads,
     say,
@@ -203,18 +202,6 @@ def give_to_wearers(clauses: Sequence[Clause]) -> None:
         if worn and len(worn) == len(clause.subjects) and clause.sentence == before.sentence:
             before.objects = [*before.objects, *(one for one in worn if one not in before.objects)]
             clause.subjects, clause.hosts = list(before.subjects), []
-
-
-def give_to_hosts(clauses: Sequence[Clause], nouns: Mapping[str, Noun]) -> None:
-    """As in "stands on a board wearing a vest": who stands there wears it, not the board."""
-    for clause in clauses:
-        verb = clause.verb
-        if verb is None or verb.lemma != "wear" or not clause.is_participle or not clause.hosts:
-            continue
-        can_wear = [one for one in clause.hosts if find_animal(one, nouns) or is_of_person(one)]
-        own = [one for one in clause.subjects if find_animal(one, nouns) or is_of_person(one)]
-        if can_wear and not own:
-            clause.subjects[:], clause.hosts = can_wear, []
 
 
 def _is_worn(group: NounGroup) -> bool:

@@ -11,7 +11,6 @@ from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
-from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 
 
@@ -31,12 +30,6 @@ def find_animal(group: NounGroup, nouns: Mapping[str, Noun]) -> str | None:
         return None
     noun = nouns.get(str(meaning.value))
     return noun.name if noun is not None and is_living(noun) and not is_person(noun) else None
-
-
-def is_of_person(group: NounGroup) -> bool:
-    """Whether it names a person."""
-    meaning = group.head.meaning if group.head is not None else None
-    return meaning is not None and meaning.role is Role.NOUN and meaning.value in PERSON_NOUNS
 
 
 def say(word: Word, act: str) -> None:
