@@ -168,7 +168,7 @@ def turn_effects(clause: Clause) -> None:
         kind = "fireworks" if name.startswith("firework") and lemma in BURSTS else kind
         kind = "popcorn" if name == "popcorn" and lemma in POPS else kind
         if head is not None and kind is not None:
-            head.meaning, head.others = Meaning(Role.EFFECT, Pos.NOUN, kind), ()
+            head.mean(Meaning(Role.EFFECT, Pos.NOUN, kind))
 
 
 _MADE = {

@@ -143,7 +143,7 @@ def _drop_marks(clause: Clause) -> None:
             marked = group or (clause.subjects[0] if len(clause.subjects) == 1 else None)
             if marked is not None and marked.head is not None and _name(marked.head) in _DISCS:
                 disc = replace(marked.head.meaning, role=Role.NOUN, value=_DOTTED)
-                marked.head.meaning, marked.head.others = disc, ()
+                marked.head.mean(disc)
                 mark_used(
                     [phrase.preposition, *(word for one in phrase.groups for word in one.words)]
                 )

@@ -65,7 +65,7 @@ def _is_anyway(word: Word, noun: Word) -> bool:
 
 
 def _take(word: Word, pos: Pos) -> None:
-    word.meaning, word.others = Meaning(Role.FUNCTION, pos), ()
+    word.mean(Meaning(Role.FUNCTION, pos))
     mark_used([word])
 
 

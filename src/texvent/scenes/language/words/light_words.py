@@ -190,7 +190,7 @@ class _Reader:
             if quality is not None and quality[0] in sides and not is_other:
                 found = self._take(word, quality) or found
             elif word.text in vocabulary.CLOUDED and sides is _ALL:
-                word.meaning, word.others = Meaning(Role.LIGHT, Pos.ADJECTIVE, "overcast"), ()
+                word.mean(Meaning(Role.LIGHT, Pos.ADJECTIVE, "overcast"))
                 found = True
             elif not self._is_between(at, index) or (
                 sides is _BRIGHTNESS and word.role is Role.COLOUR
@@ -270,7 +270,7 @@ class _Reader:
         value = said
         is_phrase = side == "direction" and " " in word.text
         pos = Pos.ADVERB if is_phrase else Pos.ADJECTIVE
-        word.meaning, word.others = Meaning(Role.LIGHTING, pos, value), ()
+        word.mean(Meaning(Role.LIGHTING, pos, value))
         mark_used([word])
         return True
 
@@ -281,5 +281,5 @@ def _is_arrival(word: Word) -> bool:
 
 
 def _silence(word: Word) -> None:
-    word.meaning, word.others = Meaning(Role.FUNCTION, Pos.ADVERB), ()
+    word.mean(Meaning(Role.FUNCTION, Pos.ADVERB))
     word.is_used = True

@@ -34,7 +34,7 @@ def read_neighbours(words: Sequence[Word]) -> None:
         if word.pos is Pos.TO and before is not None and before.text in _BEFOREHAND:
             _put_off(words[number + 1 :])
         if word.text in _ANOTHER and before is not None and _is_goal_alone(words, number):
-            word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
+            word.mean(Meaning(Role.UNKNOWN, Pos.NOUN))
         if word.text in _AT_OTHER_TIMES:
             _put_aside_weather(word, words[number + 1 : number + 5])
         if word.text == "left":
@@ -61,8 +61,7 @@ def _put_aside_weather(preposition: Word, coming: Sequence[Word]) -> None:
     preposition.meaning = Meaning(Role.FUNCTION, preposition.pos)
     for word in group:
         if word.pos is not Pos.DETERMINER:
-            word.meaning, word.others = Meaning(Role.UNKNOWN, word.pos), ()
-            word.is_lost = True
+            word.lose(word.pos)
 
 
 def _stay_behind(word: Word, before: Word | None, after: Word | None) -> None:
@@ -73,10 +72,7 @@ def _stay_behind(word: Word, before: Word | None, after: Word | None) -> None:
         is_thing = before is not None and before.role is Role.NOUN and before.pos is Pos.NOUN
         is_left = is_thing and after is not None and after.text.split()[0] in _LEFT_THERE
     if is_left:
-        pos = Pos.VERB if word.pos is Pos.VERB else Pos.ADVERB
-        form = word.meaning.form if word.pos is Pos.VERB else None
-        word.meaning, word.others = Meaning(Role.UNKNOWN, pos, form=form), ()
-        word.is_lost = True
+        word.lose(Pos.VERB if word.pos is Pos.VERB else Pos.ADVERB)
 
 
 _LEFT_THERE = frozenset(
@@ -95,7 +91,7 @@ def _forget_game(words: Sequence[Word]) -> None:
         near = (*texts[:number], *texts[number + 3 : number + 5])
         if not any(text.rstrip("s") in _OF_HANDS for text in near):
             for word in words[number : number + 3]:
-                word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.NOUN), ()
+                word.mean(Meaning(Role.UNKNOWN, Pos.NOUN))
 
 
 _OF_HANDS = ("hand", "fist", "gesture")
@@ -113,7 +109,7 @@ def _forget_axis(words: Sequence[Word]) -> None:
             first -= 1
         if first and words[first - 1].text in ("around", "about", "round", "on"):
             for one in words[first - 1 : number + 1]:
-                one.meaning, one.others = Meaning(Role.FUNCTION, Pos.ADVERB), ()
+                one.mean(Meaning(Role.FUNCTION, Pos.ADVERB))
                 one.is_used = True
 
 
@@ -131,8 +127,7 @@ def _put_off(after: Sequence[Word]) -> None:
     """As in "is about to jump": nothing jumps yet."""
     for word in after:
         if word.pos is Pos.VERB:
-            word.meaning = Meaning(Role.UNKNOWN, Pos.VERB, form=word.meaning.form)
-            word.others, word.is_lost = (), True
+            word.lose(Pos.VERB)
             return
         if word.pos is not Pos.ADVERB:
             return

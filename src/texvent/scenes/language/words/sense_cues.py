@@ -73,38 +73,38 @@ def choose_senses(words: Sequence[Word], known: Lexicon) -> None:
         if word.text == "water":
             word.is_content = bool(IN_VESSELS & others) and not OPEN_WATER & others
         if word.text == "lamp lights":
-            _forget(word, Pos.NOUN)
+            word.lose(Pos.NOUN)
         if word.text == "spray" and follower is not None and follower.lemma == "paint":
-            _forget(word, Pos.ADVERB)
+            word.lose(Pos.ADVERB)
 
 
 def _choose_before(word: Word, follower: Word) -> None:
     """As in "overhead close-up", "orange sparks"."""
     if word.text == "overhead" and follower.role in _OF_SHOTS:
-        word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, "top"), ()
+        word.mean(Meaning(Role.VIEW, Pos.ADJUNCT, "top"))
     colour = word.read_as(Role.COLOUR)
     if word.text == "orange" and follower.lemma in _LIGHTS and colour is not None:
-        word.meaning, word.others = colour, ()
+        word.mean(colour)
 
 
 def _choose_verb(word: Word, after: Sequence[Word], others: set[str], known: Lexicon) -> None:
     follower = after[0] if after else None
     if follower is not None and _is_switching(word, after):
-        _forget(word, Pos.VERB)
-        _forget(follower, Pos.ADVERB)
+        word.lose(Pos.VERB)
+        follower.lose(Pos.ADVERB)
         return
     if follower is not None and follower.text in PARTICLES.get(word.lemma, ()):
-        _forget(word, Pos.VERB)
+        word.lose(Pos.VERB)
         if follower.pos is Pos.PREPOSITION:
-            _forget(follower, Pos.ADVERB)  # a coat that is put on is not under who does it
+            follower.lose(Pos.ADVERB)  # a coat that is put on is not under who does it
         return
     if NO_OBJECT.get(word.lemma, frozenset()) & {
         one.lemma.split()[-1] for one in _take_object(after)
     }:
-        _forget(word, Pos.VERB)
+        word.lose(Pos.VERB)
         return
     if word.text == "saw" and not WOODEN & {one.lemma for one in after}:
-        _forget(word, Pos.VERB)
+        word.lose(Pos.VERB)
         return
     sense = _find_sense(VERB_SENSES.get(word.lemma, ()), others)
     if sense is not None:
@@ -116,7 +116,7 @@ def _leave_room(word: Word, before: Word) -> None:
     is_kind = before.pos in (Pos.ADJECTIVE, Pos.NOUN) and before.text not in _OUTER
     is_one = before.text in ("a", "an", *_OWNERS)
     if word.lemma == "space" and before is not word and (is_kind or is_one):
-        _forget(word, Pos.NOUN)
+        word.lose(Pos.NOUN)
 
 
 def _leave_substance(word: Word, before: Sequence[Word]) -> None:
@@ -126,7 +126,7 @@ def _leave_substance(word: Word, before: Sequence[Word]) -> None:
     is_pane = texts[-1:] in (["frosted"], ["stained"], ["tinted"], ["etched"])
     is_substance = word.text == "glass" and (is_made or is_pane)
     if is_substance or (is_made and word.read_as(Role.MATERIAL) is not None):
-        _forget(word, Pos.NOUN)
+        word.lose(Pos.NOUN)
 
 
 def _find_determiner(before: Sequence[Word]) -> Word | None:
@@ -160,7 +160,7 @@ def _choose_noun(
 ) -> None:
     """Give a noun after `words` its sense."""
     if word.text == "park" and words and words[-1].text == "to":
-        _forget(word, Pos.VERB)  # as in "looks for where to park"
+        word.lose(Pos.VERB)  # as in "looks for where to park"
         return
     before = _find_determiner(words)
     is_of = follower is not None and follower.text == "of"
@@ -171,11 +171,11 @@ def _choose_noun(
     )
     is_darkness = word.text == "pitch" and follower is not None and follower.text in _DARK
     if is_darkness or (word.lemma in _OUTLINES and is_before_noun):
-        _forget(word, Pos.ADJECTIVE)
+        word.lose(Pos.ADJECTIVE)
         return
     if word.lemma == "flat":
         if is_before_noun:
-            _forget(word, Pos.ADJECTIVE)
+            word.lose(Pos.ADJECTIVE)
         return
     is_other = _find_sense(SENSES.get(word.lemma, ()), others) is not None
     if (
@@ -183,7 +183,7 @@ def _choose_noun(
         or (needed is not None and others and not needed & others and not is_other)
         or (word.lemma in OWNED and is_owned)
     ):
-        _forget(word, Pos.NOUN)
+        word.lose(Pos.NOUN)
         return
     singular = next((one for one in _singulars(word.lemma) if one in SENSES), word.lemma)
     sense = _find_sense(SENSES.get(singular, ()), others)
@@ -205,7 +205,7 @@ def _give(word: Word, sense: Sense, known: Lexicon, pos: Pos) -> None:
     found = known.find(sense.phrase.split())[1] if sense.phrase is not None else []
     found = [one for one in found if one.pos is pos or pos is Pos.NOUN]
     if not found:
-        _forget(word, pos)
+        word.lose(pos)
     elif pos is Pos.VERB:
         form = word.meaning.form
         first, *rest = [replace(one, form=form) for one in found]
@@ -228,22 +228,15 @@ def _lose_time(word: Word, after: Sequence[Word]) -> None:
     group = list(takewhile(lambda one: one.pos is not Pos.PREPOSITION, coming))
     if group and group[-1].read_as(Role.NOUN) is not None:
         return  # "goes after a mouse"
-    word.meaning, word.others = Meaning(Role.UNKNOWN, Pos.PREPOSITION), ()
+    word.mean(Meaning(Role.UNKNOWN, Pos.PREPOSITION))
     for one in group:
         if one.pos is Pos.NOUN:
-            _forget(one, Pos.NOUN)
+            one.lose(Pos.NOUN)
 
 
 def _forget_result(after: Sequence[Word]) -> None:
     for word in after:
         if word.pos is Pos.NOUN:
-            _forget(word, Pos.NOUN)
+            word.lose(Pos.NOUN)
         elif word.pos not in (Pos.DETERMINER, Pos.ADJECTIVE, Pos.NUMBER):
             return
-
-
-def _forget(word: Word, pos: Pos) -> None:
-    """The word is known, but shows nothing."""
-    form = word.meaning.form if pos is Pos.VERB else None
-    word.is_lost = True
-    word.meaning, word.others = Meaning(Role.UNKNOWN, pos, form=form), ()

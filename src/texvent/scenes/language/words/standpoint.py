@@ -51,11 +51,11 @@ def mark_standpoints(words: Sequence[Word]) -> None:
             continue
         for one in (*(() if seen is None else (seen,)), word, *phrase):
             if one.pos is Pos.NOUN:
-                one.meaning, one.others = Meaning(Role.CAMERA, Pos.NOUN), ()
+                one.mean(Meaning(Role.CAMERA, Pos.NOUN))
                 one.is_used, one.shown_as = True, "where the camera stands"
                 one.course = "in stands" if one.text.split()[-1] in _HIGH else ""
             elif one.pos in (Pos.VERB, Pos.PREPOSITION) or one is seen or one.text in _RAISED:
-                one.meaning, one.others = Meaning(Role.FUNCTION, Pos.ADVERB), ()
+                one.mean(Meaning(Role.FUNCTION, Pos.ADVERB))
                 one.is_used = True
         if is_high:
             word.meaning = Meaning(Role.VIEW, Pos.ADJUNCT, "high")

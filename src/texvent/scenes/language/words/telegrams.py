@@ -202,7 +202,7 @@ def _give_car(part: Sequence[Word]) -> None:
         return
     for word in part:
         if word.lemma in _CAR_LIGHTS and word.pos is Pos.NOUN:
-            word.meaning, word.others = Meaning(Role.NOUN, Pos.NOUN, "car", is_substitute=True), ()
+            word.mean(Meaning(Role.NOUN, Pos.NOUN, "car", is_substitute=True))
             return
 
 
@@ -213,7 +213,7 @@ def _set_aside_film(part: Sequence[Word]) -> None:
     """As in "city timelapse": a city, and how it is filmed."""
     for before, word in pairwise(part):
         if word.text in TIMELAPSES and before.pos is Pos.NOUN:
-            word.meaning, word.others = replace(word.meaning, pos=Pos.ADJUNCT), ()
+            word.mean(replace(word.meaning, pos=Pos.ADJUNCT))
 
 
 _DRIVEN_THROUGH = "tunnel"
@@ -225,11 +225,11 @@ def _let_camera_go(part: Sequence[Word]) -> None:
         return
     for before, verb in pairwise(part):
         if before.role is Role.PLACE and before.pos is Pos.NOUN and verb.lemma in _DRIFTING:
-            verb.meaning, verb.others = Meaning(Role.CAMERA_MOVE, Pos.ADJUNCT, ("pan", None)), ()
+            verb.mean(Meaning(Role.CAMERA_MOVE, Pos.ADJUNCT, ("pan", None)))
         is_going = verb.meaning.form is VerbForm.ING and verb.lemma in _GOING
         is_around = before.role in _SURROUNDINGS or before.lemma == _DRIVEN_THROUGH
         if is_around and before.pos is not Pos.PREPOSITION and is_going:
-            verb.meaning, verb.others = Meaning(Role.CAMERA_MOVE, Pos.ADJUNCT, _FORWARD), ()
+            verb.mean(Meaning(Role.CAMERA_MOVE, Pos.ADJUNCT, _FORWARD))
 
 
 def _is_thing(word: Word) -> bool:

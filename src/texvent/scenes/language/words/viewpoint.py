@@ -182,7 +182,7 @@ def _take_in(words: Sequence[Word], taken: frozenset[str] | set[str]) -> None:
             role = Role.CAMERA if word.pos is Pos.NOUN else Role.FUNCTION
             pos = Pos.NOUN if word.pos is Pos.NOUN else Pos.ADVERB
             if word.pos is not Pos.PREPOSITION:
-                word.meaning, word.others = Meaning(role, pos), ()
+                word.mean(Meaning(role, pos))
             word.is_used = True
 
 

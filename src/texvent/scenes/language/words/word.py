@@ -84,6 +84,16 @@ class Word:
         """Its meaning in that role, if it can have it."""
         return next((one for one in (self.meaning, *self.others) if one.role is role), None)
 
+    def mean(self, meaning: Meaning) -> None:
+        """Give it this reading, and no other one."""
+        self.meaning, self.others = meaning, ()
+
+    def lose(self, pos: Pos) -> None:
+        """It is known, but shows nothing."""
+        form = self.meaning.form if pos is Pos.VERB else None
+        self.mean(Meaning(Role.UNKNOWN, pos, form=form))
+        self.is_lost = True
+
 
 CONTRACTED = frozenset({"it", "that", "there", "he", "she", "what", "who", "let", "here"})
 """Words after which 's is "is"."""

@@ -21,6 +21,7 @@ from texvent.scenes.models.materials import (
     glowing,
     striped,
 )
+from texvent.scenes.models.objects.receptacles import CUPS
 from texvent.scenes.models.people.acts.at_head import AT_HEAD_PROPS
 from texvent.scenes.models.people.acts.chores import CHORE_PROPS
 from texvent.scenes.models.people.acts.everyday import EVERYDAY_PROPS
@@ -275,13 +276,7 @@ PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
             Prop("right hand", _SPOON, IN_HAND),
             Prop("left hand", _BOWL, ("bowl", *IN_HAND)),
         ),
-        "drink": (
-            Prop(
-                "right hand",
-                _CUP,
-                ("cup", "bottle", "glass", "mug", "wine glass", "beer glass", "soda can"),
-            ),
-        ),
+        "drink": (Prop("right hand", _CUP, CUPS),),
         "phone": (Prop("right hand", _PHONE, ("cell phone",)),),
         "text": (Prop("right hand", _SCREEN, ("cell phone",)),),
         "photograph": (Prop("hands", _CAMERA, ("photo camera", "cell phone")),),

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.models.objects.receptacles import SERVED_IN_VIEW
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.placement.at_wall import list_at_wall
-from texvent.scenes.staging.placement.tables.plating import DISHES
 from texvent.scenes.staging.still_life import is_still_life
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
@@ -99,7 +99,7 @@ _INTO_DISH = 0.55
 
 def _into_dish(description: SceneDescription, index: int) -> float:
     """Least elevation for a bowl, a tray or a pan that something is in, else nothing to heed."""
-    is_filled = description.objects[index].noun in DISHES and any(
+    is_filled = description.objects[index].noun in SERVED_IN_VIEW and any(
         one.kind in ("in", "on") and one.targets == (index,) for one in description.relations
     )
     return _INTO_DISH if is_filled else -math.inf

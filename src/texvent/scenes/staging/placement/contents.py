@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.objects.receptacles import SERVED_IN
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.models.wrapped.hollow import HOLLOW, HollowModel
 from texvent.scenes.models.wrapped.opened import OPENED, OpenedModel
@@ -26,8 +27,6 @@ _SEEN = 0.6
 _ROUND = 0.62
 """From one thing to the next in a layer, as a share of its width: what lies in a pile overlaps."""
 
-_DISHES = frozenset({"plate", "bowl", "frying pan", "pizza pan", "pot", "cup", "mug"})
-"""What food is on or in without a dish of its own."""
 _HOLDING = frozenset({"in", "on", "through", "from"})
 
 
@@ -54,7 +53,7 @@ def is_served(noun: str, description: SceneDescription, index: int) -> bool:
     return noun in OWN_DISH and any(
         one.subject == index
         and one.kind in ("in", "on")
-        and description.objects[one.targets[0]].noun in _DISHES
+        and description.objects[one.targets[0]].noun in SERVED_IN
         for one in description.relations
     )
 

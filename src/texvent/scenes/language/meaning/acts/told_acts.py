@@ -20,6 +20,7 @@ from texvent.scenes.language.vocabulary.acts import BOARDS
 from texvent.scenes.language.words.english import Pos, VerbForm
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.models.objects.receptacles import CUPS
 
 
 def tell_acts(draft: Draft, clause: Clause, things: Sequence[int]) -> None:
@@ -142,14 +143,11 @@ def _take_making(clause: Clause) -> None:
         verb.shown_as = work
 
 
-_DRINKS = frozenset({"beer glass", "wine glass", "glass", "cup", "mug", "bottle", "soda can"})
-
-
 def _taste_drinks(clause: Clause) -> None:
     """As in "tastes beer": what is liquid is drunk."""
     heads = [group.head for group in clause.objects[:1] if group.head is not None]
     noun = heads[0].read_as(Role.NOUN) if heads else None
-    if clause.verb_word.lemma in ("taste", "try", "sample") and noun and noun.value in _DRINKS:
+    if clause.verb_word.lemma in ("taste", "try", "sample") and noun and noun.value in CUPS:
         clause.verb_word.lemma, clause.verb_word.has_other_sense = "drink", True
         clause.verb_word.shown_as = "drink"
 
@@ -275,7 +273,7 @@ def _take_mount(draft: Draft, clause: Clause) -> None:
         if phrase.preposition.text not in ("on", "atop", "on top of", "upon") or not heads:
             continue
         if heads[0].text == "horseback":
-            heads[0].meaning, heads[0].others = Meaning(Role.NOUN, Pos.NOUN, "horse"), ()
+            heads[0].mean(Meaning(Role.NOUN, Pos.NOUN, "horse"))
         noun = heads[0].read_as(Role.NOUN)
         known = draft.nouns.get(noun.value) if noun is not None else None
         if known is None or not (known.motion in _GOING or known.name in BOARDS):

@@ -61,7 +61,7 @@ def take_act(clause: Clause) -> bool:
         return False
     form, head = verb.meaning.form, group.head
     verb.meaning, verb.is_used = Meaning(Role.FUNCTION, Pos.AUXILIARY), True
-    head.meaning, head.others = Meaning(Role.VERB, Pos.VERB, find_verb(act), form), ()
+    head.mean(Meaning(Role.VERB, Pos.VERB, find_verb(act), form))
     head.lemma = act
     clause.verb, clause.objects = head, []
     clause.adverbs.extend(group.modifiers)
@@ -86,7 +86,7 @@ def go_to_herd(clause: Clause, animal: str) -> bool:
 
 def _mean_herd(word: Word, count: Word, animal: str) -> None:
     """The word means some of those animals."""
-    word.meaning, word.others = Meaning(Role.NOUN, Pos.NOUN, animal), ()
+    word.mean(Meaning(Role.NOUN, Pos.NOUN, animal))
     word.lemma = f"{animal}s"
     count.meaning = replace(count.meaning, value=_MET)
 
@@ -96,8 +96,7 @@ def lie(clause: Clause) -> bool:
     verb = clause.verb_word
     if verb.lemma not in LYING or clause.objects:
         return False
-    form = verb.meaning.form
-    verb.meaning, verb.others = Meaning(Role.VERB, Pos.VERB, find_verb("lie"), form), ()
+    say(verb, "lie")
     verb.lemma = "lie"
     return True
 
@@ -174,7 +173,7 @@ def drop_role(clause: Clause, following: Clause | None) -> bool:
     role, group = following.subjects[0].head, following.subjects[0]
     if role is None:
         return False
-    role.is_lost, role.meaning, role.others = True, Meaning(Role.UNKNOWN, Pos.NOUN), ()
+    role.lose(Pos.NOUN)
     clause.phrases.extend(group.phrases)
     clause.phrases.extend(following.phrases)
     group.phrases, following.phrases = [], []
@@ -217,8 +216,7 @@ def sit_on_swing(clause: Clause) -> bool:
     for phrase in clause.phrases:
         names = {str(head.meaning.value) for head in list_heads(phrase)}
         if phrase.preposition.text == "on" and names & {"swing", "seesaw"}:
-            form = verb.meaning.form
-            verb.meaning, verb.others = Meaning(Role.VERB, Pos.VERB, find_verb("sit"), form), ()
+            say(verb, "sit")
             return True
     return False
 

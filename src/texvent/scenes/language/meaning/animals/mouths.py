@@ -195,7 +195,7 @@ def drink_water(clause: Clause) -> bool:
         return True
     animal = clause.subjects[0].head_word.meaning.value
     vessel = "puddle" if animal in _LARGE else "water bowl"
-    head.meaning, head.others = Meaning(Role.NOUN, Pos.NOUN, vessel), ()
+    head.mean(Meaning(Role.NOUN, Pos.NOUN, vessel))
     head.lemma = vessel
     group.determiner = None
     return True

@@ -36,10 +36,9 @@ def say(word: Word, act: str) -> None:
     """Make a word the verb of an animal's act, or of a motion."""
     form = word.meaning.form
     if act in ANIMAL_ACTS:
-        word.meaning = Meaning(Role.SIMILAR, Pos.VERB, (act, False), form)
+        word.mean(Meaning(Role.SIMILAR, Pos.VERB, (act, False), form))
     else:
-        word.meaning = Meaning(Role.VERB, Pos.VERB, find_verb(act), form)
-    word.others = ()
+        word.mean(Meaning(Role.VERB, Pos.VERB, find_verb(act), form))
 
 
 def find_verb(base: str) -> Verb:

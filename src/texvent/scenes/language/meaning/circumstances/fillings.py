@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.scenes.language.meaning.capabilities import is_living
-from texvent.scenes.language.meaning.circumstances.put import CARRIES
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.objects.receptacles import CARRIERS
 
 FULL = ("full of", "filled with", "loaded with", "packed with")
 _FILLING = 4
@@ -54,5 +54,5 @@ def fill(
         item = draft.objects[index]
         if item.count > 1 and not item.is_counted:
             item.count = max(item.count, _FILLING)
-    are_laden = bool(vessels) and all(draft.noun(index).name in CARRIES for index in vessels)
+    are_laden = bool(vessels) and all(draft.noun(index).name in CARRIERS for index in vessels)
     return draft.relate("on" if are_laden else "in", things, vessels)

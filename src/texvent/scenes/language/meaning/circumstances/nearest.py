@@ -8,9 +8,7 @@ from texvent.scenes.description import Relation
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.scope import Scope
-
-DISHES = frozenset({"plate", "bowl", "tray", "frying pan", "pan", "pot", "cup", "mug", "glass",
-                     "basket", "box", "jar", "vase"})  # fmt: skip
+from texvent.scenes.models.objects.receptacles import LIFTED_LADEN
 
 
 def has_nearest(draft: Draft, near: Sequence[int], things: Sequence[int], scope: Scope) -> bool:
@@ -41,7 +39,7 @@ def put_down(
         things: what it is on or in.
         loosely: relations of who is said to be "with" something, not to hold it.
     """
-    is_dish = draft.noun(things[0]).name in DISHES
+    is_dish = draft.noun(things[0]).name in LIFTED_LADEN
     for number, relation in reversed([*enumerate(draft.relations)]):
         if relation not in loosely or not set(relation.targets) <= set(near):
             continue

@@ -10,18 +10,9 @@ from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.objects.receptacles import CARRIERS, VESSELS
 from texvent.scenes.models.people.activities import SEATS
 
-CARRIES = frozenset(
-    {"conveyor belt", "tray", "turntable", "plate", "table", "desk", "shelf", "forklift", "pickup",
-     "truck", "wheelbarrow", "sled", "cart", "wagon", "bench", "towel", "raft"}
-)  # fmt: skip
-"""What has the things on it that are "with" it."""
-VESSELS = frozenset(
-    {"basket", "bowl", "bucket", "box", "cup", "mug", "glass", "vase", "jar", "shopping cart",
-     "wine glass", "bathtub", "flower pot", "stroller", "pot", "pan", "sink"}
-)  # fmt: skip
-"""What has the things in it that are "with" it."""
 TABLES = frozenset({"table", "desk"})
 _HELD_AT_MOST_M = 1.3
 """A person "with" something up to this long holds it."""
@@ -48,7 +39,7 @@ def is_put(
         scope: what its clause is about.
     """
     where = {draft.noun(index).name for index in things}
-    is_on = phrase.preposition.text in _ON and where <= TABLES | CARRIES - SEATS
+    is_on = phrase.preposition.text in _ON and where <= TABLES | CARRIERS - SEATS
     is_in = phrase.preposition.text in ("in", "inside") and where <= VESSELS | {"plate"}
     if not (is_on or is_in) or set(near) & {*things, *scope.subjects}:
         return False
@@ -92,7 +83,7 @@ def list_put(
         return []
     if any(is_living(draft.noun(i)) or not is_small(draft, i) for i in hosts):
         return []
-    is_vessel = all(draft.noun(i).name in VESSELS | CARRIES for i in hosts)
+    is_vessel = all(draft.noun(i).name in VESSELS | CARRIERS for i in hosts)
     others = [] if is_vessel else [i for one in found if one.is_things for i in one.things]
     return [*hosts, *others]
 

@@ -12,13 +12,11 @@ from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.circumstances.company import gather, is_company, keep_company
 from texvent.scenes.language.meaning.circumstances.courses import FOLLOWED, be_followed
 from texvent.scenes.language.meaning.circumstances.fillings import FULL, fill
-from texvent.scenes.language.meaning.circumstances.nearest import DISHES, has_nearest, put_down
+from texvent.scenes.language.meaning.circumstances.nearest import has_nearest, put_down
 from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
 from texvent.scenes.language.meaning.circumstances.put import (
-    CARRIES,
     OFF_GROUND,
     TABLES,
-    VESSELS,
     is_put,
     is_small,
     take_out,
@@ -34,6 +32,7 @@ from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS, W
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 from texvent.scenes.models.nouns import FAMILIES
+from texvent.scenes.models.objects.receptacles import CARRIERS, LIFTED_LADEN, VESSELS
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, SEATS
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.people.work.verbs import HANDWORK
@@ -115,7 +114,7 @@ class RelationReader:
         """A relation of the clause's subjects, or of what is acted on."""
         if self._is_in_food(kind, things, scope) or self._hang_on(kind, word, things, scope):
             return False
-        is_laid = self._draft.noun(things[0]).name in TABLES | DISHES
+        is_laid = self._draft.noun(things[0]).name in TABLES | LIFTED_LADEN
         if kind in ("on", "in") and not scope.has_verb and is_laid:
             put_down(self._draft, scope.subjects, things, self._loosely_held)
         if kind == "on" and talk_on_phone(self._draft, scope.subjects, things):
@@ -205,7 +204,7 @@ class RelationReader:
         if (is_acted_on or is_goal) and phrase.preposition.text in _RESTING - {"with"}:
             return Scope(near.things, [], has_verb=False)
         names = {self._draft.noun(index).name for index in near.things} if near.is_things else set()
-        if is_acted_on and phrase.preposition.text == "with" and names & (CARRIES | VESSELS):
+        if is_acted_on and phrase.preposition.text == "with" and names & (CARRIERS | VESSELS):
             # As in "carries a tray with two cups".
             return Scope(near.things, [], has_verb=False)
         if names and is_put(self._draft, phrase, near.things, things, scope):
@@ -332,7 +331,7 @@ class RelationReader:
             is_related = self._draft.relate("hold", scope.subjects, things)
             self._loosely_held += self._draft.relations[before:]
             return is_related
-        if item.name in CARRIES and doer.name not in CARRIES:
+        if item.name in CARRIERS and doer.name not in CARRIERS:
             return self._draft.relate("on", scope.subjects, things)
         seats = [index for index in things if self._draft.noun(index).name in SEATS]
         if doer.name in TABLES and seats:
@@ -341,7 +340,7 @@ class RelationReader:
             count = sum(self._draft.objects[index].count for index in seats)
             kind = "around" if count > 1 else "beside"
             return self._draft.relate(kind, seats, scope.subjects) and is_rest
-        if doer.name in CARRIES and is_small(self._draft, things[0]):
+        if doer.name in CARRIERS and is_small(self._draft, things[0]):
             return self._draft.relate("on", things, scope.subjects)
         if doer.name in VESSELS and (is_small(self._draft, things[0]) or doer.name == "stroller"):
             return self._draft.relate("in", things, scope.subjects)

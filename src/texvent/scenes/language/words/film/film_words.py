@@ -131,7 +131,7 @@ def _read_looks(words: Sequence[Word]) -> None:
                 silence(coming)
         else:
             continue
-        word.meaning, word.others = Meaning(Role.VIEW, Pos.ADJUNCT, view), ()
+        word.mean(Meaning(Role.VIEW, Pos.ADJUNCT, view))
 
 
 def _is_along(after: Sequence[Word]) -> bool:

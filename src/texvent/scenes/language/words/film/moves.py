@@ -114,8 +114,7 @@ def _order(before: Sequence[Word], word: Word, move: Meaning | None) -> None:
             silence(one)
         else:
             one.meaning = replace(pace, pos=Pos.ADVERB)
-    word.meaning = Meaning(Role.CAMERA_MOVE, Pos.VERB, value, VerbForm.BASE)
-    word.others = ()
+    word.mean(Meaning(Role.CAMERA_MOVE, Pos.VERB, value, VerbForm.BASE))
 
 
 def _is_inward(word: Word) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 
 from texvent.scenes.description import Relation, SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
+from texvent.scenes.models.objects.receptacles import SERVED_IN_VIEW
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.wrapped.served import ServedModel
 from texvent.scenes.scene import Float64Array
@@ -17,8 +18,6 @@ from texvent.scenes.staging.placement.contents import is_served
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 from texvent.scenes.staging.placement.tables.tabletop import TABLES
 
-DISHES = frozenset({"plate", "bowl", "tray", "frying pan", "pizza pan", "chopping board", "cake"})
-"""What food lies on in full view; candles stand on a cake."""
 HELPINGS = frozenset(
     noun.name
     for family in ("food", "dishes", "helpings")
@@ -55,7 +54,7 @@ def dish_up(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDe
     for index, dish in enumerate(description.objects):
         on = _list_on(description, index)
         count = sum(objects[i].count for i in on)
-        if dish.noun not in DISHES or dish.count != 1 or not count:
+        if dish.noun not in SERVED_IN_VIEW or dish.count != 1 or not count:
             continue
         wider = 1.0 if dish.noun == "cake" else _WIDER.get(count, _WIDEST)
         objects[index] = replace(dish, scale=dish.scale * wider)
@@ -109,10 +108,14 @@ def _put_on(description: SceneDescription, things: Sequence[int], target: int) -
 def _fill_dish(description: SceneDescription) -> SceneDescription:
     """With all food on the one dish that has some of it, where nothing else is said of the rest."""
     objects = description.objects
-    dishes = [i for i, one in enumerate(objects) if one.noun in DISHES and _list_on(description, i)]
+    dishes = [
+        i
+        for i, one in enumerate(objects)
+        if one.noun in SERVED_IN_VIEW and _list_on(description, i)
+    ]
     if len(dishes) != 1 or objects[dishes[0]].noun == "cake":
         return description
-    loose = _list_loose(description, HELPINGS - DISHES)
+    loose = _list_loose(description, HELPINGS - SERVED_IN_VIEW)
     return _put_on(description, loose, dishes[0]) if loose else description
 
 
@@ -148,7 +151,7 @@ def _list_on(description: SceneDescription, dish: int) -> list[int]:
 
 def is_dished(group: ObjectGroup, target: ObjectGroup) -> bool:
     """Whether a group is food on a single dish."""
-    is_dish = target.noun.name in DISHES and len(target.models) == 1
+    is_dish = target.noun.name in SERVED_IN_VIEW and len(target.models) == 1
     return is_dish and group.noun.name in HELPINGS and not target.plan.motion.is_moving
 
 
