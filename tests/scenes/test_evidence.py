@@ -65,6 +65,27 @@ def test_of_many_four_must_be_seen_and_of_a_count_half() -> None:
     assert most.is_faithful
 
 
+def test_copies_are_counted_where_the_prompt_counts_them() -> None:
+    unseen = Evidence(faults={0: [None, None, "hidden"]})
+    assert report_on(parse_prompt("three dogs run"), unseen).not_shown == (
+        "1 of 3 dogs (hidden)", "three (not all dogs in view)"
+    )  # fmt: skip
+    assert report_on(parse_prompt("dogs run"), unseen).is_faithful
+    assert report_on(parse_prompt("some dogs run"), unseen).is_faithful
+    few = Evidence(faults={0: [None, None, None, "hidden", "hidden"]})
+    assert report_on(parse_prompt("several dogs run"), few).not_shown == (
+        "several (not all dogs in view)",
+    )
+
+
+def test_what_no_word_names_is_no_word_that_is_lost() -> None:
+    jam = parse_prompt("a bus stuck in traffic")
+    faults = {index: ["hidden"] for index in range(len(jam.objects))}
+    lost = report_on(jam, Evidence(faults={**faults, 0: SEEN})).not_shown
+    assert len(jam.objects) > 1
+    assert not lost
+
+
 def test_a_plural_of_which_one_is_seen_and_adjectives_of_a_lost_noun_are_not_shown() -> None:
     one = report_on(parse_prompt(PROMPT), Evidence(faults={0: SEEN, 1: [None, "hidden", "hidden"]}))
     assert "seagulls (only one in view)" in one.not_shown

@@ -22,6 +22,7 @@ from texvent.generate.seen_words.faces import judge_face
 from texvent.generate.seen_words.motion.verbs import judge_verbs
 from texvent.generate.seen_words.people import is_portrait, judge_head
 from texvent.generate.seen_words.picture import Picture, View, uneven_times
+from texvent.generate.seen_words.plain import ease_faults, ease_names
 from texvent.generate.seen_words.things import judge_outline
 from texvent.generate.seen_words.words import judge_words
 from texvent.generate.sights import Glimpse, Sight
@@ -73,6 +74,8 @@ class Findings(NamedTuple):
     """Nouns of the scenery that is in view, the largest first."""
     views: tuple[View, ...] = ()
     """What the camera sees at each of `INSTANTS`."""
+    sights: Mapping[int, Sight] = {}
+    """Instance id → what is seen of it at these."""
 
 
 def find_evidence(
@@ -100,9 +103,17 @@ def look_at_scene(
 
 
 def judge_findings(
-    scene: ComposedScene, description: SceneDescription, size: SensorSize, found: Findings
+    scene: ComposedScene,
+    description: SceneDescription,
+    size: SensorSize,
+    found: Findings,
+    *,
+    is_eased: bool = False,
 ) -> Evidence:
-    """What a staged scene shows of its description, from what is seen of its things."""
+    """What a staged scene shows of its description, from what is seen of its things.
+
+    `is_eased`: what is plainly seen counts, though it is small or cut off (`ease_faults`).
+    """
     copies: dict[int, list[int]] = {index: [] for index in range(len(description.objects))}
     for instance, index in scene.object_of.items():
         copies[index].append(instance)
@@ -121,9 +132,12 @@ def judge_findings(
                 copies[index] = copies[index] or whole
     picture = Picture(scene, size, image_points(size), found.views)
     words, qualities = judge_words(picture, description)
+    if is_eased:
+        qualities = ease_names(picture, qualities)
     bodies = {actor.instance: actor for actor in scene.actors}
     faults = {}
-    for one, fault in found.faults.items():
+    known = ease_faults(picture, found.faults, found.sights) if is_eased else found.faults
+    for one, fault in known.items():
         is_told = fault == "cut off" and is_portrait(picture, bodies.get(one))
         seen = None if is_told else fault
         body = bodies.get(one)
@@ -236,6 +250,7 @@ def look_for_things(
             if noun and noun in scenery and count >= LEAST_MARK * len(points)
         ),
         tuple(views),
+        sights,
     )
 
 

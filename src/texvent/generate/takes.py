@@ -110,7 +110,8 @@ def film(
             break
     if is_at_rest(description, best.found):
         return film(let_sway(description), stage, size, duration_s)
-    return best
+    eased = judge_findings(best.scene, description, size, best.found, is_eased=True)
+    return best._replace(evidence=eased, report=report_on(description, eased))
 
 
 def is_at_rest(description: SceneDescription, found: Findings) -> bool:

@@ -10,12 +10,15 @@ from typing import NamedTuple
 
 from texvent.scenes.description import Claim, SceneDescription
 from texvent.scenes.inflection import pluralise
+from texvent.scenes.language.vocabulary.objects import EXACT_COUNTS
 from texvent.scenes.report import PromptReport
 
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 PLURAL = 3
 """Copies of what a plural names, of which more than one must be seen."""
+MOST_OF_VAGUE = 3
+"""One copy in so many may be out of sight where a word like "several" counts them."""
 MANY = 4
 """Copies that must be seen where there are more than are counted."""
 STILL = "no motion to be seen"
@@ -142,19 +145,24 @@ def _find_doubts(description: SceneDescription, gone: set[str]) -> dict[str, tup
 
 
 def _name_unseen(description: SceneDescription, evidence: Evidence) -> list[str]:
-    """As in "seagulls (too small)" or "1 of 3 dogs (hidden)"; objects without a word by noun."""
+    """As in "seagulls (too small)" or "1 of 3 dogs (hidden)".
+
+    What no word names comes with another word, as the vans of a traffic jam do. Copies are counted
+    where the prompt does: of "dogs" two are as good as three.
+    """
     names: dict[int, list[str]] = {}
     for claim in description.claims:
         for index in claim.things if claim.aspect == "name" else ():
             names.setdefault(index, []).append(claim.word)
+    counted = {index for one in description.claims if is_exact_count(one) for index in one.things}
     found = []
     for index, faults in evidence.faults.items():
         noun = description.objects[index].noun
         reasons = Counter(fault for fault in faults if fault is not None)
         if _is_unseen(index, evidence):
-            for word in dict.fromkeys(names.get(index, [noun])):
+            for word in dict.fromkeys(names.get(index, ())):
                 found.append(f"{word} ({reasons.most_common(1)[0][0]})")
-        elif len(faults) <= MOST_COUNTED:
+        elif index in counted and len(faults) <= MOST_COUNTED:
             for reason, count in reasons.items():
                 found.append(f"{count} of {len(faults)} {pluralise(noun)} ({reason})")
     return found
@@ -233,12 +241,25 @@ def _find_poor_quality(
         noun = description.objects[index].noun
         faults = evidence.faults.get(index, ())
         unseen = sum(fault is not None for fault in faults)
-        is_many = len(faults) > MOST_COUNTED
-        if claim.aspect == "count" and (2 * unseen > len(faults) if is_many else unseen):
+        if claim.aspect == "count" and unseen > _most_unseen(claim, len(faults)):
             return f"not all {pluralise(noun)} in view"
         if (claim.aspect, index) in evidence.qualities:
             return f"{noun} {evidence.qualities[claim.aspect, index]}"
     return None
+
+
+def is_exact_count(claim: Claim) -> bool:
+    """Whether a word says how many there are: "three", "12", and not "several"."""
+    return claim.aspect == "count" and (
+        claim.word in EXACT_COUNTS or any(map(str.isdigit, claim.word))
+    )
+
+
+def _most_unseen(claim: Claim, copies: int) -> int:
+    """How many copies may be out of sight where a word says how many there are."""
+    if copies > MOST_COUNTED:
+        return copies // 2
+    return 0 if is_exact_count(claim) else copies // MOST_OF_VAGUE
 
 
 def _reason(index: int, description: SceneDescription, evidence: Evidence) -> str:

@@ -19,12 +19,12 @@ def doubts(prompt: str) -> dict[str, tuple[str, ...]]:
     ("prompt", "expected"),
     [
         ("a red car drives left past two trees", {}),
-        ("a dog swats at a ball", {"ball": ("swats",)}),
+        ("a dog swats at a ball", {}),  # a ball is one, whatever is done to it
+        ("a woman has a wug and a cup", {}),
         ("a dog sits beside a wug chair", {"chair": ("wug",)}),
         ("a man runs slowly past a wug", {"runs": ("past",), "slowly": ("past",)}),
         ("a dog runs beside a wug", {}),
         ("a dog stands on a wug", {}),  # what rests does so whatever it rests on
-        ("a cat swats at a cup beside a tree", {"cup": ("swats",)}),
         ("a dog sits on a tiled chair", {}),  # how it looks, not what it is
         ("a camel walks through the Zorbland desert", {}),
         ("a dog runs. A cat swats", {}),
@@ -37,30 +37,38 @@ def test_what_goes_with_a_lost_word_is_in_doubt(
     assert doubts(prompt) == expected
 
 
-def test_in_a_crowded_prompt_a_lost_word_puts_its_sentence_in_doubt() -> None:
-    crowded = "A man, a dog, a car, a tree and a chair. A cat beside a table near the wug."
-    assert set(doubts(crowded)) >= {"cat", "table", "beside"}
-    assert not {"man", "dog", "car", "tree", "chair"} & set(doubts(crowded))
-    assert "cat" not in doubts("A cat beside a table near the wug.")
+def test_in_a_crowded_prompt_a_lost_word_puts_verbs_and_relations_of_its_sentence_in_doubt() -> (
+    None
+):
+    crowded = "A man, a dog, a car, a tree and a chair. A cat runs beside a table near the wug."
+    assert {"runs", "beside"} <= set(doubts(crowded))
+    assert not {"man", "dog", "car", "tree", "chair", "cat", "table"} & set(doubts(crowded))
+    assert not doubts("A cat runs beside a table near the wug.")
 
 
-def test_where_many_words_are_lost_every_other_word_is_in_doubt() -> None:
+def test_what_is_shown_as_something_else_is_not_in_doubt_besides() -> None:
+    description = parse_prompt("a dog beside a wug vehicle")
+    assert [one.said for one in description.substituted] == ["vehicle"]
+    assert not doubts("a dog beside a wug vehicle")
+
+
+def test_where_many_words_are_lost_what_is_said_of_things_is_in_doubt() -> None:
     few = "A red dog runs at dusk. The quarterly fiscal audit explains joint ventures."
     many = f"{few[:-1]}, monetary policy, legal theory, civic virtue and annual budgets."
     assert len(parse_prompt(many).not_understood) >= MANY_LOST
     assert doubts(few) == {}
-    assert set(doubts(many)) == {"red", "dog", "runs", "dusk"}
+    assert set(doubts(many)) == {"red", "runs"}
 
 
 def test_the_report_lists_words_in_doubt_with_the_lost_ones() -> None:
-    description = parse_prompt("a dog swats at a ball")
+    description = parse_prompt("a dog beside a wug chair")
     report = report_on(description, Evidence(faults={0: [None], 1: [None]}))
     assert report.shown == ("dog",)
-    assert report.in_doubt == ("ball (without swats)",)
+    assert report.in_doubt == ("chair (without wug)", "beside (without wug)")
     assert not report.is_faithful
     hidden = report_on(description, Evidence(faults={0: [None], 1: ["hidden"]}))
     assert not hidden.in_doubt  # it is not in the picture at all
-    assert "ball (hidden)" in hidden.not_shown
+    assert "chair (hidden)" in hidden.not_shown
 
 
 WORDS = ("dog", "cat", "runs", "sits", "left", "wug", "swats", "on", "a", "red", "road", ".")

@@ -19,8 +19,6 @@ FILLING = frozenset({"smoke", "steam", "mist", "dust", "fog"})
 """Effects that are said to fill a room, or the frame."""
 FLAMES = frozenset({("smoke", "rocket")})
 """Effect and its thing, of which only the flame before it is told."""
-FLOWING = frozenset({"drip", "pour", "pour into", "spray", "splash", "sparks"})
-"""Effects that come from something."""
 
 
 def judge_effects(picture: Picture, description: SceneDescription) -> dict[str, str]:
@@ -32,9 +30,6 @@ def judge_effects(picture: Picture, description: SceneDescription) -> dict[str, 
         fault = _judge(picture, description, kind, source)
         if fault is not None:
             found[kind] = fault
-    for effect in description.effects:
-        if effect.source is None and effect.kind in FLOWING:
-            found[effect.kind] = "comes from nothing that is shown"
     return found
 
 

@@ -181,3 +181,11 @@ class Picture:
         )
         light = grey_light(light) if scene.is_grey else light
         return np.asarray(encode_srgb(light) / WHITE, dtype=np.float64)
+
+
+def lies_around(picture: Picture, own: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """[k] whether image points lie around those of a thing, as far as 4 % of the width."""
+    at, reach = picture.points[own], 0.04 * picture.size.width
+    low, high = at.min(axis=0) - reach, at.max(axis=0) + reach
+    near = np.all((picture.points >= low) & (picture.points <= high), axis=1)
+    return np.asarray(near & ~own)

@@ -8,10 +8,10 @@ import numpy as np
 
 from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.materials import judge_material
-from texvent.generate.seen_words.picture import USUAL, Picture, View
+from texvent.generate.seen_words.picture import USUAL, Picture, View, lies_around
 from texvent.generate.seen_words.positions import judge_depth, judge_together, lies_by_itself
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
-from texvent.scenes.evidence import MOST_COUNTED, is_to_move
+from texvent.scenes.evidence import MOST_COUNTED, is_exact_count, is_to_move
 from texvent.scenes.language.meaning.capabilities import is_person
 from texvent.scenes.language.vocabulary.acts import WEARABLE
 from texvent.scenes.projection import project
@@ -88,7 +88,8 @@ def judge_thing(
     if claim.aspect == "side":
         return _judge_side(picture, description, index)
     if claim.aspect == "count":
-        return _judge_order(picture, claim.word, index) or _judge_count(picture, description, index)
+        order = _judge_order(picture, claim.word, index)
+        return order or _judge_count(picture, description, claim, index)
     return None
 
 
@@ -307,12 +308,8 @@ def judge_outline(picture: Picture, instance: int) -> str | None:
             continue
         size = max(size, float(((box[1] - box[0]) / edge).max()))
         own = view.instance == instance
-        reach = 0.04 * picture.size.width
-        near = np.all(
-            (picture.points >= box[0] - reach) & (picture.points <= box[1] + reach), axis=1
-        )
         colours = picture.colours(number)
-        inside, outside = colours[own], colours[near & ~own]
+        inside, outside = colours[own], colours[lies_around(picture, own)]
         if len(outside):
             between = float(np.abs(inside.mean(axis=0) - outside.mean(axis=0)).max())
             contrast = max(contrast, between, float(inside.std(axis=0).max()))
@@ -370,10 +367,13 @@ def _judge_side(picture: Picture, description: SceneDescription, index: int) -> 
     return None if low <= middle <= high else f"not in the picture's {side}"
 
 
-def _judge_count(picture: Picture, description: SceneDescription, index: int) -> str | None:
+def _judge_count(
+    picture: Picture, description: SceneDescription, claim: Claim, index: int
+) -> str | None:
     """Copies that are counted one by one must be seen apart, at one instant at least."""
     copies = copies_of(picture, index)
-    if not 1 < len(copies) <= MOST_COUNTED or description.objects[index].count != len(copies):
+    is_few = is_exact_count(claim) and 1 < len(copies) <= MOST_COUNTED
+    if not is_few or description.objects[index].count != len(copies):
         return None
     for view in picture.views:
         boxes = [_box(picture, view, [one]) for one in copies]

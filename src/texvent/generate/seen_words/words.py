@@ -26,6 +26,8 @@ from texvent.scenes.staging.surroundings.places import is_room
 
 _OF_THINGS = frozenset({"name", "colour", "size", "material", "part", "side", "count"})
 _OF_SCENE = ("light", "weather", "effect", "dust")
+_NEXT = 2
+"""Words after an adjective among which its noun stands."""
 _WAVES = ("wave", "waves")
 """What a surfer is said to ride."""
 _LEAST_PAINTED = 0.05
@@ -147,9 +149,19 @@ def _judge_snow(picture: Picture, description: SceneDescription, claim: Claim) -
         is_capped = capped_share(picture, "mountain") >= _LEAST_CAPPED
         return None if is_capped else "no white top in view"
     is_of_mountains = claim.word.startswith("snow") and claim.word != "snow"
-    if is_of_mountains and "mountain" in description.surroundings.backdrops:
+    has_mountains = "mountain" in description.surroundings.backdrops
+    if is_of_mountains and has_mountains and not _is_of_ground(claim, description):
         return "the mountains are bare"
     return judge_snow(picture) if description.surroundings.has_snow else None
+
+
+def _is_of_ground(claim: Claim, description: SceneDescription) -> bool:
+    """Whether the noun after a word names a place other than mountains: "a snowy meadow"."""
+    after = description.prompt.casefold().replace("-", " ").partition(claim.word)[2].split()
+    near = {one.strip(".,;") for one in after[:_NEXT]}
+    others = [one for one in description.claims if near & {*one.word.split()}]
+    is_other = any(one.aspect == "name" or "mountain" in one.word for one in others)
+    return not is_other and any(one.aspect in ("place", "steep") for one in others)
 
 
 def _judge_painted(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:

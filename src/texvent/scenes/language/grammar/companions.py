@@ -7,11 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos, VerbForm
-from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
 
-_DONE_TO = frozenset({"at", "for"})
-"""Prepositions before what a verb is done to: "swats at a fly", "reaches for a cup"."""
 _PARTICLES = frozenset(
     {"out", "off", "up", "down", "away", "over", "back", "through", "apart", "along", "past",
      "across", "into", "onto", "out of", "off of", "around", "towards", "toward"}
@@ -28,7 +25,7 @@ _WHO = frozenset({"woman", "man", "boy", "girl", "male", "female", "child", "adu
 def link_companions(clauses: Sequence[Clause]) -> None:
     """Note at nouns and verbs of these clauses which words they go with; the words change.
 
-    * What a verb is done to goes with the verb, and the verb with it: "swats at a fly".
+    * A verb goes with what it is done to: "runs his thumb". The noun is the same with any verb.
     * A verb goes with the particle after it: "hangs out", and so do its pace and its way. What
       rests does so whatever it rests on.
     * A noun goes with the nouns and gerunds before it in its group: "passenger seat". Participles
@@ -45,12 +42,6 @@ def link_companions(clauses: Sequence[Clause]) -> None:
 
 
 def _link_verb(clause: Clause, verb: Word) -> None:
-    done_to = list(clause.objects)
-    for phrase in clause.phrases:
-        if phrase.preposition.text in _DONE_TO:
-            done_to.extend(one for one in phrase.groups if not _is_place(one))
-    for group in done_to:
-        _add(group, [verb])
     objects = [word for group in clause.objects for word in group.words if word.pos is Pos.NOUN]
     particles = [word for word in clause.adverbs if word.text in _PARTICLES]
     particles += [one.preposition for one in clause.phrases if one.preposition.text in _PARTICLES]
@@ -59,10 +50,6 @@ def _link_verb(clause: Clause, verb: Word) -> None:
     own = objects if is_at_rest else [*objects, *particles]
     for word in (verb, *clause.adverbs):
         word.companions = (*word.companions, *(one for one in own if one is not word))
-
-
-def _is_place(group: NounGroup) -> bool:
-    return group.head is not None and group.head.role is Role.PLACE
 
 
 def _names_another(word: Word) -> bool:
