@@ -37,6 +37,11 @@ def test_what_goes_with_a_lost_word_is_in_doubt(
     assert doubts(prompt) == expected
 
 
+def test_a_noun_before_a_lost_noun_says_what_that_is_like() -> None:
+    assert "piano" in doubts("A woman at a piano tournament.")
+    assert not doubts("A woman at a piano.")
+
+
 def test_in_a_crowded_prompt_a_lost_word_puts_verbs_and_relations_of_its_sentence_in_doubt() -> (
     None
 ):

@@ -722,3 +722,53 @@ def test_only_what_is_in_a_jam_is_stuck() -> None:
     within = parse_prompt("a bus in a traffic jam").objects[0].motion
     slow = parse_prompt("a snail crawls at 0.05 m/s").objects[0].motion
     assert [one.is_stuck for one in (past, within, slow) if one] == [False, True, False]
+
+
+@pytest.mark.parametrize("prompt", [
+    "A calf is on a pasture of clover with two girls running around it.",
+    "A calf is in a meadow with two girls running around it.",
+])  # fmt: skip
+def test_who_is_named_after_with_does_what_follows(prompt: str) -> None:
+    description = parse_prompt(prompt)
+    assert kinds_of(description, "girl") == ["run"]
+
+
+@pytest.mark.parametrize(("prompt", "noun"), [
+    ("a three tiered cake on a plate", "cake"), ("a four wheeled trolley", "trolley"),
+])  # fmt: skip
+def test_a_number_after_an_article_counts_no_things(prompt: str, noun: str) -> None:
+    assert count_of(prompt, noun) == 1
+    assert prompt.split()[1] in parse_prompt(prompt).not_understood
+
+
+@pytest.mark.parametrize("prompt", [
+    "A basketball game", "a match of basketball", "A basketball game is being played.",
+])  # fmt: skip
+def test_a_game_is_people_who_play_it(prompt: str) -> None:
+    assert kinds_of(parse_prompt(prompt), "person") == kinds_of(
+        parse_prompt("three people playing basketball"), "person"
+    )
+
+
+def test_who_is_named_in_a_game_gets_no_fellows() -> None:
+    assert count_of("two girls in a basketball game", "person") == 0
+
+
+@pytest.mark.parametrize("bird", ["gull", "crow"])
+def test_a_bird_in_the_water_stands_in_it(bird: str) -> None:
+    (one,) = parse_prompt(f"a {bird} in the water").objects
+    assert one.motion is not None
+    assert one.motion.shore == "in"
+
+
+def test_who_passes_something_in_skis_skis_past_it() -> None:
+    assert relations_of("a woman in skis passing a tree") == {("past", "woman", "tree")}
+
+
+def test_what_is_topped_with_things_has_them_on_it() -> None:
+    assert ("on", "strawberry", "cake") in relations_of("a cake topped with strawberries")
+    assert "topped with" in parse_prompt("a sandwich topped with tomatoes").not_understood
+
+
+def test_food_that_is_eaten_is_on_the_plate() -> None:
+    assert kinds_of(parse_prompt("a woman eating some food"), "woman") == ["eat meal"]

@@ -88,3 +88,9 @@ def test_the_camera_comes_near_for_small_things(prompt, noun) -> None:
 def test_what_an_activity_holds_comes_on_no_table() -> None:
     description = set_on_table(parse_prompt("a man reads a book"), NOUNS)
     assert not any(one.noun == "table" for one in description.objects)
+
+
+@pytest.mark.parametrize("noun", ["microwave", "tv"])
+def test_an_appliance_in_a_room_stands_on_a_table(noun: str) -> None:
+    assert (noun, "on", "table") in placed(f"a {noun} in a room")
+    assert not placed(f"a {noun} on a lawn")

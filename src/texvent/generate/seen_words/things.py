@@ -12,8 +12,9 @@ from texvent.generate.seen_words.picture import USUAL, Picture, View, lies_aroun
 from texvent.generate.seen_words.positions import judge_depth, judge_together, lies_by_itself
 from texvent.scenes.description import Claim, NamedColour, SceneDescription
 from texvent.scenes.evidence import MOST_COUNTED, is_exact_count, is_to_move
-from texvent.scenes.language.meaning.capabilities import is_person
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.vocabulary.acts import WEARABLE
+from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.projection import project
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
@@ -39,11 +40,14 @@ LEAST_NAMED, LEAST_NAMED_SHARE = 0.12, 0.012
 that it covers, below which strangers do not name it while it rests."""
 LEAST_OUTLINE = 0.07
 """Difference from its surroundings, and within it, that a thing is told by, as a share of white."""
+LARGE_ANIMAL = 0.3
+"""Share of the picture's width or height below which an animal is told by its outline alone."""
 PATTERN_SIZE = 0.2
 """Share of the picture's width or height below which no stripes are told."""
 TALLER = 1.12
 """Height of who is tall, in heights of another."""
 _PATTERNED = frozenset({"zebra", "tiger", "leopard"})
+_ANIMALS = frozenset(name for name, one in NOUNS.items() if is_living(one) and not is_person(one))
 _ONE_SIDED = frozenset(
     {"headlight", "headlights", "tail light", "tail lights", "windscreen", "windshield", "face",
      "door", "rack", "roof rack", "neck", "trunk"}
@@ -119,11 +123,8 @@ def _judge_garment(picture: Picture, description: SceneDescription, index: int) 
 def _judge_tool(description: SceneDescription, index: int) -> str | None:
     """Who types does so on a laptop."""
     motions = [one.motion.kind for one in description.objects if one.motion is not None]
-    return (
-        "is a laptop's"
-        if description.objects[index].noun == "keyboard" and "type" in motions
-        else None
-    )
+    is_part = description.objects[index].noun == "keyboard" and "type" in motions
+    return "is a laptop's" if is_part else None
 
 
 def _judge_small(picture: Picture, description: SceneDescription, index: int) -> str | None:
@@ -299,6 +300,7 @@ def judge_outline(picture: Picture, instance: int) -> str | None:
     if _is_cut_all_around(picture, instance):
         return "cut off"
     noun = picture.scene.class_names.get(instance, "")
+    is_animal = noun in _ANIMALS - _PATTERNED
     size, contrast = 0.0, -1.0
     edge = np.array([picture.size.width, picture.size.height])
     for number in USUAL:
@@ -312,7 +314,9 @@ def judge_outline(picture: Picture, instance: int) -> str | None:
         inside, outside = colours[own], colours[lies_around(picture, own)]
         if len(outside):
             between = float(np.abs(inside.mean(axis=0) - outside.mean(axis=0)).max())
-            contrast = max(contrast, between, float(inside.std(axis=0).max()))
+            is_plain = is_animal and size < LARGE_ANIMAL
+            within = 0.0 if is_plain else float(inside.std(axis=0).max())
+            contrast = max(contrast, between, within)
     if 0.0 <= contrast < LEAST_OUTLINE:
         return "not told from what is around it"
     return "too small" if noun in _PATTERNED and 0.0 < size < PATTERN_SIZE else None

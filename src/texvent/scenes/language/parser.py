@@ -207,7 +207,7 @@ def _account(
     substituted: dict[str, Substitution] = {}
     unread: dict[str, None] = {}
     for word in words:
-        if word.shown_as is not None:
+        if word.shown_as is not None and word.said:
             substituted[word.said] = Substitution(word.said, word.shown_as)
         elif is_unread(word):
             for token in word.tokens:

@@ -178,6 +178,16 @@ def test_any_noun_can_be_held_and_stays_at_the_hands(
         assert gap < reach + 0.35
 
 
+@pytest.mark.parametrize("what", ["plate", "book", "cat"])
+def test_who_sits_holds_things_below_the_head(what: str) -> None:
+    scene = act("hold", "man", what, motion=ObjectMotion("sit"))
+    man, thing = scene.actors
+    head = man.anchor("head", 0.0)[2, 3]
+    assert middle(thing, 0.0)[2] < head - 0.1
+    hands = [man.anchor(f"{side} hand", 0.0)[2, 3] for side in ("left", "right")]
+    assert max(hands) < head - 0.1
+
+
 def test_a_dog_carries_a_ball_in_its_mouth() -> None:
     dog, ball = act("carry", "dog", "tennis ball", motion=ObjectMotion("run", "left")).actors
     for time_s in (0.0, 0.9, 1.8):

@@ -316,16 +316,16 @@ class _ClauseReader(GroupAttachment):
         return next((one for one in reversed(before) if one.verb and one.opener is None), None)
 
     def _is_small_clause(self) -> bool:
-        """As in "A boat with dolphins jumping": the dolphins jump."""
+        """As in "A boat (is on a lake) with dolphins jumping": the dolphins jump."""
         clause = self._clause
-        own = clause.subjects[-1].phrases if clause.subjects else []
-        phrases = clause.phrases or own
-        if clause.auxiliaries or not phrases:
+        phrases = clause.phrases or [one for group in clause.subjects[-1:] for one in group.phrases]
+        if not phrases:
             return False
         last = phrases[-1]
         while last.groups[-1].phrases:
             last = last.groups[-1].phrases[-1]
-        return last.preposition.text == "with" and last.groups[-1] is self._last
+        is_with = last.preposition.text == "with" and last.groups[-1] is self._last
+        return is_with and not (clause.auxiliaries and last is phrases[0])
 
     def _leave_onlookers(self, clause: Clause) -> None:
         """As in "a man on a bicycle with people watching": they do so, and are not on it."""

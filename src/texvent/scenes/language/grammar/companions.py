@@ -30,6 +30,7 @@ def link_companions(clauses: Sequence[Clause]) -> None:
       rests does so whatever it rests on.
     * A noun goes with the nouns and gerunds before it in its group: "passenger seat". Participles
       and adverbs ("a tiled wall") say how it looks, not what it is.
+    * Those nouns go with it: "a piano contest".
     """
     for clause in clauses:
         phrases = [one for phrase in clause.phrases for one in phrase.groups]
@@ -37,8 +38,10 @@ def link_companions(clauses: Sequence[Clause]) -> None:
             _link_verb(clause, clause.verb)
         for group in _all_groups([*clause.subjects, *clause.objects, *phrases]):
             _add(group, filter(_names_another, group.modifiers))
+            _link_to_head(group)
         for group in _all_groups(clause.complements):
             _add(group, filter(_names_another, group.modifiers))
+            _link_to_head(group)
 
 
 def _link_verb(clause: Clause, verb: Word) -> None:
@@ -62,6 +65,14 @@ def _names_another(word: Word) -> bool:
 def _add(group: NounGroup, words: Iterable[Word]) -> None:
     if group.head is not None:
         group.head.companions = (*group.head.companions, *words)
+
+
+def _link_to_head(group: NounGroup) -> None:
+    """What is before a noun says what it is like: "piano" of "a piano contest" may be none."""
+    head = group.head
+    for word in group.modifiers if head is not None else ():
+        if head is not None and word.pos is Pos.NOUN:
+            word.companions = (*word.companions, head)
 
 
 def _all_groups(groups: Iterable[NounGroup]) -> Iterator[NounGroup]:

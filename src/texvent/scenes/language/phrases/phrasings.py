@@ -61,6 +61,7 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
         _have,
         _lie,
         _stand_on_skis,
+        _name_game,
         _own,
         _ride_on,
         _run_after,
@@ -176,7 +177,7 @@ def _lie(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
 def _stand_on_skis(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
     """As in "a man on skis going down a hill": skiing; "people wearing skis": standing on them."""
     texts = [token.text for token in tokens[at : at + 5]]
-    is_on = texts[:1] in (["on"], ["wearing"]) and at + 1 < len(tokens)
+    is_on = texts[:1] in (["on"], ["wearing"], ["in"]) and at + 1 < len(tokens)
     if not is_on or tokens[at + 1].written.casefold() not in ("skis", "ski's", "skies") or at == 0:
         return None
     forms = {one.form for one in list_readings(tokens[at - 1].text) if one.pos is Pos.VERB}
@@ -184,6 +185,8 @@ def _stand_on_skis(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] 
         return None
     being = texts[2:3] if texts[2:3] in (["is"], ["are"]) else []
     coming = texts[2 + len(being)] if len(texts) > 2 + len(being) else ""
+    if coming == "passing" and not being:
+        return 3, _stand_for(tokens[at : at + 3], "skiing past")
     if coming in _GLIDING or coming in _POSING:
         last = 2 + len(being)
         said = [*tokens[at : at + 2], tokens[at + last]]
@@ -196,6 +199,35 @@ def _stand_on_skis(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] 
 _POSING = frozenset({"posing", "poses", "pose", "standing", "stands", "stand"})
 _GLIDING = frozenset({"going", "coming", "gliding", "moving", "heading", "traveling", "travelling",
                       "racing", "sliding", "riding"})  # fmt: skip
+
+
+def _name_game(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:
+    """As in "a football game", "a game of football": people playing it, where none are named."""
+    texts = [token.text for token in tokens[at : at + 3]]
+    if texts[:1] in (["game"], ["match"]) and texts[1:2] == ["of"]:
+        length, sport = 3, texts[-1]
+    else:
+        length, sport = 2, texts[0]
+        if texts[1:2] not in (["game"], ["match"]):
+            return None
+    is_named = any(_is_noun(token.text) for token in tokens[:at] if token.text not in _NO_PLAYERS)
+    if sport not in _SPORTS or is_named:
+        return None
+    after = [token.text for token in tokens[at + length : at + length + 3]]
+    going_on = next((one for one in _GOING_ON if after[: len(one)] == list(one)), ())
+    end = at + length + len(going_on)
+    people = [Token(text, text, said="") for text in ("three", "people")]
+    return end - at, [*people, *_stand_for(tokens[at:end], f"playing {sport}")]
+
+
+_SPORTS = frozenset({"baseball", "football", "soccer", "tennis", "basketball",
+                     "badminton"})  # fmt: skip
+_NO_PLAYERS = _OF_FILM | {"a", "the", "of", "an", "view", "professional", "night", "league"}
+"""Words before a game that name no one who plays it."""
+_GOING_ON = tuple(tuple(text.split()) for text in (
+    "is being played", "being played", "in progress", "is going on", "going on", "is played",
+    "is underway", "taking place",
+))  # fmt: skip
 
 
 def _own(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None:

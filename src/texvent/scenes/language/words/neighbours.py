@@ -35,10 +35,21 @@ def read_neighbours(words: Sequence[Word]) -> None:
             _put_off(words[number + 1 :])
         if word.text in _ANOTHER and before is not None and _is_goal_alone(words, number):
             word.mean(Meaning(Role.UNKNOWN, Pos.NOUN))
+        if _is_measure(word, before, after):
+            word.lose(Pos.ADJECTIVE)
         if word.text in _AT_OTHER_TIMES:
             _put_aside_weather(word, words[number + 1 : number + 5])
         if word.text == "left":
             _stay_behind(word, before, after)
+
+
+def _is_measure(word: Word, before: Word | None, after: Word | None) -> bool:
+    """As in "a two layered cake", "a three wheeled cart": one thing, whatever it has of them."""
+    is_one = before is not None and before.text in ("a", "an")
+    is_number = word.role is Role.COUNT and len(word.tokens) == 1
+    if not (is_one and is_number and after is not None) or after.role is Role.UNIT:
+        return False
+    return after.pos in (Pos.ADJECTIVE, Pos.NOUN, Pos.VERB) and not after.meaning.is_plural
 
 
 _AT_OTHER_TIMES = ("after", "before")

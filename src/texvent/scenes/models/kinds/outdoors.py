@@ -154,8 +154,8 @@ OUTDOOR_KINDS: dict[str, str] = {
     "sign": """
         construction sign, license plate, licence plate, number plate, wooden sign, exit
         sign, for sale sign, protest sign, direction sign, yield sign, name plate, no
-        parking sign, warning sign, neon letters, shop sign, railway signal, traffic
-        board, crossing sign, protest banner""",
+        parking sign, do not enter sign, no entry sign, warning sign, neon letters, shop
+        sign, railway signal, traffic board, crossing sign, protest banner""",
     "railway track": "tram track, tram tracks, rail track, monorail track, roller coaster track",
     "gravel path lines": "footpath, hiking trail, garden path, stone path",
     "cable car": "gondola lift, funicular, ski gondola, zip line, zipline",

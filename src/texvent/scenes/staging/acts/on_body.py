@@ -14,6 +14,7 @@ from texvent.scenes.models.animals.four_legged.clothing import (
     share_of_head,
     wears_on_trunk,
 )
+from texvent.scenes.models.shapes import Affine
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed, Swaying
 from texvent.scenes.staging.acts.hand_work.enlarged import Enlarged
@@ -21,6 +22,7 @@ from texvent.scenes.staging.acts.hand_work.working import WorkingAt
 from texvent.scenes.staging.acts.holding import (
     GARMENTS,
     WORN,
+    Grips,
     Hold,
     Wear,
     choose_hold,
@@ -137,6 +139,8 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     anchor, offset, is_upright, grips = place_in_hold(way, subject, target)
     doing = subject.trajectory.at(0.0).activity
     busy = works or doing not in _HANDS_FREE
+    if doing in _SITS:
+        offset, grips = _lower(subject, anchor, offset, grips)
     if is_person(subject) and not busy and grips:
         subject = replace(subject, trajectory=Performed(subject.trajectory, None, grips))
     if is_person(subject) and not busy and way.activity and not subject.is_mover:
@@ -148,6 +152,20 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     if is_kite:
         target = replace(target, tether=Tether(subject, "right hand", (0.0, 0.0, 0.0), 0.008))
     return subject, target
+
+
+_SITS = ("sit", "sit on ground")
+_STANDING_TORSO = 0.95
+"""Height of the foot of the torso of who stands, m, of an adult."""
+
+
+def _lower(subject: Actor, anchor: str, offset: Affine, grips: Grips) -> tuple[Affine, Grips]:
+    """Offset and grips of who sits, as much lower as the body is than that of who stands."""
+    torso = float(subject.anchor("torso", 0.0)[2, 3] - subject.trajectory.at(0.0).position[2])
+    drop = max(_STANDING_TORSO * size_of(subject.model) - torso, 0.0)
+    if anchor == "ground":
+        offset = np.column_stack([offset[:, :3], offset[:, 3] - (0.0, 0.0, drop)])
+    return offset, tuple((hand, (x, y, z - drop)) for hand, (x, y, z) in grips)
 
 
 def _carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:

@@ -15,6 +15,8 @@ from texvent.scenes.staging.trajectories.trajectory import BodyState, Trajectory
 
 _DEPTH_SHARE = 0.4
 """Share of the height of a body that is under water at most."""
+_DEPTH_OF_BIRDS = 0.1
+"""The same of birds, as high as their spread wings reach."""
 _OVER_SHORE = ("into", "out of")
 
 
@@ -94,7 +96,8 @@ def wade(
         ways = {motion.shore for motion in (one.motion, *one.then) if motion is not None}
         is_on_board = actor.trajectory.at(0.0).activity in _ON_BOARDS
         if ways & {*_OVER_SHORE, "in"} and not is_on_board:
-            depth, reach = _DEPTH_SHARE * actor.model.height, 0.5 * actor.size_m
+            share = _DEPTH_OF_BIRDS if actor.noun.habitat == "air" else _DEPTH_SHARE
+            depth, reach = share * actor.model.height, 0.5 * actor.size_m
             path = Wading(actor.trajectory, line, start_m, depth, reach)
             actor = replace(actor, trajectory=path)
         found.append(actor)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion
-from texvent.scenes.language.meaning.capabilities import is_person
+from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
@@ -86,7 +86,8 @@ def _wade(draft: Draft, members: Sequence[int]) -> None:
     """As in "stands in a lake": in the water, not on its shore."""
     for index in members:
         motions, noun = draft.objects[index].motions, draft.noun(index)
-        if noun.habitat != "ground" or noun.motion not in ("walk", "run"):
+        is_on_foot = noun.habitat == "ground" and noun.motion in ("walk", "run")
+        if not is_on_foot and not (noun.habitat == "air" and is_living(noun)):
             continue
         if not motions:
             motions.append(ObjectMotion("stand", shore="in"))

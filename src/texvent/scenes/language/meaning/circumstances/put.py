@@ -10,9 +10,16 @@ from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
 from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.words.word import Word
+from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.objects.receptacles import CARRIERS, VESSELS
 from texvent.scenes.models.people.activities import SEATS
 
+FOOD = frozenset(
+    noun.name for kind in ("food", "helpings") for noun in FAMILIES[f"objects kitchen {kind}"]
+)
+"""What is eaten: no animal is in it."""
+_FLAT_FOOD = frozenset({"cake", "pizza"})
+"""On which there is room for something else."""
 TABLES = frozenset({"table", "desk"})
 _HELD_AT_MOST_M = 1.3
 """A person "with" something up to this long holds it."""
@@ -45,6 +52,19 @@ def is_put(
         return False
     is_thing = not any(is_living(draft.noun(index)) for index in near)
     return is_thing and all(is_person(draft.noun(index)) for index in scope.subjects)
+
+
+def is_topped(word: Word) -> bool:
+    """As in "a cake topped with cherries", which the reader knows as "with"."""
+    return word.said.startswith("topped")
+
+
+def top(draft: Draft, things: Sequence[int], hosts: Sequence[int]) -> bool:
+    """Put things on what is topped with them; False for a sandwich, on which there is no room."""
+    if draft.noun(hosts[0]).name in FOOD - _FLAT_FOOD:
+        draft.relate("with", hosts, things)
+        return False
+    return draft.relate("on", things, hosts)
 
 
 def take_out(draft: Draft, things: Sequence[int]) -> None:
@@ -84,6 +104,7 @@ def list_put(
     if any(is_living(draft.noun(i)) or not is_small(draft, i) for i in hosts):
         return []
     is_vessel = all(draft.noun(i).name in VESSELS | CARRIERS for i in hosts)
+    is_vessel |= is_topped(phrase.preposition)
     others = [] if is_vessel else [i for one in found if one.is_things for i in one.things]
     return [*hosts, *others]
 

@@ -15,11 +15,14 @@ from texvent.scenes.language.meaning.circumstances.fillings import FULL, fill
 from texvent.scenes.language.meaning.circumstances.nearest import has_nearest, put_down
 from texvent.scenes.language.meaning.circumstances.place_ways import lifts_off
 from texvent.scenes.language.meaning.circumstances.put import (
+    FOOD,
     OFF_GROUND,
     TABLES,
     is_put,
     is_small,
+    is_topped,
     take_out,
+    top,
 )
 from texvent.scenes.language.meaning.circumstances.slopes import go_on_slope
 from texvent.scenes.language.meaning.circumstances.walked import WALKED, list_goers
@@ -31,7 +34,6 @@ from texvent.scenes.language.vocabulary.acts import BOARDS, WEARABLE
 from texvent.scenes.language.vocabulary.motion import APART, PREPOSITION_WAYS, WEAK_PREPOSITIONS
 from texvent.scenes.language.words.lexicon import Role
 from texvent.scenes.language.words.word import Word
-from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.objects.receptacles import CARRIERS, LIFTED_LADEN, VESSELS
 from texvent.scenes.models.people.activities import ACTIVITIES, DONE_SEATED, SEATS
 from texvent.scenes.models.people.props import PROPS
@@ -89,6 +91,8 @@ class RelationReader:
             return fill(self._draft, word, near, things, scope)
         if scope.has_verb and not scope.is_verb_shown:
             return self._rest(word, kind, things, scope)
+        if is_topped(word):
+            return top(self._draft, things, scope.subjects)
         if word.text == "with":
             return self._read_with(things, scope)
         if self._ride_along(word, things, scope) or self._is_in_use(scope, things):
@@ -141,7 +145,7 @@ class RelationReader:
 
     def _is_in_food(self, kind: str, things: list[int], scope: Scope) -> bool:
         """As in "a dog in the fruit"."""
-        is_food = kind == "in" and self._draft.noun(things[0]).name in _FOOD
+        is_food = kind == "in" and self._draft.noun(things[0]).name in FOOD
         return is_food and any(is_living(self._draft.noun(index)) for index in scope.subjects)
 
     def _hang_on(self, kind: str, word: Word, things: list[int], scope: Scope) -> bool:
@@ -245,8 +249,7 @@ class RelationReader:
         if kind == "on" and self._draft.noun(things[0]).name in _LEANT_ON:
             # As in "leans on a fence": they stand at it, not on its top.
             kind = "beside"
-        way = word.text if word.text == "at" else ""
-        return self._relate(kind, scope.subjects, things, way)
+        return self._relate(kind, scope.subjects, things, "at" if word.text == "at" else "")
 
     def _is_tool(self, scope: Scope, things: Sequence[int]) -> bool:
         noun = self._draft.noun(things[0])
@@ -271,11 +274,9 @@ class RelationReader:
     def _stays(self, scope: Scope) -> bool:
         """As in "waves from a window": who does it stays there."""
         motions = [self._draft.objects[index].motions for index in scope.movers]
-        still = ACTIVITIES.keys() - OFF_GROUND
-        return bool(motions) and all(
-            one and one[-1].kind in still and not ACTIVITIES[one[-1].kind].travels
-            for one in motions
-        )
+        last = [one[-1].kind if one else "" for one in motions]
+        still = {kind for kind, one in ACTIVITIES.items() if not one.travels} - OFF_GROUND
+        return bool(motions) and still.issuperset(last)
 
     def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
         return kind in _JOURNEYS and scope.has_verb and not scope.movers
@@ -383,10 +384,6 @@ _PERCHES = SEATS | {"branch", "shelf", "fence", "wall", "rock", "pier", "bridge"
 """On what one is who watches or waves "from" it."""
 _DENIED = ("on", "in", "inside", "on top of", "into", "onto")
 _AT_TOP, _TALL_M = ("on top of", "atop", "upon"), 4.0
-_FOOD = frozenset(
-    noun.name for kind in ("food", "helpings") for noun in FAMILIES[f"objects kitchen {kind}"]
-)
-"""In what no animal is."""
 _LEANT_ON = frozenset({"fence", "wall", "gate", "door", "railing", "car", "tree", "lamp post"})
 _GOALS = ("towards", "past")
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})

@@ -104,7 +104,9 @@ CRAFTS: dict[str, Activity] = {
 }  # fmt: skip
 """Done with things that come along."""
 
-_AT_PLATE = "meal|dinner|lunch|breakfast|steak|rice|vegetable|meat|chicken|fish|fry|french fry|egg"
+_AT_PLATE = (
+    "food|meal|dinner|lunch|breakfast|steak|rice|vegetable|meat|chicken|fish|fry|french fry|egg"
+)
 MEALS: dict[str, Activity] = {
     "wash dishes": seen_from_side(*done_to("wash|clean|rinse|scrub|do", _PLATES),
                                   "do washing up", "wash up"),

@@ -27,6 +27,10 @@ _LARGEST_M = 0.45
 _AT_DESK = frozenset({"monitor", "laptop", "keyboard", "computer mouse", "printer"})
 """Computers and what belongs to them; several stand on a desk."""
 _SCREEN_M = 0.8
+_APPLIANCES = frozenset({"microwave", "toaster", "coffee machine", "blender", "tv", "typewriter"})
+"""What strangers miss a table under, where it stands on the floor of a room."""
+_APPLIANCE_M = 1.3
+_ON_DESKS = _AT_DESK | _APPLIANCES
 _NOT_ON_TABLES = frozenset({
     "campfire", "torch", "soap bubble", "paper plane", "water balloon", "feather", "toy train",
     "rubber duck", "paper boat", "dart", "ice skate", "roller skate", "poster", "sign", "rope",
@@ -96,12 +100,13 @@ def _lay(
 
 
 def _needs_desk(description: SceneDescription, loose: Sequence[int]) -> bool:
-    """Whether several computers and what belongs to them would stand on the floor of a room."""
+    """Whether an appliance or several computers would stand on the floor of a room."""
     objects = description.objects
-    some = [objects[index] for index in loose if objects[index].noun in _AT_DESK]
+    some = [objects[index] for index in loose if objects[index].noun in _ON_DESKS]
+    needs = sum(one.count for one in some) > 1 or any(one.noun in _APPLIANCES for one in some)
     place = description.surroundings.place or "grass"
     is_free = not {"table", "desk"} & set(description.absent)
-    return sum(one.count for one in some) > 1 and is_room(place) and is_free
+    return needs and is_room(place) and is_free
 
 
 def _add_table(
@@ -119,7 +124,8 @@ def _add_table(
     table = _find_table(objects)
     added: tuple[Relation, ...] = ()
     if table is None:
-        kind = "table" if person is not None else "desk"
+        is_desk = person is None and any(objects[index].noun in _AT_DESK for index in chosen)
+        kind = "desk" if is_desk else "table"
         table, objects = len(objects), (*objects, SceneObject(kind))
         added = (Relation("front", table, (person,)),) if person is not None else ()
     kept = [
@@ -133,7 +139,7 @@ def _add_table(
         names = ", ".join(dict.fromkeys(objects[index].noun for index in chosen))
         notes = (*notes, f"a {objects[table].noun} is added, on which is: {names}")
     description = replace(description, relations=(*kept, *added, *on), notes=notes)
-    if any(objects[index].noun in _AT_DESK for index in chosen):
+    if any(objects[index].noun in _ON_DESKS for index in chosen):
         objects = _widen(objects, table, description.relations, nouns)
     return replace(description, objects=objects)
 
@@ -195,9 +201,10 @@ def _is_small(one: SceneObject, nouns: Mapping[str, Noun], *, is_alone: bool) ->
     is_named = one.noun in _SMALL and one.noun not in _NOT_ON_TABLES and one.side is None
     is_still = one.motion is None or one.motion.kind in ("stand", "lie", "sit")
     is_free = is_named and is_still and not one.then and one.count <= _MOST
-    return is_free and extent(one, nouns) <= (
-        _SCREEN_M if is_alone and one.noun in _AT_DESK else _LARGEST_M
-    )
+    most = _LARGEST_M
+    if is_alone and one.noun in _ON_DESKS:
+        most = _APPLIANCE_M if one.noun in _APPLIANCES else _SCREEN_M
+    return is_free and extent(one, nouns) <= most
 
 
 def _has_way(one: SceneObject) -> bool:
