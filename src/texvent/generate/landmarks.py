@@ -13,7 +13,7 @@ from texvent.scenes.language.vocabulary.scene import PLACES, STEEP
 from texvent.scenes.scene import Environment, Float64Array, Ground
 from texvent.scenes.staging.surroundings.built_places import BUILT_MARKS
 from texvent.scenes.staging.surroundings.road import RoadLine
-from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
+from texvent.scenes.staging.surroundings.scenery.tables import SCENERY
 
 SKY, WATER, ROAD = "sky", "water", "road"
 """Marks that are no nouns of scenery."""

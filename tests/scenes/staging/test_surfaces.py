@@ -18,7 +18,7 @@ from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Ground, Texture
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.surroundings.places import PLACES, is_room
-from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
+from texvent.scenes.staging.surroundings.scenery.tables import SCENERY
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(48, 36)

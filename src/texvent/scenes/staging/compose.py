@@ -49,10 +49,14 @@ from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.light.said_light import choose_lighting
 from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road_choice import find_beside, find_road
-from texvent.scenes.staging.surroundings.scatter_rule import is_structure, under_snow
-from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
-from texvent.scenes.staging.surroundings.scenery_along import is_placed_by_view, line_route
-from texvent.scenes.staging.surroundings.scenery_tables import BACKDROPS, SCENERY, ScatterRule
+from texvent.scenes.staging.surroundings.scenery.along_route import is_placed_by_view, line_route
+from texvent.scenes.staging.surroundings.scenery.scatter import SceneryItem, ViewClearance, scatter
+from texvent.scenes.staging.surroundings.scenery.scatter_rule import (
+    ScatterRule,
+    is_structure,
+    under_snow,
+)
+from texvent.scenes.staging.surroundings.scenery.tables import BACKDROPS, SCENERY
 from texvent.scenes.staging.surroundings.wading import goes_over_shore, list_waders, wade
 from texvent.scenes.staging.surroundings.waterside import (
     STRIPS,

@@ -13,7 +13,7 @@ from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.placement.at_wall import list_at_wall
 from texvent.scenes.staging.still_life import is_still_life
 from texvent.scenes.staging.surroundings.places import is_room
-from texvent.scenes.staging.surroundings.scenery_tables import SCENERY
+from texvent.scenes.staging.surroundings.scenery.tables import SCENERY
 
 FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""

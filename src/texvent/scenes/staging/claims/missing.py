@@ -10,7 +10,7 @@ from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.relations import list_not_shown
 from texvent.scenes.staging.claims.shots import list_moves_not_shown
 from texvent.scenes.staging.placement.object_placement import SCENIC
-from texvent.scenes.staging.surroundings.scenery import SceneryItem
+from texvent.scenes.staging.surroundings.scenery.scatter import SceneryItem
 
 
 def list_missing(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from texvent.scenes.scene import Colour, Ground, Texture
 from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance, room
 from texvent.scenes.staging.surroundings.more_places import MORE_GROUNDS, MORE_SCENERY
-from texvent.scenes.staging.surroundings.scatter_rule import ScatterRule, along_walls
+from texvent.scenes.staging.surroundings.scenery.scatter_rule import ScatterRule, along_walls
 
 _MEADOW: tuple[Colour, Colour] = ((0.055, 0.14, 0.022), (0.13, 0.21, 0.045))
 _WATER: Colour = (0.016, 0.055, 0.065)

@@ -25,7 +25,7 @@ from texvent.scenes.staging.surroundings.light.lightning import STROKE_HZ, light
 from texvent.scenes.staging.surroundings.light.said_light import choose_lighting, towards_light
 from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road import RoadLine
-from texvent.scenes.staging.surroundings.scatter_rule import SNOW
+from texvent.scenes.staging.surroundings.scenery.scatter_rule import SNOW
 
 FLICKER_DEPTH = 0.8
 """Share of the light that a flicker takes away at its darkest."""

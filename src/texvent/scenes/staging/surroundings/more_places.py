@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from texvent.scenes.scene import Colour, Ground, Texture
 from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance, room
-from texvent.scenes.staging.surroundings.scatter_rule import ScatterRule, along_walls
+from texvent.scenes.staging.surroundings.scenery.scatter_rule import ScatterRule, along_walls
 
 _GREY: tuple[Colour, Colour] = ((0.36, 0.36, 0.35), (0.27, 0.27, 0.26))
 _PALE: tuple[Colour, Colour] = ((0.66, 0.67, 0.66), (0.58, 0.60, 0.60))

@@ -19,7 +19,7 @@ from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.shapes import along
 from texvent.scenes.staging.surroundings.light.hidden_lamp import hidden_lamp
 from texvent.scenes.staging.surroundings.light.said_light import tint_of
-from texvent.scenes.staging.surroundings.scenery import SceneryItem
+from texvent.scenes.staging.surroundings.scenery.scatter import SceneryItem
 
 MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""

@@ -18,8 +18,8 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.surroundings.road import RoadLine
-from texvent.scenes.staging.surroundings.scenery_tables import ScatterRule
-from texvent.scenes.staging.surroundings.walls import stand_across, stand_along
+from texvent.scenes.staging.surroundings.scenery.scatter_rule import ScatterRule
+from texvent.scenes.staging.surroundings.scenery.walls import stand_across, stand_along
 from texvent.scenes.staging.trajectories.trajectory import BodyState
 
 

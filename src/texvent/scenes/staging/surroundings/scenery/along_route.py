@@ -14,9 +14,8 @@ from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.journey import VIEW_M, TravelPlan
-from texvent.scenes.staging.surroundings.scatter_rule import is_structure
-from texvent.scenes.staging.surroundings.scenery import SceneryItem, list_bodies
-from texvent.scenes.staging.surroundings.scenery_tables import ScatterRule
+from texvent.scenes.staging.surroundings.scenery.scatter import SceneryItem, list_bodies
+from texvent.scenes.staging.surroundings.scenery.scatter_rule import ScatterRule, is_structure
 
 SPACING_M = {"building": 17.0, "house": 24.0, "street lamp": 14.0, "tree": 9.0, "pine": 7.0,
              "palm": 11.0, "bush": 7.0, "flower": 5.0, "rock": 12.0, "barrier": 15.0,

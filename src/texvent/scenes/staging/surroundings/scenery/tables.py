@@ -1,14 +1,11 @@
-"""What stands around in each place: tables for `scenery.scatter`."""
+"""What stands around in each place: tables for `scatter.scatter`."""
 
 from __future__ import annotations
 
 from texvent.scenes.scene import Colour
 from texvent.scenes.staging.surroundings.built_places import BUILT_SCENERY
 from texvent.scenes.staging.surroundings.more_places import REEF
-from texvent.scenes.staging.surroundings.scatter_rule import ScatterRule
-from texvent.scenes.staging.surroundings.scatter_rule import along_walls as _along_walls
-
-__all__ = ["BACKDROPS", "SCENERY", "ScatterRule"]
+from texvent.scenes.staging.surroundings.scenery.scatter_rule import ScatterRule, along_walls
 
 _DRY: Colour = (0.25, 0.22, 0.06)
 
@@ -66,33 +63,33 @@ SCENERY: dict[str, tuple[ScatterRule, ...]] = {
                ScatterRule("bush", 4, 0.5, 2.5, (0.4, 0.8))),
     "soil": (ScatterRule("rock", 6, 0.2, 2.0, (0.15, 0.5)),
              ScatterRule("bush", 4, 0.6, 2.5, (0.4, 0.8))),
-    "indoor": _along_walls(("bookshelf", 1), ("chair", 2), ("lamp", 1), is_told=False),
-    "living room": _along_walls(
+    "indoor": along_walls(("bookshelf", 1), ("chair", 2), ("lamp", 1), is_told=False),
+    "living room": along_walls(
         ("sofa", 1), ("fireplace", 1), ("armchair", 2), ("lamp", 1), ("large painting", 2),
         ("chest of drawers", 1), ("bookshelf", 1), ("potted plant", 2), ("grandfather clock", 1),
     ),
-    "kitchen": _along_walls(
+    "kitchen": along_walls(
         ("kitchen cabinet", 2), ("refrigerator", 1), ("oven", 1), ("kitchen sink", 1),
         ("kitchen cabinet", 1), ("table", 1), ("chair", 2),
     ),
-    "bedroom": _along_walls(
+    "bedroom": along_walls(
         ("bed", 1), ("wardrobe", 1), ("lamp", 1), ("chest of drawers", 1), ("large painting", 1),
         ("bookshelf", 1), ("chair", 1),
     ),
-    "office": _along_walls(
+    "office": along_walls(
         ("computer desk", 3), ("bookshelf", 2), ("whiteboard", 1), ("potted plant", 1),
         ("office chair", 1), ("wardrobe", 1),
     ),
-    "workshop": _along_walls(
+    "workshop": along_walls(
         ("desk", 2), ("chest", 1), ("shelf", 2), ("ladder", 1), ("box", 3), ("barrel", 2),
         ("table", 1),
     ),
     "warehouse": (
-        *_along_walls(("shelf", 8), ("crate", 3), ("barrel", 2)),
+        *along_walls(("shelf", 8), ("crate", 3), ("barrel", 2)),
         ScatterRule("shelf", 3, 0.3, 0.9, (1.2, 1.4), faces_camera=True),
         ScatterRule("pallet", 2, 0.2, 0.8), ScatterRule("crate", 2, 0.3, 0.9),
     ),
-    "gym": _along_walls(("treadmill", 2), ("bench", 3), ("dumbbell", 2), ("basketball", 2)),
+    "gym": along_walls(("treadmill", 2), ("bench", 3), ("dumbbell", 2), ("basketball", 2)),
     "construction site": (
         ScatterRule("barrier", 3, 0.25, 0.8, (1.0, 1.0)),
         ScatterRule("scaffold", 2, 0.6, 1.6, (1.2, 1.6), faces_camera=True),
