@@ -63,6 +63,10 @@ class ObjectMotion:
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
 STANDING = ObjectMotion("stand")
+RIDES = ("ride", "ride along")
+"""Kinds of `Relation` of who steers, and of a passenger."""
+AMID = frozenset({"surround", "among"})
+"""Kinds of `Relation` whose targets stand around, placed as scenery is; some may be out of view."""
 TOGETHER = "together"
 FORMATIONS = frozenset({"row", "ring", TOGETHER})
 """Values of `SceneObject.side` that say how copies stand to each other."""

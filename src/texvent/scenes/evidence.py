@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from texvent.scenes.description import Claim, SceneDescription
+from texvent.scenes.description import AMID, Claim, SceneDescription
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.vocabulary.objects import EXACT_COUNTS
 from texvent.scenes.report import PromptReport
@@ -31,8 +31,6 @@ _OF_NOUN = frozenset({"quality", "bright", "colour"})
 _OF_THINGS = frozenset({"size", "material", "relation"})
 """Aspects of words that are as much in doubt as the nouns that they go with."""
 _NAMELESS = frozenset({"relation", "motion"})
-_AMID = frozenset({"surround", "among"})
-"""Relations that hold whether or not all of the targets are in view."""
 
 
 class Unmet(NamedTuple):
@@ -212,7 +210,7 @@ def _find_reason(claim: Claim, description: SceneDescription, evidence: Evidence
     for relation in claim.relations:
         ends = [relation.subject, *relation.targets]
         unseen = [index for index in ends if _is_unseen(index, evidence)]
-        if unseen and (relation.kind not in _AMID or len(unseen) == len(ends)):
+        if unseen and (relation.kind not in AMID or len(unseen) == len(ends)):
             return _reason(unseen[0], description, evidence)
     unseen = [index for index in claim.things if _is_unseen(index, evidence)]
     if unseen and len(unseen) == len(claim.things):

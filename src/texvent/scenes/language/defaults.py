@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from texvent.scenes.description import (
+    RIDES,
     STANDING,
     CameraMove,
     ObjectMotion,
@@ -25,7 +26,7 @@ from texvent.scenes.language.left_out import (
 )
 from texvent.scenes.language.place_cues import NO_CUES, PlaceCues
 from texvent.scenes.language.posing import list_posing
-from texvent.scenes.language.unridden import RIDES, leave_unridden, park
+from texvent.scenes.language.unridden import leave_unridden, park
 from texvent.scenes.language.vocabulary.objects import MAX_BODIES
 from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS, SEATS

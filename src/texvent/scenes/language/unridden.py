@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from texvent.scenes.description import STANDING, SceneDescription
+from texvent.scenes.description import RIDES, STANDING, SceneDescription
 from texvent.scenes.language.vocabulary.acts import BOARDS
 from texvent.scenes.models.protocol import Noun
 
-RIDES = ("ride", "ride along")
-"""Relations of who sits on what is ridden."""
 HAS_RIDER = frozenset({"bicycle", "motorcycle"})
 """Nouns whose models come with the person who rides them."""
 _ABOARD = (*RIDES, "in")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -199,3 +200,9 @@ class Actor:
         half = 0.5 * np.array([self.model.length, self.model.width, self.model.height])
         lift = np.array([0.0, 0.0, 0.0 if self.is_centred else half[2]])
         return lift - half, lift + half
+
+
+def corners_over(actors: Iterable[Actor], times: Iterable[float]) -> Float64Array:
+    """[n, 3] corners of their boxes at these instants, m."""
+    instants = [float(time) for time in times]
+    return np.vstack([one.corners(time) for one in actors for time in instants])

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
@@ -39,7 +39,7 @@ from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_
 from texvent.scenes.staging.placement.fitting import enlarge_again, enlarge_small
 from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
-from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
+from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.placement.tables.plating import dish_up
 from texvent.scenes.staging.placement.tables.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
@@ -340,7 +340,7 @@ def _scatter_all(
     unsaid = {name: noun for name, noun in allowed.items() if name not in said}
     around: list[tuple[int, SceneryItem]] = []
     for relation in description.relations:
-        if relation.kind not in SCENIC:
+        if relation.kind not in AMID:
             continue
         for target in relation.targets:
             scene_object = description.objects[target]

@@ -45,14 +45,14 @@ def young(animal: Animal, **changes: object) -> Animal:
     return replace(animal, build=small, **changes)  # type: ignore[arg-type]
 
 
-def _sides(build: Build, places: tuple[tuple[float, float], ...], size: float, skin: Material,
-           deep: float = 0.10) -> list[ModelPart]:  # fmt: skip
+def _sides(build: Build, places: tuple[tuple[float, float], ...], size: float, skin: Material
+           ) -> list[ModelPart]:  # fmt: skip
     """Round marks on both flanks: x and height as shares of half the trunk."""
     long, wide, tall = build.body
     middle = build.shoulder - 0.5 * tall
     return [
         ball(skin, (0.5 * x * long, side * 0.47 * wide * math.sqrt(max(1.0 - 0.8 * z * z, 0.1)),
-                    middle + 0.5 * z * tall), (size * tall, deep * wide + 0.02, size * tall))
+                    middle + 0.5 * z * tall), (size * tall, 0.10 * wide + 0.02, size * tall))
         for x, z in places for side in (1.0, -1.0)
     ]  # fmt: skip
 

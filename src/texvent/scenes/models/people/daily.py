@@ -8,17 +8,15 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from texvent.scenes.models.people.gestures import Movement, drum, strum
-from texvent.scenes.models.people.posture import ANKLE, Arm, Leg, Posture
+from texvent.scenes.models.people.posture import ANKLE, DOWN, OUT, Arm, Leg, Posture
 from texvent.scenes.models.people.timing import ease, follow_keys, pulse, swing
 from texvent.scenes.models.shapes import Point
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 SEAT = 0.42
 """Height of the chair that "sit" sits on, m: hips are a little above it."""
 _SEATED = Posture(
-    hips=(0.0, 0.0, SEAT + 0.08), left=Arm((0.38, -0.05, -0.36), _DOWN),
-    right=Arm((0.38, -0.05, -0.36), _DOWN), left_leg=Leg((0.40, 0.10, ANKLE)),
+    hips=(0.0, 0.0, SEAT + 0.08), left=Arm((0.38, -0.05, -0.36), DOWN),
+    right=Arm((0.38, -0.05, -0.36), DOWN), left_leg=Leg((0.40, 0.10, ANKLE)),
     right_leg=Leg((0.40, 0.10, ANKLE)),
 )  # fmt: skip
 
@@ -31,7 +29,7 @@ def _sit_on_ground(t: float) -> Posture:
     leg = Leg((0.50, 0.12, ANKLE), (0.2, 0.3, 1.0))
     return Posture(
         hips=(0.0, 0.0, 0.12), lean=0.08 + 0.02 * swing(t, 0.3), look=0.25 * swing(t, 0.2),
-        left=Arm((0.44, -0.06, -0.12), _OUT), right=Arm((0.44, -0.06, -0.12), _OUT),
+        left=Arm((0.44, -0.06, -0.12), OUT), right=Arm((0.44, -0.06, -0.12), OUT),
         left_leg=leg, right_leg=leg,
     )  # fmt: skip
 
@@ -46,7 +44,7 @@ def _lie(t: float) -> Posture:
 
 def _kneel(t: float) -> Posture:
     leg = Leg((-0.34, 0.11, 0.08), (1.0, 0.1, -0.5), 2.4)
-    arm = Arm((0.30, 0.0, -0.46), _DOWN)
+    arm = Arm((0.30, 0.0, -0.46), DOWN)
     return Posture(hips=(0.0, 0.0, 0.48), lean=0.06 + 0.02 * swing(t, 0.3),
                    nod=0.2 + 0.05 * swing(t, 0.25), left=arm, right=arm,
                    left_leg=leg, right_leg=leg)  # fmt: skip
@@ -54,7 +52,7 @@ def _kneel(t: float) -> Posture:
 
 def _crouch(t: float) -> Posture:
     leg = Leg((0.06, 0.14, ANKLE), (1.0, 0.35, 0.3))
-    arm = Arm((0.42, -0.06, -0.26), _DOWN)
+    arm = Arm((0.42, -0.06, -0.26), DOWN)
     return Posture(hips=(-0.20, 0.0, 0.36), lean=0.55 + 0.03 * swing(t, 0.3), nod=-0.3,
                    left=arm, right=arm, left_leg=leg, right_leg=leg)  # fmt: skip
 
@@ -81,7 +79,7 @@ def _keys(rate_hz: float, wide: float) -> Movement:
             strike = 0.05 * (1.0 + swing(t, rate_hz, phase))
             across = wide * swing(t, 0.5, phase)
             back = 0.04 * swing(t, 1.3, phase)
-            return Arm((x + back, y + across, z + strike), _DOWN, True)
+            return Arm((x + back, y + across, z + strike), DOWN, True)
 
         return replace(_SEATED, lean=0.12, nod=0.15 + 0.08 * swing(t, 0.7), left=arm(0.0),
                        right=arm(0.5))  # fmt: skip
@@ -93,7 +91,7 @@ def _violin(t: float) -> Posture:
     stroke = swing(t, 1.2)
     return Posture(
         left=Arm((0.42, 0.16, 0.02), (0.1, 0.3, -1.0)),
-        right=Arm((0.36 - 0.10 * stroke, 0.02 + 0.17 * stroke, 0.0 - 0.10 * stroke), _OUT),
+        right=Arm((0.36 - 0.10 * stroke, 0.02 + 0.17 * stroke, 0.0 - 0.10 * stroke), OUT),
         look=0.45, nod=0.12, tilt=0.05 * stroke, tool=(0.75, -0.75, 0.35),
     )  # fmt: skip
 
@@ -102,7 +100,7 @@ def _flute(t: float) -> Posture:
     """The flute goes to the right of the mouth; the body sways with the tune."""
     lift, sway = 0.05 * swing(t, 0.6), 0.16 * swing(t, 0.6, 0.2)
     return Posture(
-        left=Arm((0.24, -0.24, 0.18 + lift), _OUT), right=Arm((0.18, 0.16, 0.18 + lift), _OUT),
+        left=Arm((0.24, -0.24, 0.18 + lift), OUT), right=Arm((0.18, 0.16, 0.18 + lift), OUT),
         nod=0.10 * swing(t, 0.6), look=0.25, tilt=sway,
     )  # fmt: skip
 
@@ -110,20 +108,20 @@ def _flute(t: float) -> Posture:
 def _trumpet(t: float) -> Posture:
     lift = 0.07 * swing(t, 0.6)
     return Posture(
-        left=Arm((0.34, -0.17, 0.05 + lift), _OUT), right=Arm((0.46, -0.19, -0.04 + lift), _OUT),
+        left=Arm((0.34, -0.17, 0.05 + lift), OUT), right=Arm((0.46, -0.19, -0.04 + lift), OUT),
         nod=-0.05 + 0.14 * swing(t, 0.6), lean=0.12 * swing(t, 0.6), tool=(0.9, 0.0, -0.35),
     )  # fmt: skip
 
 
 def _write(t: float) -> Posture:
     return Posture(
-        left=Arm((0.32, -0.06, -0.26), _DOWN), nod=0.40,
-        right=Arm((0.36 + 0.03 * swing(t, 1.7), -0.12 + 0.11 * swing(t, 0.45), -0.17), _DOWN),
+        left=Arm((0.32, -0.06, -0.26), DOWN), nod=0.40,
+        right=Arm((0.36 + 0.03 * swing(t, 1.7), -0.12 + 0.11 * swing(t, 0.45), -0.17), DOWN),
     )  # fmt: skip
 
 
 def _read(t: float) -> Posture:
-    arm = Arm((0.36, -0.08, -0.12), _DOWN)
+    arm = Arm((0.36, -0.08, -0.12), DOWN)
     return Posture(left=arm, right=arm, nod=0.40, look=0.14 * swing(t, 0.5), tool=(0.2, 0.0, 1.0))
 
 
@@ -138,41 +136,41 @@ def _to_mouth(t: float, rate_hz: float) -> Point:
 
 
 def _eat(t: float) -> Posture:
-    return Posture(left=Arm((0.36, -0.10, -0.14), _DOWN), right=Arm(_to_mouth(t, 0.7), _OUT),
+    return Posture(left=Arm((0.36, -0.10, -0.14), DOWN), right=Arm(_to_mouth(t, 0.7), OUT),
                    nod=0.2, tool=(-0.5, -0.8, 0.1))  # fmt: skip
 
 
 def _drink(t: float) -> Posture:
     up = ease(t * 0.5 % 1.0, 0.0, 0.3) - ease(t * 0.5 % 1.0, 0.6, 0.95)
-    return Posture(right=Arm(_to_mouth(t, 0.5), _OUT), nod=-0.35 * up,
+    return Posture(right=Arm(_to_mouth(t, 0.5), OUT), nod=-0.35 * up,
                    tool=(-0.75 * up, 0.0, 1.0 - 0.3 * up))  # fmt: skip
 
 
 def _phone(t: float) -> Posture:
     return Posture(
         right=Arm((0.08, -0.07, 0.22), (0.2, 1.0, -0.9)), look=0.15 * swing(t, 0.3),
-        left=Arm((0.30 + 0.06 * swing(t, 0.8), 0.02, -0.26 + 0.08 * swing(t, 0.9)), _DOWN),
+        left=Arm((0.30 + 0.06 * swing(t, 0.8), 0.02, -0.26 + 0.08 * swing(t, 0.9)), DOWN),
         nod=0.08 * swing(t, 0.7), tool=(0.2, 0.0, 1.0),
     )  # fmt: skip
 
 
 def _text(t: float) -> Posture:
     return Posture(
-        right=Arm((0.36, -0.15, -0.10), _DOWN), nod=0.42 + 0.05 * swing(t, 0.4),
-        left=Arm((0.36 + 0.02 * swing(t, 3.0), -0.17, -0.12), _DOWN), tool=(0.35, 0.0, 0.9),
+        right=Arm((0.36, -0.15, -0.10), DOWN), nod=0.42 + 0.05 * swing(t, 0.4),
+        left=Arm((0.36 + 0.02 * swing(t, 3.0), -0.17, -0.12), DOWN), tool=(0.35, 0.0, 0.9),
     )  # fmt: skip
 
 
 def _photograph(t: float) -> Posture:
-    arm = Arm((0.30, -0.15, 0.20), _OUT)
+    arm = Arm((0.30, -0.15, 0.20), OUT)
     return Posture(left=arm, right=arm, turn=0.25 * swing(t, 0.3), lean=0.06 * swing(t, 0.4),
                    tool=(0.0, 0.0, 1.0))  # fmt: skip
 
 
 def _sing(t: float) -> Posture:
     return Posture(
-        right=Arm((0.20, -0.15, 0.20), _OUT), nod=-0.15 + 0.1 * swing(t, 0.8),
-        left=Arm((0.30, 0.20 + 0.14 * swing(t, 0.5), -0.05 + 0.20 * swing(t, 0.5)), _DOWN),
+        right=Arm((0.20, -0.15, 0.20), OUT), nod=-0.15 + 0.1 * swing(t, 0.8),
+        left=Arm((0.30, 0.20 + 0.14 * swing(t, 0.5), -0.05 + 0.20 * swing(t, 0.5)), DOWN),
         tilt=0.08 * swing(t, 1.0), tool=(-0.5, 0.0, 0.85),
     )  # fmt: skip
 
@@ -190,8 +188,8 @@ def _dig(t: float) -> Posture:
     forward, up, lean, ahead, rise = follow_keys(t, _DIG, 2.0)
     return Posture(
         hips=(-0.08, 0.0, 0.84), lean=lean, nod=0.1,
-        right=Arm((forward - 0.30 * ahead, -0.04, up - 0.30 * rise), _OUT),
-        left=Arm((forward + 0.06, -0.24, up), _OUT),
+        right=Arm((forward - 0.30 * ahead, -0.04, up - 0.30 * rise), OUT),
+        left=Arm((forward + 0.06, -0.24, up), OUT),
         left_leg=Leg((0.22, 0.12, ANKLE)), right_leg=Leg((-0.22, 0.12, ANKLE)),
         tool=(ahead, -0.2, rise),
     )  # fmt: skip
@@ -201,8 +199,8 @@ def _sweep(t: float) -> Posture:
     stroke = swing(t, 0.8)
     return Posture(
         hips=(-0.03, 0.0, 0.90), lean=0.22, turn=0.25 * stroke, nod=0.2,
-        right=Arm((0.26 + 0.05 * stroke, -0.08, -0.10), _OUT),
-        left=Arm((0.40 + 0.05 * stroke, -0.16, -0.36), _OUT),
+        right=Arm((0.26 + 0.05 * stroke, -0.08, -0.10), OUT),
+        left=Arm((0.40 + 0.05 * stroke, -0.16, -0.36), OUT),
         left_leg=Leg((0.12, 0.12, ANKLE)), right_leg=Leg((-0.12, 0.12, ANKLE)),
         tool=(0.60 + 0.25 * stroke, -0.35 - 0.3 * stroke, -0.95),
     )  # fmt: skip
@@ -212,7 +210,7 @@ def _chop(t: float) -> Posture:
     share = (t * 0.7) % 1.0
     up = ease(share, 0.0, 0.6) - ease(share, 0.65, 0.9)
     hand = (0.46 - 0.30 * up, -0.20, -0.40 + 0.86 * up)
-    arm = Arm(hand, _OUT)
+    arm = Arm(hand, OUT)
     return Posture(
         hips=(-0.04, 0.0, 0.88), lean=0.55 - 0.60 * up, left=arm, right=arm,
         left_leg=Leg((0.12, 0.16, ANKLE)), right_leg=Leg((-0.10, 0.16, ANKLE)),
@@ -232,7 +230,7 @@ def _push(t: float) -> Posture:
 
 def _pull(t: float) -> Posture:
     effort = swing(t, 0.8)
-    arm = Arm((0.46 + 0.12 * effort, -0.12, -0.20), _DOWN)
+    arm = Arm((0.46 + 0.12 * effort, -0.12, -0.20), DOWN)
     return Posture(hips=(-0.26 + 0.10 * effort, 0.0, 0.76), lean=-0.30 + 0.26 * effort,
                    nod=0.2, left=arm, right=arm, left_leg=Leg((0.22, 0.12, ANKLE)),
                    right_leg=Leg((0.02, 0.14, ANKLE)))  # fmt: skip
@@ -241,8 +239,8 @@ def _pull(t: float) -> Posture:
 def _fish(t: float) -> Posture:
     lift = 0.5 + 0.5 * swing(t, 0.5)
     return Posture(
-        right=Arm((0.38, -0.08, -0.26 + 0.12 * lift), _DOWN), lean=-0.05 * lift,
-        left=Arm((0.46, -0.16, -0.20 + 0.14 * lift), _DOWN), tool=(0.85, -0.1, 0.35 + 0.35 * lift),
+        right=Arm((0.38, -0.08, -0.26 + 0.12 * lift), DOWN), lean=-0.05 * lift,
+        left=Arm((0.46, -0.16, -0.20 + 0.14 * lift), DOWN), tool=(0.85, -0.1, 0.35 + 0.35 * lift),
     )  # fmt: skip
 
 
@@ -251,8 +249,8 @@ def _tie_shoes(t: float) -> Posture:
     apart, up = 0.03 + 0.10 * pulse(t, 0.9), 0.16 + 0.12 * pulse(t, 0.9, 0.2)
     return Posture(
         hips=(-0.16, 0.0, 0.42), lean=0.85, nod=0.25,
-        left=Arm((0.36, 0.06 + apart, up), _OUT, True),
-        right=Arm((0.36, 0.06 - apart, up), _OUT, True),
+        left=Arm((0.36, 0.06 + apart, up), OUT, True),
+        right=Arm((0.36, 0.06 - apart, up), OUT, True),
         left_leg=Leg((0.30, 0.08, ANKLE), (1.0, 0.5, 0.6)),
         right_leg=Leg((-0.42, 0.10, 0.10), (1.0, 0.1, -0.6), 2.2),
     )  # fmt: skip

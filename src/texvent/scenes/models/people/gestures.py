@@ -7,17 +7,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
-from texvent.scenes.models.people.posture import SHOULDER_SIDE, Arm, Posture
+from texvent.scenes.models.people.posture import DOWN, OUT, SHOULDER_SIDE, Arm, Posture
 from texvent.scenes.models.people.timing import ease, follow_keys, pulse, swing
-from texvent.scenes.models.shapes import Point
 
 Movement = Callable[[float], Posture]
 """Posture as a function of time, s."""
 
-_OUT: Point = (-0.3, 1.0, -0.5)
-"""Elbows out to the side."""
-_DOWN: Point = (-0.2, 0.5, -1.0)
-"""Elbows down beside the body."""
 PALM_HALF = 0.035
 """Half the thickness of a palm, m."""
 MEETING = PALM_HALF - SHOULDER_SIDE
@@ -37,7 +32,7 @@ def _clap(t: float) -> Posture:
 def _point(t: float) -> Posture:
     reach = 0.35 + 0.65 * pulse(t, 0.7)
     return Posture(
-        right=Arm((0.10 + 0.08 * reach, 0.10 + 0.50 * reach, -0.10 + 0.20 * reach), _DOWN),
+        right=Arm((0.10 + 0.08 * reach, 0.10 + 0.50 * reach, -0.10 + 0.20 * reach), DOWN),
         look=-0.9, tool=(0.3, 1.0, 0.1),
     )  # fmt: skip
 
@@ -72,9 +67,9 @@ def _stretch(t: float) -> Posture:
 def _talk(t: float) -> Posture:
     """Hands move before the body, out of step with each other."""
     right = Arm((0.34 + 0.08 * swing(t, 0.9), -0.02 + 0.10 * swing(t, 0.7, 0.2),
-                 -0.22 + 0.12 * swing(t, 1.1)), _DOWN)  # fmt: skip
+                 -0.22 + 0.12 * swing(t, 1.1)), DOWN)  # fmt: skip
     left = Arm((0.32 + 0.07 * swing(t, 0.8, 0.4), -0.02 + 0.08 * swing(t, 0.6),
-                -0.26 + 0.10 * swing(t, 0.9, 0.3)), _DOWN)  # fmt: skip
+                -0.26 + 0.10 * swing(t, 0.9, 0.3)), DOWN)  # fmt: skip
     return Posture(left=left, right=right, nod=0.08 * swing(t, 0.8), look=0.2 * swing(t, 0.4))
 
 
@@ -109,7 +104,7 @@ def drum(t: float) -> Posture:
     def arm(phase: float, side: float) -> Arm:
         beat = pulse(t, 2.0, phase) ** 2
         across = 0.06 * swing(t, 0.5, 0.25 * side)
-        return Arm((0.40, -0.06 + across, -0.28 + 0.26 * beat), _DOWN)
+        return Arm((0.40, -0.06 + across, -0.28 + 0.26 * beat), DOWN)
 
     return Posture(left=arm(0.0, 0.0), right=arm(0.5, 1.0), nod=0.10 * swing(t, 2.0),
                    tool=(1.0, 0.25, 0.75 * pulse(t, 2.0, 0.5) - 0.35))  # fmt: skip
@@ -121,7 +116,7 @@ def _air_drum(t: float) -> Posture:
 
     def raised(arm: Arm | None) -> Arm:
         x, y, z = (arm or Arm()).hand
-        return Arm((x + 0.04, y + 0.02, 1.5 * z + 0.36), _DOWN)
+        return Arm((x + 0.04, y + 0.02, 1.5 * z + 0.36), DOWN)
 
     return replace(posture, left=raised(posture.left), right=raised(posture.right))
 
@@ -130,8 +125,8 @@ def strum(t: float) -> Posture:
     """The left hand on a neck, the right strums three times a second."""
     slide = 0.05 * swing(t, 0.5)
     return Posture(
-        left=Arm((0.30 - 0.3 * slide, 0.16 + slide, -0.16 + 0.3 * slide), _DOWN),
-        right=Arm((0.24, -0.13, -0.36 + 0.09 * swing(t, 2.5)), _OUT),
+        left=Arm((0.30 - 0.3 * slide, 0.16 + slide, -0.16 + 0.3 * slide), DOWN),
+        right=Arm((0.24, -0.13, -0.36 + 0.09 * swing(t, 2.5)), OUT),
         nod=0.18 * pulse(t, 2.0), tilt=0.04 * swing(t, 1.0),
     )  # fmt: skip
 
@@ -142,7 +137,7 @@ def _other(t: float) -> Posture:
         t, [(0.0, (0.20, -0.05, -0.10)), (0.5, (0.52, -0.05, 0.02)), (1.0, (0.30, 0.42, 0.10)),
             (1.5, (0.25, 0.10, -0.35))], 2.0,
     )  # fmt: skip
-    return Posture(left=Arm((forward, out, up), _DOWN), right=Arm((forward, out, up), _DOWN))
+    return Posture(left=Arm((forward, out, up), DOWN), right=Arm((forward, out, up), DOWN))
 
 
 GESTURES: Mapping[str, Movement] = MappingProxyType(

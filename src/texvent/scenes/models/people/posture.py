@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.models.limb_kinematics import bend
-from texvent.scenes.models.shapes import Affine, Point
+from texvent.scenes.models.shapes import Affine, Point, part_way
 
 THIGH, SHIN, ANKLE = 0.43, 0.43, 0.08
 HIP, HIP_SIDE = 0.95, 0.10
@@ -24,6 +24,11 @@ LOWER_ARM = FOREARM + PALM
 """From the elbow to the middle of the palm."""
 SIDES = (1.0, -1.0)
 """Left, right: the sign of y."""
+
+
+DOWN: Point = (-0.2, 0.5, -1.0)
+OUT: Point = (-0.3, 1.0, -0.5)
+"""Directions in which an elbow usually points: down, outward."""
 
 
 @dataclass(frozen=True)
@@ -124,24 +129,24 @@ def blend(first: Posture, second: Posture, share: float) -> Posture:
 
     def arm(p: Arm | None, q: Arm | None) -> Arm:
         p, q = p or Arm(), q or Arm()
-        return Arm(_mix(p.hand, q.hand, share), _mix(p.elbow, q.elbow, share), True)
+        return Arm(part_way(p.hand, q.hand, share), part_way(p.elbow, q.elbow, share), True)
 
     def leg(p: Leg | None, q: Leg | None) -> Leg:
         p, q = p or Leg(), q or Leg()
         pitch = p.pitch + share * (q.pitch - p.pitch)
-        return Leg(_mix(p.foot, q.foot, share), _mix(p.knee, q.knee, share), pitch)
+        return Leg(part_way(p.foot, q.foot, share), part_way(p.knee, q.knee, share), pitch)
 
     angles = {
         name: getattr(a, name) + share * (getattr(b, name) - getattr(a, name))
         for name in ("lean", "tilt", "turn", "nod", "look", "heading")
     }
     return Posture(
-        hips=_mix(a.hips or (0.0, 0.0, HIP), b.hips or (0.0, 0.0, HIP), share),
+        hips=part_way(a.hips or (0.0, 0.0, HIP), b.hips or (0.0, 0.0, HIP), share),
         left=arm(a.left, b.left),
         right=arm(a.right, b.right),
         left_leg=leg(a.left_leg, b.left_leg),
         right_leg=leg(a.right_leg, b.right_leg),
-        tool=_mix(a.tool, b.tool, share),
+        tool=part_way(a.tool, b.tool, share),
         **angles,
     )
 
@@ -231,11 +236,6 @@ def _absolute(posture: Posture) -> Posture:
 def _torso_axes(posture: Posture) -> Affine:
     turn = _about_z(posture.turn) @ _about_y(posture.lean) @ _about_x(posture.tilt)
     return np.column_stack([turn, np.array(posture.hips or (0.0, 0.0, HIP))])
-
-
-def _mix(first: Point, second: Point, share: float) -> Point:
-    x, y, z = (a + share * (b - a) for a, b in zip(first, second, strict=True))
-    return (x, y, z)
 
 
 def _point(values: Affine) -> Point:

@@ -7,12 +7,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import ANKLE, HIP, Arm, Leg, Posture
+from texvent.scenes.models.people.posture import ANKLE, DOWN, HIP, OUT, Arm, Leg, Posture
 from texvent.scenes.models.people.timing import ease, follow_keys, pulse, swing
 from texvent.scenes.models.shapes import Point
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 _GUARD: Point = (0.26, -0.08, 0.02)
 
 
@@ -31,14 +29,14 @@ def _jumping_jack(t: float) -> Posture:
 def _squat(t: float) -> Posture:
     down = pulse(t, 0.6)
     leg = Leg((0.04, 0.15, ANKLE), (1.0, 0.45, 0.1))
-    arm = Arm((0.06 + 0.50 * down, 0.04, -0.60 + 0.62 * down), _DOWN)
+    arm = Arm((0.06 + 0.50 * down, 0.04, -0.60 + 0.62 * down), DOWN)
     return Posture(hips=(-0.26 * down, 0.0, 0.93 - 0.46 * down), lean=0.65 * down,
                    nod=-0.4 * down, left=arm, right=arm, left_leg=leg, right_leg=leg)  # fmt: skip
 
 
 def _lunge(t: float) -> Posture:
     down = pulse(t, 0.6)
-    arm = Arm((0.02, 0.12, -0.34), _OUT)
+    arm = Arm((0.02, 0.12, -0.34), OUT)
     return Posture(hips=(0.0, 0.0, 0.84 - 0.30 * down), lean=0.05, left=arm, right=arm,
                    left_leg=Leg((0.38, 0.08, ANKLE)),
                    right_leg=Leg((-0.40, 0.08, ANKLE + 0.05), (1.0, 0.1, -0.6), 0.8))  # fmt: skip
@@ -81,7 +79,7 @@ def _box(t: float) -> Posture:
 
     def arm(out: float) -> Arm:
         x, y, z = _GUARD
-        return Arm((x + 0.36 * out, y - 0.06 * out, z + 0.04 * out), _DOWN)
+        return Arm((x + 0.36 * out, y - 0.06 * out, z + 0.04 * out), DOWN)
 
     return Posture(
         hips=(0.02 * swing(t, 1.2), 0.0, 0.88 + 0.015 * swing(t, 2.4)), lean=0.12,
@@ -107,8 +105,8 @@ def kick(t: float) -> Posture:
     swings = math.exp(-((t / 0.35) ** 2))
     return Posture(
         hips=(0.06 * swings, 0.0, HIP - 0.02 - 0.03 * swings), lean=lean, turn=turn,
-        left=Arm((0.10 + 0.25 * swings, 0.10 + 0.30 * swings, -0.58 + 0.35 * swings), _DOWN),
-        right=Arm((0.04 - 0.25 * swings, 0.10 + 0.22 * swings, -0.58 + 0.22 * swings), _DOWN),
+        left=Arm((0.10 + 0.25 * swings, 0.10 + 0.30 * swings, -0.58 + 0.35 * swings), DOWN),
+        right=Arm((0.04 - 0.25 * swings, 0.10 + 0.22 * swings, -0.58 + 0.22 * swings), DOWN),
         left_leg=Leg((0.0, 0.08, ANKLE)), right_leg=Leg((forward, 0.09, up), pitch=pitch),
     )  # fmt: skip
 
@@ -129,8 +127,8 @@ def throw(t: float) -> Posture:
     wind = math.exp(-(((t + 0.25) / 0.35) ** 2))
     return Posture(
         hips=(-0.06 + 0.12 * ease(t, -0.4, 0.1), 0.0, 0.88), lean=lean, turn=turn,
-        left=Arm((0.08 + 0.42 * wind, 0.06, -0.56 + 0.50 * wind), _DOWN),
-        right=Arm((forward, out, up), _OUT),
+        left=Arm((0.08 + 0.42 * wind, 0.06, -0.56 + 0.50 * wind), DOWN),
+        right=Arm((forward, out, up), OUT),
         left_leg=Leg((0.26, 0.08, ANKLE)), right_leg=Leg((-0.24, 0.10, ANKLE + 0.02), pitch=0.3),
     )  # fmt: skip
 
@@ -149,7 +147,7 @@ def catch(t: float) -> Posture:
     """Both hands reach out, close on the thing at t = 0 and draw it in."""
     forward, up, out = follow_keys(t, _CATCH)
     give = math.exp(-(((t - 0.15) / 0.3) ** 2))
-    arm = Arm((forward, out, up), _DOWN)
+    arm = Arm((forward, out, up), DOWN)
     leg = (Leg((0.10, 0.12, ANKLE)), Leg((-0.10, 0.12, ANKLE)))
     return Posture(hips=(0.0, 0.0, 0.91 - 0.05 * give), lean=0.06, left=arm, right=arm,
                    left_leg=leg[0], right_leg=leg[1])  # fmt: skip
@@ -172,8 +170,8 @@ def swing_bat(t: float) -> Posture:
     # `left` is measured from the middle of the chest.
     return Posture(
         hips=(0.0, 0.0, 0.87), lean=0.16, turn=turn,
-        left=Arm((forward, left - 0.20 + 0.03, up - 0.05), _OUT),
-        right=Arm((forward, -left - 0.20 - 0.03, up + 0.03), _OUT),
+        left=Arm((forward, left - 0.20 + 0.03, up - 0.05), OUT),
+        right=Arm((forward, -left - 0.20 - 0.03, up + 0.03), OUT),
         left_leg=Leg((0.05, 0.24, ANKLE), (1.0, 0.3, 0.2)),
         right_leg=Leg((0.0, 0.24, ANKLE), (1.0, 0.3, 0.2)),
         tool=(tool[0], -tool[1], tool[2]), look=-0.5 * turn,
@@ -195,7 +193,7 @@ def swing_racket(t: float) -> Posture:
     forward, out, up, turn, *tool = follow_keys(t, _RACKET)
     return Posture(
         hips=(0.0, 0.0, 0.86), lean=0.12, turn=turn,
-        left=Arm((0.30, 0.12, -0.15), _DOWN), right=Arm((forward, out, up), _OUT),
+        left=Arm((0.30, 0.12, -0.15), DOWN), right=Arm((forward, out, up), OUT),
         left_leg=Leg((0.16, 0.18, ANKLE)), right_leg=Leg((-0.16, 0.20, ANKLE)),
         tool=(tool[0], tool[1], tool[2]), look=-0.6 * turn,
     )  # fmt: skip
@@ -214,7 +212,7 @@ def swing_club(t: float) -> Posture:
     left, up = 0.45 * across, -0.48 * down
     return Posture(
         hips=(-0.06, 0.0, 0.88), lean=0.40, turn=0.3 * angle, nod=0.2,
-        left=Arm((0.30, left - 0.20, up), _OUT), right=Arm((0.30, -left - 0.20, up - 0.04), _OUT),
+        left=Arm((0.30, left - 0.20, up), OUT), right=Arm((0.30, -left - 0.20, up - 0.04), OUT),
         left_leg=Leg((0.02, 0.20, ANKLE)), right_leg=Leg((0.02, 0.20, ANKLE)),
         tool=(0.55, -0.9 * across, -0.9 * down),
     )  # fmt: skip
@@ -229,8 +227,8 @@ def _dribble(t: float) -> Posture:
     push = pulse(t, DRIBBLE_HZ)
     leg = (Leg((0.14, 0.12, ANKLE)), Leg((-0.14, 0.14, ANKLE)))
     return Posture(hips=(0.0, 0.0, 0.82), lean=0.28, nod=0.15,
-                   left=Arm((0.26, 0.16, -0.28), _DOWN),
-                   right=Arm((0.36, 0.10, -0.24 - 0.12 * push), _OUT),
+                   left=Arm((0.26, 0.16, -0.28), DOWN),
+                   right=Arm((0.36, 0.10, -0.24 - 0.12 * push), OUT),
                    left_leg=leg[0], right_leg=leg[1])  # fmt: skip
 
 
@@ -241,7 +239,7 @@ JUGGLE_HZ = 1.1
 def _juggle(t: float) -> Posture:
     def arm(phase: float) -> Arm:
         angle = 2.0 * math.pi * (JUGGLE_HZ * t + phase)
-        return Arm((0.40, 0.0 + 0.07 * math.cos(angle), -0.26 + 0.07 * math.sin(angle)), _DOWN)
+        return Arm((0.40, 0.0 + 0.07 * math.cos(angle), -0.26 + 0.07 * math.sin(angle)), DOWN)
 
     return Posture(left=arm(0.0), right=arm(0.5), nod=-0.15)
 
@@ -251,8 +249,8 @@ def _climb(t: float) -> Posture:
     step = swing(t, 0.6)
     return Posture(
         hips=(-0.06, 0.04 * step, 0.92), lean=0.02, nod=-0.3,
-        left=Arm((0.32, 0.02, 0.28 + 0.24 * step), _OUT),
-        right=Arm((0.32, 0.02, 0.28 - 0.24 * step), _OUT),
+        left=Arm((0.32, 0.02, 0.28 + 0.24 * step), OUT),
+        right=Arm((0.32, 0.02, 0.28 - 0.24 * step), OUT),
         left_leg=Leg((0.26, 0.14, 0.34 - 0.20 * step), (1.0, 0.7, 0.3)),
         right_leg=Leg((0.26, 0.14, 0.34 + 0.20 * step), (1.0, 0.7, 0.3)),
     )  # fmt: skip
@@ -264,8 +262,8 @@ def _dance(t: float) -> Posture:
     return Posture(
         hips=(0.0, 0.09 * sway, 0.89 - 0.05 * beat), tilt=0.16 * sway, turn=0.45 * swing(t, 0.5),
         look=0.3 * swing(t, 0.5, 0.25),
-        left=Arm((0.20, 0.22, 0.10 + 0.32 * sway), _OUT),
-        right=Arm((0.20, 0.22, 0.10 - 0.32 * sway), _OUT),
+        left=Arm((0.20, 0.22, 0.10 + 0.32 * sway), OUT),
+        right=Arm((0.20, 0.22, 0.10 - 0.32 * sway), OUT),
         left_leg=Leg((0.04, 0.17, ANKLE), (1.0, 0.4, 0.2)),
         right_leg=Leg((-0.04, 0.17, ANKLE), (1.0, 0.4, 0.2)),
     )  # fmt: skip
@@ -310,8 +308,8 @@ def _board(t: float) -> Posture:
     return Posture(
         hips=(-0.05, 0.03 * sway, 0.76 + 0.03 * swing(t, 0.8)), lean=0.28, tilt=0.10 * sway,
         look=1.1, heading=-0.5 * math.pi,
-        left=Arm((0.14, 0.44, 0.02 + 0.10 * sway), _OUT),
-        right=Arm((0.10, 0.42, -0.04 - 0.10 * sway), _OUT),
+        left=Arm((0.14, 0.44, 0.02 + 0.10 * sway), OUT),
+        right=Arm((0.10, 0.42, -0.04 - 0.10 * sway), OUT),
         left_leg=Leg((0.02, 0.30, foot), (1.0, 0.3, 0.2)),
         right_leg=Leg((0.02, 0.30, foot), (1.0, 0.3, 0.2)),
     )  # fmt: skip
@@ -320,7 +318,7 @@ def _board(t: float) -> Posture:
 def _ski(t: float) -> Posture:
     lean = swing(t, 0.5)
     foot = ANKLE + 0.03
-    arm = Arm((0.34, 0.12, -0.24), _OUT)
+    arm = Arm((0.34, 0.12, -0.24), OUT)
     return Posture(
         hips=(-0.10, 0.08 * lean, 0.68 + 0.03 * swing(t, 1.0)), lean=0.55, tilt=0.12 * lean,
         nod=-0.4, left=arm, right=arm, left_leg=Leg((0.04, 0.12, foot)),
@@ -335,8 +333,8 @@ def _row(t: float) -> Posture:
     leg = Leg((0.62, 0.12, 0.16), (0.3, 0.2, 1.0))
     return Posture(
         hips=(0.0, 0.0, 0.24), lean=0.10 + 0.06 * dip, turn=0.30 * side,
-        left=Arm((0.36 + 0.10 * dip, 0.02, -0.16 + 0.16 * side), _OUT),
-        right=Arm((0.36 - 0.10 * dip, 0.02, -0.16 - 0.16 * side), _OUT),
+        left=Arm((0.36 + 0.10 * dip, 0.02, -0.16 + 0.16 * side), OUT),
+        right=Arm((0.36 - 0.10 * dip, 0.02, -0.16 - 0.16 * side), OUT),
         left_leg=leg, right_leg=leg, tool=(-0.45 * dip, 0.9, -0.40 * side),
     )  # fmt: skip
 

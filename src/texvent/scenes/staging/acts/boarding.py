@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import Relation
+from texvent.scenes.description import RIDES, Relation
 from texvent.scenes.models.machine_acts import LIFT
 from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.staging.actors import Actor
@@ -18,9 +18,6 @@ from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.holding import GARMENTS, HOLDS, is_person, size_of
 from texvent.scenes.staging.acts.riding import LOADS, MOUNTS, mount
 from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector, rotation
-
-RIDES = ("ride", "ride along")
-"""Relation of who steers, and of a passenger."""
 
 
 def board(cast: Cast, relations: Sequence[Relation]) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import (
+    RIDES,
     STANDING,
     ObjectMotion,
     Relation,
@@ -22,7 +23,7 @@ from texvent.scenes.staging.actors import Actor, Tether, seeded
 from texvent.scenes.staging.acts import colliding, striking
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.acts.attached import MovedAlong, Performed
-from texvent.scenes.staging.acts.boarding import RIDES, board, is_stowed, load, stow
+from texvent.scenes.staging.acts.boarding import board, is_stowed, load, stow
 from texvent.scenes.staging.acts.cargo import take_along
 from texvent.scenes.staging.acts.cast import Cast
 from texvent.scenes.staging.acts.crews import put_to_work

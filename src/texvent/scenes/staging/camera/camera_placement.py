@@ -12,7 +12,7 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.closeness import come_near_small, eye_level
 from texvent.scenes.staging.camera.following import (
@@ -100,8 +100,7 @@ def place_camera(
     path = _keep_in_view(path, main, actors, aspect)
     if is_room(place):
         near = [a for a in actors if description.objects[a.object_index].side != "far"]
-        points = np.vstack([a.corners(float(t)) for a in near or actors
-                            for t in np.linspace(0.0, duration_s, INSTANTS)])  # fmt: skip
+        points = corners_over(near or actors, np.linspace(0.0, duration_s, INSTANTS))
         path = replace(path, room_m=_size_room(path, points))
     return path
 

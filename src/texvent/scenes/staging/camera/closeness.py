@@ -10,7 +10,7 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framed_points import upper_part
 from texvent.scenes.staging.camera.framing import Framing, fit
@@ -80,11 +80,11 @@ def come_near_small(
 
     known = {main.object_index, *(actor.object_index for actor in small)}
     goal = _ALONE if all(actor.object_index in known for actor in actors) else _PROMINENCE
-    things = np.vstack([_boxes(actor, times) for actor in small])
+    things = corners_over(small, times)
     fill = _FILL_PANNING if any(m.kind == "pan" for m in path.moves) else _FILL
     for share in (_WAIST, _CHEST):
         wide = path.framing
-        upper = [upper_part(_boxes(one, times), share) for one in bodies]
+        upper = [upper_part(corners_over([one], times), share) for one in bodies]
         points = np.vstack([*upper, things])
         near = fit(points, azimuth=wide.azimuth, elevation=wide.elevation, aspect=aspect,
                    fill=fill, focal=wide.focal)  # fmt: skip
@@ -155,7 +155,3 @@ def _stays(main: Actor, times: Float64Array) -> bool:
         return False
     places = [main.middle(float(time)) for time in times]
     return float(np.ptp(places, axis=0).max()) < _STILL * main.size_m
-
-
-def _boxes(actor: Actor, times: Float64Array) -> Float64Array:
-    return np.vstack([actor.corners(float(time)) for time in times])

@@ -11,7 +11,7 @@ import numpy as np
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import share_followed
 from texvent.scenes.staging.camera.laid_table import FILL as FILL_OF_TABLE
 from texvent.scenes.staging.camera.laid_table import list_laid
@@ -84,9 +84,9 @@ def list_views(
     laid = list_laid(description, {one.object_index: one.noun for one in actors})
     if laid:
         on_top = [one for one in actors if one.object_index in laid]
-        return [View(_boxes_of(on_top, times), FILL_OF_TABLE)]
+        return [View(corners_over(on_top, times), FILL_OF_TABLE)]
     if is_still_life(description):
-        return [View(_boxes_of(actors, times), FILL)]
+        return [View(corners_over(actors, times), FILL)]
     shot = description.shot
     tying = moves if any(move.kind in TYING for move in moves) and main.is_mover else ()
     aims = is_aimed(description, main, moves)
@@ -94,7 +94,7 @@ def list_views(
     is_person = main.noun.name in PERSON_NOUNS
     if aims or shot.framing == "close" or (is_medium and is_person):
         is_still = bool(tying) and not aims
-        near = np.vstack([main.corners(float(t)) for t in (times[:1] if is_still else times)])
+        near = corners_over([main], times[:1] if is_still else times)
         if not aims:
             return [_close_view(description, actors, main, near, times)]
         # At the far end of the move the image shows what else there is, about the subject.
@@ -154,12 +154,7 @@ def _view_of_all(
 ) -> View:
     """A view of all that is not far, whole."""
     near = [one for one in actors if description.objects[one.object_index].side != "far"]
-    return View(_boxes_of(near or actors, times), _WHOLE_FILL)
-
-
-def _boxes_of(actors: Sequence[Actor], times: Float64Array) -> Float64Array:
-    """[n, 3] corners of their boxes over the clip, m."""
-    return np.vstack([one.corners(float(time)) for one in actors for time in times])
+    return View(corners_over(near or actors, times), _WHOLE_FILL)
 
 
 _WHOLE_FILL = 0.95

@@ -8,7 +8,7 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.placement.tables.tabletop import TABLES
 
 KEPT_TOGETHER = frozenset(
@@ -66,7 +66,7 @@ def piece_beside(actor: Actor, partner: Actor, times: Float64Array) -> Float64Ar
     """[n, 3] the whole of an object at rest, or of a much larger one a piece by its partner, m."""
     is_table = actor.noun.name in TABLES and _is_above(partner, actor, times)
     if actor.size_m <= (_LARGER_TABLE if is_table else _MUCH_LARGER) * partner.size_m:
-        return np.vstack([actor.corners(float(time)) for time in times])
+        return corners_over([actor], times)
     reach = min(_PIECE * actor.size_m, _REACH * partner.size_m)
     piece = near_piece(actor, partner, times, reach)
     if is_table:

@@ -13,7 +13,7 @@ from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.acts.prop_shapes import Prop
 from texvent.scenes.models.shapes import bounds, compose, moved
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.closeness import STAYING, is_open
 from texvent.scenes.staging.camera.framed_points import FOREARM, upper_part
@@ -87,7 +87,7 @@ def _needs_whole_body(description: SceneDescription, main: Actor) -> bool:
 
 def _part_of_interest(actor: Actor, times: Float64Array) -> Float64Array:
     """[n, 3] corners of what the image must hold of it, m."""
-    boxes = _boxes(actor, times)
+    boxes = corners_over([actor], times)
     if not _stays_on_the_spot(actor, times):
         return boxes
     return upper_part(boxes, FOREARM if actor.noun.name in HAND_NOUNS else WAIST)
@@ -118,7 +118,3 @@ def _box_of(prop: Prop, actor: Actor, times: Float64Array) -> Float64Array:
         parts += moved(prop.draw(pose.time_s), compose(actor.trajectory.at(time).to_world(), axes))
     low, high = bounds(parts)
     return np.array(list(product(*zip(low, high, strict=True))))
-
-
-def _boxes(actor: Actor, times: Float64Array) -> Float64Array:
-    return np.vstack([actor.corners(float(time)) for time in times])

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.staging.claims.acts import Stage, list_acts_not_shown
 from texvent.scenes.staging.claims.relations import list_not_shown
 from texvent.scenes.staging.claims.shots import list_moves_not_shown
-from texvent.scenes.staging.placement.object_placement import SCENIC
 from texvent.scenes.staging.surroundings.scenery.scatter import SceneryItem
 
 
@@ -42,7 +41,7 @@ def _list_missing_scenery(
             relation=(relation.subject, relation.targets),
         )
         for relation in description.relations
-        if relation.kind in SCENIC
+        if relation.kind in AMID
         for target in relation.targets
         if description.objects[target].noun not in shown
     ]

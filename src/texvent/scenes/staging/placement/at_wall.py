@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
 from texvent.scenes.staging.surroundings.places import is_room
@@ -169,7 +169,7 @@ def size_room_behind(path: CameraPath, actors: Sequence[Actor]) -> float:
     """Half the side of a room, m, that holds all where what stands at y = 0 now is at its wall."""
     times = np.linspace(0.0, path.duration_s, 5)
     eyes = np.array([path.at(float(time)).position for time in times])
-    corners = np.vstack([actor.corners(float(time)) for actor in actors for time in times])
+    corners = corners_over(actors, times)
     deep = -min(float(eyes[:, 1].min()), float(corners[:, 1].min()))
     wide = max(float(np.abs(eyes[:, 0]).max()), float(np.abs(corners[:, 0]).max()))
     high = max(float(eyes[:, 2].max()) + 0.35, float(corners[:, 2].max()) + 0.15)

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.description import STANDING, Relation, SceneDescription
+from texvent.scenes.description import AMID, STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.wrapped.opening import opening
@@ -76,8 +76,6 @@ follows from the subject's."""
 _POOL_RAD_S = 1.8
 BELT_M_S = 0.22
 """Speed of what lies on a conveyor belt."""
-SCENIC = frozenset({"surround", "among"})
-"""Relations whose targets stand around as scenery; `scenery` places them."""
 
 
 class ObjectPlacer:
@@ -109,7 +107,7 @@ class ObjectPlacer:
         scenic = {
             target
             for relation in self._description.relations
-            if relation.kind in SCENIC
+            if relation.kind in AMID
             for target in relation.targets
         }
         for index in range(len(self._description.objects)):

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from texvent.scenes.scene import Colour, Ground, Texture
 from texvent.scenes.staging.surroundings.built_places import BUILT_GROUNDS
-from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance, room
+from texvent.scenes.staging.surroundings.ground_appearance import (
+    ASPHALT,
+    MEADOW,
+    WATER,
+    GroundAppearance,
+    room,
+)
 
-_MEADOW: tuple[Colour, Colour] = ((0.055, 0.14, 0.022), (0.13, 0.21, 0.045))
-_WATER: Colour = (0.016, 0.055, 0.065)
 _OAK: tuple[Colour, Colour] = ((0.36, 0.20, 0.10), (0.46, 0.28, 0.15))
-_ASPHALT: Colour = (0.04, 0.04, 0.043)
 
 PLACES: dict[str, GroundAppearance] = {
-    "road": GroundAppearance(Ground.ROAD, _MEADOW[0], _ASPHALT),
+    "road": GroundAppearance(Ground.ROAD, MEADOW[0], ASPHALT),
     "dirt road": GroundAppearance(Ground.DIRT_ROAD, (0.07, 0.12, 0.03), (0.34, 0.22, 0.12), 2.4),
-    "city": GroundAppearance(Ground.CITY, (0.3, 0.3, 0.3), _ASPHALT, 4.5),
-    "grass": GroundAppearance(Ground.GRASS, *_MEADOW),
+    "city": GroundAppearance(Ground.CITY, (0.3, 0.3, 0.3), ASPHALT, 4.5),
+    "grass": GroundAppearance(Ground.GRASS, *MEADOW),
     "savanna": GroundAppearance(Ground.GRASS, (0.30, 0.22, 0.075), (0.42, 0.33, 0.13)),
     "forest": GroundAppearance(
         Ground.GRASS, (0.085, 0.065, 0.028), (0.17, 0.095, 0.03), surface=Texture.LEAVES
@@ -26,8 +29,8 @@ PLACES: dict[str, GroundAppearance] = {
     "soil": GroundAppearance(
         Ground.PLAIN, (0.20, 0.125, 0.07), (0.29, 0.20, 0.12), surface=Texture.SOIL
     ),
-    "river": GroundAppearance(Ground.RIVER, _MEADOW[0], _WATER, 4.5),
-    "lake": GroundAppearance(Ground.LAKE, _MEADOW[0], _WATER),
+    "river": GroundAppearance(Ground.RIVER, MEADOW[0], WATER, 4.5),
+    "lake": GroundAppearance(Ground.LAKE, MEADOW[0], WATER),
     "sea": GroundAppearance(Ground.SEA, (0.012, 0.07, 0.11), (0.03, 0.13, 0.16)),
     "underwater": GroundAppearance(Ground.UNDERWATER, (0.34, 0.31, 0.22), (0.5, 0.47, 0.36)),
     "sand": GroundAppearance(Ground.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),

@@ -86,7 +86,6 @@ def build_path(
     yaw: float,
     usual_m_s: float,
     duration_s: float,
-    floor_m: float = 0.0,
 ) -> SteeredPath:
     """The path of several motions, its box centred over (0, 0).
 
@@ -97,7 +96,6 @@ def build_path(
         yaw: where it heads at first, radians.
         usual_m_s: speed at pace 1, m/s.
         duration_s: length of the clip, s.
-        floor_m: height of its origin when it rests on the ground, m.
     """
     phases = schedule(motions, duration_s)
     usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
@@ -108,19 +106,19 @@ def build_path(
     for phase in phases:
         builder.add(phase)
     path = SteeredPath(
-        (0.0, 0.0, floor_m),
+        (0.0, 0.0, 0.0),
         yaw + builder.initial_yaw,
         tuple(builder.pieces),
         builder.initial_speed,
         builder.initial_turn,
         lean=1.0 if noun.habitat == "air" or noun.name in _LEANING else 0.0,
         usual_speed_m_s=usual_m_s,
-        floor_m=floor_m if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
+        floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
         side_m=0.5 * model.width if model.length > _LONG * model.height else 0.0,
     )
     places = sample_places(path, duration_s)
     middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
-    return replace(path, start=(-float(middle[0]), -float(middle[1]), floor_m))
+    return replace(path, start=(-float(middle[0]), -float(middle[1]), 0.0))
 
 
 def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: float) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from texvent.scenes.description import ObjectMotion, Relation
+from texvent.scenes.description import RIDES, ObjectMotion, Relation
 from texvent.scenes.language.grammar.syntax import Clause
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
@@ -19,7 +19,6 @@ from texvent.scenes.language.words.word import mark_used
 from texvent.scenes.models.people.activities import ACTIVITIES, SEATS
 
 _ENDINGS = ("er", "or")
-_RIDES = ("ride", "ride along")
 _RIDERS = ("rider", "jockey")
 
 
@@ -106,7 +105,7 @@ def choose_balls(draft: Draft) -> None:
 
 def mount_riders(draft: Draft) -> None:
     """As in "camels, each rider": a rider rides what is there to ride."""
-    taken = {i for one in draft.relations if one.kind in _RIDES
+    taken = {i for one in draft.relations if one.kind in RIDES
              for i in (one.subject, *one.targets)}  # fmt: skip
     for index, item in enumerate(draft.objects):
         if item.said not in _RIDERS or index in taken or item.motions:
@@ -158,7 +157,7 @@ def _find_owner(draft: Draft, pronoun: str, item: int) -> int | None:
 
 def add_doings(draft: Draft) -> None:
     """A swimmer swims, unless the prompt says what else it does or rides."""
-    riders = {one.subject for one in draft.relations if one.kind in _RIDES}
+    riders = {one.subject for one in draft.relations if one.kind in RIDES}
     for index, item in enumerate(draft.objects):
         doing = find_doing(item.said or "")
         is_idle = not item.motions and not item.is_verb_lost and index not in riders

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.scenes.description import STANDING, TOGETHER
+from texvent.scenes.description import AMID, STANDING, TOGETHER
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.words.word import Word
@@ -14,7 +14,6 @@ _MOST = 6
 """How many stand around where no number is said."""
 _SHARED = frozenset({"stand", "sit", "lie", "walk", "run"})
 """What one does together with another."""
-_AMID = frozenset({"surround", "among"})
 
 
 def is_company(draft: Draft, kind: str, subjects: Sequence[int], things: Sequence[int]) -> bool:
@@ -32,7 +31,7 @@ def is_company(draft: Draft, kind: str, subjects: Sequence[int], things: Sequenc
     if kind == "in":
         are_many = all(draft.objects[index].count > 1 for index in things)
         return are_many and all(map(is_living, [*nouns, *map(draft.noun, subjects)]))
-    return kind in _AMID and all(is_living(one) or one.name in SEATS for one in nouns)
+    return kind in AMID and all(is_living(one) or one.name in SEATS for one in nouns)
 
 
 def gather(draft: Draft, subjects: Sequence[int], things: Sequence[int]) -> bool:

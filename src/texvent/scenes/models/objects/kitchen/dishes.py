@@ -21,10 +21,10 @@ _CHINA = Material((0.80, 0.80, 0.78))
 _GLASS = Material((0.62, 0.74, 0.78))
 
 
-def _plate(z: float = 0.008) -> list[ModelPart]:
+def _plate() -> list[ModelPart]:
     return [
-        post(_CHINA, (0.0, 0.0, z), (0.26, 0.26, 0.016)),
-        post(_CHINA, (0.0, 0.0, z + 0.008), (0.18, 0.18, 0.008)),
+        post(_CHINA, (0.0, 0.0, 0.008), (0.26, 0.26, 0.016)),
+        post(_CHINA, (0.0, 0.0, 0.016), (0.18, 0.18, 0.008)),
     ]
 
 

@@ -41,11 +41,11 @@ _LOWER_ARM = swinging("x", 1.5, 0.45, (0.0, 0.0, 0.60))
 """About the end of the upper arm of a double pendulum."""
 
 
-def _wedges(count: int, radius: float, x: float, turn: float = 0.0) -> list[ModelPart]:
+def _wedges(count: int, radius: float, x: float) -> list[ModelPart]:
     """Black sectors of a disc that faces +x, each of three bars."""
     parts = []
     for k in range(count):
-        a = turn + 2.0 * math.pi * k / count
+        a = 2.0 * math.pi * k / count
         for share in (0.25, 0.5, 0.75):
             wide = 2.0 * share * radius * math.sin(0.5 * math.pi / count)
             inner, outer = (share - 0.125) * radius, (share + 0.125) * radius

@@ -10,12 +10,10 @@ from types import MappingProxyType
 from texvent.scenes.models.materials import BLUE, DARK, RED, STEEL, WHITE, Material, glowing
 from texvent.scenes.models.people.acts.prop_shapes import Prop, stick, still
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import Arm, Posture
+from texvent.scenes.models.people.posture import DOWN, OUT, Arm, Posture
 from texvent.scenes.models.people.timing import ease, follow_keys, pulse, swing
-from texvent.scenes.models.shapes import Point, ball, box, rod
+from texvent.scenes.models.shapes import Point, ball, box, part_way, rod
 
-_OUT: Point = (-0.3, 1.0, -0.5)
-_DOWN: Point = (-0.2, 0.5, -1.0)
 _HANGING: Point = (0.06, 0.05, -0.60)
 
 
@@ -27,7 +25,7 @@ def _stroking(
     def move(t: float) -> Posture:
         share = swing(t, rate_hz)
         x, y, z = (a + share * b for a, b in zip(spot, stroke, strict=True))
-        return Posture(right=Arm((x, y, z), _OUT), tool=tool, nod=nod,
+        return Posture(right=Arm((x, y, z), OUT), tool=tool, nod=nod,
                        look=look + 0.08 * swing(t, 0.4))  # fmt: skip
 
     return move
@@ -44,8 +42,8 @@ _COMB = (
 
 def _comb(t: float) -> Posture:
     forward, out, up = follow_keys(t, _COMB, 1.3)
-    return Posture(right=Arm((forward, out, up), _OUT), tool=(-0.35, -0.85, 0.2), look=0.15,
-                   left=Arm((0.10, 0.02, 0.06), _DOWN))  # fmt: skip
+    return Posture(right=Arm((forward, out, up), OUT), tool=(-0.35, -0.85, 0.2), look=0.15,
+                   left=Arm((0.10, 0.02, 0.06), DOWN))  # fmt: skip
 
 
 def _both(spot: Point, stroke: Point, rate_hz: float, nod: float, lean: float) -> Movement:
@@ -55,7 +53,7 @@ def _both(spot: Point, stroke: Point, rate_hz: float, nod: float, lean: float) -
         def arm(phase: float) -> Arm:
             share = swing(t, rate_hz, phase)
             x, y, z = (a + share * b for a, b in zip(spot, stroke, strict=True))
-            return Arm((x, y, z), _OUT)
+            return Arm((x, y, z), OUT)
 
         return Posture(left=arm(0.0), right=arm(0.3), nod=nod, lean=lean)
 
@@ -74,22 +72,22 @@ _SNEEZE = (
 
 def _sneeze(t: float) -> Posture:
     nod, lean, x, y, z = follow_keys(t, _SNEEZE, 1.6)
-    return Posture(nod=nod, lean=lean, right=Arm((x, y, z), _OUT))
+    return Posture(nod=nod, lean=lean, right=Arm((x, y, z), OUT))
 
 
 def _yawn(t: float) -> Posture:
     """A hand comes before the mouth, the head goes back, the other arm stretches up."""
     share = ease(t % 2.6, 0.1, 0.8) - ease(t % 2.6, 1.5, 2.3)
-    right = _between(_HANGING, (0.19, -0.16, 0.24), share)
-    left = _between(_HANGING, (-0.05, 0.18, 0.56), share)
-    return Posture(right=Arm(right, _OUT), left=Arm(left, _OUT), nod=-0.50 * share,
+    right = part_way(_HANGING, (0.19, -0.16, 0.24), share)
+    left = part_way(_HANGING, (-0.05, 0.18, 0.56), share)
+    return Posture(right=Arm(right, OUT), left=Arm(left, OUT), nod=-0.50 * share,
                    lean=-0.10 * share)  # fmt: skip
 
 
 def _cry(t: float) -> Posture:
     """The face in both hands; shoulders shake, the head goes from side to side."""
     sob = swing(t, 1.9)
-    arm = Arm((0.18, -0.13, 0.22 + 0.03 * sob), _DOWN)
+    arm = Arm((0.18, -0.13, 0.22 + 0.03 * sob), DOWN)
     return Posture(left=arm, right=arm, nod=0.50 + 0.20 * sob, lean=0.24 + 0.12 * sob,
                    look=0.25 * swing(t, 0.45))  # fmt: skip
 
@@ -98,8 +96,8 @@ def _laugh(t: float) -> Posture:
     shake, back = swing(t, 2.1), pulse(t, 0.45)
     return Posture(
         nod=0.22 - 0.60 * back + 0.10 * shake, lean=0.20 - 0.34 * back + 0.04 * shake,
-        right=Arm((0.24, -0.16, -0.28 + 0.02 * shake), _DOWN),
-        left=Arm((0.20, 0.02 + 0.06 * back, -0.28 + 0.02 * shake), _DOWN),
+        right=Arm((0.24, -0.16, -0.28 + 0.02 * shake), DOWN),
+        left=Arm((0.20, 0.02 + 0.06 * back, -0.28 + 0.02 * shake), DOWN),
     )  # fmt: skip
 
 
@@ -112,14 +110,14 @@ def _shout(t: float) -> Posture:
 
 def _smoke(t: float) -> Posture:
     share = ease(t * 0.45 % 1.0, 0.05, 0.30) - ease(t * 0.45 % 1.0, 0.55, 0.85)
-    hand = _between((0.34, 0.10, -0.18), (0.19, -0.13, 0.235), share)
-    return Posture(right=Arm(hand, _OUT), tool=(0.75, 0.25, 0.15), nod=-0.15 * share)
+    hand = part_way((0.34, 0.10, -0.18), (0.19, -0.13, 0.235), share)
+    return Posture(right=Arm(hand, OUT), tool=(0.75, 0.25, 0.15), nod=-0.15 * share)
 
 
 def _blow(t: float) -> Posture:
     """A hand before the mouth; the head comes forward with each breath."""
     out = pulse(t, 0.6)
-    return Posture(right=Arm((0.24 + 0.03 * out, -0.12, 0.14), _OUT), tool=(0.05, 0.25, 1.0),
+    return Posture(right=Arm((0.24 + 0.03 * out, -0.12, 0.14), OUT), tool=(0.05, 0.25, 1.0),
                    lean=0.12 * out, nod=-0.10 + 0.16 * out)  # fmt: skip
 
 
@@ -131,20 +129,15 @@ def _turn_head(t: float) -> Posture:
 
 def _shrug(t: float) -> Posture:
     up = pulse(t, 0.8)
-    hand = _between((0.20, 0.08, -0.48), (0.24, 0.30, -0.18), up)
+    hand = part_way((0.20, 0.08, -0.48), (0.24, 0.30, -0.18), up)
     arm = Arm(hand, (-0.4, 0.5, -1.0))
     return Posture(left=arm, right=arm, nod=-0.10 * up, tilt=0.06 * up)
 
 
 def _facepalm(t: float) -> Posture:
     share = ease(t % 3.0, 0.2, 0.7) - ease(t % 3.0, 2.2, 2.8)
-    hand = _between(_HANGING, (0.19, -0.19, 0.30), share)
-    return Posture(right=Arm(hand, _OUT), nod=0.55 * share, look=0.2 * share * swing(t, 0.8))
-
-
-def _between(start: Point, end: Point, share: float) -> Point:
-    x, y, z = (a + share * (b - a) for a, b in zip(start, end, strict=True))
-    return (x, y, z)
+    hand = part_way(_HANGING, (0.19, -0.19, 0.30), share)
+    return Posture(right=Arm(hand, OUT), nod=0.55 * share, look=0.2 * share * swing(t, 0.8))
 
 
 AT_HEAD_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
@@ -170,7 +163,7 @@ AT_HEAD_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
         "shout": _shout,
         "smoke": _smoke,
         "blow bubbles": _blow,
-        "blow whistle": lambda t: replace(_blow(t), right=Arm((0.24, 0.02, 0.08), _OUT)),
+        "blow whistle": lambda t: replace(_blow(t), right=Arm((0.24, 0.02, 0.08), OUT)),
         "turn head": _turn_head,
         "nod": lambda t: Posture(nod=0.22 + 0.62 * swing(t, 0.7), lean=0.06 + 0.08 * swing(t, 0.7)),
         "shake head": lambda t: Posture(look=0.70 * swing(t, 0.9)),

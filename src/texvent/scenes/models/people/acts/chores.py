@@ -8,12 +8,10 @@ from types import MappingProxyType
 from texvent.scenes.models.materials import BLUE, DARK, RED, WHITE, WOOD, Material
 from texvent.scenes.models.people.acts.prop_shapes import Prop, stick, still
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import ANKLE, Arm, Leg, Posture
+from texvent.scenes.models.people.posture import ANKLE, OUT, Arm, Leg, Posture
 from texvent.scenes.models.people.timing import pulse, swing
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, box, post, rod
-
-_OUT: Point = (-0.3, 1.0, -0.5)
 
 
 def _vacuum(t: float) -> Posture:
@@ -21,7 +19,7 @@ def _vacuum(t: float) -> Posture:
     push = pulse(t, 0.6)
     return Posture(
         hips=(-0.05 + 0.10 * push, 0.0, 0.90), lean=0.18 + 0.16 * push, nod=0.25,
-        right=Arm((0.22 + 0.20 * push, -0.06, -0.24), _OUT),
+        right=Arm((0.22 + 0.20 * push, -0.06, -0.24), OUT),
         left_leg=Leg((0.22, 0.12, ANKLE)), right_leg=Leg((-0.16, 0.12, ANKLE)),
         tool=(0.62, 0.0, -0.80),
     )  # fmt: skip
@@ -32,8 +30,8 @@ def _rake(t: float) -> Posture:
     out = pulse(t, 0.7)
     return Posture(
         hips=(-0.03, 0.0, 0.88), lean=0.22 + 0.20 * out, nod=0.25,
-        right=Arm((0.16 + 0.26 * out, -0.10, -0.16), _OUT),
-        left=Arm((0.34 + 0.20 * out, -0.20, -0.36), _OUT),
+        right=Arm((0.16 + 0.26 * out, -0.10, -0.16), OUT),
+        left=Arm((0.34 + 0.20 * out, -0.20, -0.36), OUT),
         left_leg=Leg((0.20, 0.12, ANKLE)), right_leg=Leg((-0.18, 0.12, ANKLE)),
         tool=(0.75 + 0.30 * out, -0.12, -0.80),
     )  # fmt: skip
@@ -55,7 +53,7 @@ def _row_oars(t: float) -> Posture:
     x = _hands_ahead(t)
     return Posture(
         hips=(0.0, 0.0, 0.26), lean=0.12 - 0.34 * pull,
-        left=Arm((x, 0.16, _HANDS_UP), _OUT, True), right=Arm((x, -0.16, _HANDS_UP), _OUT, True),
+        left=Arm((x, 0.16, _HANDS_UP), OUT, True), right=Arm((x, -0.16, _HANDS_UP), OUT, True),
         left_leg=leg, right_leg=leg,
     )  # fmt: skip
 

@@ -24,13 +24,11 @@ from texvent.scenes.models.people.acts.play import build_basket
 from texvent.scenes.models.people.acts.prop_shapes import Prop, stick, still
 from texvent.scenes.models.people.daily import DAILY, SEAT
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import ANKLE, HIP, Arm, Leg, Posture
+from texvent.scenes.models.people.posture import ANKLE, DOWN, HIP, OUT, Arm, Leg, Posture
 from texvent.scenes.models.people.timing import ease, swing
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, box, moved, rod, shift, spike
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 _GRAVITY_M_S2 = 9.81
 
 
@@ -38,15 +36,15 @@ def _conduct(t: float) -> Posture:
     """Both arms go out and in; the right one beats time with the baton."""
     beat, wide = 0.20 * swing(t, 1.1), 0.14 * swing(t, 0.55)
     return Posture(
-        left=Arm((0.34, 0.08 + wide, 0.02 - 0.7 * beat), _OUT),
-        right=Arm((0.36, 0.06 + wide, 0.08 + beat), _OUT), nod=0.06 * swing(t, 1.1),
+        left=Arm((0.34, 0.08 + wide, 0.02 - 0.7 * beat), OUT),
+        right=Arm((0.36, 0.06 + wide, 0.08 + beat), OUT), nod=0.06 * swing(t, 1.1),
         tool=(0.55, -0.15 + 0.5 * swing(t, 0.55), 0.75 + 0.8 * beat),
     )  # fmt: skip
 
 
 def _look_through(t: float) -> Posture:
     """Both hands before the eyes; the body turns slowly from side to side."""
-    arm = Arm((0.27, -0.13, 0.27), _OUT)
+    arm = Arm((0.27, -0.13, 0.27), OUT)
     return Posture(left=arm, right=arm, turn=0.42 * swing(t, 0.45))
 
 
@@ -57,8 +55,8 @@ def _open_umbrella(t: float) -> Posture:
     """The left hand pushes the slide up the stick."""
     share = ease(t, *_OPENED_S)
     return Posture(
-        right=Arm((0.30, -0.10, -0.16 + 0.12 * share), _DOWN),
-        left=Arm((0.32, -0.22, 0.0 + 0.26 * share), _OUT), nod=-0.12 * share,
+        right=Arm((0.30, -0.10, -0.16 + 0.12 * share), DOWN),
+        left=Arm((0.32, -0.22, 0.0 + 0.26 * share), OUT), nod=-0.12 * share,
         tool=(0.12, 0.0, 1.0),
     )  # fmt: skip
 
@@ -70,7 +68,7 @@ _OUT_S = 0.95
 def _blow_out(t: float) -> Posture:
     """Leans to the candle in the right hand."""
     near = ease(t, 0.3, 0.75) - ease(t, 1.3, 1.8)
-    return Posture(right=Arm((0.42, -0.20, 0.02), _DOWN), lean=0.24 * near, nod=0.10 * near,
+    return Posture(right=Arm((0.42, -0.20, 0.02), DOWN), lean=0.24 * near, nod=0.10 * near,
                    tool=(0.0, 0.0, 1.0))  # fmt: skip
 
 
@@ -94,8 +92,8 @@ def _steer(t: float) -> Posture:
     """Seated, both hands on the rim, which turns to and fro."""
     left, right = (_on_wheel(start + _turned(t), _WHEEL_M + 0.01) for start in (0.25, 2.9))
     return Posture(
-        hips=(0.0, 0.0, SEAT + 0.08), lean=0.05, left=Arm(left, _DOWN, True),
-        right=Arm((right[0], -right[1], right[2]), _DOWN, True), left_leg=SITTING,
+        hips=(0.0, 0.0, SEAT + 0.08), lean=0.05, left=Arm(left, DOWN, True),
+        right=Arm((right[0], -right[1], right[2]), DOWN, True), left_leg=SITTING,
         right_leg=SITTING, tilt=-0.06 * _turned(t),
     )  # fmt: skip
 
@@ -113,8 +111,8 @@ def _shoot(t: float) -> Posture:
     up = ease(t, 0.35, _THROWN_S)
     hand = (0.30 - 0.04 * up, -0.12, -0.06 + 0.62 * up)
     leg = Leg((0.05, 0.10, ANKLE), (1.0, 0.1, 0.3))
-    return Posture(hips=(0.0, 0.0, HIP - 0.02 - 0.16 * low), lean=0.15 * low, left=Arm(hand, _OUT),
-                   right=Arm(hand, _OUT), left_leg=leg, right_leg=leg, nod=-0.15 * up)  # fmt: skip
+    return Posture(hips=(0.0, 0.0, HIP - 0.02 - 0.16 * low), lean=0.15 * low, left=Arm(hand, OUT),
+                   right=Arm(hand, OUT), left_leg=leg, right_leg=leg, nod=-0.15 * up)  # fmt: skip
 
 
 EVERYDAY_MOVEMENTS: Mapping[str, Movement] = MappingProxyType(

@@ -10,13 +10,11 @@ from types import MappingProxyType
 from texvent.scenes.models.materials import DARK, RED, STEEL, Material
 from texvent.scenes.models.people.acts.prop_shapes import Prop, still
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import ANKLE, HIP, Arm, Leg, Posture
+from texvent.scenes.models.people.posture import ANKLE, DOWN, HIP, OUT, Arm, Leg, Posture
 from texvent.scenes.models.people.timing import ease, follow_keys, pulse, swing
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, rod
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 _STRAIGHT = 0.84
 """From the hips to the ankle of a leg that is nearly straight, m."""
 _BAR_M = 2.16
@@ -111,7 +109,7 @@ def _tucked(angle: float, middle: Point, tuck: float) -> Posture:
     hips = turned(-0.14 * tuck, -0.10 * tuck)
     foot = turned(0.20 * tuck, -0.87 + 0.59 * tuck)
     hand = turned(0.06 + 0.24 * tuck, -0.15 - 0.05 * tuck)
-    arms = [Arm((hand[0], side * (0.26 - 0.08 * tuck), hand[1]), _OUT, True)
+    arms = [Arm((hand[0], side * (0.26 - 0.08 * tuck), hand[1]), OUT, True)
             for side in (1.0, -1.0)]  # fmt: skip
     leg = Leg((foot[0], 0.10, foot[1]), (c, 0.1, -s), angle)
     return Posture(hips=(hips[0], 0.0, hips[1]), lean=angle + 0.75 * tuck, nod=0.5 * tuck,
@@ -152,7 +150,7 @@ def _skip(t: float) -> Posture:
     hop = 0.17 * max(math.cos(2.0 * math.pi * ROPE_HZ * t), 0.0)
     turn = 2.0 * math.pi * ROPE_HZ * t
     leg = Leg((0.0, 0.07, ANKLE + hop), (1.0, 0.2, 0.2), 3.0 * hop)
-    arm = Arm((0.12 + 0.04 * math.sin(turn), 0.24, -0.40 - 0.04 * math.cos(turn)), _DOWN)
+    arm = Arm((0.12 + 0.04 * math.sin(turn), 0.24, -0.40 - 0.04 * math.cos(turn)), DOWN)
     return Posture(hips=(0.0, 0.0, HIP - 0.04 + hop), left=arm, right=arm, left_leg=leg,
                    right_leg=leg)  # fmt: skip
 
@@ -174,7 +172,7 @@ def _hoop(t: float) -> Posture:
     turn = 2.0 * math.pi * HOOP_HZ * t
     x, y = 0.10 * math.cos(turn), 0.10 * math.sin(turn)
     leg = Leg((0.0, 0.16, ANKLE), (1.0, 0.4, 0.2))
-    arm = Arm((0.10, 0.42, 0.10 + 0.05 * swing(t, HOOP_HZ)), _OUT)
+    arm = Arm((0.10, 0.42, 0.10 + 0.05 * swing(t, HOOP_HZ)), OUT)
     return Posture(hips=(x, y, 0.90), tilt=0.10 * math.sin(turn), lean=-0.06 * math.cos(turn),
                    left=arm, right=arm, left_leg=leg, right_leg=leg)  # fmt: skip
 
@@ -211,8 +209,8 @@ def _run_in_place(t: float) -> Posture:
 def _deadlift(t: float) -> Posture:
     """A barbell from the ground up to the thighs."""
     down = pulse(t, 0.5, 0.5)
-    arm = Arm((0.30, 0.24, 0.82 - 0.55 * down), _OUT, True)
-    right = Arm((0.30, -0.24, 0.82 - 0.55 * down), _OUT, True)
+    arm = Arm((0.30, 0.24, 0.82 - 0.55 * down), OUT, True)
+    right = Arm((0.30, -0.24, 0.82 - 0.55 * down), OUT, True)
     leg = Leg((0.04, 0.14, ANKLE), (1.0, 0.35, 0.2))
     return Posture(hips=(-0.30 * down, 0.0, 0.93 - 0.34 * down), lean=0.10 + 0.95 * down,
                    nod=-0.4 * down, left=arm, right=right, left_leg=leg, right_leg=leg,
@@ -236,7 +234,7 @@ def _ballet(t: float) -> Posture:
     arm = Arm((0.14, 0.02, 0.46 * up + 0.02), (0.0, 1.0, 0.2))
     return Posture(
         hips=(0.0, 0.0, HIP + 0.04 * up), heading=2.0 * math.pi * 0.42 * t, lean=0.06 * up,
-        left=arm, right=Arm((0.14, 0.30, 0.10 + 0.06 * swing(t, 0.6)), _OUT),
+        left=arm, right=Arm((0.14, 0.30, 0.10 + 0.06 * swing(t, 0.6)), OUT),
         left_leg=Leg((0.0, 0.02, ANKLE + 0.06 * up), pitch=0.8 * up),
         right_leg=Leg((-0.52 * up, 0.20, ANKLE + 0.50 * up), (0.6, 0.6, -0.4), 1.0 * up),
     )  # fmt: skip
@@ -257,8 +255,8 @@ def _karate(t: float) -> Posture:
     """A punch, a high kick, a punch with the other hand."""
     forward, up, left, right, lean, turn = follow_keys(t, _KARATE, 1.9)
     return Posture(
-        hips=(0.0, 0.0, 0.88), lean=lean, turn=turn, left=Arm((left, -0.06, 0.0), _DOWN),
-        right=Arm((right, -0.06, -0.02), _DOWN), left_leg=Leg((0.22, 0.10, ANKLE)),
+        hips=(0.0, 0.0, 0.88), lean=lean, turn=turn, left=Arm((left, -0.06, 0.0), DOWN),
+        right=Arm((right, -0.06, -0.02), DOWN), left_leg=Leg((0.22, 0.10, ANKLE)),
         right_leg=Leg((forward, 0.10, up), (1.0, 0.1, 0.5), 0.2),
     )  # fmt: skip
 

@@ -8,12 +8,11 @@ from types import MappingProxyType
 from texvent.scenes.models.materials import DARK, RED, STEEL, WHITE, WOOD, YELLOW, Material
 from texvent.scenes.models.people.acts.prop_shapes import Prop, stick, still
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import ANKLE, Arm, Leg, Posture
+from texvent.scenes.models.people.posture import ANKLE, OUT, Arm, Leg, Posture
 from texvent.scenes.models.people.timing import swing
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import Point, ball, box, post, rod
+from texvent.scenes.models.shapes import ball, box, post, rod
 
-_OUT: Point = (-0.3, 1.0, -0.5)
 _BROWN = Material((0.30, 0.12, 0.05))
 SEAT_M = 0.50
 """Height of the hips of who sits on the stool, m."""
@@ -26,8 +25,8 @@ def _cello(t: float) -> Posture:
     stroke = swing(t, 0.8)
     return Posture(
         hips=(0.0, 0.0, SEAT_M), lean=0.10, nod=0.12, tilt=0.04 * stroke,
-        left=Arm((0.36, -0.16, 0.02 + 0.08 * swing(t, 0.45)), _OUT),
-        right=Arm((0.40, 0.10 + 0.18 * stroke, -0.30), _OUT),
+        left=Arm((0.36, -0.16, 0.02 + 0.08 * swing(t, 0.45)), OUT),
+        right=Arm((0.40, 0.10 + 0.18 * stroke, -0.30), OUT),
         left_leg=Leg((0.40, 0.30, ANKLE), (1.0, 0.6, 0.2)),
         right_leg=Leg((0.40, 0.30, ANKLE), (1.0, 0.6, 0.2)), tool=(0.0, -1.0, 0.05),
     )  # fmt: skip
@@ -38,7 +37,7 @@ def _harp(t: float) -> Posture:
 
     def arm(phase: float) -> Arm:
         pluck = swing(t, 1.1, phase)
-        return Arm((0.44 - 0.08 * pluck, -0.08, 0.02 + 0.14 * swing(t, 0.6, phase)), _OUT)
+        return Arm((0.44 - 0.08 * pluck, -0.08, 0.02 + 0.14 * swing(t, 0.6, phase)), OUT)
 
     return Posture(hips=(0.0, 0.0, SEAT_M), nod=0.1, left=arm(0.0), right=arm(0.5),
                    left_leg=SITTING, right_leg=SITTING)  # fmt: skip
@@ -51,7 +50,7 @@ def _squeeze(t: float) -> float:
 
 def _accordion(t: float) -> Posture:
     out = _squeeze(t) - 0.20
-    return Posture(left=Arm((0.30, out, -0.22), _OUT), right=Arm((0.30, out, -0.22), _OUT),
+    return Posture(left=Arm((0.30, out, -0.22), OUT), right=Arm((0.30, out, -0.22), OUT),
                    nod=0.12, tilt=0.05 * swing(t, 0.6))  # fmt: skip
 
 

@@ -11,12 +11,9 @@ from types import MappingProxyType
 from texvent.scenes.models.materials import WOOD, Material
 from texvent.scenes.models.people.acts.prop_shapes import Prop, still
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import ANKLE, Arm, Leg, Posture
+from texvent.scenes.models.people.posture import ANKLE, DOWN, OUT, Arm, Leg, Posture
 from texvent.scenes.models.people.timing import ease, pulse, swing
 from texvent.scenes.models.shapes import Point, box, rod
-
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 
 PAIR_GAPS: Mapping[str, float] = MappingProxyType(
     {
@@ -33,7 +30,7 @@ def _hug(t: float) -> Posture:
     closed = ease(t, 0.15, 0.75)
     sway = 0.10 * swing(t, 0.5) * closed
     x = 0.30 + 0.14 * closed
-    left, right = (Arm((x, side * (0.52 - 0.40 * closed), 1.22 + side * 0.14 * closed), _OUT, True)
+    left, right = (Arm((x, side * (0.52 - 0.40 * closed), 1.22 + side * 0.14 * closed), OUT, True)
                    for side in (1.0, -1.0))  # fmt: skip
     return Posture(hips=(-0.10 * (1.0 - closed), 0.0, 0.94), lean=0.04 + 0.12 * closed, tilt=sway,
                    look=0.5 * closed, nod=0.2 * closed, left=left, right=right)  # fmt: skip
@@ -42,7 +39,7 @@ def _hug(t: float) -> Posture:
 def _kiss(t: float) -> Posture:
     """They lean to each other until their faces meet, hands at the other's waist."""
     near = ease(t, 0.1, 0.8) - 0.25 * pulse(t, 0.7) * ease(t, 0.9, 1.2)
-    left, right = (Arm((0.40, side * 0.16, 1.02 + 0.14 * side), _OUT, True)
+    left, right = (Arm((0.40, side * 0.16, 1.02 + 0.14 * side), OUT, True)
                    for side in (1.0, -1.0))  # fmt: skip
     return Posture(hips=(-0.03, 0.0, 0.94), lean=-0.14 + 0.34 * near, nod=-0.10, tilt=0.06 * near,
                    left=left, right=right)  # fmt: skip
@@ -60,14 +57,14 @@ def _high_five(t: float) -> Posture:
     """The right hands meet above the heads, once in 1.4 s."""
     up = ease(t % 1.4, 0.1, 0.5) - ease(t % 1.4, 0.75, 1.25)
     hand = (0.22 + 0.24 * up, -0.24 + 0.20 * up, 0.95 + 0.77 * up)
-    return Posture(right=Arm(hand, _OUT, True), lean=0.05 * up, nod=-0.15 * up)
+    return Posture(right=Arm(hand, OUT, True), lean=0.05 * up, nod=-0.15 * up)
 
 
 def _wrestle(t: float) -> Posture:
     """Bent forward, hands at the other's shoulders, legs braced."""
     strain = swing(t, 0.9)
-    left = Arm((0.50, 0.20, 1.12 + 0.08 * strain), _OUT, True)
-    right = Arm((0.50, -0.20, 1.02 - 0.08 * strain), _OUT, True)
+    left = Arm((0.50, 0.20, 1.12 + 0.08 * strain), OUT, True)
+    right = Arm((0.50, -0.20, 1.02 - 0.08 * strain), OUT, True)
     return Posture(hips=(-0.16, 0.0, 0.74 + 0.03 * swing(t, 1.3)), lean=0.80 + 0.10 * strain,
                    tilt=0.10 * strain, nod=-0.2, left=left, right=right,
                    left_leg=Leg((0.16, 0.20, ANKLE)),
@@ -79,7 +76,7 @@ def _arm_wrestle(t: float) -> Posture:
     side = 0.26 * swing(t, 0.6)
     return Posture(hips=(-0.10, 0.0, 0.86), lean=0.48, nod=-0.3, tilt=0.14 * swing(t, 0.6),
                    right=Arm((0.49, -0.02 + side, 1.16 - 0.7 * abs(side)), (0.2, 0.2, -1.0), True),
-                   left=Arm((0.36, 0.30, 0.86), _OUT, True))  # fmt: skip
+                   left=Arm((0.36, 0.30, 0.86), OUT, True))  # fmt: skip
 
 
 def _argue(t: float) -> Posture:
@@ -87,8 +84,8 @@ def _argue(t: float) -> Posture:
     jab, wave = pulse(t, 1.3), pulse(t, 0.55)
     return Posture(
         lean=0.05 + 0.20 * jab * wave, nod=-0.10 + 0.12 * swing(t, 1.3), look=0.12 * swing(t, 0.5),
-        right=Arm((0.26 + 0.22 * jab, -0.04, -0.02 + 0.06 * jab), _DOWN), tool=(1.0, 0.0, 0.2),
-        left=Arm((0.18, 0.12 + 0.30 * wave, -0.34 + 0.34 * wave), _DOWN),
+        right=Arm((0.26 + 0.22 * jab, -0.04, -0.02 + 0.06 * jab), DOWN), tool=(1.0, 0.0, 0.2),
+        left=Arm((0.18, 0.12 + 0.30 * wave, -0.34 + 0.34 * wave), DOWN),
     )  # fmt: skip
 
 
@@ -97,7 +94,7 @@ def _tango(t: float) -> Posture:
     step = swing(t, 1.0)
     return Posture(
         hips=(0.0, 0.0, 0.93 + 0.015 * swing(t, 2.0)), lean=0.03, tilt=0.06 * step,
-        right=Arm((0.42, -0.16, 1.18), _OUT, True), left=Arm((0.25, 0.56, 1.42), _OUT, True),
+        right=Arm((0.42, -0.16, 1.18), OUT, True), left=Arm((0.25, 0.56, 1.42), OUT, True),
         left_leg=Leg((0.10 * step, 0.09, ANKLE + 0.05 * max(step, 0.0)), pitch=0.2),
         right_leg=Leg((-0.10 * step, 0.09, ANKLE + 0.05 * max(-step, 0.0)), pitch=0.2),
     )  # fmt: skip
@@ -113,7 +110,7 @@ def _fists(t: float) -> Posture:
 def _tug(t: float) -> Posture:
     """Leans back on the heels and pulls with both hands."""
     strain = swing(t, 0.8)
-    arm, right = (Arm((0.36, side * 0.05 + 0.06 * side, 0.98), _DOWN, True)
+    arm, right = (Arm((0.36, side * 0.05 + 0.06 * side, 0.98), DOWN, True)
                   for side in (1.0, -1.0))  # fmt: skip
     return Posture(hips=(-0.30 - 0.04 * strain, 0.0, 0.74), lean=-0.42 - 0.06 * strain, nod=0.2,
                    left=arm, right=right, left_leg=Leg((0.26, 0.12, ANKLE)),

@@ -22,13 +22,11 @@ from texvent.scenes.models.people.acts.music import SEAT_M, SITTING, STOOL
 from texvent.scenes.models.people.acts.prop_shapes import Prop, disc, stick, still
 from texvent.scenes.models.people.gestures import Movement
 from texvent.scenes.models.people.pastimes.crafts import SCREEN
-from texvent.scenes.models.people.posture import ANKLE, HIP, Arm, Leg, Posture, solve
+from texvent.scenes.models.people.posture import ANKLE, DOWN, HIP, OUT, Arm, Leg, Posture, solve
 from texvent.scenes.models.people.timing import ease, follow_keys, swing
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, blade, box, post, rod
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 _GRAVITY_M_S2 = 9.81
 _BROWN = Material((0.30, 0.12, 0.05))
 _BLUE = Material((0.05, 0.08, 0.35))
@@ -50,7 +48,7 @@ def _fence(t: float) -> Posture:
     drop = 0.5 * hips
     return Posture(
         hips=(hips, 0.0, 0.86 - 0.4 * drop), lean=lean, turn=0.5,
-        right=Arm((hand, 0.0, up), _DOWN), left=Arm((-0.20, 0.30, 0.06), _OUT),
+        right=Arm((hand, 0.0, up), DOWN), left=Arm((-0.20, 0.30, 0.06), OUT),
         right_leg=Leg((foot, 0.08, ANKLE)), left_leg=Leg((-0.34, 0.12, ANKLE), (0.6, 0.8, 0.2)),
         tool=(1.0, 0.15, rise),
     )  # fmt: skip
@@ -89,8 +87,8 @@ def _bowl(t: float) -> Posture:
     """Swings the ball back and rolls it out of a lunge."""
     forward, up, x, z, lean, foot = follow_keys(t, _BOWL)
     return Posture(
-        hips=(x, 0.0, z), lean=lean, right=Arm((forward, 0.02, up), _DOWN),
-        left=Arm((0.14, 0.40, -0.30), _OUT), left_leg=Leg((foot, 0.06, ANKLE)),
+        hips=(x, 0.0, z), lean=lean, right=Arm((forward, 0.02, up), DOWN),
+        left=Arm((0.14, 0.40, -0.30), OUT), left_leg=Leg((foot, 0.06, ANKLE)),
         right_leg=Leg((-0.30, 0.14, ANKLE + 0.04), (1.0, 0.1, 0.0), 0.5), nod=-0.3,
     )  # fmt: skip
 
@@ -120,8 +118,8 @@ def _serve(t: float) -> Posture:
     lean = 0.30 * (ease(t, 0.9, 1.25) - ease(t, 1.5, 1.9)) - 0.12 * (
         ease(t, 0.2, 0.5) - ease(t, 0.75, 0.95))  # fmt: skip
     return Posture(
-        hips=(0.0, 0.0, z), lean=lean, left=Arm((left, -0.06, rise), _DOWN),
-        right=Arm((x, out, up), _OUT), left_leg=Leg((0.22, 0.10, ANKLE)),
+        hips=(0.0, 0.0, z), lean=lean, left=Arm((left, -0.06, rise), DOWN),
+        right=Arm((x, out, up), OUT), left_leg=Leg((0.22, 0.10, ANKLE)),
         right_leg=Leg((-0.20, 0.12, ANKLE + 0.02), pitch=0.3), tool=(tool[0], tool[1], tool[2]),
         nod=-0.35 * (ease(t, 0.2, 0.5) - ease(t, 1.0, 1.3)),
     )  # fmt: skip
@@ -159,8 +157,8 @@ def _dunk(t: float) -> Posture:
             -0.30 + 0.90 * raised - 0.35 * slam)  # fmt: skip
     z = HIP - 0.02 - 0.24 * low + air
     return Posture(
-        hips=(x - 0.12 * low, 0.0, z), lean=0.40 * low + 0.15 * slam, right=Arm(hand, _OUT),
-        left=Arm((0.24, 0.12, -0.20 + 0.30 * raised * (1.0 - slam)), _OUT),
+        hips=(x - 0.12 * low, 0.0, z), lean=0.40 * low + 0.15 * slam, right=Arm(hand, OUT),
+        left=Arm((0.24, 0.12, -0.20 + 0.30 * raised * (1.0 - slam)), OUT),
         left_leg=Leg((x + 0.10 * air, 0.10, ANKLE + air), (1.0, 0.1, 0.3), 0.8 * min(air, 0.6)),
         right_leg=Leg((x - 0.16 * air, 0.10, ANKLE + air + 0.12 * air), (1.0, 0.1, 0.3),
                       1.0 * min(air, 0.6)),
@@ -214,8 +212,8 @@ def _flip_pan(t: float) -> Posture:
     u = t % FLIP_S
     up = ease(u, 0.15, 0.35) - ease(u, 0.45, 0.85)
     return Posture(
-        right=Arm((0.40, -0.08, -0.24 + 0.16 * up), _DOWN), lean=0.08, nod=0.20 - 0.45 * up,
-        left=Arm((0.16, 0.10, -0.40), _DOWN), tool=(1.0, -0.1, 0.10 + 0.35 * up),
+        right=Arm((0.40, -0.08, -0.24 + 0.16 * up), DOWN), lean=0.08, nod=0.20 - 0.45 * up,
+        left=Arm((0.16, 0.10, -0.40), DOWN), tool=(1.0, -0.1, 0.10 + 0.35 * up),
     )  # fmt: skip
 
 
@@ -238,7 +236,7 @@ def _pancake(t: float) -> list[ModelPart]:
 
 def _mow(t: float) -> Posture:
     """Leans to the handle of a mower; the legs walk."""
-    left, right = (Arm((0.50, side * 0.22, 1.00), _OUT, True) for side in (1.0, -1.0))
+    left, right = (Arm((0.50, side * 0.22, 1.00), OUT, True) for side in (1.0, -1.0))
     return Posture(lean=0.16 + 0.02 * swing(t, 0.9), nod=0.15, left=left, right=right)
 
 
@@ -256,7 +254,7 @@ def _mower() -> tuple[ModelPart, ...]:
 
 def _jackhammer(t: float) -> Posture:
     shake = 0.075 * swing(t, 3.1)
-    arm, right = (Arm((0.38, side * 0.20, 1.04 + shake), _OUT, True) for side in (1.0, -1.0))
+    arm, right = (Arm((0.38, side * 0.20, 1.04 + shake), OUT, True) for side in (1.0, -1.0))
     return Posture(hips=(-0.06, 0.0, 0.88 + 0.3 * shake), lean=0.30, nod=0.30 + shake, left=arm,
                    right=right, left_leg=Leg((0.04, 0.22, ANKLE)),
                    right_leg=Leg((-0.04, 0.22, ANKLE)))  # fmt: skip
@@ -279,8 +277,8 @@ def _chess(t: float) -> Posture:
     far, up = ease(u, 0.4, 1.1) - ease(u, 1.6, 2.2), math.sin(math.pi * ease(u, 0.3, 1.2))
     return Posture(
         hips=(0.0, 0.0, SEAT_M), lean=0.22 + 0.10 * far, nod=0.30,
-        left=Arm((0.34, -0.02, -0.28), _DOWN),
-        right=Arm((0.36 + 0.20 * far, -0.12, -0.24 + 0.10 * up), _DOWN),
+        left=Arm((0.34, -0.02, -0.28), DOWN),
+        right=Arm((0.36 + 0.20 * far, -0.12, -0.24 + 0.10 * up), DOWN),
         left_leg=SITTING, right_leg=SITTING,
     )  # fmt: skip
 
@@ -288,7 +286,7 @@ def _chess(t: float) -> Posture:
 def _video_games(t: float) -> Posture:
     lean = 0.20 * swing(t, 0.7)
     lift = -0.10 + 0.12 * swing(t, 0.9)
-    arm = Arm((0.40, -0.12, lift), _DOWN)
+    arm = Arm((0.40, -0.12, lift), DOWN)
     return Posture(hips=(0.0, 0.0, SEAT_M), tilt=lean, lean=0.14 + 0.12 * swing(t, 0.5), left=arm,
                    right=arm,
                    left_leg=SITTING, right_leg=SITTING, tool=(1.0, 0.0, 0.2))  # fmt: skip

@@ -23,13 +23,11 @@ from texvent.scenes.models.people.acts.prop_shapes import Prop, stick, still
 from texvent.scenes.models.people.figure import draw_figure
 from texvent.scenes.models.people.gestures import Movement
 from texvent.scenes.models.people.outfit import WOMAN, dress_person
-from texvent.scenes.models.people.posture import ANKLE, HIP, Arm, Leg, Posture, solve
+from texvent.scenes.models.people.posture import ANKLE, DOWN, HIP, OUT, Arm, Leg, Posture, solve
 from texvent.scenes.models.people.timing import ease, pulse, swing
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, box, moved, post, rod, shift, spike
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 _WATER = Material((0.45, 0.70, 0.90), emission=0.15)
 
 
@@ -37,7 +35,7 @@ def _fill_brows(t: float) -> Posture:
     """A pencil goes along a brow."""
     along = swing(t, 0.9)
     return Posture(
-        right=Arm((0.24, 0.03 + 0.05 * along, 0.31 + 0.01 * along), _OUT), tool=(-0.55, -0.75, 0.1),
+        right=Arm((0.24, 0.03 + 0.05 * along, 0.31 + 0.01 * along), OUT), tool=(-0.55, -0.75, 0.1),
         look=0.10, nod=-0.05,
     )  # fmt: skip
 
@@ -46,8 +44,8 @@ def _cut_nails(t: float) -> Posture:
     """The left hand is held up before the chest, the right one comes to its fingers and back."""
     near = pulse(t, 0.9)
     return Posture(
-        left=Arm((0.34, -0.10, -0.02), _DOWN), nod=0.35, look=0.12,
-        right=Arm((0.36, -0.06 - 0.12 * near, 0.02), _OUT), tool=(0.0, -1.0, 0.05),
+        left=Arm((0.34, -0.10, -0.02), DOWN), nod=0.35, look=0.12,
+        right=Arm((0.36, -0.06 - 0.12 * near, 0.02), OUT), tool=(0.0, -1.0, 0.05),
     )  # fmt: skip
 
 
@@ -60,7 +58,7 @@ def _massage_legs(t: float) -> Posture:
 
     return Posture(
         hips=(0.0, 0.0, SEAT_M), lean=0.78 + 0.08 * swing(t, 0.7), nod=0.1,
-        left=Arm(hand(0.0, 0.06), _OUT, True), right=Arm(hand(0.15, -0.04), _OUT, True),
+        left=Arm(hand(0.0, 0.06), OUT, True), right=Arm(hand(0.15, -0.04), OUT, True),
         left_leg=Leg((0.62, 0.13, ANKLE), (1.0, 0.1, 0.6)), right_leg=Leg((0.34, 0.16, ANKLE)),
     )  # fmt: skip
 
@@ -75,8 +73,8 @@ def _wash_hands(t: float) -> Posture:
     rub, turn = 0.07 * swing(t, 1.1), 0.04 * swing(t, 1.1, 0.25)
     return Posture(
         hips=(-0.04, 0.0, 0.93), lean=0.30, nod=0.30,
-        left=Arm((x - 0.02 + rub, 0.045 + 0.3 * turn, z + 0.13 + turn), _DOWN, True),
-        right=Arm((x - 0.02 - rub, -0.045, z + 0.13 - turn), _DOWN, True),
+        left=Arm((x - 0.02 + rub, 0.045 + 0.3 * turn, z + 0.13 + turn), DOWN, True),
+        right=Arm((x - 0.02 - rub, -0.045, z + 0.13 - turn), DOWN, True),
     )  # fmt: skip
 
 
@@ -84,8 +82,8 @@ def _shower(t: float) -> Posture:
     """Both hands rub the hair, then the shoulders."""
     low = 0.5 + 0.5 * swing(t, 0.45)
     rub = 0.06 * swing(t, 1.3)
-    arm = Arm((0.12 + 0.10 * low, -0.12 + rub, 0.44 - 0.42 * low), _OUT)
-    right = Arm((0.12 + 0.10 * low, -0.12 - rub, 0.44 - 0.42 * low), _OUT)
+    arm = Arm((0.12 + 0.10 * low, -0.12 + rub, 0.44 - 0.42 * low), OUT)
+    right = Arm((0.12 + 0.10 * low, -0.12 - rub, 0.44 - 0.42 * low), OUT)
     return Posture(left=arm, right=right, nod=-0.15 + 0.25 * low, tilt=0.05 * swing(t, 0.6))
 
 
@@ -93,8 +91,8 @@ def _bandage(t: float) -> Posture:
     """The right hand goes round the left forearm with a roll of bandage."""
     angle = 2.0 * math.pi * 0.8 * t
     return Posture(
-        left=Arm((0.38, -0.14, -0.12), _DOWN), nod=0.35, look=0.1, tool=(0.0, 0.3, 1.0),
-        right=Arm((0.30, -0.24 + 0.10 * math.cos(angle), -0.14 + 0.11 * math.sin(angle)), _OUT),
+        left=Arm((0.38, -0.14, -0.12), DOWN), nod=0.35, look=0.1, tool=(0.0, 0.3, 1.0),
+        right=Arm((0.30, -0.24 + 0.10 * math.cos(angle), -0.14 + 0.11 * math.sin(angle)), OUT),
     )  # fmt: skip
 
 
@@ -102,8 +100,8 @@ def _tie_tie(t: float) -> Posture:
     """Both hands at the knot below the chin; one pulls the long end down."""
     pull = pulse(t, 0.7)
     return Posture(
-        left=Arm((0.19, -0.17, 0.02 + 0.03 * pull), _OUT), nod=0.25, look=0.08 * swing(t, 0.5),
-        right=Arm((0.20, -0.17, -0.04 - 0.20 * pull), _OUT),
+        left=Arm((0.19, -0.17, 0.02 + 0.03 * pull), OUT), nod=0.25, look=0.08 * swing(t, 0.5),
+        right=Arm((0.20, -0.17, -0.04 - 0.20 * pull), OUT),
     )  # fmt: skip
 
 
@@ -114,8 +112,8 @@ def _tongue_out(t: float) -> Posture:
 def _sit_still(t: float) -> Posture:
     return Posture(
         hips=(0.0, 0.0, SEAT_M), nod=0.10 + 0.20 * swing(t, 0.5), look=0.40 * swing(t, 0.4),
-        tilt=0.10 * swing(t, 0.5), left_leg=SITTING, left=Arm((0.36, -0.08, -0.36), _DOWN),
-        right=Arm((0.36, -0.08, -0.36), _DOWN),
+        tilt=0.10 * swing(t, 0.5), left_leg=SITTING, left=Arm((0.36, -0.08, -0.36), DOWN),
+        right=Arm((0.36, -0.08, -0.36), DOWN),
         right_leg=SITTING,
     )  # fmt: skip
 
@@ -210,8 +208,8 @@ def _hairdresser(t: float) -> list[ModelPart]:
     snip = swing(t, 1.2)
     right: Point = (0.52, -0.17, 1.30 + 0.06 * snip)
     posture = Posture(
-        hips=(0.0, 0.0, HIP - 0.02), lean=0.14, nod=0.35, left=Arm((0.52, 0.15, 1.34), _OUT, True),
-        right=Arm(right, _OUT, True), left_leg=Leg((0.04, 0.10, ANKLE)),
+        hips=(0.0, 0.0, HIP - 0.02), lean=0.14, nod=0.35, left=Arm((0.52, 0.15, 1.34), OUT, True),
+        right=Arm(right, OUT, True), left_leg=Leg((0.04, 0.10, ANKLE)),
         right_leg=Leg((-0.04, 0.10, ANKLE)),
     )  # fmt: skip
     x, y, z = right

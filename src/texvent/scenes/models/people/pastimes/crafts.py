@@ -25,14 +25,12 @@ from texvent.scenes.models.people.acts.music import SEAT_M, STOOL
 from texvent.scenes.models.people.acts.prop_shapes import Prop, stick, still
 from texvent.scenes.models.people.daily import DAILY
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import ANKLE, Arm, Leg, Posture, solve
+from texvent.scenes.models.people.posture import ANKLE, DOWN, OUT, Arm, Leg, Posture, solve
 from texvent.scenes.models.people.timing import ease, pulse, swing
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, box, post, rod
 from texvent.scenes.scene import Colour
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 _GREEN = Material((0.08, 0.40, 0.10))
 _CLAY = Material((0.45, 0.22, 0.12))
 _WHEEL: Point = (0.56, 0.0, 0.62)
@@ -53,8 +51,8 @@ def _make_pottery(t: float) -> Posture:
     leg = Leg((0.46, 0.34, ANKLE), (1.0, 0.8, 0.2))
     return Posture(
         hips=(0.0, 0.0, SEAT_M), lean=0.38, nod=0.25,
-        left=Arm((x - 0.02, side, z + 0.06 + 0.34 * share), _OUT, True),
-        right=Arm((x - 0.02, -side, z + 0.06 + 0.34 * share), _OUT, True), left_leg=leg,
+        left=Arm((x - 0.02, side, z + 0.06 + 0.34 * share), OUT, True),
+        right=Arm((x - 0.02, -side, z + 0.06 + 0.34 * share), OUT, True), left_leg=leg,
         right_leg=leg,
     )  # fmt: skip
 
@@ -81,8 +79,8 @@ def _sharpen(t: float) -> Posture:
     """A knife goes to and fro along a steel."""
     stroke = swing(t, 0.9)
     return Posture(
-        left=Arm((0.34, -0.02, -0.14), _DOWN), nod=0.30, look=-0.05,
-        right=Arm((0.38, -0.08 - 0.02 * stroke, -0.02 + 0.12 * stroke), _OUT),
+        left=Arm((0.34, -0.02, -0.14), DOWN), nod=0.30, look=-0.05,
+        right=Arm((0.38, -0.08 - 0.02 * stroke, -0.02 + 0.12 * stroke), OUT),
         tool=(0.25, -0.85, 0.45 - 0.20 * stroke),
     )  # fmt: skip
 
@@ -91,8 +89,8 @@ def _count_money(t: float) -> Posture:
     """The right hand takes one note after the other from those in the left hand."""
     off = pulse(t, 0.9)
     return Posture(
-        left=Arm((0.36, -0.14, -0.06), _DOWN), nod=0.35, tool=(0.0, 0.1, 1.0),
-        right=Arm((0.38, -0.14 + 0.20 * off, -0.04 + 0.05 * math.sin(math.pi * off)), _OUT),
+        left=Arm((0.36, -0.14, -0.06), DOWN), nod=0.35, tool=(0.0, 0.1, 1.0),
+        right=Arm((0.38, -0.14 + 0.20 * off, -0.04 + 0.05 * math.sin(math.pi * off)), OUT),
     )  # fmt: skip
 
 
@@ -100,8 +98,8 @@ def _shuffle(t: float) -> Posture:
     """Cards spring from one hand to the other."""
     far = 0.11 + 0.06 * pulse(t, 0.8)
     return Posture(
-        left=Arm((0.38, far, 1.05 - 0.4 * far), _DOWN, True), nod=0.40,
-        right=Arm((0.38, -far, 1.10 + 0.8 * far), _OUT, True), tool=(0.0, 0.0, 1.0),
+        left=Arm((0.38, far, 1.05 - 0.4 * far), DOWN, True), nod=0.40,
+        right=Arm((0.38, -far, 1.10 + 0.8 * far), OUT, True), tool=(0.0, 0.0, 1.0),
     )  # fmt: skip
 
 
@@ -135,8 +133,8 @@ def _bend_metal(t: float) -> Posture:
     side = 0.36 - 0.12 * bend
     return Posture(
         hips=(0.0, 0.0, 0.91), lean=0.10 + 0.12 * bend, nod=0.20 * bend,
-        left=Arm((0.36, side, 1.14 + shake), _OUT, True),
-        right=Arm((0.36, -side, 1.14 - shake), _OUT, True),
+        left=Arm((0.36, side, 1.14 + shake), OUT, True),
+        right=Arm((0.36, -side, 1.14 - shake), OUT, True),
         left_leg=Leg((0.08, 0.18, ANKLE)), right_leg=Leg((-0.08, 0.18, ANKLE)),
     )  # fmt: skip
 
@@ -159,7 +157,7 @@ def _do_laundry(t: float) -> Posture:
     x, y, z = 0.44, -0.02 - 0.52 * into, 0.40 + 0.28 * math.sin(math.pi * into) + 0.12 * into
     return Posture(
         hips=(0.0, 0.0, 0.48), lean=0.20, turn=-0.5 * into, nod=0.25, look=-0.3 * into,
-        left=Arm((0.42, 0.20, 0.40), _DOWN, True), right=Arm((x, y, z), _OUT, True),
+        left=Arm((0.42, 0.20, 0.40), DOWN, True), right=Arm((x, y, z), OUT, True),
         left_leg=leg, right_leg=leg,
     )  # fmt: skip
 
@@ -181,8 +179,8 @@ def _play_wii(t: float) -> Posture:
     stroke = swing(t, 0.85)
     return Posture(
         hips=(0.0, 0.0, 0.90), lean=0.12, turn=0.35 * stroke,
-        right=Arm((0.36, 0.12 - 0.28 * stroke, 0.05 + 0.26 * stroke), _OUT),
-        left=Arm((0.26, 0.14, -0.24), _DOWN), tool=(0.9, 0.35 - 0.6 * stroke, 0.35 + 0.4 * stroke),
+        right=Arm((0.36, 0.12 - 0.28 * stroke, 0.05 + 0.26 * stroke), OUT),
+        left=Arm((0.26, 0.14, -0.24), DOWN), tool=(0.9, 0.35 - 0.6 * stroke, 0.35 + 0.4 * stroke),
         left_leg=Leg((0.12, 0.16, ANKLE)), right_leg=Leg((-0.12, 0.16, ANKLE)),
     )  # fmt: skip
 
@@ -218,7 +216,7 @@ def _arrange_flowers(t: float) -> Posture:
     x, y, z = _VASE
     return Posture(
         hips=(-0.04, 0.0, 0.94), lean=0.20, nod=0.25, tool=(0.2, -0.1, 1.0),
-        left=Arm((x - 0.04, y + 0.12, z + 0.20), _OUT, True), right=Arm(hand, _OUT, True),
+        left=Arm((x - 0.04, y + 0.12, z + 0.20), OUT, True), right=Arm(hand, OUT, True),
     )  # fmt: skip
 
 
@@ -249,7 +247,7 @@ def _type_on_lap(t: float) -> Posture:
 
     def arm(phase: float) -> Arm:
         return Arm((0.36, -0.08 + 0.09 * swing(t, 0.7, phase), -0.16 + 0.09 * swing(t, 1.1, phase)),
-                   _DOWN)  # fmt: skip
+                   DOWN)  # fmt: skip
 
     return Posture(
         left=arm(0.0), right=arm(0.5), nod=0.30 + 0.12 * swing(t, 0.5), look=0.2 * swing(t, 0.4)
@@ -273,8 +271,8 @@ def _make_bed(t: float) -> Posture:
     y = _drawn_up(t)
     return Posture(
         hips=(-0.08, 0.25 * y, 0.90), lean=0.62, nod=0.1,
-        left=Arm((0.64, y + 0.02, 0.62), _OUT, True),
-        right=Arm((0.60, y - 0.28, 0.62), _OUT, True), left_leg=Leg((0.10, 0.14, ANKLE)),
+        left=Arm((0.64, y + 0.02, 0.62), OUT, True),
+        right=Arm((0.60, y - 0.28, 0.62), OUT, True), left_leg=Leg((0.10, 0.14, ANKLE)),
         right_leg=Leg((-0.10, 0.14, ANKLE)),
     )  # fmt: skip
 
@@ -306,7 +304,7 @@ _SAPLING = still(
 def _lift_trophy(t: float) -> Posture:
     """Both hands raise a cup from the chest to above the head."""
     up = ease(t, 0.2, 0.9) - 0.35 * pulse(t, 0.8) * ease(t, 0.9, 1.1)
-    left, right = (Arm((0.36 - 0.16 * up, side * 0.10, 1.12 + 0.66 * up), _OUT, True)
+    left, right = (Arm((0.36 - 0.16 * up, side * 0.10, 1.12 + 0.66 * up), OUT, True)
                    for side in (1.0, -1.0))  # fmt: skip
     return Posture(left=left, right=right, nod=-0.25 * up)
 

@@ -22,14 +22,12 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.people.acts.prop_shapes import Prop, still
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import ANKLE, HIP, Arm, Leg, Posture
+from texvent.scenes.models.people.posture import ANKLE, DOWN, HIP, OUT, Arm, Leg, Posture
 from texvent.scenes.models.people.sports import BOARD_STANCE, SPORTS, kick
 from texvent.scenes.models.people.timing import ease, pulse, swing
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import Point, ball, box, compose, moved, rod, shift, turn_y
+from texvent.scenes.models.shapes import ball, box, compose, moved, rod, shift, turn_y
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 _HOP_S, _OFF_S, _DOWN_S = 1.5, 0.40, 1.20
 """Period of the hops of a trick, and when in it the board leaves the ground and lands, s."""
 _GRAVITY_M_S2 = 9.81
@@ -60,7 +58,7 @@ def _trick(way: str) -> Movement:
             return Leg((a, b, c + height + 0.5 * tuck), (one or Leg()).knee)
 
         out = 0.25 * min(height, 0.6)
-        arm = Arm((0.10, 0.44, 0.05 + out), _OUT)
+        arm = Arm((0.10, 0.44, 0.05 + out), OUT)
         return replace(
             riding, hips=(x, y, z + height - 0.14 * low), lean=riding.lean + 0.2 * low,
             left=arm, right=replace(arm, hand=(0.10, 0.44, 0.15 - out)),
@@ -88,8 +86,8 @@ def _ice_skate(t: float) -> Posture:
     foot = ANKLE + 0.05
     return Posture(
         hips=(0.0, -0.07 * side, 0.83), lean=0.55, nod=-0.35, turn=0.15 * side,
-        left=Arm((0.20 - 0.46 * right, 0.16 + 0.16 * right, -0.34), _OUT),
-        right=Arm((0.20 - 0.46 * left, 0.16 + 0.16 * left, -0.34), _OUT),
+        left=Arm((0.20 - 0.46 * right, 0.16 + 0.16 * right, -0.34), OUT),
+        right=Arm((0.20 - 0.46 * left, 0.16 + 0.16 * left, -0.34), OUT),
         left_leg=Leg((0.08 - 0.62 * left, 0.08 + 0.26 * left, foot + 0.12 * left),
                      pitch=0.5 * left),
         right_leg=Leg((0.08 - 0.62 * right, 0.08 + 0.26 * right, foot + 0.12 * right),
@@ -102,8 +100,8 @@ def _rock_climb(t: float) -> Posture:
     step = swing(t, 0.6)
     return Posture(
         hips=(0.12, 0.06 * step, 1.34 + 0.05 * swing(t, 1.2)), lean=0.05, nod=-0.4,
-        left=Arm((0.46, 0.26, 1.94 + 0.24 * step), _OUT, True),
-        right=Arm((0.46, -0.26, 1.94 - 0.24 * step), _OUT, True),
+        left=Arm((0.46, 0.26, 1.94 + 0.24 * step), OUT, True),
+        right=Arm((0.46, -0.26, 1.94 - 0.24 * step), OUT, True),
         left_leg=Leg((0.36, 0.20, 0.72 - 0.22 * step), (1.0, 0.9, 0.3), 0.3),
         right_leg=Leg((0.36, 0.20, 0.72 + 0.22 * step), (1.0, 0.9, 0.3), 0.3),
     )  # fmt: skip
@@ -116,8 +114,8 @@ def _climb_rope(t: float) -> Posture:
     foot = Leg((0.24, 0.03, 0.72 + 0.5 * up), (1.0, 0.7, 0.4), 0.4)
     return Posture(
         hips=(-0.06, 0.0, 1.18 + up), lean=0.10, nod=-0.5, tilt=0.06 * step,
-        left=Arm((0.22, 0.02, 1.86 + 0.22 * step), _OUT, True),
-        right=Arm((0.22, -0.02, 1.86 - 0.22 * step), _OUT, True), left_leg=foot, right_leg=foot,
+        left=Arm((0.22, 0.02, 1.86 + 0.22 * step), OUT, True),
+        right=Arm((0.22, -0.02, 1.86 - 0.22 * step), OUT, True), left_leg=foot, right_leg=foot,
     )  # fmt: skip
 
 
@@ -154,9 +152,9 @@ def _cheerlead(t: float) -> Posture:
     """Arms up in a V, out to the sides and at the hips, with a hop at each beat."""
     beat = pulse(t, 1.0)
     angle = -0.5 + 1.55 * pulse(t, 0.5)
-    left = Arm((0.10, 0.50 * math.cos(angle), 0.56 * math.sin(angle)), _OUT)
+    left = Arm((0.10, 0.50 * math.cos(angle), 0.56 * math.sin(angle)), OUT)
     angle = 1.05 - 1.55 * pulse(t, 0.5, 0.15)
-    right = Arm((0.10, 0.50 * math.cos(angle), 0.56 * math.sin(angle)), _OUT)
+    right = Arm((0.10, 0.50 * math.cos(angle), 0.56 * math.sin(angle)), OUT)
     leg = Leg((0.0, 0.14 + 0.08 * beat, ANKLE), (1.0, 0.4, 0.2))
     return Posture(hips=(0.0, 0.05 * swing(t, 0.5), 0.92 - 0.06 * beat), left=left, right=right,
                    tilt=0.10 * swing(t, 0.5), left_leg=leg, right_leg=leg)  # fmt: skip
@@ -167,8 +165,8 @@ def _tai_chi(t: float) -> Posture:
     go, up = swing(t, 0.38), swing(t, 0.38, 0.25)
     return Posture(
         hips=(0.0, 0.16 * go, 0.78), turn=0.55 * go, lean=0.06,
-        left=Arm((0.42, 0.06 + 0.20 * go, 0.04 + 0.22 * up), _OUT),
-        right=Arm((0.40, 0.06 - 0.20 * go, -0.16 - 0.22 * up), _OUT),
+        left=Arm((0.42, 0.06 + 0.20 * go, 0.04 + 0.22 * up), OUT),
+        right=Arm((0.40, 0.06 - 0.20 * go, -0.16 - 0.22 * up), OUT),
         left_leg=Leg((0.06, 0.34, ANKLE), (1.0, 0.6, 0.2)),
         right_leg=Leg((-0.06, 0.34, ANKLE), (1.0, 0.6, 0.2)),
     )  # fmt: skip
@@ -180,8 +178,8 @@ def _stretch_leg(t: float) -> Posture:
     z = 0.62 - 0.36 * down
     return Posture(
         hips=(-0.26, 0.0, 0.78), lean=0.55 + 0.55 * down, nod=-0.2,
-        left=Arm((0.46 + 0.06 * down, 0.14, z), _OUT, True),
-        right=Arm((0.46 + 0.06 * down, -0.02, z), _OUT, True),
+        left=Arm((0.46 + 0.06 * down, 0.14, z), OUT, True),
+        right=Arm((0.46 + 0.06 * down, -0.02, z), OUT, True),
         left_leg=Leg((0.48, 0.09, ANKLE), (0.2, 0.1, 1.0), -0.6),
         right_leg=Leg((-0.22, 0.12, ANKLE), (1.0, 0.4, 0.2)),
     )  # fmt: skip
@@ -245,7 +243,7 @@ def _stand_on_skis(t: float) -> Posture:
     foot = ANKLE + 0.03
     return Posture(
         hips=(0.0, 0.0, 0.92), lean=0.05 + 0.02 * swing(t, 0.3), look=0.3 * swing(t, 0.25),
-        left=Arm((0.26, 0.14, -0.32), _DOWN), right=Arm((0.26, 0.14, -0.32), _DOWN),
+        left=Arm((0.26, 0.14, -0.32), DOWN), right=Arm((0.26, 0.14, -0.32), DOWN),
         left_leg=Leg((0.0, 0.12, foot)), right_leg=Leg((0.0, 0.12, foot)), tool=(0.10, 0.10, -1.0),
     )  # fmt: skip
 
@@ -255,7 +253,7 @@ def _lean(t: float) -> Posture:
     breath = 0.02 * swing(t, 0.35)
     return Posture(
         hips=(-0.10, 0.0, 0.90), lean=-0.20 + breath, look=0.35 * swing(t, 0.25), nod=0.12,
-        left=Arm((0.24, -0.26, -0.18), _DOWN), right=Arm((0.28, -0.24, -0.13), _DOWN),
+        left=Arm((0.24, -0.26, -0.18), DOWN), right=Arm((0.28, -0.24, -0.13), DOWN),
         left_leg=Leg((0.24, 0.06, ANKLE)), right_leg=Leg((0.34, -0.06, ANKLE), (1.0, 0.2, 0.3)),
     )  # fmt: skip
 

@@ -23,14 +23,12 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.people.acts.prop_shapes import Prop, stick, still
 from texvent.scenes.models.people.gestures import Movement
-from texvent.scenes.models.people.posture import Arm, Posture
+from texvent.scenes.models.people.posture import DOWN, OUT, Arm, Posture
 from texvent.scenes.models.people.timing import ease, pulse, swing
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point, ball, box, post, rod
 from texvent.scenes.scene import Colour
 
-_DOWN: Point = (-0.2, 0.5, -1.0)
-_OUT: Point = (-0.3, 1.0, -0.5)
 _GREEN = Material((0.10, 0.45, 0.16))
 
 
@@ -39,8 +37,8 @@ def _wash_dishes(t: float) -> Posture:
     angle = 2.0 * math.pi * 0.9 * t
     return Posture(
         hips=(-0.04, 0.0, 0.93), lean=0.28, nod=0.30, tool=(0.3, -0.9, 0.1),
-        left=Arm((0.52, 0.14, 1.06), _DOWN, True),
-        right=Arm((0.50 + 0.07 * math.cos(angle), -0.03, 1.10 + 0.08 * math.sin(angle)), _OUT,
+        left=Arm((0.52, 0.14, 1.06), DOWN, True),
+        right=Arm((0.50 + 0.07 * math.cos(angle), -0.03, 1.10 + 0.08 * math.sin(angle)), OUT,
                   True),
     )  # fmt: skip
 
@@ -69,8 +67,8 @@ def _cook(t: float) -> Posture:
     return Posture(
         hips=(-0.06, 0.0, 0.94), lean=0.20, nod=0.28, tool=(0.62, 0.10, -0.85),
         right=Arm((x - 0.20 + 0.07 * math.cos(angle), y - 0.06 + 0.09 * math.sin(angle),
-                   z + 0.24), _OUT, True),
-        left=Arm((x - 0.12, 0.26, z + 0.05), _DOWN, True),
+                   z + 0.24), OUT, True),
+        left=Arm((x - 0.12, 0.26, z + 0.05), DOWN, True),
     )  # fmt: skip
 
 
@@ -133,8 +131,8 @@ def _barbecue(t: float) -> Posture:
     up, over = pulse(t, 0.9), swing(t, 0.45)
     return Posture(
         hips=(-0.04, 0.0, 0.94), lean=0.16, nod=0.25, tool=(0.75, 0.15, -0.75),
-        right=Arm((0.36, -0.12 + 0.10 * over, 1.12 + 0.12 * up), _OUT, True),
-        left=Arm((0.20, 0.30, 0.98), _OUT, True),
+        right=Arm((0.36, -0.12 + 0.10 * over, 1.12 + 0.12 * up), OUT, True),
+        left=Arm((0.20, 0.30, 0.98), OUT, True),
     )  # fmt: skip
 
 
@@ -167,7 +165,7 @@ def _eat_plate(t: float) -> Posture:
     start, end = (0.40, -0.22, -0.08), (0.22, -0.06, 0.18)
     x, y, z = (a + up * (b - a) for a, b in zip(start, end, strict=True))
     return Posture(
-        left=Arm((0.38, -0.16, -0.14), _DOWN), right=Arm((x, y, z), _OUT), nod=0.22 - 0.15 * up,
+        left=Arm((0.38, -0.16, -0.14), DOWN), right=Arm((x, y, z), OUT), nod=0.22 - 0.15 * up,
         tool=(-0.30 * up, -0.85, -0.45 + 0.50 * up),
     )  # fmt: skip
 
@@ -175,7 +173,7 @@ def _eat_plate(t: float) -> Posture:
 def _eat_slice(t: float) -> Posture:
     """Both hands bring a slice to the mouth."""
     up = _to_mouth(t)
-    arm = Arm((0.36 - 0.14 * up, -0.06, -0.14 + 0.36 * up), _DOWN)
+    arm = Arm((0.36 - 0.14 * up, -0.06, -0.14 + 0.36 * up), DOWN)
     return Posture(left=arm, right=arm, nod=0.18)
 
 
@@ -238,7 +236,7 @@ def _blow_out_cake(t: float) -> Posture:
     near = ease(t, 0.25, 0.80) - 0.5 * ease(t, 1.4, 1.9)
     return Posture(
         hips=(-0.12 * near, 0.0, 0.93 - 0.03 * near), lean=0.15 + 0.60 * near, nod=-0.25 * near,
-        left=Arm((0.42, 0.32, 0.84), _OUT, True), right=Arm((0.42, -0.32, 0.84), _OUT, True),
+        left=Arm((0.42, 0.32, 0.84), OUT, True), right=Arm((0.42, -0.32, 0.84), OUT, True),
     )  # fmt: skip
 
 

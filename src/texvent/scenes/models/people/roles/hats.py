@@ -45,19 +45,20 @@ def _ball(skin: Material, size: float, place: Point, extent: Point) -> ModelPart
     return ball(skin, _at(size, *place), (x * size, y * size, z * size))
 
 
-def _brimmed(wide: Point, crown: Point, band: Material | None = None, at: float = 0.42) -> HatDraw:
+_BRIM = 0.42
+"""Height of a brim, in multiples of the head's height."""
+
+
+def _brimmed(wide: Point, crown: Point, band: Material) -> HatDraw:
     """A crown on a flat brim; extents in multiples of the head's height."""
 
     def draw(skin: Material, size: float) -> list[ModelPart]:
         x, y, z = (size * each for each in crown)
-        parts = [
-            _ball(skin, size, (0.0, 0.0, at), wide),
-            post(skin, _at(size, -0.02, 0.0, at + 0.5 * crown[2]), (x, y, z)),
+        return [
+            _ball(skin, size, (0.0, 0.0, _BRIM), wide),
+            post(skin, _at(size, -0.02, 0.0, _BRIM + 0.5 * crown[2]), (x, y, z)),
+            post(band, _at(size, -0.02, 0.0, _BRIM + 0.12), (1.04 * x, 1.04 * y, 0.11 * size)),
         ]
-        if band is not None:
-            middle = _at(size, -0.02, 0.0, at + 0.12)
-            parts.append(post(band, middle, (1.04 * x, 1.04 * y, 0.11 * size)))
-        return parts
 
     return draw
 

@@ -63,6 +63,16 @@ def under_snow(rules: Iterable[ScatterRule]) -> list[ScatterRule]:
     return found
 
 
+def facing(noun: str, count: int, near: float, far: float, small: float = 0.95) -> ScatterRule:
+    """Something whose front faces the camera."""
+    return ScatterRule(noun, count, near, far, (small, 1.1), faces_camera=True)
+
+
+def under(noun: str, ahead_m: float = 0.0) -> ScatterRule:
+    """Something on which all stands, so far ahead."""
+    return ScatterRule(noun, 1, 0.0, 0.0, (1.0, 1.0), is_under=True, ahead_m=ahead_m)
+
+
 def along_walls(*furniture: tuple[str, int], is_told: bool = True) -> tuple[ScatterRule, ...]:
     """Furniture against the walls; `is_told`: the room is known by what comes first."""
     return tuple(
