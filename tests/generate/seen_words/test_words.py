@@ -56,6 +56,7 @@ def report_of(prompt: str) -> PromptReport:
         ("a drone flies past a tall building", "tall"),
         ("waves crash against the rocks of a coast", "waves crash"),
         ("a street after a rain shower", "rain"),
+        ("a dog walks in the empty night", "empty"),
     ],
 )  # fmt: skip
 def test_what_the_picture_does_not_show_is_named(prompt: str, word: str) -> None:
@@ -79,6 +80,11 @@ def test_what_the_picture_does_not_show_is_named(prompt: str, word: str) -> None
         ("a man hammers in a dim workshop", {"dim"}),
         ("a cup in a kitchen, blue light", {"blue", "cup"}),
         ("a flickering candle on a table", {"flickering", "candle", "table"}),
+        ("elephants on a snowy meadow before mountains", {"snowy", "meadow"}),
+        ("a city skyline with tall skyscrapers", {"skyline"}),
+        ("a walk up a mountain trail, first person view", {"trail"}),
+        ("a man and a woman stand in front of a bicycle", {"front"}),
+        ("a lamp lights the empty night in a city", {"empty", "night"}),
     ],
 )  # fmt: skip
 def test_what_is_plainly_seen_is_shown(prompt: str, words: set[str]) -> None:

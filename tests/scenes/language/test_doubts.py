@@ -22,6 +22,8 @@ def doubts(prompt: str) -> dict[str, tuple[str, ...]]:
         ("a dog swats at a ball", {}),  # a ball is one, whatever is done to it
         ("a woman has a wug and a cup", {}),
         ("a dog sits beside a wug chair", {"chair": ("wug",)}),
+        ("a dog runs in a wug night", {}),  # night is night
+        ("a mother koala sits", {}),
         ("a man runs slowly past a wug", {"runs": ("past",), "slowly": ("past",)}),
         ("a dog runs beside a wug", {}),
         ("a dog stands on a wug", {}),  # what rests does so whatever it rests on

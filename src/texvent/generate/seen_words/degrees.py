@@ -31,6 +31,8 @@ FAST_HZ = 10.0
 """Rate above which a flicker is not told from one still to the next."""
 BRIGHT = 0.75
 """Share of the levels of a lamp below the one that tells how bright it is."""
+NEXT = 2
+"""Words after an adjective among which its noun stands."""
 GLOWING = 0.9
 """Level of the brightest point of a lamp that is lit."""
 _ALL_VIEWS = range(9)
@@ -176,8 +178,22 @@ def _judge_wind(picture: Picture, description: SceneDescription, claim: Claim) -
 
 
 def _judge_empty(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:
-    """Only a place is said to be empty as a whole: a glass or a chair may not be."""
-    return None if description.surroundings.is_empty else "not to be told"
+    """Only a place is said to be empty as a whole: a glass or a chair may not be.
+
+    A street or a night is empty where nobody goes or drives.
+    """
+    of = {one.aspect for one in claims_after(claim, description)}
+    is_place = not claim.things and bool(of & {"place", "light"})
+    goers = [one for one in picture.scene.actors if one.noun.motion not in ("stand", "sway")]
+    is_left = is_place and not goers
+    return None if description.surroundings.is_empty or is_left else "not to be told"
+
+
+def claims_after(claim: Claim, description: SceneDescription) -> list[Claim]:
+    """Words that stand at most `NEXT` words after an adjective: what it says something of."""
+    after = description.prompt.casefold().replace("-", " ").partition(claim.word)[2].split()
+    near = {one.strip(".,;") for one in after[:NEXT]}
+    return [one for one in description.claims if near & {*one.word.split()}]
 
 
 def _judge_sky(picture: Picture, description: SceneDescription, claim: Claim) -> str | None:

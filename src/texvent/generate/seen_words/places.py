@@ -190,7 +190,7 @@ def _find_lack(picture: Picture, claim: Claim) -> str | None:
     for reason, words in _LACKS.items():
         if _is_one_of(claim.word, words):
             return reason
-    if claim.word in _TOWNS and not picture.scenery_share(_TOWN_HOUSES) >= LEAST_TOWN:
+    if claim.word in _TOWNS and not _has_houses(picture):
         return "hardly a house in view"
     if claim.value == "rooftop" and picture.scenery_share(_OF_ROOFS) < LEAST_ROOF:
         return "not told as a roof"
@@ -203,6 +203,12 @@ def _find_lack(picture: Picture, claim: Claim) -> str | None:
     if claim.value == "hills" and (not is_hilly or sky < LEAST_GROUND):
         return "not told as hills"
     return None
+
+
+def _has_houses(picture: Picture) -> bool:
+    """Whether houses, of the scenery or named, are in view."""
+    is_scenery = picture.scenery_share(_TOWN_HOUSES) >= LEAST_TOWN
+    return is_scenery or bool(picture.seen_nouns(LEAST_TOWN) & _TOWN_HOUSES)
 
 
 def _has_kerb(picture: Picture, claim: Claim) -> bool:

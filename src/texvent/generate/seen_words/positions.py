@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from texvent.generate.seen_words.picture import USUAL, Picture, View
@@ -35,7 +37,7 @@ def judge_position(picture: Picture, claim: Claim) -> str | None:
     """
     for relation in claim.relations:
         if relation.kind in _IN_DEPTH and not _is_flat(picture, relation):
-            rear, front = relation.subject, relation.targets[0]
+            rear, front = _all_of(claim, relation), [relation.targets[0]]
             if relation.kind == "front":
                 rear, front = front, rear
             if not _is_seen_behind(picture, rear, front):
@@ -50,11 +52,20 @@ def _is_flat(picture: Picture, relation: Relation) -> bool:
     return bool(own & ({"crosswalk"} | LOOKED_AT))
 
 
-def _is_seen_behind(picture: Picture, rear: int, front: int) -> bool:
+def _all_of(claim: Claim, relation: Relation) -> list[int]:
+    """All subjects of a word with the same target: two to its sides stand before it together."""
+    return [
+        one.subject
+        for one in claim.relations
+        if (one.kind, one.targets) == (relation.kind, relation.targets)
+    ]
+
+
+def _is_seen_behind(picture: Picture, rear: Sequence[int], front: Sequence[int]) -> bool:
     """Farther away at most instants, and in line with it at one; True where one is never seen."""
     is_deeper, is_in_line = [], []
     for view in picture.views:
-        back, near = (_find(picture, view, index) for index in (rear, front))
+        back, near = (_find(picture, view, indices) for indices in (rear, front))
         if back is None or near is None:
             continue
         is_deeper.append(back[2] > near[2])
@@ -63,9 +74,9 @@ def _is_seen_behind(picture: Picture, rear: int, front: int) -> bool:
     return not is_deeper or (np.mean(is_deeper) >= LEAST_DEEPER and any(is_in_line))
 
 
-def _find(picture: Picture, view: View, index: int) -> Float64Array | None:
-    """[3] left and right end in the picture, pixels, and depth, m, of an object."""
-    own = [one for one, number in picture.scene.object_of.items() if number == index]
+def _find(picture: Picture, view: View, indices: Sequence[int]) -> Float64Array | None:
+    """[3] left and right end in the picture, pixels, and depth, m, of objects."""
+    own = [one for one, number in picture.scene.object_of.items() if number in indices]
     where = np.isin(view.instance, own)
     if not where.any():
         return None

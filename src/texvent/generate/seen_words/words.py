@@ -6,7 +6,7 @@ from texvent.generate.seen_words.camera.camera_moves import judge_move
 from texvent.generate.seen_words.camera.views import judge_camera
 from texvent.generate.seen_words.colours import share_like
 from texvent.generate.seen_words.courses import judge_courses
-from texvent.generate.seen_words.degrees import judge_degree
+from texvent.generate.seen_words.degrees import claims_after, judge_degree
 from texvent.generate.seen_words.effects import FILLING, judge_effects, judge_filling
 from texvent.generate.seen_words.light import (
     capped_share,
@@ -26,8 +26,6 @@ from texvent.scenes.staging.surroundings.places import is_room
 
 _OF_THINGS = frozenset({"name", "colour", "size", "material", "part", "side", "count"})
 _OF_SCENE = ("light", "weather", "effect", "dust")
-_NEXT = 2
-"""Words after an adjective among which its noun stands."""
 _WAVES = ("wave", "waves")
 """What a surfer is said to ride."""
 _LEAST_PAINTED = 0.05
@@ -157,9 +155,7 @@ def _judge_snow(picture: Picture, description: SceneDescription, claim: Claim) -
 
 def _is_of_ground(claim: Claim, description: SceneDescription) -> bool:
     """Whether the noun after a word names a place other than mountains: "a snowy meadow"."""
-    after = description.prompt.casefold().replace("-", " ").partition(claim.word)[2].split()
-    near = {one.strip(".,;") for one in after[:_NEXT]}
-    others = [one for one in description.claims if near & {*one.word.split()}]
+    others = claims_after(claim, description)
     is_other = any(one.aspect == "name" or "mountain" in one.word for one in others)
     return not is_other and any(one.aspect in ("place", "steep") for one in others)
 

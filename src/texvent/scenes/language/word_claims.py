@@ -26,6 +26,8 @@ MANY_LOST = 7
 """Words that are not understood from which on what others say of things is in doubt."""
 _MISREAD = frozenset({"relation", "motion"})
 """Aspects of words that mean something else where words of their sentence are lost."""
+_AS_SAID = frozenset({"light", "weather"})
+"""Aspects of words that mean the same whatever is before them: "a cyberpunk night"."""
 _MISPLACED = _MISREAD | {"colour", "size", "material"}
 """The same where many words are lost: what is said of things may be said of a lost one."""
 _OF_NOUNS = frozenset({Pos.ADJECTIVE, Pos.NUMBER, Pos.DETERMINER})
@@ -97,7 +99,8 @@ def _claim(word: Word, sentence: tuple[str, ...], everywhere: tuple[str, ...]) -
         everywhere: words that put what is said of things in doubt.
     """
     aspect = _aspect_of(word)
-    lost = [one.said for one in word.companions if _changes_meaning(one)]
+    own = () if aspect in _AS_SAID else word.companions
+    lost = [one.said for one in own if _changes_meaning(one)]
     lost += sentence if aspect in _MISREAD else ()
     lost += everywhere if aspect in _MISPLACED else ()
     return Claim(
@@ -174,4 +177,5 @@ def _value_of(word: Word, aspect: str) -> str:
 def _move_of(word: Word) -> str | None:
     """Kind of the camera's move that it asks for."""
     move = word.read_as(Role.CAMERA_MOVE)
-    return None if move is None or word.things else str(move.value[0])
+    is_another = bool(word.things) or word.role is Role.PLACE  # a trail that one walks on
+    return None if move is None or is_another else str(move.value[0])

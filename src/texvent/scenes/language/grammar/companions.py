@@ -18,7 +18,7 @@ _AT_REST = frozenset({"stand", "sit", "lie"})
 """Motions of verbs that mean the same with whatever is around: "stands on a grate"."""
 
 _WHO = frozenset({"woman", "man", "boy", "girl", "male", "female", "child", "adult", "lady", "baby",
-                  "kid", "teenager"})  # fmt: skip
+                  "kid", "teenager", "mother", "father", "parent"})  # fmt: skip
 """Nouns before a noun that say who that is: "a woman tennis player"."""
 
 
