@@ -316,10 +316,14 @@ class SceneDescription:
         return self.report().lines()
 
     def report(self) -> PromptReport:
-        """What becomes of the prompt's words, before the scene is staged."""
+        """What becomes of the prompt's words, before the scene is staged.
+
+        A word that is lost at one place of the prompt is not shown.
+        """
+        lost = {*self.not_understood, *(one.said for one in self.substituted)}
         return PromptReport(
             scene=describe(self),
-            shown=self.shown,
+            shown=tuple(one for one in self.shown if one not in lost),
             substituted=self.substituted,
             not_understood=self.not_understood,
             notes=self.notes,

@@ -78,6 +78,13 @@ def test_the_report_lists_words_in_doubt_with_the_lost_ones() -> None:
     assert "chair (hidden)" in hidden.not_shown
 
 
+def test_a_word_that_is_lost_at_one_place_is_not_shown_as_well() -> None:
+    description = parse_prompt("a baby koala sits beside her baby. A wug beside the dog swats dog")
+    lost = {one.said for one in description.substituted} | set(description.not_understood)
+    assert lost & set(description.shown)  # at another place
+    assert not lost & set(description.report().shown)
+
+
 WORDS = ("dog", "cat", "runs", "sits", "left", "wug", "swats", "on", "a", "red", "road", ".")
 
 
