@@ -162,6 +162,8 @@ def test_info_describes_events_and_videos(folder, capsys):
     assert facts["sensor"] == "320x180"
     assert facts["events"] == len(texvent.load("a.h5"))
     assert facts["simulator"] == "texvent"
+    assert run("info", "a.h5") == 0
+    assert f"source             {CLIP}"[:60] in capsys.readouterr().out
     assert run("info", CLIP) == 0
     assert "25" in capsys.readouterr().out
 

@@ -19,6 +19,16 @@ def test_the_list_has_families_other_names_and_assets_first(tmp_path, capsys, mo
     assert "automobile" in car
 
 
+def test_in_a_pipe_a_noun_and_all_its_names_are_one_line(capsys, monkeypatch) -> None:
+    monkeypatch.delenv("COLUMNS", raising=False)
+    assert main(["scenes", "list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    row = next(line for line in lines if "convertible" in line)
+    assert row.split("  ")[0] == "vehicles cars"
+    assert "roadster" in row
+    assert not any(line.endswith(" ") for line in lines)
+
+
 def test_show_draws_views_side_by_side(tmp_path, capsys) -> None:
     path = tmp_path / "cube.png"
     assert main(["scenes", "show", "block", "-o", str(path), "--views", "2"]) == 0
@@ -34,6 +44,7 @@ def test_show_draws_views_side_by_side(tmp_path, capsys) -> None:
         (["draw"], "unknown action 'scenes draw'"),
         (["show", "xylofone", "-o", "x.png"], "did you mean 'xylophone'"),
         (["show", "car", "-o", "x.jpg"], "must end in .png"),
+        (["show", "car"], "show needs -o PATH, --output PATH (The image to write"),
         (["show", "car", "-o", "x.png", "--views", "0"], "must be 1 to 12"),
         (["list", "--assets", "nowhere"], "does not exist"),
     ],

@@ -218,6 +218,13 @@ def test_info_says_ten_lines_and_the_rest_on_request(capsys, folder):
     assert "contrast_threshold" in capsys.readouterr().out
 
 
+def test_info_shows_a_seed_as_it_is_typed(capsys, folder):
+    events = texvent.EventStream([1], [1], [1], [1], texvent.SensorSize(4, 4))
+    events.with_metadata({"seed": 7318535299775495767}).save("a.h5")
+    assert run("info", "a.h5") == 0
+    assert "7318535299775495767" in capsys.readouterr().out
+
+
 HOSTILE = "a red ball bounces past a \x1b[31mwug\x1b]0;t\x07 \u202egnp.exe über 🦩\nevents  9"
 
 

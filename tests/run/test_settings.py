@@ -132,6 +132,7 @@ def test_a_generator_is_refused_where_frames_are_given():
         ("a.json", "{}", "must end in .toml"),
         ("a.yaml", "- 3", "options by name"),
         ("a.toml", "seed = 1\n[run]\nseed = 2", "sets 'seed' twice"),
+        ("a.toml", "[simulat]\nnoise = 'none'", "unknown table 'simulat'.*did you mean 'simulate'"),
     ],
 )
 def test_a_broken_config_file_is_one_clear_error(tmp_path, name, text, message):
@@ -172,3 +173,8 @@ def test_a_former_switch_is_read_as_the_number_that_it_is_now(was, now):
     # Elsewhere a switch is no number.
     with pytest.raises(ConfigError, match="frames_per_pixel is True; it must be a number"):
         resolve("simulate", {"frames_per_pixel": was or True})
+
+
+def test_a_sensor_that_is_one_number_is_told_what_a_sensor_can_be():
+    with pytest.raises(ConfigError, match=r"sensor is 32; it must be a name.*\(width, height\)"):
+        resolve("generate", {"sensor": 32})

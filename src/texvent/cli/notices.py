@@ -7,12 +7,17 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from texvent.errors import visible, visible_lines, warnings_to
 from texvent.options.fields import RenamedOptionWarning
 
+if TYPE_CHECKING:
+    from rich.console import Console
+
 _BOLD_YELLOW, _PLAIN = "\x1b[1;33m", "\x1b[0m"
+_UNFOLDED = 10_000
+"""Columns where no terminal folds lines: wider than any row."""
 
 
 def _each_once(listener: Callable[[str], None]) -> Callable[[str], None]:
@@ -52,6 +57,25 @@ def say(line: str) -> None:
 def write_out(text: str) -> None:
     """Write a result to stdout: lines, each with its end."""
     sys.stdout.write(visible_lines(text))
+
+
+@contextlib.contextmanager
+def result_console() -> Iterator[Console]:
+    """A console for tables on stdout.
+
+    In a terminal rows are folded to its width. Elsewhere, unless COLUMNS asks for a width, each row
+    is one line without spaces at its end, so that grep and other programs can read it.
+    """
+    from rich.console import Console  # most commands print no table
+
+    console = Console(highlight=False)
+    if console.is_terminal or "COLUMNS" in os.environ:
+        yield console
+        return
+    console = Console(highlight=False, width=_UNFOLDED)
+    with console.capture() as captured:
+        yield console
+    sys.stdout.write("\n".join(line.rstrip() for line in captured.get().split("\n")))
 
 
 def say_warning(message: str) -> None:

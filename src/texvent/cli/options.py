@@ -386,4 +386,7 @@ def _plain_message(message: str, helps: Mapping[str, str]) -> str:
         allowed = choice[3].replace("'", "").rstrip(",")
         return f"{choice[2]} is {choice[1]}; allowed: {allowed}"
     absent = re.match(r"Missing from ([\w ]+): (.*?)\.? \(required\)", message)
-    return f"{absent[1]} needs {absent[2]}" if absent else message
+    if not absent:
+        return message
+    flags = re.match(r"(-\S+ [A-Z]+(?:, -\S+ [A-Z]+)*) (.+)", absent[2])
+    return f"{absent[1]} needs {f'{flags[1]} ({flags[2]})' if flags else absent[2]}"

@@ -137,6 +137,8 @@ ALONG_MOTION = "motion"
 """The interpolator of frames that come with motion vectors."""
 RENDERED = "exact"
 """The interpolator of what is known at any instant."""
+TABLES = ("run", "generate", "capture", "interpolate", "simulate")
+"""Tables of options in a config file."""
 DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
 """Options that decide which other options there are, or their defaults."""
 
@@ -260,10 +262,14 @@ def _sensor_text(sensor: Any) -> Any:
         return sensor.name
     if isinstance(sensor, Path):
         return str(sensor)
-    is_size = isinstance(sensor, (tuple, list)) and len(sensor) == 2
-    return (
-        "x".join(str(s) if isinstance(s, str) else shown(s) for s in sensor) if is_size else sensor
-    )
+    if isinstance(sensor, (tuple, list)) and len(sensor) == 2:
+        return "x".join(str(s) if isinstance(s, str) else shown(s) for s in sensor)
+    if not isinstance(sensor, str):
+        raise ConfigError(
+            f"options: sensor is {shown(sensor)}; it must be a name, a text such as '346x260', or "
+            "(width, height)"
+        )
+    return sensor
 
 
 def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str) -> Settings:
@@ -318,12 +324,19 @@ def read_config(path: str | Path, command: Command | None = None) -> dict[str, A
 
     Raises:
         InputError: the file cannot be read.
-        ConfigError: it is not valid TOML or YAML, holds no options, or two tables set the same one.
+        ConfigError: it is not valid TOML or YAML, holds no options or another table, or sets an
+            option twice.
     """
     path = usable_path(path)
     if path.suffix.lower() in event_extensions() - {".txt", ".csv"}:
         return _options_of_run(path, command)
-    return flatten_tables(read_document(path), path)
+    document = read_document(path)
+    for name, value in document.items():
+        if isinstance(value, Mapping) and name not in TABLES:
+            raise ConfigError(
+                f"config file {path}: unknown table {shown(name)}; {suggest(name, TABLES)}"
+            )
+    return flatten_tables(document, path)
 
 
 def read_document(path: Path) -> Mapping[str, Any]:

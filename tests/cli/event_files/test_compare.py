@@ -33,6 +33,16 @@ def test_compare_prints_a_table_with_what_each_metric_does_not_see(pair, capsys)
     assert "everything but the number of events" in " ".join(shown.split())
 
 
+def test_in_a_narrow_terminal_what_metrics_do_not_see_is_a_table_of_its_own(
+    pair, capsys, monkeypatch
+):
+    monkeypatch.setenv("COLUMNS", "80")
+    assert main(["compare", "guess.npz", "truth.npz", "--metrics", "stpp,count_ratio"]) == 0
+    lines = [line.rstrip() for line in capsys.readouterr().out.splitlines()]
+    assert "count_ratio  everything but the number of events" in lines
+    assert not any("near 1" in line and "everything" in line for line in lines)
+
+
 def test_compare_judges_the_first_file_by_the_second(pair, capsys):
     assert main(["compare", "guess.npz", "truth.npz", "--json", "--levels"]) == 0
     document = json.loads(capsys.readouterr().out)

@@ -82,6 +82,13 @@ def test_a_notebook_shows_counts_of_the_set(samples, written):
     assert f"</span>{sum(map(len, written.values())):,}<" in page
 
 
+def test_a_console_shows_counts_of_the_set_and_no_tables(samples):
+    shown = repr(samples)
+    assert shown.startswith("StoredSamples(24 of ")
+    assert "2 classes" in shown
+    assert "facts" not in repr(samples[0])
+
+
 def test_a_number_that_does_not_exist_is_an_index_error(samples):
     for number in (24, -25):
         with pytest.raises(IndexError, match=f"sample {number} does not exist; there are 24"):

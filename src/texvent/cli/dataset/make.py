@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
 from texvent.cli.dataset.live_table import LiveTable
-from texvent.cli.notices import write_out
+from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -86,6 +86,7 @@ def run(arguments: Sequence[str]) -> int:
     recipe.begin(folder)
     work = find_work(recipe, folder, part=part, retry_failed=options.retry_failed)
     with (
+        _told_how_to_go_on(folder),
         contextlib.ExitStack() as later,
         closing(_engine(options, work)) as engine,
         LiveTable(recipe, folder, work, is_quiet=options.quiet) as table,
@@ -93,6 +94,15 @@ def run(arguments: Sequence[str]) -> int:
         later.callback(remove_dead_parts, recipe, folder)
         make_shards(work, engine, table.note)
     return _finish(folder, work, options, is_whole=part[1] == 1)
+
+
+@contextlib.contextmanager
+def _told_how_to_go_on(folder: Path) -> Iterator[None]:
+    try:
+        yield
+    except KeyboardInterrupt:
+        say(f"kept     every finished shard; to go on: texvent dataset make {folder}")
+        raise
 
 
 def parse_part(text: str | None) -> tuple[int, int]:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import sys
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from rich.console import Console
 from rich.table import Table
 
 from texvent.cli.dataset.live_table import time_text
 from texvent.cli.estimate import size_text
-from texvent.cli.notices import write_out
+from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -130,7 +128,8 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
             time_text(stage.seconds * stage.samples / processes),
             f"{100 * stage.seconds_error / stage.seconds:.0f} %" if stage.seconds else "",
         )
-    Console(file=sys.stdout, highlight=False).print(table)
+    with result_console() as console:
+        console.print(table)
     total = sum(stage.bytes * stage.samples for stage in stages)
     write_out(f"in all   {size_text(total)}, from a trial of {stages[0].tried} samples each\n")
     for stage in stages:

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from rich.console import Console
-
 from texvent.cli.dataset.live_table import status_table
-from texvent.cli.notices import write_out
+from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.dataset.generation.recipe import load_recipe
+from texvent.dataset.generation.recipe import read_recipe
 from texvent.dataset.generation.status import read_status
 
 DESCRIPTION = """How far a data set is, while it is made (here or elsewhere) or afterwards.
@@ -44,12 +41,13 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent dataset status",
         description=DESCRIPTION,
     )
-    recipe = load_recipe(options.folder)
+    recipe = read_recipe(options.folder)
     stages = read_status(recipe, options.folder)
     if options.json:
         facts = [dataclasses.asdict(stage) for stage in stages]
         write_out(json.dumps(facts, indent=1) + "\n")
     else:
-        Console(file=sys.stdout, highlight=False).print(status_table(stages))
+        with result_console() as console:
+            console.print(status_table(stages))
     is_whole = all(stage.complete == stage.shards and not stage.failed for stage in stages)
     return 0 if is_whole else 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +14,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from texvent.bench.document import plain_values
+from texvent.cli.notices import result_console
 from texvent.metrics.protocol import Metric
 from texvent.metrics.scores import GOOD, score_text
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS
@@ -23,6 +24,8 @@ from texvent.video import MICROSECONDS
 from texvent.view.page.comparison import MetricRow
 
 WINDOW_TITLE = "mean of windows"
+_LONGEST_ROW = 10_000
+"""Columns of a row that nothing folds."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +115,11 @@ def metric_rows(findings: Findings) -> list[MetricRow]:
 
 def show(findings: Findings) -> None:
     """Print everything."""
-    console = Console(highlight=False)
+    with result_console() as console:
+        _show(console, findings)
+
+
+def _show(console: Console, findings: Findings) -> None:
     if len(findings.candidates) == 1:
         _show_one(console, findings)
     else:
@@ -143,11 +150,22 @@ def _show_one(console: Console, findings: Findings) -> None:
     if not any(row[2] for row in rows):
         titles.pop(2)
         rows = [[*row[:2], *row[3:]] for row in rows]
+    table = _filled_table(titles, rows)
+    unbounded = console.options.update(width=_LONGEST_ROW)
+    if console.measure(table, options=unbounded).maximum <= console.width:
+        console.print(table)
+    else:  # Long texts in a narrow column are hard to read: they get a table of their own.
+        console.print(_filled_table(titles[:-1], [row[:-1] for row in rows]))
+        console.print()
+        console.print(_filled_table([titles[0], titles[-1]], [[row[0], row[-1]] for row in rows]))
+    _show_window_note(console, findings.windows)
+
+
+def _filled_table(titles: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
     table = _table(titles)
     for row in rows:
         table.add_row(*row)
-    console.print(table)
-    _show_window_note(console, findings.windows)
+    return table
 
 
 def _show_several(console: Console, findings: Findings) -> None:

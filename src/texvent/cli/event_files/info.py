@@ -86,6 +86,8 @@ def run(arguments: Sequence[str]) -> int:
 def _main_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
     """The first facts, what the reader wants to know of their origin before the rest."""
     single = {name: value for name, value in facts.items() if not isinstance(value, Mapping)}
+    if isinstance(source := facts.get("source"), Mapping) and "source" in source:
+        single["source"] = source["source"]
     report = PromptReport.of_metadata(facts)
     if report is not None and not report.is_faithful:
         single[REPORT_KEY] = "; ".join(report.faults())
@@ -173,14 +175,16 @@ def _lines(facts: Mapping[str, Any], indent: str = "", *, most: int | None = Non
         if isinstance(value, Mapping):
             lines += [f"{indent}{key}", *_lines(value, indent + "  ", most=most)]
         else:
+            # A seed is to be typed again, so its digits stay together.
+            text = _text(value, is_name=key.endswith("seed"))
             # Within a value even a line end would begin a line that looks like another fact.
-            lines.append(f"{indent}{key:<{width}}  {shortened(visible(_text(value)), most)}")
+            lines.append(f"{indent}{key:<{width}}  {shortened(visible(text), most)}")
     return lines
 
 
-def _text(value: Any) -> str:
+def _text(value: Any, *, is_name: bool = False) -> str:
     if isinstance(value, int) and not isinstance(value, bool):
-        return f"{value:,}"
+        return str(value) if is_name else f"{value:,}"
     return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
 
 

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from texvent._registry import suggest
-from texvent.cli.notices import write_out
+from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_options, refuse_arguments
 from texvent.data.download_bar import show_progress
 from texvent.errors import ConfigError
@@ -58,12 +58,12 @@ class Downloads:
             table.add_column(title)
         for name, is_here, size, description in self.entries():
             table.add_row(name, "yes" if is_here else "", f"{size / 2**20:.0f} MB", description)
-        console = Console(highlight=False)
-        console.print(table)
-        console.print(
-            f"Terms of use are shown before a download: texvent {self.command} pull NAME",
-            style="dim",
-        )
+        with result_console() as console:
+            console.print(table)
+            console.print(
+                f"Terms of use are shown before a download: texvent {self.command} pull NAME",
+                style="dim",
+            )
         return 0
 
     def _pull(self, arguments: Sequence[str]) -> int:

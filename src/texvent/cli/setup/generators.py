@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from texvent._registry import GENERATORS
-from texvent.cli.notices import write_out
+from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import FileFormatError
 from texvent.generate.video_models.download import find_downloaded
@@ -76,7 +76,11 @@ def _model_facts(model: VideoModel) -> dict[str, Any]:
 
 
 def _print_list() -> None:
-    console = Console(highlight=False)
+    with result_console() as console:
+        _print_tables(console)
+
+
+def _print_tables(console: Console) -> None:
     parts = Table(box=None, pad_edge=False, show_header=False)
     for name in GENERATORS.entries():
         parts.add_row(name, *_describe_part(name))

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from rich.console import Console
 from rich.table import Table
 
 from texvent._registry import suggest
-from texvent.cli.notices import write_out
+from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_options
 from texvent.errors import ConfigError, InputError, shown
@@ -87,7 +86,8 @@ def _list(assets: Path | None) -> int:
         table.add_column(title, no_wrap=title == "noun")
     for family, noun in _families(assets):
         table.add_row(family, noun.name, ", ".join((*noun.synonyms, *noun.plurals)))
-    Console(highlight=False).print(table)
+    with result_console() as console:
+        console.print(table)
     return 0
 
 

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from rich.console import Console
 from rich.table import Table
 
 from texvent.cli.command import resolve_command
-from texvent.cli.notices import write_out
+from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.run.check import WholeCheck, check_frames, open_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
@@ -112,18 +111,18 @@ def _print_check(found: WholeCheck, *, is_whole: bool) -> None:
     findings = found.report.findings
     full = [one for one in findings if one.is_found or is_whole]
     rest = [one for one in findings if one not in full]
-    console = Console(highlight=False)
-    if full:
-        table = _table("check", "measured", "limit", "what it does to events", "what helps")
-        for one in full:
-            advice = one.check.effect, one.check.help
-            table.add_row(_mark(one), one.value, one.check.limit, *advice)
-        console.print(table)
-    if rest:
-        table = _table("nothing found" if full else "check", "measured", "limit")
-        for one in rest:
-            table.add_row(one.check.name, one.value, one.check.limit)
-        console.print(*([""] if full else []), table, sep="\n")
+    with result_console() as console:
+        if full:
+            table = _table("check", "measured", "limit", "what it does to events", "what helps")
+            for one in full:
+                advice = one.check.effect, one.check.help
+                table.add_row(_mark(one), one.value, one.check.limit, *advice)
+            console.print(table)
+        if rest:
+            table = _table("nothing found" if full else "check", "measured", "limit")
+            for one in rest:
+                table.add_row(one.check.name, one.value, one.check.limit)
+            console.print(*([""] if full else []), table, sep="\n")
     write_out("\n".join(["", *_summary(found), ""]))
 
 

@@ -47,7 +47,7 @@ class StoredSample:
     """Place of the class in `StoredSamples.labels`; −1 without a class."""
     variant: str
     split: str
-    facts: Mapping[str, Any]
+    facts: Mapping[str, Any] = field(repr=False)
     """How it was made: prompt, settings, seed, versions."""
 
     def _repr_mimebundle_(
@@ -92,6 +92,10 @@ class StoredSamples:
     augment: Augment | None = None
     """Changes the events of `make`, before they are sliced, by its seed, the epoch and the sample's
     number."""
+
+    def __repr__(self) -> str:
+        given = f", {self.representation}" if self.representation else ""
+        return f"StoredSamples({len(self):,} of {self.folder}, {len(self.labels)} classes{given})"
 
     def __post_init__(self) -> None:
         check_range("slice_us", self.slice_us, 1)

@@ -75,7 +75,8 @@ class PlayedVideo:
                 yield from container.decode(video=0)
         except (FFmpegError, IndexError, OSError) as error:
             raise FileFormatError(
-                f"{self._path} is no video that can be decoded: {error}"
+                f"{self._path} is no video that can be decoded "
+                f"({getattr(error, 'strerror', None) or error}); name another file"
             ) from error
 
     def _decode(self, index: int) -> SurfaceImage:
