@@ -48,6 +48,8 @@ class ObjectMotion:
     None = steady."""
     start_s: float | None = None
     """When it begins, s; None = at once, or when the motion before it ends."""
+    rate_hz: float | None = None
+    """How often it goes there and back, 1/s, where the prompt states that."""
     shore: str | None = None
     """Where it goes with respect to the water of the place: "into", "out of", "towards",
     "away from" or "in"; None = not stated."""
@@ -162,7 +164,8 @@ class CameraMove:
     direction: str | None = None
     """"left", "right", "up", "down", "in", "out", "clockwise" or "counter-clockwise"; for travel
     "forward", "backward", "left" or "right" (a bend); for follow: "behind", "front", "side",
-    "above" or "slower" (beside it, but left behind, so that it crosses the image: never said)."""
+    "above" or "slower" (beside it, but left behind, so that it crosses the image: never said); for
+    handheld "all axes" (in all six degrees of freedom)."""
     pace: float = 1.0
     """Multiple of the usual rate; of what follows "slower", the share of the subject's way."""
     phase: int = 0

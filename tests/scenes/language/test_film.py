@@ -69,10 +69,41 @@ def test_the_same_words_elsewhere_are_things(prompt, noun) -> None:
         ("A slow push-in on a man who eats soup.", ("dolly", "in")),
         ("A pullback from a child.", ("dolly", "out")),
         ("A flyover of a forest.", ("travel", "forward")),
+        ("The camera yaws to the right in a kitchen.", ("pan", "right")),
+        ("Pitch motion before a bookshelf.", ("tilt", None)),
+        ("The camera rotates about the optical axis before a house.", ("roll", None)),
+        ("Rotation of the camera around its optical axis.", ("roll", None)),
+        ("The camera rotates to the left in an office.", ("pan", "left")),
+        ("The camera turns in place in a workshop.", ("pan", None)),
+        ("6-DoF camera motion above a table.", ("handheld", "all axes")),
+        ("The camera translates left past a fence.", ("truck", "left")),
+        ("The camera moves sideways along a shelf.", ("truck", "right")),
+        ("Backward ego-motion in a corridor.", ("travel", "backward")),
+        ("The camera rotates around a vase.", ("orbit", None)),
     ],
 )
 def test_moves_of_the_camera(prompt, move) -> None:
     assert move in [(one.kind, one.direction) for one in parse_prompt(prompt).shot.moves]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "moves"),
+    [
+        ("The camera pans left and right in a kitchen.", [("pan", "right"), ("pan", "left")]),
+        ("The camera pitches up and down.", [("tilt", "up"), ("tilt", "down")]),
+        ("The camera pans left, then right.", [("pan", "left"), ("pan", "right")]),
+    ],
+)
+def test_a_camera_goes_one_way_and_back(prompt, moves) -> None:
+    found = parse_prompt(prompt).shot.moves
+    assert [(one.kind, one.direction) for one in found] == moves
+    assert [one.phase for one in found] == [0, 1]
+
+
+def test_what_the_camera_looks_at_is_understood() -> None:
+    found = parse_prompt("The camera rolls while facing a statue.")
+    assert found.not_understood == ()
+    assert [one.noun for one in found.objects] == ["statue"]
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from texvent.scenes.description import (
     SceneDescription,
     SceneObject,
 )
+from texvent.scenes.language.belts import BELT, run_belts
 from texvent.scenes.language.default_place import choose_place, report_place, with_snow
 from texvent.scenes.language.lanes import go_along
 from texvent.scenes.language.left_out import (
@@ -55,7 +56,7 @@ def complete_description(
         else _decide_motion(land(index, description), nouns[scene_object.noun])
         for index, scene_object in enumerate(description.objects)
     )
-    description = _move_followed(replace(description, objects=objects), nouns)
+    description = run_belts(_move_followed(replace(description, objects=objects), nouns))
     objects = description.objects
     description = _darken(description)
     description = with_snow(description)
@@ -281,6 +282,8 @@ def _sits_down(
     return subject.motion is None or (subject.motion == STANDING and not is_said)
 
 
+_KEPT = frozenset({"clockwise", "counter-clockwise", "left", "right"})
+"""Which way a disc turns or a belt runs."""
 _AT_REST = frozenset({"bell", "door"})
 """Nouns with moving parts that rest until a person moves them."""
 
@@ -288,12 +291,17 @@ _AT_REST = frozenset({"bell", "door"})
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
     motion = scene_object.motion
     if noun.is_working and (
-        motion is None or motion.kind in ("stand", "swing", "spin") or noun.name in FACING
+        motion is None
+        or motion.kind in ("stand", "swing", "spin", "work")
+        or (motion.kind == "move" and (motion.direction is None or noun.name == BELT))
+        or noun.name in FACING
     ):
         if noun.name in _AT_REST and (motion is None or motion.kind == "stand"):
             return replace(scene_object, motion=STANDING)
         pace = 1.0 if motion is None else motion.pace
-        return replace(scene_object, motion=ObjectMotion("work", pace=pace))
+        way = motion.direction if motion is not None and motion.direction in _KEPT else None
+        end = None if motion is None else motion.end_pace
+        return replace(scene_object, motion=ObjectMotion("work", way, pace, end_pace=end))
     if motion is None and noun.name in HAND_NOUNS:
         return replace(scene_object, motion=STANDING)
     if motion is None and noun.habitat in ("air", "water") and noun.motion != "stand":

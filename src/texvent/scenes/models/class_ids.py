@@ -205,7 +205,7 @@ _NOUNS: tuple[str, ...] = (
     "upright skunk", "upright badger", "upright red panda", "upright elephant calf",
     "upright panda cub", "upright wolf pup", "upright fox cub",
     "open car", "station platform",
-    "long railway track", "parasol",
+    "long railway track", "parasol", "circle grid", "landing pad",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

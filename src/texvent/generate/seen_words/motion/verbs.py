@@ -169,17 +169,16 @@ class _Judge:
             if is_part and phase.motion.kind in _GOING:
                 return f"{noun} {HARDLY}"
             if phase.motion.kind == "work" and claim.word in _TO_A_SIDE:
-                return f"{noun} stays where it is"
+                # A belt that runs that way does so where it stands.
+                is_belt = phase.motion.direction in ("left", "right")
+                return None if is_belt else f"{noun} stays where it is"
             if phase.motion.kind == "point" and claim.word in DIRECTIONS["towards"]:
                 return f"{noun} points to a side"
             moves = self._measure(index, phase)
             if not moves:
                 continue
-            if _GETTING.fullmatch(claim.word) and phase.motion.kind != "climb":
-                lift = max(abs(one.lift) for one in moves)
-                changes = max(one.change for one in moves) if phase.motion.kind in GETTING else 0.0
-                if lift < LEAST_LIFT and changes < LEAST_WAY:
-                    return f"{noun} does so all the time"
+            if _GETTING.fullmatch(claim.word) and _is_settled(phase, moves):
+                return f"{noun} does so all the time"
             fault = self._judge_air(claim, index, phase)
             if fault is not None:
                 return fault
@@ -357,6 +356,14 @@ class _Judge:
             np.allclose(first.position, last.position, atol=1e-2)
             and np.allclose(first.rotation, last.rotation, atol=1e-2)
         )
+
+
+def _is_settled(phase: Phase, found: Sequence[ImageMotion]) -> bool:
+    """Whether who is said to get up or down neither does so nor changes posture."""
+    if phase.motion.kind == "climb":
+        return False
+    changes = max(one.change for one in found) if phase.motion.kind in GETTING else 0.0
+    return max(abs(one.lift) for one in found) < LEAST_LIFT and changes < LEAST_WAY
 
 
 def _is_seen_moving(phase: Phase, found: ImageMotion) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import CameraMove, Shot
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup, PrepPhrase
+from texvent.scenes.language.meaning import camera_ways as ways
 from texvent.scenes.language.meaning.adjectives import Attributes
 from texvent.scenes.language.meaning.draft import Draft
 from texvent.scenes.language.meaning.referents.referent import Referent
@@ -16,48 +17,16 @@ from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word
 
-_SIDES = {"behind": "behind", "in front of": "front", "beside": "side", "alongside": "side",
-          "next to": "side", "past": "side", "above": "above", "over": "above"}  # fmt: skip
-_IN_OUT = {"forward": "in", "backward": "out", "towards": "in", "away": "out", "in": "in",
-           "out": "out"}  # fmt: skip
-_TRAVEL_PREPOSITIONS = frozenset(
-    {"through", "along", "over", "across", "down", "up", "into", "past", "between", "throughout",
-     "above", "in"}
-)  # fmt: skip
-_AIMED = frozenset({"follow", "orbit", "zoom", "dolly", "dolly zoom", "crane", "tilt", "pan"})
 _PLAIN_MOVE = frozenset({"move", "slide", "hover", "rise", "sink", "fall"})
 _OF_CAMERA = {verb: move for move, verbs in OF_CAMERA.items() for verb in verbs}
-_PLACED = frozenset({"fix", "lock", "mount", "place", "position", "sit", "perch", "set", "attach",
-                     "strap", "station"})  # fmt: skip
-"""Verbs that say where the camera is, and nothing that it does after something else."""
-_STATIONS = {"behind": "back", "in front of": "front", "beside": "side", "next to": "side",
-             "alongside": "side", "directly above": "top", "above": "aerial",
-             "over": "aerial"}  # fmt: skip
-"""Where the camera stands beside what has a front → view."""
-_ALONG = frozenset({"past", "along", "across", "by"})
-_WITH: dict[str, str | None] = {
-    "alongside": "side", "beside": "side", "next to": "side", "with": None, "after": None,
-    "behind": "behind", "in front of": "front", "ahead of": "front",
-}  # fmt: skip
-"""Preposition of a camera that goes with something → from where it follows."""
 _TURNED = ("pan", "tilt")
 """Moves of a camera that stays where it is, along whatever it looks."""
-_UPRIGHT = frozenset({"tilt", "crane", "pedestal"})
-_FREE = frozenset({"travel", "truck", "pan", "dolly", "pedestal"})
 _OUT_OF_WINDOW = CameraMove("truck", "right", 2.0)
 _HIGH = ("aerial", "top")
 _RISE_PACE = 1.6
 """Pace of a crane that rises from the ground to a view from above."""
 _OWN_TRAVEL = CameraMove("travel", "forward")
 """What "first person" alone means."""
-_TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truck", "left"),
-          "right": ("truck", "right"), "towards": ("dolly", "in"), "away": ("dolly", "out"),
-          "forward": ("travel", "forward"), "backward": ("travel", "backward"),
-          "across": ("truck", "right")}  # fmt: skip
-
-
-_BY_HAND = frozenset({"slip", "slide", "run", "walk", "drive", "fly", "hurry", "rush", "drift"})
-"""Verbs of motion that are done to their object, if they have one."""
 
 
 class CameraReader:
@@ -178,6 +147,10 @@ class CameraReader:
             self._add(CameraMove("static"))
             word.is_used = clause.negation.is_used = True
             return
+        if word.lemma in ways.LOOKING and self._moves:
+            word.meaning = replace(word.meaning, role=Role.FUNCTION)
+            word.is_used = True  # the camera looks at what is named
+            return
         means = TRAVEL_MEANS.get(word.lemma)
         move = word.read_as(Role.CAMERA_MOVE)
         own = _OF_CAMERA.get(word.lemma) if move is None and means is None else None
@@ -187,7 +160,7 @@ class CameraReader:
             value = ("travel", "forward") if goes_on else own
             word.meaning = Meaning(Role.CAMERA_MOVE, word.pos, value, word.meaning.form)
             self._add(CameraMove(*value))
-            self._is_placed = word.lemma in _PLACED
+            self._is_placed = word.lemma in ways.PLACED
             word.is_used = True
             return
         if means is not None:
@@ -201,7 +174,7 @@ class CameraReader:
             word.is_used = True
         elif word.role is Role.VERB and isinstance(word.meaning.value, Verb):
             # No camera slips a bottle into a jacket.
-            is_done_to = bool(clause.objects) and word.lemma in _BY_HAND
+            is_done_to = bool(clause.objects) and word.lemma in ways.BY_HAND
             if not is_done_to:
                 self._read_motion(word, word.meaning.value, phrases)
 
@@ -290,7 +263,7 @@ class CameraReader:
         elif word.text in ("in", "out") and self._moves[-1].kind in ("zoom", "dolly"):
             self._moves[-1] = replace(self._moves[-1], direction=word.text)
             self._claim(word)
-        elif word.text in _WITH and self._draft.subjects:
+        elif word.text in ways.WITH and self._draft.subjects:
             # As in "the camera moves alongside": of what was said before.
             self._go_with(word, Referent("things", NounGroup(), list(self._draft.subjects)))
             if self._moves[-1].kind == "follow":
@@ -298,19 +271,41 @@ class CameraReader:
 
     def _direct(self, word: Word) -> None:
         last, said = self._moves[-1], word.meaning.value
+        if said in ways.BOTH_WAYS:
+            self._go_and_return(word, *ways.BOTH_WAYS[said])
+            return
         kind, direction = last.kind, said
-        if kind == "travel" and said in ("left", "right", "up", "down", "towards", "away"):
+        if kind == "roll" and said in ("left", "right") and self._is_rotated():
+            kind, direction = "pan", said
+        elif kind == "travel" and said in ways.ASIDE:
             if last.means is None:
-                kind, direction = _TRUCK[said]
+                kind, direction = ways.TRUCK[said]
         elif kind in ("zoom", "dolly"):
-            direction = _IN_OUT.get(said, said)
+            direction = ways.IN_OUT.get(said, said)
         elif kind == "truck":
-            kind, direction = _TRUCK.get(said, (kind, said))
+            kind, direction = ways.TRUCK.get(said, (kind, said))
         elif kind in ("pan", "tilt", "orbit", "pedestal", "crane", "roll", "travel"):
             direction = said
         else:
             return
         self._moves[-1] = replace(last, kind=kind, direction=direction)
+        self._claim(word)
+
+    def _is_rotated(self) -> bool:
+        """As in "rotates left", which is no roll."""
+        return self._claimed is not None and self._claimed.lemma.startswith("rotate")
+
+    def _go_and_return(self, word: Word, there: str, back: str) -> None:
+        """As in "tilts up and down", "moves from side to side": one way, then the other."""
+        if self._moves[-1].kind == "handheld":
+            self._claim(word)
+            return
+        last = self._moves.pop()
+        is_ahead = last.kind == "travel" and last.means is None
+        kind = ("pedestal" if there == "up" else "truck") if is_ahead else last.kind
+        for way in (there, back):
+            self._moves.append(replace(last, kind=kind, direction=way, phase=self._phase))
+            self._phase += way == there
         self._claim(word)
 
     def _read_phrase(self, phrase: PrepPhrase, referent: Referent) -> None:
@@ -322,11 +317,11 @@ class CameraReader:
                 return
             self._go_with(word, referent)
             last = self._moves[-1]
-            if word.text in _ALONG and last.kind == "dolly" and last.direction is None:
+            if word.text in ways.ALONG and last.kind == "dolly" and last.direction is None:
                 self._moves[-1] = replace(last, kind="truck")
-            if last.kind == "follow" and word.text in _SIDES:
-                self._moves[-1] = replace(last, direction=_SIDES[word.text])
-            elif word.text == "around" and last.kind in ("travel", "truck"):
+            if last.kind == "follow" and word.text in ways.SIDES:
+                self._moves[-1] = replace(last, direction=ways.SIDES[word.text])
+            elif word.text == "around" and last.kind in ("travel", "truck", "roll"):
                 self._moves[-1] = replace(last, kind="orbit", direction=None, means=None)
             elif word.text in ("towards", "toward", "to") and last.kind == "travel":
                 self._moves[-1] = replace(last, kind="dolly", direction="in", means=None)
@@ -335,7 +330,7 @@ class CameraReader:
                 return
             word.is_used = True
             self.aim(referent)
-        elif referent.kind == "place" and word.text in _TRAVEL_PREPOSITIONS | {"at", "on"}:
+        elif referent.kind == "place" and word.text in ways.TRAVEL_PREPOSITIONS | {"at", "on"}:
             word.is_used = True
 
     def _go_with(self, word: Word, referent: Referent) -> None:
@@ -343,9 +338,9 @@ class CameraReader:
         last = self._moves[-1]
         noun = self._draft.noun(referent.things[0])
         is_led = last.kind == "pan" and last.direction is not None
-        is_free = last.kind in _FREE and last.means is None and not is_led
-        if word.text in _WITH and is_free and noun.speed_m_s:
-            self._moves[-1] = replace(last, kind="follow", direction=_WITH[word.text])
+        is_free = last.kind in ways.FREE and last.means is None and not is_led
+        if word.text in ways.WITH and is_free and noun.speed_m_s:
+            self._moves[-1] = replace(last, kind="follow", direction=ways.WITH[word.text])
             if self._claimed is not None:
                 self._claim(self._claimed)
 
@@ -353,7 +348,7 @@ class CameraReader:
         """As in "tilts down a tree", "tilts toward the street": down."""
         last = self._moves[-1]
         is_goal = word.text in ("toward", "towards", "to") and referent.kind in ("place", "sky")
-        if word.text in ("up", "down") and last.kind in _UPRIGHT:
+        if word.text in ("up", "down") and last.kind in ways.UPRIGHT:
             self._moves[-1] = replace(last, direction=word.text)
         elif is_goal and last.kind == "tilt" and last.direction is None:
             self._moves[-1] = replace(last, direction="up" if referent.kind == "sky" else "down")
@@ -372,7 +367,7 @@ class CameraReader:
     def stand_by(self, word: Word, referent: Referent) -> bool:
         """As in "the camera is placed behind the catcher": whether it is read so."""
         is_static = all(move.kind == "static" for move in self._moves)
-        view = _STATIONS.get(word.text)
+        view = ways.STATIONS.get(word.text)
         if not is_static or view is None or not referent.things:
             return False
         noun = self._draft.noun(referent.things[0])
@@ -384,7 +379,7 @@ class CameraReader:
 
     def aim(self, referent: Referent) -> None:
         """Point the camera at an object that its clause names."""
-        can_aim = bool(self._moves) and self._moves[-1].kind in _AIMED and self._target is None
+        can_aim = bool(self._moves) and self._moves[-1].kind in ways.AIMED and self._target is None
         if can_aim and referent.things:
             self._target = referent.things[0]
 

@@ -8,10 +8,12 @@ from dataclasses import replace
 from texvent.scenes.language.grammar.syntax import Clause, NounGroup
 from texvent.scenes.language.meaning.capabilities import is_living, is_person
 from texvent.scenes.language.meaning.referents.heads import find_head
+from texvent.scenes.language.vocabulary.scene import FLICKERS
 from texvent.scenes.language.vocabulary.verbs import Verb
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word, mark_used
+from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.wrapped.opening import OPENING
 
@@ -62,6 +64,8 @@ _MARKS = _words("dot spot mark")
 _ALONE = _words("wheel propeller barrel mirror lens gripper")
 """Parts that are shown alone, unless the whole does what is said of them."""
 _TURNING = _words("spin rotate turn revolve whirl move run")
+_SCREENS = _words("screen display light lamp bulb")
+"""Parts that glow."""
 _OPENING = _words("open close shut")
 _OF_FRONTS, _COMING = _words("headlight taillight"), _words("approach come pass drive move go")
 """Parts that come with the whole, and what they do then."""
@@ -230,6 +234,8 @@ def _works_by_part(part: str, verb: str, whole: Noun) -> bool:
         return verb in _COMING
     if is_person(whole) and part in _LIMBS:
         return True
+    if verb in FLICKERS:
+        return whole.name in LAMPS and part in _SCREENS
     return whole.is_working and verb in _TURNING
 
 

@@ -5,7 +5,72 @@ from __future__ import annotations
 _PARTS_OF_AIR = ("tendrils", "wisps", "plumes", "curls", "puffs", "a plume", "a wisp", "a curl",
                  "a puff")  # fmt: skip
 
+_OWN_AXES = tuple(
+    f"{about} {whose} {axis}"
+    for about in ("about", "around")
+    for whose in ("its", "its own", "their", "their own", "the")
+    for axis in ("axis", "centre", "center", "middle")
+)
+"""What turns does so about these anyway."""
+_OPTICAL = ("the optical axis", "its optical axis", "the viewing axis", "the principal axis")
+_ROLLS = tuple(
+    f"{rotation} {about} {axis}"
+    for rotation in ("camera rotation", "rotation of the camera", "pure rotation of the camera",
+                     "pure camera rotation", "rotation", "pure rotation")
+    for about in ("about", "around")
+    for axis in _OPTICAL
+)  # fmt: skip
+
 SET_PHRASES: dict[str, tuple[str, ...]] = {
+    "camera roll": _ROLLS,
+    **{
+        f"{way} the {one}": tuple(f"{way} {the} {camera}" for camera in cameras
+                                  for the in ("the", "an", "a"))
+        for way, one, cameras in (
+            ("in front of", "camera", ("event camera", "sensor", "dvs")),
+            ("towards", "camera", ("event camera", "sensor", "dvs")),
+            ("across", "picture", ("sensor", "image", "image plane", "field of view")),
+        )
+    },
+    "collide": tuple(f"{one} off each other" for one in ("collide and bounce", "bounce")),
+    "colliding": tuple(f"{one} off each other" for one in ("colliding and bouncing", "bouncing")),
+    "dotted disc": tuple(
+        f"{dot} on a {disc}" for dot in ("dot", "black dot") for disc in ("disc", "disk")
+    ),
+    "white dotted disc": tuple(
+        f"black dot on {a} white {disc}" for a in ("a", "the") for disc in ("disc", "disk")
+    ),
+    **{
+        belt: tuple(f"conveyor belt {doing}" for doing in doings)
+        for belt, doings in (
+            ("conveyor belt with", ("carrying", "transporting", "conveying", "moving")),
+            ("conveyor belt has", ("carries", "transports", "conveys")),
+        )
+    },
+    "spiral disc": tuple(
+        f"{disc} with a {one}" for disc in ("disc", "disk") for one in ("spiral", "spiral pattern")
+    ),
+    **{
+        f"{plain} up and down": tuple(
+            f"{verb} {way}" for verb in verbs for way in ("vertically", "up and down")
+        )
+        for plain, verbs in (
+            ("floats", ("oscillates", "moves")),
+            ("floating", ("oscillating", "moving")),
+        )
+    },
+    "moves back and forth": ("oscillates horizontally", "oscillates back and forth"),
+    "moving back and forth": ("oscillating horizontally", "oscillating back and forth"),
+    "driving at night": ("night drive", "night driving"),
+    "person walking": ("human gait", "gait of a person", "human walking"),
+    **{
+        f"person rotating the {side} arm": tuple(
+            f"{side} {limb} {going}"
+            for limb in ("arm", "hand")
+            for going in ("rotating", "circling", "moving in circles")
+        )
+        for side in ("left", "right")
+    },
     "on top of": (
         "on the top of", "at the top of", "in the top of", "up on top of", "at top of",
         "on the very top of", "atop of",
@@ -85,6 +150,10 @@ SET_PHRASES: dict[str, tuple[str, ...]] = {
     "riding a horse": ("riding on horseback", "riding horseback"),
     "on a horse": ("on horseback",),
     "": (
+        *(f"and {one}" for one in ("reappears", "reappears again", "comes out the other side",
+                                   "comes out on the other side", "emerges on the other side",
+                                   "reappears on the other side")),
+        *_OWN_AXES, *(f"{about} {axis}" for about in ("about", "around") for axis in _OPTICAL),
         "and more", "and others", "ready to be eaten", "ready to eat", "waiting to be eaten",
         "are ready to be eaten", "is ready to be eaten", "of some sort", "of some kind",
         "of all kinds", "of various kinds", "of different kinds", "of all sizes", "etc",

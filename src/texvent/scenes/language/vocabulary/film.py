@@ -23,10 +23,18 @@ def _shots(*bases: str, endings: Iterable[str] = _SHOTS) -> tuple[str, ...]:
     return tuple(f"{base} {end}".strip() for base in bases for end in ("", *endings))
 
 
+def _motions(*ways: str) -> tuple[str, ...]:
+    """As in "6-DoF camera motion", "forward ego-motion", "lateral translation"."""
+    kinds = ("camera motion", "ego motion", "camera translation", "translation", "camera movement")
+    return tuple(f"{way} {kind}" for way in ways for kind in kinds)
+
+
 CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
     ("pan", None): ("slow pan", "quick pan", "fast pan", "smooth pan", "gentle pan", "whip pan",
-                    "swish pan", "camera pan", "pan shot", "panning shot", "panning view"),
-    ("tilt", None): ("slow tilt", "camera tilt", "tilt shot", "tilting shot"),
+                    "swish pan", "camera pan", "pan shot", "panning shot", "panning view",
+                    "camera yaw", "yaw motion", "yaw rotation", "rotation in yaw"),
+    ("tilt", None): ("slow tilt", "camera tilt", "tilt shot", "tilting shot", "camera pitch",
+                     "pitch motion", "pitch rotation", "rotation in pitch"),
     ("zoom", None): ("slow zoom", "smooth zoom", "camera zoom", "zoom shot"),
     ("zoom", "in"): ("crash zoom", "snap zoom", "zoom in shot", "slow zoom in"),
     ("zoom", "out"): ("zoom out shot", "slow zoom out"),
@@ -37,7 +45,9 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
     ("dolly zoom", "in"): ("dolly zoom", "vertigo shot", "vertigo effect"),
     ("truck", None): ("trucking shot", "slider shot", "lateral tracking shot", "lateral shot",
                       "lateral camera movement", "lateral camera move", "lateral movement",
-                      "sideways tracking shot", "sideways camera movement", "side scrolling"),
+                      "sideways tracking shot", "sideways camera movement", "side scrolling",
+                      *_motions("sideways", "lateral", "horizontal")),
+    ("pedestal", None): _motions("vertical"),
     ("crane", "up"): ("crane shot", "jib shot", "boom shot", "crane up shot", "rising shot"),
     ("crane", "down"): ("crane down shot", "descending shot"),
     ("follow", None): ("tracking shot", "follow shot", "following shot", "chase cam", "follow cam",
@@ -48,7 +58,9 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
                          "hand held camera", "shaky camera", "shaky cam", "handheld footage",
                          "handheld shot", "hand held shot", "handheld video", "shaking effect",
                          "intense shaking effect", "with an intense shaking effect",
-                         "with a shaking effect"),
+                         "with a shaking effect", "camera jitter", "camera vibration"),
+    ("handheld", "all axes"): _motions("6 dof", "six dof", "6 degree of freedom", "random",
+                                       "erratic", "free", "jerky"),
     ("dutch", None): ("dutch angle", "dutch tilt", "canted angle", "tilted angle",
                       "tilted horizon", "dutch angle shot", "slanted angle", "oblique angle"),
     ("travel", "forward"): (
@@ -56,8 +68,10 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
         "egocentric", "dashcam footage", "dashcam view", "dashcam video", "dash cam footage",
         "dash cam view", "dash cam video", "dashcam shot", "fpv shot", "fpv footage", "fpv view",
         "fpv drone shot", "fly through", "flythrough", "walk through shot", "walking shot",
-        "driving shot",
+        "driving shot", "ego motion", "egomotion", *_motions("forward"),
     ),
+    ("travel", "backward"): _motions("backward"),
+    ("roll", None): ("camera roll", "roll motion", "roll rotation", "rotation in roll"),
     ("static", None): ("static camera", "fixed camera", "still camera", "stationary camera",
                        "static shot", "locked off shot", "locked shot", "locked off", "tripod shot",
                        "locked down shot", "locked camera", "locked off camera", "fixed shot",
@@ -70,8 +84,16 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
                          for still in ("fixed", "static", "still", "stationary"))),
 }  # fmt: skip
 """Camera move and direction → noun phrases for it."""
+UPRIGHT_AXES = tuple(
+    f"{about} {the} {axis} axis"
+    for about in ("about", "around")
+    for the in ("the", "its")
+    for axis in ("vertical", "y", "z", "yaw")
+)
+"""What turns about one of these turns to the left or to the right."""
 CAMERA_VERBS: dict[tuple[str, str | None], tuple[str, ...]] = {
-    ("pan", None): ("pan",),
+    ("pan", None): ("pan", "yaw", "rotate in place", "rotate on the spot", "spin in place",
+                    "turn in place", *(f"rotate {axis}" for axis in UPRIGHT_AXES)),
     ("tilt", None): ("tilt",),
     ("roll", None): ("roll", "rotate"),
     ("zoom", None): ("zoom",),
@@ -81,7 +103,7 @@ CAMERA_VERBS: dict[tuple[str, str | None], tuple[str, ...]] = {
     ("dolly", "in"): ("dolly in", "push in", "move in", "move closer", "close in", "dolly forward"),
     ("dolly", "out"): ("dolly out", "pull back", "pullback", "pull out", "pull away", "move back",
                        "dolly back", "back away"),
-    ("truck", None): ("truck", "slide"),
+    ("truck", None): ("truck", "slide", "translate"),
     ("crane", "up"): ("crane up",),
     ("crane", "down"): ("crane down",),
     ("follow", None): ("follow", "track", "chase", "trail"),
@@ -92,6 +114,7 @@ CAMERA_VERBS: dict[tuple[str, str | None], tuple[str, ...]] = {
 """Camera move and direction → verbs for it, of the camera and of other things."""
 OF_CAMERA: dict[tuple[str, str | None], tuple[str, ...]] = {
     ("pan", None): ("sweep", "swing", "swivel", "whip", "whip pan", "scan"),
+    ("tilt", None): ("pitch", "nod"),
     ("dolly", "in"): ("push", "creep", "inch", "ease", "approach"),
     ("dolly", "out"): ("pull", "retreat", "recede", "withdraw"),
     ("pedestal", "up"): ("lift", "ascend", "rise", "climb"),

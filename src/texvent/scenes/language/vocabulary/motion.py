@@ -34,15 +34,16 @@ DIRECTIONS: dict[str, tuple[str, ...]] = {
     "down": ("down", "downward", "downwards", "to the ground"),
     "across": (
         "across", "across the frame", "across the screen", "across the picture", "past the camera",
-        "by the camera", "past the viewer",
+        "by the camera", "past the viewer", "sideways", "laterally", "horizontally",
     ),
     "circle": ("in circles", "in a circle", "around in circles"),
     "eight": ("in a figure eight", "in figure eights", "in a figure of eight", "a figure eight",
               "figure eights", "in a figure 8", "a figure 8", "in figure 8s"),
     "opposite": ("in opposite directions", "opposite ways", "in different directions",
                  "in both directions", "in opposite direction"),
-    "to and fro": ("back and forth", "to and fro", "side to side", "from side to side"),
-    "up and down": ("up and down",),
+    "to and fro": ("back and forth", "to and fro", "side to side", "from side to side",
+                  "left and right", "from left to right and back", "right and left"),
+    "up and down": ("up and down", "vertically"),
 }  # fmt: skip
 
 SIDES: dict[str, tuple[str, ...]] = {
@@ -62,7 +63,9 @@ PACES: dict[float, tuple[str, ...]] = {
     0.5: ("slowly", "slow", "lazily", "at low speed", "slightly"),
     0.6: ("gently", "gentle", "leisurely"),
     0.7: ("calmly",),
-    1.0: ("steadily",),
+    1.0: ("steadily", "smoothly", "gradually",
+          *(f"at {a}{one} {speed}" for a in ("", "a ") for one in ("constant", "steady", "uniform")
+            for speed in ("speed", "velocity"))),
     2.0: ("quickly", "quick", "swiftly"),
     2.4: ("fast",),
     2.6: ("faster",),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from texvent.scenes.language.vocabulary.film import UPRIGHT_AXES
+
 
 @dataclass(frozen=True)
 class Verb:
@@ -35,7 +37,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
         1.8: ("hurry", "roar", "thunder", "scurry", "scamper", "scuttle"),
         0.4: ("creep", "inch"), 0.6: ("trundle", "rumble", "lumber", "limp", "plod", "trudge",
                                       "shuffle", "amble", "saunter", "prowl"),
-        0.7: ("drift",), 0.8: ("coast", "cruise"), 1.4: ("skim",),
+        0.7: ("drift", "scroll", "translate"), 0.8: ("coast", "cruise"), 1.4: ("skim",),
     },
     "run": {
         1.4: ("dash", "sprint"), 0.8: ("jog",), 1.3: ("gallop",), 0.7: ("trot", "prance"),
@@ -96,6 +98,11 @@ VERBS: tuple[Verb, ...] = (
     *(Verb(f"pull {way}", "move", 0.0, end_pace=1.0) for way in ("away", "off", "forward")),
     *(Verb(f"pull {way}", "move", 1.0, end_pace=0.0) for way in ("over", "up", "in", "into")),
     *(Verb(f"drive {way}", "move", direction="away") for way in ("off", "away")),
+    *(
+        Verb(f"{base} {way}", "move", 2.6, direction="away")
+        for base in ("shoot", "dart", "zip", "zoom", "speed", "race", "blast")
+        for way in ("off", "away")
+    ),
     Verb("retreat", "move", direction="away"),
     Verb("recede", "move", direction="away"),
     Verb("back up", "reverse"),
@@ -144,7 +151,7 @@ VERBS: tuple[Verb, ...] = (
     *(Verb(base, "move", 1.6, end_pace=0.2) for base in ("slow down", "slow", "decelerate")),
     Verb("stop", "stand"),
     Verb("halt", "stand"),
-    Verb("come to a stop", "stand"),
+    *(Verb(f"come to a {end}", "stand") for end in ("stop", "halt", "standstill", "full stop")),
     Verb("come to rest", "stand"),
     Verb("turn", "turn", object_kind="spin"),
     Verb("swerve", "turn", 1.3),
@@ -192,6 +199,8 @@ VERBS: tuple[Verb, ...] = (
     *(Verb(base, "drive", act="ride") for base in ("motorcycle", "motorbike")),
     Verb("paddle", "sail", 0.7, act="ride"),
     Verb("spin", "spin", object_kind="spin"),
+    Verb("yaw", "spin", 0.5),
+    *(Verb(f"rotate {axis}", "spin", 0.7) for axis in UPRIGHT_AXES),
     Verb("rotate", "spin", 0.7, object_kind="spin"),
     Verb("twirl", "spin", 1.2, object_kind="spin"),
     Verb("whirl", "spin", 1.5, object_kind="spin"),

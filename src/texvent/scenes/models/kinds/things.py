@@ -202,7 +202,7 @@ THING_KINDS: dict[str, str] = {
     "book": "comic book, notebook, textbook, novel, dictionary, bible, diary, manual, atlas",
     "newspaper": "journal, magazine",
     "sign": "speed limit sign, scoreboard, guidepost",
-    "checkerboard": "aruco board",
+    "checkerboard": "aruco board, charuco board",
     "telescope": "spyglass, periscope, kaleidoscope",
     "telephone": "dial telephone, landline",
     "candlestick": "candelabra, candelabrum",

@@ -188,6 +188,11 @@ def _pattern(
     )  # fmt: skip
 
 
+_RINGS = tuple(
+    f"{word}concentric {one}"
+    for word in ("", "expanding ", "growing ")
+    for one in ("rings", "circles")
+)
 NOUNS = (
     *placed("plain", (
         thing("square", (_BLACK,), _square),
@@ -204,7 +209,7 @@ NOUNS = (
     _pattern("spinning disc", _build_sectors, (
         "spinning disk", "rotating disc", "rotating disk", "spinning wheel disc", "sector disc",
         "striped disc", "optical chopper")),
-    _pattern("expanding ring", _build_ring, ("expanding circle", "growing ring")),
+    _pattern("expanding ring", _build_ring, ("expanding circle", "growing ring", *_RINGS), _RINGS),
     _pattern("looming disc", _build_looming, ("expanding disc", "growing disc", "growing circle")),
     _pattern("eye", _build_eye, ("human eye",)),
 )  # fmt: skip

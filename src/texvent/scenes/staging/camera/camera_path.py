@@ -32,6 +32,12 @@ DOLLY = 1.6
 DOLLY_ZOOM = 2.2
 """The same for a dolly zoom."""
 SHAKE_RAD = 0.015
+ALL_AXES = "all axes"
+"""Direction of a handheld camera that moves in all six degrees of freedom."""
+ROAM_SHARE = 4.0
+"""How much further than one that is held still that one turns."""
+ROAM_WIDTHS = 0.08
+"""How far it goes aside, in widths of the picture."""
 STEP_M = 0.02
 """Amplitude of the bob of a camera that walks."""
 LOWEST_M = 0.25
@@ -85,7 +91,13 @@ class CameraPath:
         else:
             camera = self._watch(share, time_s)
         slant = DUTCH_RAD if any(move.kind == "dutch" for move in self.moves) else 0.0
+        slant += ROAM_SHARE * SHAKE_RAD * self._roam * 3.0 * math.sin(5.5 * time_s + 0.5)
         return _rolled(camera, slant + ROLL_RAD * self._centred("roll", share))
+
+    @cached_property
+    def _roam(self) -> float:
+        """Pace of a camera that moves in all six degrees of freedom; 0 = it does not."""
+        return sum(move.pace for move in self.moves if move.direction == ALL_AXES)
 
     def _centred(self, kind: str, share: float) -> float:
         return self._channels.centred(kind, share) if self._channels.has(kind) else 0.0
@@ -152,6 +164,10 @@ class CameraPath:
         right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
         slide += 0.4 * width * self._centred("truck", share) * right
         slide[2] += 0.3 * width * self._centred("pedestal", share)
+        roam = ROAM_WIDTHS * width * self._roam
+        slide += roam * math.sin(4.9 * time_s) * right
+        slide += roam * math.sin(3.7 * time_s + 1.0) * np.array([-right[1], right[0], 0.0])
+        slide[2] += 0.7 * roam * math.sin(6.1 * time_s + 2.0)
         return slide
 
     def _hold_size(self, target: Float64Array, position: Float64Array, time_s: float) -> float:
@@ -172,6 +188,7 @@ class CameraPath:
             if move.kind == "handheld":
                 wave = 2.0 * math.pi * time_s
                 shake = SHAKE_RAD * move.pace
+                shake *= ROAM_SHARE if move.direction == ALL_AXES else 1.0
                 right += shake * (math.sin(1.1 * wave) + 0.6 * math.sin(2.7 * wave + 1.0))
                 up += shake * (math.sin(1.4 * wave + 2.0) + 0.5 * math.sin(3.3 * wave))
         return right, up

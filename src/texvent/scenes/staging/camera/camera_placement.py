@@ -16,6 +16,7 @@ from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.closeness import come_near_small, eye_level
 from texvent.scenes.staging.camera.following import (
+    crosses_picture,
     goes_in_depth,
     has_landmark,
     share_to_follow,
@@ -131,6 +132,7 @@ def _frame(
         return path
     size = prominence(path)
     is_tiny, is_small = size < _TINY, size < _SMALL or _creeps(path, main)
+    is_small &= not crosses_picture(description, main)
     if not (is_tiny or (is_small and stay_together(actors, main, duration_s))):
         return path
     followed = _fit_path(description, actors, main, (CameraMove("follow", "side"),), place, how)

@@ -25,6 +25,17 @@ def goes_in_depth(description: SceneDescription, main: Actor) -> bool:
     return motion is not None and motion.direction in ("towards", "away")
 
 
+def crosses_picture(description: SceneDescription, main: Actor) -> bool:
+    """Whether the prompt says that it goes to a side, or how its speed changes.
+
+    Neither is seen by a camera that goes along with it.
+    """
+    motion = description.objects[main.object_index].motion
+    return motion is not None and (
+        motion.direction in ("left", "right", "across") or motion.end_pace is not None
+    )
+
+
 def has_landmark(
     description: SceneDescription, main: Actor, kinds: frozenset[str] = _LANDMARKS
 ) -> bool:

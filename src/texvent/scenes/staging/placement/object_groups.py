@@ -14,6 +14,7 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.trajectories.manoeuvres import sample_places
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
+from texvent.scenes.staging.trajectories.phases import MOST_HASTE
 from texvent.scenes.staging.trajectories.stunts import EIGHT
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
@@ -211,6 +212,25 @@ def hurry_leader(leader: ObjectGroup, follower: ObjectGroup) -> None:
     if leader.plan.path is None and not is_said and leader.plan.speed_m_s < speed:
         leader.plan = replace(leader.plan, speed_m_s=speed)
         leader.half = half_extents_over_clip(leader.models, leader.offsets, leader.plan)
+
+
+def hurry_past(group: ObjectGroup, half_m: float) -> bool:
+    """Let what passes behind something be seen on both sides of it; whether it can be so fast.
+
+    Args:
+        group: what goes from side to side.
+        half_m: half the width of what hides it.
+    """
+    plan, own = group.plan, group.models[0].length
+    is_free = plan.is_path and len(group.models) == 1 and plan.motion.speed_m_s is None
+    if not is_free or abs(math.cos(plan.yaw)) < 0.5:
+        return False
+    speed = (2.0 * half_m + 1.2 * own) / plan.duration_s
+    if speed > MOST_HASTE * plan.speed_m_s:
+        return False
+    group.plan = replace(plan, speed_m_s=max(speed, plan.speed_m_s))
+    group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+    return True
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:

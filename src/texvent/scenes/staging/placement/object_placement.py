@@ -334,7 +334,8 @@ class ObjectPlacer:
             return Circle(home, group.pool_m, _POOL_RAD_S * group.plan.motion.pace, phase)
         if group.belt is not None:
             way = self._duration_s * 0.5
-            return Straight(home, group.belt.plan.yaw, BELT_M_S, way, "stand")
+            speed = BELT_M_S * group.belt.plan.motion.pace
+            return Straight(home, group.belt.plan.yaw, speed, way, "stand")
         if group.lag is not None:
             leader, gap = group.lag
             path = self._choose(leader, leader.models[0], _tuple(leader), 0, rng)

@@ -17,6 +17,7 @@ from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
     half_extents_over_clip,
+    hurry_past,
 )
 from texvent.scenes.staging.placement.resting import rest_in, rest_on
 from texvent.scenes.staging.placement.tables.at_table import place_at
@@ -217,10 +218,14 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
         back = 0.1 * way + 0.5 * group.models[0].length
         return Goal(_shift(here, -back * math.cos(yaw), -back * math.sin(yaw)), _FIXED)
-    if kind == "behind" and group.noun.name in _TRUNKS and group.models[0].height > _CROWN_M:
-        own = subject.models[0]
-        aside, deep = 0.2 + 0.3 * max(own.width, 0.3), 0.6 + 0.5 * max(own.length, own.width)
-        return Goal(_shift(here, aside, -deep), _FIXED)
+    has_trunk = group.noun.name in _TRUNKS and group.models[0].height > _CROWN_M
+    own = subject.models[0]
+    deep = 0.6 + 0.5 * max(own.length, own.width) if has_trunk else y
+    hidden = 0.25 if has_trunk else float(_half_at_rest(group)[0])
+    if kind == "behind" and hurry_past(subject, hidden):
+        return Goal(_shift(here, 0.0, -deep), _FIXED)
+    if kind == "behind" and has_trunk:
+        return Goal(_shift(here, 0.2 + 0.3 * max(own.width, 0.3), -deep), _FIXED)
     away = (-x * math.cos(yaw), -y * math.sin(yaw), _AWAY)
     goals = {
         "from": away,

@@ -29,25 +29,34 @@ class Spin:
     home: Vector
     rate_rad_s: float
     yaw: float = 0.0
+    gain_rad_s2: float = 0.0
+    """By how much the rate grows, rad/s²."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        return BodyState(self.home, self.yaw + self.rate_rad_s * time_s)
+        turn = (self.rate_rad_s + 0.5 * self.gain_rad_s2 * time_s) * time_s
+        return BodyState(self.home, self.yaw + turn)
 
 
 @dataclass(frozen=True)
 class SpinOnAxle:
-    """Turns about its axle, across its heading, where it stands."""
+    """Turns about its axle where it stands: a wheel's lies across its heading."""
 
     home: Vector
     yaw: float
     rate_rad_s: float
     pivot_m: float
     """Height of the axle above the body's origin, m."""
+    gain_rad_s2: float = 0.0
+    """By how much the rate grows, rad/s²."""
+    is_along: bool = False
+    """Whether the axle lies along its heading, as that of a flat shape seen from the front."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        return BodyState(self.home, self.yaw, pitch=self.rate_rad_s * time_s, pivot_m=self.pivot_m)
+        turn = (self.rate_rad_s + 0.5 * self.gain_rad_s2 * time_s) * time_s
+        pitch, roll = (0.0, turn) if self.is_along else (turn, 0.0)
+        return BodyState(self.home, self.yaw, pitch, roll, pivot_m=self.pivot_m)
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,8 @@ from texvent.scenes.staging.trajectories.stunts import (
     build_sway,
 )
 from texvent.scenes.staging.trajectories.trajectory import (
+    TO_CAMERA,
+    Facing,
     Rolling,
     Shuttle,
     Stationary,
@@ -72,32 +74,53 @@ def choose_trajectory(
         clear_m: height of what it jumps over at its home, m.
     """
     if plan.path is not None:
-        return _shift_path(plan.path, model, home)
+        path = _shift_path(plan.path, model, home)
+        return Facing(path) if plan.is_facing else path
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
     if clear_m > 0.0:
         return build_leap(model, home, plan.yaw, plan.duration_s, clear_m)
     kind, direction = plan.motion.kind, plan.motion.direction
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
-    if kind == "orbit" or (kind in PATH_KINDS and direction == "circle"):
-        pace = 0.0 if plan.motion.speed_m_s is not None else plan.motion.pace / plan.duration_s
-        circle = build_round(model, home, phase, plan.speed_m_s, pace)
-        return replace(circle, activity=_activity(kind), lean_rad=0.35 * (kind in _LEANING))
-    if kind in PATH_KINDS and direction == "eight":
-        eight = build_eight(model, home, plan.yaw, plan.motion.pace, plan.duration_s)
-        return replace(eight, activity=_activity(kind), lean_rad=0.35 * (kind in _LEANING))
+    if kind == "orbit" or (kind in PATH_KINDS and direction in ("circle", "eight")):
+        return _go_round(plan, model, home, phase)
     if direction in ("to and fro", "up and down") and kind != "sway":
-        reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
-        is_flat = model.length < 0.3 * min(model.width, model.height)
-        is_vertical = direction == "up and down" and kind not in _ON_GROUND
-        yaw = -0.5 * math.pi if is_flat and is_vertical else plan.yaw
-        period_s = max(plan.duration_s, 1.0)
-        return Shuttle(home, yaw, reach, period_s, _activity(kind), is_vertical)
+        return _go_and_return(plan, model, home)
     if kind == "drift":
         return build_drift(home, plan.yaw, 1.2 * plan.speed_m_s, plan.duration_s)
     if kind in PATH_KINDS:
         return _follow_path(plan, model, home, phase)
     return _act_in_place(plan, model, home, phase)
+
+
+def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
+    """Along a circle or an eight; that of a flat shape stands upright in the picture."""
+    kind, motion = plan.motion.kind, plan.motion
+    lean = 0.35 * (kind in _LEANING)
+    if motion.direction == "eight" and kind != "orbit":
+        eight = build_eight(model, home, plan.yaw, motion.pace, plan.duration_s)
+        if plan.is_facing:
+            return Facing(eight, _raised(home, 0.5 * eight.half_m))
+        return replace(eight, activity=_activity(kind), lean_rad=lean)
+    pace = 0.0 if motion.speed_m_s is not None else motion.pace / plan.duration_s
+    circle = build_round(model, home, phase, plan.speed_m_s, pace)
+    if plan.is_facing:
+        rate = 2.0 * math.pi * pace or circle.rate_rad_s
+        upright = _raised(home, circle.radius_m)
+        return Facing(replace(circle, rate_rad_s=rate), upright)
+    return replace(circle, activity=_activity(kind), lean_rad=lean)
+
+
+def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Shuttle:
+    """To and fro, or up and down: what stands on the ground rises from it."""
+    kind, direction, rate = plan.motion.kind, plan.motion.direction, plan.motion.rate_hz
+    reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
+    is_flat = model.length < 0.3 * min(model.width, model.height)
+    is_vertical = direction == "up and down" and kind not in _ON_GROUND
+    yaw = -0.5 * math.pi if is_flat and is_vertical else plan.yaw
+    period_s = 1.0 / rate if rate else max(plan.duration_s, 1.0)
+    place = _raised(home, reach) if is_vertical else home
+    return Shuttle(place, yaw, reach, period_s, _activity(kind), is_vertical)
 
 
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
@@ -109,6 +132,10 @@ def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:
     x, y, _ = path.start
     floor = home[2] if path.floor_m > NO_FLOOR_M else min(0.5 * model.height, home[2])
     return replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=floor)
+
+
+def _raised(home: Vector, lift_m: float) -> Vector:
+    return (home[0], home[1], home[2] + lift_m)
 
 
 def _activity(kind: str) -> str:
@@ -144,12 +171,9 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
 def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
     kind, pace = plan.motion.kind, plan.motion.pace
     span = max(model.length, model.width, model.height)
-    turn = 2.0 * math.pi * SPIN_RATE_HZ * pace
     if kind == "spin":
         sign = -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
-        if plan.is_wheel:
-            return SpinOnAxle(home, plan.yaw, sign * turn, 0.5 * model.height)
-        return Spin(home, sign * turn, phase)
+        return _spin(plan, model, home, sign * 2.0 * math.pi * SPIN_RATE_HZ, phase)
     if kind in ("bounce", "fall", "throw"):
         return _fly_freely(plan, model, home)
     if kind == "sink" and plan.is_vessel:
@@ -171,6 +195,22 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     return _act_on_spot(plan, model, home, phase)
 
 
+def _spin(
+    plan: MotionPlan, model: Model, home: Vector, usual_rad_s: float, phase: float
+) -> Trajectory:
+    """A wheel about its axle, a flat shape in the picture, the rest about the vertical."""
+    pivot = 0.5 * model.height
+    rate, gain = usual_rad_s * plan.motion.pace, usual_rad_s * _gain(plan)
+    if plan.is_facing:
+        # Its corners stay above the ground.
+        lift = 0.5 * (math.hypot(model.width, model.height) - model.height)
+        raised = _raised(home, lift)
+        return SpinOnAxle(raised, TO_CAMERA, rate, pivot, gain, is_along=True)
+    if plan.is_wheel:
+        return SpinOnAxle(home, plan.yaw, rate, pivot, gain)
+    return Spin(home, rate, phase, gain)
+
+
 _LARGEST_AFLOAT_M = 2.5
 """What is larger bobs no more than that: a moon, a cloud."""
 
@@ -184,12 +224,21 @@ def _act_on_spot(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     if kind in ("hover", "float"):
         return Hover(home, 0.12 * min(span, _LARGEST_AFLOAT_M) * pace, plan.yaw, phase)
     if kind == "sway":
-        return build_sway(model, home, plan.yaw, pace)
+        sway = build_sway(model, home, plan.yaw, pace)
+        return replace(sway, rate_hz=plan.motion.rate_hz or sway.rate_hz)
     if kind == "roll over":
         lying = model.parts(Pose(0.0, 0.0, 0.0, "lie"))
         return RollOver(home, plan.yaw, 0.5 * float(bounds(lying)[1][2]), pace)
     is_act = kind in STAYING or kind in ANIMAL_ACTS
-    return Stationary(home, plan.yaw, kind if is_act else "move", pace)
+    way = -1.0 if plan.motion.direction == "clockwise" else 1.0
+    doing = kind if is_act else "move"
+    return Stationary(home, plan.yaw, doing, way * pace, way * _gain(plan))
+
+
+def _gain(plan: MotionPlan) -> float:
+    """By how much the pace of what speeds up or slows down in its place grows each second."""
+    pace, end = plan.motion.pace, plan.motion.end_pace
+    return 0.0 if end is None else (end - pace) / plan.duration_s
 
 
 def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.scenes.description import ObjectMotion
+from texvent.scenes.models.objects.home.screens import PICTURE_FACES
 from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
@@ -41,9 +42,9 @@ THROWN_LENGTHS_PER_S = 8.0
 """Of what is thrown, within bounds."""
 RUN_FACTOR = 2.2
 """Running over walking speed."""
-FLAT, _WIDE = 0.62, 0.7
+FLAT, _WIDE, _THIN = 0.62, 0.7, 0.15
 """Objects whose length is below this share of their width show their front to the camera; the
-second is for what slides: a board, a mirror."""
+second is for what slides: a board, a mirror; the third for a poster that spins."""
 
 
 @dataclass(frozen=True)
@@ -129,11 +130,10 @@ def plan_motion(
     else:
         yaw = YAWS.get(direction, YAWS[default])
     speed = _choose_speed(motions, noun, model)
+    is_facing = _faces_camera(noun, model, motion)
     if not is_steered:
         pace = 1.0 if motion.speed_m_s is not None else motion.pace
         gesture = choose_gesture(noun, motion)
-        is_wide = noun.name in FACING or model.length < _WIDE * model.width
-        is_facing = is_wide and noun.habitat == "fixed" and motion.kind == "slide"
         return MotionPlan(
             motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing,
             is_wheel=noun.name == "wheel", is_swimmer=noun.habitat == "water",
@@ -141,7 +141,18 @@ def plan_motion(
             is_vessel=noun.motion == "sail",
         )  # fmt: skip
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
-    return MotionPlan(motion, path.yaw, speed, duration_s, path)
+    return MotionPlan(motion, path.yaw, speed, duration_s, path, is_facing=is_facing)
+
+
+def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
+    """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
+    if noun.name in FACING:
+        return motion.kind in PATH_KINDS or motion.kind == "spin"
+    is_wide = model.length < _WIDE * model.width
+    is_picture = noun.name in PICTURE_FACES and model.length < _THIN * model.width
+    return noun.habitat == "fixed" and (
+        (is_wide and motion.kind == "slide") or (is_picture and motion.kind == "spin")
+    )
 
 
 def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
@@ -160,7 +171,7 @@ def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
 
 def _is_seen_from_front(noun: Noun, motion: ObjectMotion) -> bool:
     """Whether its direction says which hand, or where it leans, not which way the body faces."""
-    if motion.kind == "sway":
+    if motion.kind in ("sway", "work"):
         return True
     gesture = choose_gesture(noun, motion)
     return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)
@@ -204,6 +215,8 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
         and ACTIVITIES[motion.kind].is_sideways
     ):
         return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
+    if noun.name == "conveyor belt":  # it runs from side to side of the picture
+        return math.pi if motion.direction == "left" else 0.0
     if noun.name in ("bridge", "pier"):  # others go along it, from side to side of the picture
         return 0.0
     if noun.name in ("flag", "crane") or motion.kind == "roll over":

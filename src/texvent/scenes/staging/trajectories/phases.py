@@ -65,7 +65,7 @@ def needs_steering(motions: Sequence[ObjectMotion]) -> bool:
     first = motions[0]
     return (
         len(motions) > 1
-        or first.end_pace is not None
+        or (first.end_pace is not None and first.kind not in ("spin", "work"))
         or bool(first.start_s)
         or first.kind in _STEERED_KINDS
         or (first.kind in PATH_KINDS and first.direction in _STEERED_DIRECTIONS)

@@ -16,6 +16,8 @@ import numpy as np
 from texvent.scenes.scene import Float64Array
 
 Vector = tuple[float, float, float]
+TO_CAMERA = -0.5 * math.pi
+"""Yaw of what shows its front to the camera."""
 
 
 @dataclass(frozen=True)
@@ -90,10 +92,13 @@ class Stationary:
     yaw: float = 0.0
     activity: str = "stand"
     tempo: float = 1.0
+    gain_per_s: float = 0.0
+    """By how much the tempo grows each second."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        return BodyState(self.home, self.yaw, activity=self.activity, tempo=self.tempo)
+        mean = self.tempo + 0.5 * self.gain_per_s * time_s
+        return BodyState(self.home, self.yaw, activity=self.activity, tempo=mean)
 
 
 @dataclass(frozen=True)
@@ -256,6 +261,23 @@ class FigureEight:
             speed_m_s=speed,
             activity=self.activity,
         )
+
+
+@dataclass(frozen=True)
+class Facing:
+    """A board or a flat shape that shows its front to the camera all along a path."""
+
+    path: Trajectory
+    upright: Vector | None = None
+    """Middle of a round that stands upright in the picture, m; None = the path lies level."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        state = self.path.at(time_s)
+        if self.upright is not None:
+            (x, y, _), (_, depth, height) = state.position, self.upright
+            state = replace(state, position=(x, depth, height + y - depth))
+        return replace(state, yaw=TO_CAMERA, roll=0.0)
 
 
 @dataclass(frozen=True)

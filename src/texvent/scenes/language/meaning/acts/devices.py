@@ -217,13 +217,19 @@ def blink(draft: Draft, word: Word, subjects: list[int]) -> list[int]:
     return lamps
 
 
+def _goes_and_returns(motion: ObjectMotion) -> bool:
+    return motion.direction in ("to and fro", "up and down") or motion.kind == "sway"
+
+
 def set_rate(draft: Draft, things: list[int], rate_hz: float) -> bool:
-    """Turns per second of what spins, or flashes per second of what blinks."""
+    """Turns per second of what spins, flashes of what blinks, rounds of what goes and returns."""
     is_used = False
     for index in things:
         item = draft.objects[index]
         if item.blink_hz is not None:
             item.blink_hz, is_used = rate_hz, True
+        elif item.motions and _goes_and_returns(item.motions[-1]):
+            item.motions[-1], is_used = replace(item.motions[-1], rate_hz=rate_hz), True
         elif item.motions and item.motions[-1].kind == "spin":
             own_hz = WORK_RATES_HZ.get(item.noun)
             if own_hz is None and draft.noun(index).is_working:

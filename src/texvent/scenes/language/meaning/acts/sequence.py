@@ -56,6 +56,8 @@ def add_motion(draft: Draft, index: int, motion: ObjectMotion, clause: Clause) -
     if order == "same" and item.sentence < clause.sentence:
         order = "after"
     item.sentence = clause.sentence
+    if change_turning(draft, index, motion):
+        return True
     motion = name_kind(draft, index, motion)
     if not motions:
         motions.append(motion)
@@ -73,6 +75,20 @@ def add_motion(draft: Draft, index: int, motion: ObjectMotion, clause: Clause) -
         return False
     else:
         return motions[-1].kind == motion.kind
+    return True
+
+
+def change_turning(draft: Draft, index: int, motion: ObjectMotion) -> bool:
+    """As in "a wheel spins and slows down", "a fan slows down": it turns on, slower or faster."""
+    motions, noun = draft.objects[index].motions, draft.noun(index)
+    if motion.kind != "move" or motion.end_pace is None:
+        return False
+    if motions and motions[-1].kind in ("spin", "work"):
+        motions[-1] = replace(motions[-1], end_pace=motion.end_pace)
+    elif not motions and noun.is_working and noun.motion == "stand":
+        motions.append(replace(motion, kind="work"))
+    else:
+        return False
     return True
 
 

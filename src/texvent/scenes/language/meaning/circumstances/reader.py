@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import TOGETHER, ObjectMotion, Picture
+from texvent.scenes.language.belts import BELT
 from texvent.scenes.language.grammar.syntax import NounGroup, PrepPhrase
 from texvent.scenes.language.meaning.acts.devices import light_up
 from texvent.scenes.language.meaning.acts.hosts import PLACED
@@ -102,7 +103,8 @@ class CircumstanceReader:
             word.is_used = True
         if not scope.movers and not scope.has_verb and not scope.is_lost:
             for index in scope.subjects:
-                if goes_so(self._draft.noun(index).motion, direction):
+                noun = self._draft.noun(index)
+                if goes_so(noun.motion, direction) or noun.name == BELT:
                     self._draft.objects[index].motions = [ObjectMotion("move", direction)]
                     word.is_used = True
 

@@ -284,7 +284,11 @@ class Referents(Antecedents):
         is_bare = group.determiner is None and group.owner is None and attributes.number is None
         is_one = head.text == _ONE_BARBELL
         is_plural = attributes.is_many or (meaning.is_plural and not is_one) or is_drinks
-        names_one = head.text == noun and noun.endswith("s")  # "random dots", "scissors"
+        # "random dots", "scissors", "concentric rings"
+        names_one = head.text.endswith("s") and head.text in (
+            noun,
+            *self._draft.nouns[noun].synonyms,
+        )
         is_plural = is_plural or (meaning.can_be_both and is_bare and not names_one)
         is_plural &= attributes.is_many or not is_said_once(group)
         said = name_kind(head) if meaning.is_substitute else None

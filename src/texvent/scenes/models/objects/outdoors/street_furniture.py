@@ -237,6 +237,13 @@ NOUNS = placed("city", (
             *(box(toned(p, 2.5), (x, y, 0.04), (0.05, 0.05, 0.014))
                 for x in (-0.16, -0.05, 0.05, 0.16) for y in (-0.16, -0.05, 0.05, 0.16))],
                 ("manhole",)),
+    thing("landing pad", (IRON.colour,),
+        lambda p: [post(p, (0.0, 0.0, 0.02), (2.0, 2.0, 0.04)),
+            *ring(PALE, (0.0, 0.0, 0.04), (0.85, 0.85), 0.03, axis="z", pieces=32),
+            box(PALE, (0.0, 0.0, 0.045), (0.12, 0.5, 0.01)),
+            *(box(PALE, (0.0, y, 0.045), (0.8, 0.12, 0.01)) for y in (-0.28, 0.28))],
+        ("helipad", "landing platform", "takeoff pad", "launch pad", "helicopter pad",
+         "landing zone")),
     thing("tent", ((0.75, 0.30, 0.02), (0.05, 0.28, 0.15)),
         lambda p: [*(plank(p, (0.0, 1.05 * s, 0.0), (0.0, 0.0, 1.35), chord=(2.2, 0.0, 0.0),
             thickness=(0.0, 0.03, 0.02)) for s in (1.0, -1.0)),

@@ -60,6 +60,20 @@ def _dots(skin: Material) -> list[ModelPart]:
     ]
 
 
+def _circle_grid(skin: Material) -> list[ModelPart]:
+    """Rows of circles, every other one shifted by half a step."""
+    ink, front, step = _flat(skin), 0.5 * _THIN, 0.2
+    places = [
+        (step * (column - 3.25 + 0.5 * (row % 2)), 0.14 + 0.12 * row)
+        for row in range(7)
+        for column in range(7)
+    ]
+    return [
+        _board(1.6, 1.0),
+        *(rod(ink, (front, y, z), (front + _INK, y, z), 0.045) for y, z in places),
+    ]
+
+
 def _barcode(skin: Material) -> list[ModelPart]:
     draw, ink = random.Random(2), _flat(skin)
     edges = list(itertools.accumulate(draw.randint(1, 3) for _ in range(2 * _BARS)))
@@ -122,6 +136,10 @@ NOUNS = placed("plain", (
     thing("random dots", (_BLACK,), _dots,
           ("dot pattern", "random dot pattern", "random dot stimulus", "dots pattern",
            "speckle pattern", "random dot field"), plurals=("random dots",)),
+    thing("circle grid", (_BLACK,), _circle_grid,
+          ("circles grid", "grid of circles", "grid of dots", "dot grid", "asymmetric circle grid",
+           "symmetric circle grid", "circle grid calibration pattern", "circle calibration pattern",
+           "circle grid pattern", "asymmetric circle grid calibration pattern")),
     thing("barcode", (_BLACK,), _barcode, ("bar code", "barcode pattern")),
     thing("qr code", (_BLACK,), _qr_code, ("qr tag", "data matrix")),
     thing("april tag", (_BLACK,), lambda skin: _modules(skin, _TAG),
