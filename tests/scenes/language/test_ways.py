@@ -24,6 +24,8 @@ def motions_of(prompt: str, index: int = 0) -> list[tuple[str, str | None]]:
         ("two buses approach each other", "two buses move in opposite directions"),
         ("two lines cross", "two lines move in opposite directions"),
         ("a man crosses", "a man crosses"),
+        ("a boy runs along a beach after a kite", "a boy runs along a beach chasing a kite"),
+        ("a boy runs along a beach after the storm", "a boy runs along a beach after the storm"),
     ],
 )
 def test_a_way_is_said_in_full(prompt: str, said: str) -> None:

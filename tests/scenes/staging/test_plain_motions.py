@@ -116,3 +116,21 @@ def test_a_camera_with_six_degrees_of_freedom_shifts_and_rolls() -> None:
     rolls = [one.rotation[0, 2] for one in cameras]
     assert min(shifts) > 0.02
     assert np.ptp(rolls) > 0.05
+
+
+def test_a_diagonal_goes_to_a_side_and_up() -> None:
+    actor = first_actor("a disc moves diagonally")
+    way = actor.middle(DURATION_S) - actor.middle(0.0)
+    assert min(abs(way[0]), way[2]) > 0.2
+    np.testing.assert_allclose(
+        actor.trajectory.at(0.5).to_world()[:, 0], [0.0, -1.0, 0.0], atol=1e-9
+    )
+
+
+def test_flat_shapes_stand_side_by_side() -> None:
+    scene = compose_scene(
+        parse_prompt("three squares move left"),
+        seed=0, size=SensorSize(64, 48), duration_s=DURATION_S,
+    )  # fmt: skip
+    places = sorted(one.middle(0.5)[0] for one in scene.actors)
+    assert min(np.diff(places)) > scene.actors[0].model.width

@@ -24,6 +24,10 @@ _OPPOSITE = {
 _ENDS = frozenset({"and", "then", "while", "at", "again", "quickly", "slowly", "fast", "before"})
 """What may follow a way that stands alone."""
 _NEARING = {text: form for text, form in list_verb_forms("approach")}
+_RUNNING = {text for base in ("run", "race", "dash", "sprint") for text, _ in list_verb_forms(base)}
+_ARTICLES = frozenset({"a", "an", "the"})
+_TIMES = frozenset({"while", "moment", "second", "seconds", "minute", "rain", "storm", "race",
+                    "game", "start", "signal", "other"})  # fmt: skip
 _CROSSING = {text: form for text, form in list_verb_forms("cross")}
 _PAIRS = frozenset({"two", "both", "2"})
 _MEETING = (
@@ -49,12 +53,15 @@ def plain_ways(tokens: Sequence[Token]) -> list[Token]:
             found.extend(_say(f"{verb} in opposite directions", tokens[at : at + 3]))
             at += 3
         else:
-            found.extend(_replace_one(found, tokens[at], coming))
+            is_chased = not _TIMES & {one.text for one in tokens[at + 1 : at + 4]}
+            found.extend(_replace_one(found, tokens[at], coming, is_chased))
             at += 1
     return found
 
 
-def _replace_one(before: Sequence[Token], token: Token, coming: str) -> list[Token]:
+def _replace_one(
+    before: Sequence[Token], token: Token, coming: str, is_chased: bool
+) -> list[Token]:
     is_last = not coming[0].isalnum() or coming in _ENDS
     follows_verb = bool(before) and before[-1].text in _FORMS
     if token.text in _OPPOSITE and before and before[-1].text == "then":
@@ -64,6 +71,10 @@ def _replace_one(before: Sequence[Token], token: Token, coming: str) -> list[Tok
     if token.text in _CROSSING and is_last and _PAIRS & {one.text for one in before}:
         form = _CROSSING[token.text]
         return _say(f"{_inflect('move', form)} in opposite directions", [token])
+    if token.text == "after" and coming in _ARTICLES and not follows_verb:
+        # As in "runs across the grass after a ball"; "after a while" is a time.
+        runs = any(one.text in _RUNNING for one in before)
+        return _say("chasing", [token]) if runs and is_chased else [token]
     if token.text == "past" and follows_verb and (is_last or coming == "from"):
         return _say("across", [token])
     if token.text == "back" and follows_verb and is_last:

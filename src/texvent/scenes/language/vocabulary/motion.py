@@ -36,6 +36,7 @@ DIRECTIONS: dict[str, tuple[str, ...]] = {
         "across", "across the frame", "across the screen", "across the picture", "past the camera",
         "by the camera", "past the viewer", "sideways", "laterally", "horizontally",
     ),
+    "diagonal": ("diagonally", "in a diagonal direction", "along a diagonal"),
     "circle": ("in circles", "in a circle", "around in circles"),
     "eight": ("in a figure eight", "in figure eights", "in a figure of eight", "a figure eight",
               "figure eights", "in a figure 8", "a figure 8", "in figure 8s"),

@@ -183,7 +183,7 @@ THING_KINDS: dict[str, str] = {
     "mobile robot": "mars rover, agv, rover, delivery robot, turtlebot",
     "trolley": "dolly cart, hand truck, cart, luggage cart, wagon, pushcart",
     "vending machine": "slot machine, pinball machine, arcade machine, atm, cash machine",
-    "satellite": "space station, space probe, orbiter",
+    "satellite": "space debris, orbital debris, space junk, space station, space probe, orbiter",
     "planet": "mars, jupiter, venus, mercury, exoplanet, neptune, uranus",
     "rock": "megalith, mineral",
     "stone": "pebble, cobblestone, skipping stone, flat stone",

@@ -135,6 +135,8 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
         return 1.45 * length + 0.5, max(width + 0.9, 2.9)
     if noun.name in HAND_NOUNS:
         return 1.3 * width, 1.3 * width
+    if plan.is_facing:
+        return 1.6 * width, 0.2 * width  # in one row, as the camera sees them
     size = max(length, width)
     apart = min(0.3, _APART * size)
     across = 1.4 * width + apart + min(0.1, 0.1 * size)

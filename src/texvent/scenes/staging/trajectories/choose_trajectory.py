@@ -161,6 +161,9 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
         phase=phase,
         facing_rad=-0.5 * math.pi + 0.35 * is_air if is_flat else None,
     )
+    if plan.is_facing and path.climb:
+        reach = 0.5 * path.climb * path.speed_m_s * plan.duration_s
+        return Facing(replace(path, home=_raised(home, reach)))
     if kind == "wheelie":
         return Wheelie(path, 0.30 * model.length, 0.3 * model.height)
     if kind == "roll" and not (plan.is_vehicle or getattr(model, "is_wheeled", False)):

@@ -40,6 +40,8 @@ LEAST_SAILED = 0.15
 SMALL_M = 2.5
 THROWN_LENGTHS_PER_S = 8.0
 """Of what is thrown, within bounds."""
+_DIAGONAL = 0.6
+"""Metres up per metre along a diagonal of the picture."""
 RUN_FACTOR = 2.2
 """Running over walking speed."""
 FLAT, _WIDE, _THIN = 0.62, 0.7, 0.15
@@ -90,7 +92,10 @@ class MotionPlan:
     @property
     def climb(self) -> float:
         """Metres up per metre along."""
-        slope = {"up": 0.45, "down": -0.45}.get(self.motion.direction or "", 0.0)
+        direction = self.motion.direction or ""
+        if self.is_facing:
+            return _DIAGONAL if direction == "diagonal" else 0.0
+        slope = {"up": 0.45, "down": -0.45, "diagonal": _DIAGONAL}.get(direction, 0.0)
         return slope if self.motion.kind in ("fly", "swim") else 0.0
 
 
@@ -125,7 +130,7 @@ def plan_motion(
         yaw = YAWS[default]  # what falls over does so to a side of the picture
     elif not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
         yaw = _face_camera(noun, model, motion, toss)
-    elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
+    elif _is_steep(noun, model, motion, direction):
         yaw = YAWS[default]
     else:
         yaw = YAWS.get(direction, YAWS[default])
@@ -142,6 +147,13 @@ def plan_motion(
         )  # fmt: skip
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
     return MotionPlan(motion, path.yaw, speed, duration_s, path, is_facing=is_facing)
+
+
+def _is_steep(noun: Noun, model: Model, motion: ObjectMotion, direction: str) -> bool:
+    """Whether it goes up or down in the picture, and to a side only as it likes."""
+    if direction == "diagonal" and _faces_camera(noun, model, motion):
+        return True
+    return motion.kind in ("fly", "swim") and direction in ("up", "down", "diagonal")
 
 
 def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:

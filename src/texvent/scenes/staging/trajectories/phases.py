@@ -33,6 +33,7 @@ YAWS = {
     "right": 0.0,
     "left": math.pi,
     "away": 0.5 * math.pi,
+    "diagonal": 0.25 * math.pi,
     "up": 0.5 * math.pi,
     "towards": -0.5 * math.pi,
     "down": -0.5 * math.pi,

@@ -277,7 +277,7 @@ class Facing:
         if self.upright is not None:
             (x, y, _), (_, depth, height) = state.position, self.upright
             state = replace(state, position=(x, depth, height + y - depth))
-        return replace(state, yaw=TO_CAMERA, roll=0.0)
+        return replace(state, yaw=TO_CAMERA, pitch=0.0, roll=0.0)
 
 
 @dataclass(frozen=True)
