@@ -79,6 +79,7 @@ def test_the_same_words_elsewhere_are_things(prompt, noun) -> None:
         ("The camera translates left past a fence.", ("truck", "left")),
         ("The camera moves sideways along a shelf.", ("truck", "right")),
         ("Backward ego-motion in a corridor.", ("travel", "backward")),
+        ("Forward ego-motion towards a statue.", ("dolly", "in")),
         ("The camera rotates around a vase.", ("orbit", None)),
     ],
 )

@@ -76,6 +76,7 @@ def test_what_goes_and_returns_does_so_at_the_rate_that_is_stated(prompt: str) -
         ("parcels move from right to left on a conveyor belt", "left"),
         ("a conveyor belt carrying crates from left to right", "right"),
         ("a fast conveyor belt with boxes", None),
+        ("bottles move to the left along a conveyor belt", "left"),
     ],
 )
 def test_a_belt_runs_where_it_stands(prompt: str, way: str | None) -> None:

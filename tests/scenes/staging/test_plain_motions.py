@@ -29,6 +29,8 @@ def first_actor(prompt: str) -> Actor:
         "a square moves in a figure of eight",
         "a white bar rotates",
         "the letter K rotates",
+        "a checkerboard moves from side to side",
+        "a triangle moves up",
     ],
 )
 def test_a_flat_shape_faces_the_camera_all_along(prompt: str) -> None:

@@ -34,6 +34,10 @@ SET_PHRASES: dict[str, tuple[str, ...]] = {
     },
     "collide": tuple(f"{one} off each other" for one in ("collide and bounce", "bounce")),
     "colliding": tuple(f"{one} off each other" for one in ("colliding and bouncing", "bouncing")),
+    **{
+        f"on {the} conveyor belt": tuple(f"{way} {the} conveyor belt" for way in ("along", "down"))
+        for the in ("a", "the")
+    },
     "dotted disc": tuple(
         f"{dot} on a {disc}" for dot in ("dot", "black dot") for disc in ("disc", "disk")
     ),

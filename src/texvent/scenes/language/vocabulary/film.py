@@ -38,8 +38,11 @@ CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
     ("zoom", None): ("slow zoom", "smooth zoom", "camera zoom", "zoom shot"),
     ("zoom", "in"): ("crash zoom", "snap zoom", "zoom in shot", "slow zoom in"),
     ("zoom", "out"): ("zoom out shot", "slow zoom out"),
-    ("dolly", "in"): ("dolly shot", "push in shot", "slow push in", "gentle push in",
-                      "subtle push in", "slow dolly in", "dolly in shot"),
+    ("dolly", "in"): (
+        "dolly shot", "push in shot", "slow push in", "gentle push in", "subtle push in",
+        "slow dolly in", "dolly in shot",
+        *(f"{one} {to}" for one in _motions("forward") for to in ("towards", "toward", "to")),
+    ),
     ("dolly", "out"): ("pull out shot", "pull back shot", "slow pull back", "slow pull out",
                        "slow dolly out", "dolly out shot"),
     ("dolly zoom", "in"): ("dolly zoom", "vertigo shot", "vertigo effect"),

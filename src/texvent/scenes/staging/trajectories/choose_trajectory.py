@@ -111,16 +111,17 @@ def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Tra
     return replace(circle, activity=_activity(kind), lean_rad=lean)
 
 
-def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Shuttle:
+def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
     """To and fro, or up and down: what stands on the ground rises from it."""
     kind, direction, rate = plan.motion.kind, plan.motion.direction, plan.motion.rate_hz
     reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
     is_flat = model.length < 0.3 * min(model.width, model.height)
     is_vertical = direction == "up and down" and kind not in _ON_GROUND
-    yaw = -0.5 * math.pi if is_flat and is_vertical else plan.yaw
+    yaw = TO_CAMERA if is_flat and is_vertical else plan.yaw
     period_s = 1.0 / rate if rate else max(plan.duration_s, 1.0)
     place = _raised(home, reach) if is_vertical else home
-    return Shuttle(place, yaw, reach, period_s, _activity(kind), is_vertical)
+    path = Shuttle(place, yaw, reach, period_s, _activity(kind), is_vertical)
+    return Facing(path) if plan.is_facing else path
 
 
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
@@ -183,7 +184,9 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         return build_sinking(model, home, plan.duration_s)
     if kind in ("rise", "sink"):
         speed = min(max(plan.speed_m_s, 0.3 * span), span)
-        return build_lift(home, plan.yaw, speed, plan.duration_s, plan.is_winged, kind == "rise")
+        is_up = kind == "rise"
+        lift = build_lift(home, plan.yaw, speed, plan.duration_s, plan.is_winged, is_up)
+        return Facing(lift) if plan.is_facing else lift
     if kind == "swing":
         length = max(1.6 * model.height, 0.6)
         return Swing(home, length, 0.5, pace)

@@ -159,7 +159,7 @@ def _is_steep(noun: Noun, model: Model, motion: ObjectMotion, direction: str) ->
 def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
     """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
     if noun.name in FACING:
-        return motion.kind in PATH_KINDS or motion.kind == "spin"
+        return motion.kind in PATH_KINDS or motion.kind in ("spin", "rise", "sink")
     is_wide = model.length < _WIDE * model.width
     is_picture = noun.name in PICTURE_FACES and model.length < _THIN * model.width
     return noun.habitat == "fixed" and (
