@@ -6,6 +6,7 @@ import pytest
 
 from texvent.generate.seen_words.degrees import MEASURED_HERE, UNMEASURED
 from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.language.vocabulary.motion import PACES
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Lexicon, Role
 from texvent.scenes.models.nouns import NOUNS
@@ -17,7 +18,7 @@ MEASURED_ELSEWHERE: dict[str, tuple[str, ...]] = {
     "verbs": ("very slowly", "slowly", "slow", "lazily", "at low speed", "gently", "gentle",
               "leisurely", "calmly", "quickly", "quick", "swiftly", "fast", "faster", "rapidly",
               "rapid", "very fast", "at top speed", "at high speed", "at full speed", "wildly",
-              "speeding", "steadily"),
+              "speeding", *PACES[1.0]),
     "light": ("bright", "dark", "unlit", "well lit", "brightly lit", "bright day", "clear day",
               "bright sun", "bright sunlight", "long shadows", "hazy", "low sun", "full moon",
               "full of stars"),

@@ -242,7 +242,7 @@ STROBES = ("strobe light", "strobe", "stroboscope", "strobe lamp", "strobe light
 STROBE_HZ = 7.0
 SWITCH_HZ = 0.8
 """How often a light is switched on and off."""
-FLICKERS = ("flicker", "strobe", "blink", "flash", "twinkle", "light up")
+FLICKERS = ("flicker", "strobe", "blink", "flash", "twinkle")
 """Verbs of lights that go on and off."""
 DEFAULT_BLINK_HZ = 2.0
 """Blinking of one lamp whose frequency is not said, Hz."""

@@ -212,8 +212,7 @@ def blink(draft: Draft, word: Word, subjects: list[int]) -> list[int]:
         return []
     lamps = [index for index in subjects if draft.objects[index].noun in LAMPS]
     for index in lamps:
-        is_switched = word.lemma.startswith("light")
-        draft.objects[index].blink_hz = SWITCHED_HZ if is_switched else DEFAULT_BLINK_HZ
+        draft.objects[index].blink_hz = DEFAULT_BLINK_HZ
         word.is_used = True
     return lamps
 
