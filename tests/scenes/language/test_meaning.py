@@ -772,3 +772,8 @@ def test_what_is_topped_with_things_has_them_on_it() -> None:
 
 def test_food_that_is_eaten_is_on_the_plate() -> None:
     assert kinds_of(parse_prompt("a woman eating some food"), "woman") == ["eat meal"]
+
+
+def test_what_is_held_is_in_no_left_hand() -> None:
+    assert parse_prompt("a man holding a cup in his left hand").not_understood == ("left",)
+    assert not parse_prompt("a man holding a cup in his right hand").not_understood

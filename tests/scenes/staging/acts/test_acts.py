@@ -14,6 +14,7 @@ from texvent.scenes.description import (
     SceneObject,
     Surroundings,
 )
+from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.props import RACKET_REACH
 from texvent.scenes.models.protocol import Pose
@@ -420,3 +421,11 @@ def test_more_riders_than_bicycles() -> None:
     one = stage(SceneObject("man"), SceneObject("bicycle", count=2),
                 acts=(Relation("ride", 0, (1,)),))  # fmt: skip
     assert [actor.noun.name for actor in one.actors] == ["bicycle", "bicycle"]
+
+
+def test_the_plate_that_one_eats_from_is_in_the_left_hand_and_no_other_one() -> None:
+    description = parse_prompt("a woman eating dinner from a plate")
+    scene = compose_scene(description, seed=0, size=SensorSize(96, 72), duration_s=2.0)
+    (woman,) = scene.actors
+    plates = [prop.anchor for prop in woman.props if "plate" in prop.nouns]
+    assert plates == ["left hand"]

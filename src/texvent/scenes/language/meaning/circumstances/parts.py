@@ -63,7 +63,8 @@ class PartReader:
         elif not kept:
             self._draft.relate(kind, [owner], items)
         made = tuple(self._draft.relations[-1:])
-        mark_used([phrase.preposition, *one.group.words])
+        # What is held is in the right hand, or in both.
+        mark_used([phrase.preposition, *(w for w in one.group.words if w.text != "left")])
         link(one.group.words, [owner])
         for word in (phrase.preposition, head):
             word.relations = made

@@ -179,7 +179,7 @@ def _eat_slice(t: float) -> Posture:
 
 def _dish(*food: ModelPart) -> Prop:
     plate = post(Material(WHITE), (0.08, 0.0, 0.02), (0.30, 0.30, 0.02))
-    return Prop("left hand", still(plate, *food), ("plate",))
+    return Prop("left hand", still(plate, *food), ("plate",), is_own=True)
 
 
 _FORK = Prop(
