@@ -10,9 +10,14 @@ from typing import NamedTuple
 
 from texvent.scenes.description import AMID, Claim, SceneDescription
 from texvent.scenes.inflection import pluralise
-from texvent.scenes.language.vocabulary.objects import EXACT_COUNTS
 from texvent.scenes.report import PromptReport
 
+_EXACT_COUNTS = frozenset(
+    {"a couple of", "a pair of", "pair of", "two", "both", "three", "four", "five", "six", "seven",
+     "eight", "nine", "ten", "eleven", "twelve", "fifteen", "twenty", "a dozen", "dozen",
+     "half a dozen", "one", "a single", "single", "lone", "lonely"}
+)  # fmt: skip
+"""Words of number of which each copy counts; of "several", some more or less are as many."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 PLURAL = 3
@@ -249,7 +254,7 @@ def _find_poor_quality(
 def is_exact_count(claim: Claim) -> bool:
     """Whether a word says how many there are: "three", "12", and not "several"."""
     return claim.aspect == "count" and (
-        claim.word in EXACT_COUNTS or any(map(str.isdigit, claim.word))
+        claim.word in _EXACT_COUNTS or any(map(str.isdigit, claim.word))
     )
 
 

@@ -29,13 +29,6 @@ COUNTS: dict[int, tuple[str, ...]] = {
     20: ("twenty",),
 }  # fmt: skip
 
-EXACT_COUNTS = frozenset(
-    {"a couple of", "a pair of", "pair of", "two", "both", "three", "four", "five", "six", "seven",
-     "eight", "nine", "ten", "eleven", "twelve", "fifteen", "twenty", "a dozen", "dozen",
-     "half a dozen", "one", "a single", "single", "lone", "lonely"}
-)  # fmt: skip
-"""Words among `COUNTS` of which each copy counts; of "several", some more or less are as many."""
-
 PLURAL_COUNT = 3
 """What a bare plural means: "birds fly"."""
 
