@@ -76,7 +76,7 @@ def _replace(tokens: Sequence[Token], at: int) -> tuple[int, list[Token]] | None
 def _stand_for(tokens: Sequence[Token], text: str) -> list[Token]:
     """Tokens of the plain words; the first that says something is reported as the prompt has it."""
     words = text.split()
-    if words[0] == "beside" and words[-1] == tokens[-1].text:
+    if len(words) == 2 and words[0] == "beside" and words[-1] == tokens[-1].text:
         # The road of "on the side of the road" is named as it is.
         return [*_stand_for(tokens[:-1], " ".join(words[:-1])), tokens[-1]]
     said = " ".join(token.text for token in tokens).removeprefix("a ")

@@ -57,7 +57,8 @@ def cut_tokens(
         length = _leave_way(window, length, known)
         length = _leave_head(window, length, known)
         length = _leave_walker(window, length)
-        meanings = known.find([token.text for token in window[:length]])[1] if length else []
+        # What is left need be no phrase: the "heavy city" of "heavy city traffic sign".
+        length, meanings = known.find([token.text for token in window[:length]])
         joined = _count_joined(window, length, known)
         if joined:
             yield tokens[start : start + joined], [Meaning(Role.UNKNOWN, Pos.ADJECTIVE)]

@@ -138,12 +138,17 @@ class Lexicon:
 
         Nothing known gives length 0 and no meanings.
         """
-        longest = self._longest.get(words[0], 0)
+        longest = self._longest.get(words[0], 0) if words else 0
         for length in range(min(longest, len(words)), 0, -1):
             meanings = self._meanings.get(tuple(words[:length]))
             if meanings:
                 return length, meanings
         return 0, []
+
+    @property
+    def phrases(self) -> frozenset[str]:
+        """Every known phrase."""
+        return frozenset(" ".join(phrase) for phrase in self._meanings)
 
     @cached_property
     def words(self) -> frozenset[str]:

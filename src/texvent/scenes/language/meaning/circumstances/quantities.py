@@ -39,7 +39,7 @@ class QuantityReader:
         elif quantity == "time" and preposition in ("after", "at"):
             is_used = self._set_start(value, scope)
         if is_used:
-            mark_used([*one.group.words, *attributes.numbers])
+            mark_used([one.group.head_word, *attributes.numbers])
         return is_used
 
     def _set_speed(self, speed: float, scope: Scope) -> bool:

@@ -171,7 +171,8 @@ def is_part_of_named(group: NounGroup, draft: Draft) -> bool:
     inner = [one.head for phrase in group.phrases for one in phrase.groups if one.head]
     wholes = [draft.nouns[item.noun] for item in draft.objects]
     meanings = [one.read_as(Role.NOUN) for one in inner]
-    wholes += [draft.nouns[str(one.value)] for one in meanings if one is not None]
+    models = [draft.nouns.get(str(one.value)) for one in meanings if one is not None]
+    wholes += [one for one in models if one is not None]  # traffic is no one thing
     if inner and not any(meanings):
         return False
     is_of_vehicle = any(
@@ -291,7 +292,8 @@ def read_young(group: NounGroup, draft: Draft) -> bool:
         return False
     if inner is None or animal is None or group.head_word.lemma not in _YOUNG:
         return False
-    if draft.nouns[str(animal.value)].motion == "stand":
+    model = draft.nouns.get(str(animal.value))
+    if model is None or model.motion == "stand":
         return False
     group.head_word.shown_as = str(animal.value)
     group.modifiers.pop()
@@ -317,8 +319,8 @@ def read_herd(group: NounGroup, draft: Draft) -> int | None:
     member = inner.read_as(Role.NOUN) if inner is not None else None
     if inner is None or member is None or head.lemma not in _HERDS:
         return None
-    noun = draft.nouns[str(member.value)]
-    if not is_living(noun) and noun.motion not in _VEHICLE_MOTIONS:
+    noun = draft.nouns.get(str(member.value))
+    if noun is None or (not is_living(noun) and noun.motion not in _VEHICLE_MOTIONS):
         return None  # a volleyball team is people
     count = _HERDS[head.lemma]
     for phrase in list(group.phrases):
