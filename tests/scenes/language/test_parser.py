@@ -406,6 +406,7 @@ PHRASES = st.sampled_from(sorted(Lexicon(NOUNS).phrases | SET_FORMS))
 @example("skate#boarding")
 @example("a dude on the side of the road beside")
 @example("a heavy city traffic sign")
+@example("a lamp blinks at 10 seconds")
 @example("a swing, its umbrella in rush hour traffic, a traffic pup, a traffic fleet")
 def test_any_text_is_read_and_every_word_is_understood_or_reported(text: str) -> None:
     try:

@@ -28,6 +28,7 @@ from texvent.scenes.language.phrases.inherent import read_inherent
 from texvent.scenes.language.phrases.mood_notes import note_moods
 from texvent.scenes.language.phrases.names import join_names
 from texvent.scenes.language.phrases.phrasings import plain_phrases
+from texvent.scenes.language.phrases.rates import plain_rates
 from texvent.scenes.language.phrases.styles import set_styles_aside
 from texvent.scenes.language.phrases.ways import plain_ways
 from texvent.scenes.language.place_cues import find_cues, read_outsides, read_titles, use_outdoors
@@ -163,7 +164,8 @@ def _join(light: Illumination, said: Illumination) -> Illumination:
 
 def _read_words(prompt: str, known: Lexicon) -> tuple[list[Word], Illumination, list[str]]:
     """Words of a prompt with their senses, what they say of the light, and notes on them."""
-    tokens = plain_ways(plain_phrases(set_styles_aside(drop_frames(tokenize_prompt(prompt)))))
+    tokens = plain_phrases(set_styles_aside(drop_frames(tokenize_prompt(prompt))))
+    tokens = plain_ways(plain_rates(tokens))
     tokens = join_compounds(join_names(tokens, known), known)
     words, notes = tag_words(bring_materials_forward(tokens, known), known)
     if _is_foreign(words) or is_of_other_grammar(prompt):

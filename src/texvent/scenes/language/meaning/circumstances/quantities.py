@@ -55,7 +55,7 @@ class QuantityReader:
         return is_used
 
     def _set_start(self, start: float, scope: Scope) -> bool:
-        for index in scope.movers:
-            motions = self._draft.objects[index].motions
+        moving = [self._draft.objects[index].motions for index in scope.movers]
+        for motions in filter(None, moving):  # lamps that blink have none
             motions[-1] = replace(motions[-1], start_s=start)
-        return bool(scope.movers)
+        return any(moving)
