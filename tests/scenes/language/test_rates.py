@@ -48,6 +48,7 @@ def test_a_rate_is_reported_as_the_prompt_has_it() -> None:
         ("a lamp blinks at 10 flashes per second", "10"),
         ("a lamp blinks 0 times per second", "0"),
         ("a lamp blinks every 0 seconds", "0"),
+        ("a red panda rotates about its vertical axis at 1000000 kHz", "1000000"),
     ],
 )
 def test_what_is_no_rate_is_reported(prompt: str, lost: str) -> None:

@@ -12,6 +12,9 @@ from texvent.scenes.language.meaning.scope import Scope
 from texvent.scenes.language.meaning.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.words.word import mark_used
 
+MAX_RATE_HZ = 100_000.0
+"""Faster ones are reported: no pixel follows them, and paths of a million turns fill the memory."""
+
 
 class QuantityReader:
     """Applies quantities to the motions of a clause."""
@@ -33,7 +36,7 @@ class QuantityReader:
         is_used = False
         if quantity == "speed":
             is_used = self._set_speed(value, scope)
-        elif quantity == "rate":
+        elif quantity == "rate" and value <= MAX_RATE_HZ:
             is_used = set_rate(self._draft, scope.movers or scope.subjects, value)
             is_used = is_used or self._surroundings.read_hertz(value)
         elif quantity == "time" and preposition in ("after", "at"):
