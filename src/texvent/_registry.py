@@ -19,6 +19,8 @@ from texvent.errors import ConfigError, TexventError, one_line, shown
 
 LONGEST_NAME = 60
 """Longer names are no misspelling of an allowed one."""
+SHORTEST_START = 3
+"""Letters from which the start of a name suggests it: "gen" is "generate"."""
 LONGEST_LISTING, FIRST_NAMES = 160, 8
 """Characters of a list that an error holds in full; names that it holds of a longer one."""
 
@@ -34,8 +36,10 @@ def suggest(name: object, allowed: tuple[str, ...], *, longest: int = LONGEST_LI
 
     Of a list of more than `longest` characters, only the closest match or the first names are said.
     """
-    is_name = isinstance(name, str) and len(name) <= LONGEST_NAME
-    close = difflib.get_close_matches(str(name), allowed, n=1) if is_name else []
+    text = name if isinstance(name, str) and len(name) <= LONGEST_NAME else ""
+    close = difflib.get_close_matches(text, allowed, n=1)
+    if not close and len(text) >= SHORTEST_START:
+        close = [one for one in allowed if one.startswith(text)][:1]
     listed, hint = ", ".join(allowed), f"did you mean {close[0]!r}?" if close else ""
     if len(listed) > longest:
         listed = f"{', '.join(allowed[:FIRST_NAMES])}, ... ({len(allowed)} in all)"

@@ -236,9 +236,13 @@ def test_spelling_is_corrected_with_a_note() -> None:
     assert correct_spelling("hat", ["cat"]) is None
 
 
-def test_a_prompt_in_another_language_is_refused() -> None:
+@pytest.mark.parametrize(
+    "prompt",
+    ["ein Hund läuft über die Wiese", "ein roter Ball springt", "una mujer corre", "das Auto"],
+)
+def test_a_prompt_in_another_language_is_refused(prompt: str) -> None:
     with pytest.raises(InputError, match="not to be English"):
-        parse_prompt("ein Hund läuft über die Wiese")
+        parse_prompt(prompt)
 
 
 def test_verb_forms_are_english() -> None:

@@ -192,6 +192,8 @@ _OTHER_GRAMMARS = (
 )  # fmt: skip
 """Small words of German, French, Spanish, Italian."""
 _FEWEST_OTHERS = 2
+_OTHER_ARTICLES = _words("ein eine das der une il una")
+"""What no English sentence begins with."""
 
 
 def is_of_other_grammar(prompt: str) -> bool:
@@ -203,5 +205,8 @@ def is_of_other_grammar(prompt: str) -> bool:
         >>> is_of_other_grammar("ein Ball im Sand"), is_of_other_grammar("a ball in the sand")
         (True, False)
     """
-    said = set(prompt.casefold().replace(",", " ").replace(".", " ").split())
-    return not said & _ENGLISH and any(len(said & one) >= _FEWEST_OTHERS for one in _OTHER_GRAMMARS)
+    words = prompt.casefold().replace(",", " ").replace(".", " ").split()
+    said = set(words)
+    is_opened = len(words) > 1 and words[0] in _OTHER_ARTICLES
+    others = max(len(said & one) for one in _OTHER_GRAMMARS)
+    return not said & _ENGLISH and (is_opened or others >= _FEWEST_OTHERS)
