@@ -83,6 +83,13 @@ def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
     assert prompts == []
 
 
+def test_weights_that_nothing_reads_are_refused(tmp_path, prompts):
+    options = {**SMALL, "interpolate": "flow", "interpolator_weights": str(tmp_path / "rife.pkl")}
+    with pytest.raises(ConfigError, match=r"rife\.pkl, and interpolate is flow, which reads no"):
+        prepare_prompt(PROMPT, resolve("generate", options))
+    assert prompts == []
+
+
 def test_a_web_job_reaches_its_target_rate(tmp_path):
     options = {**SMALL, "noise": "none", "interpolate": "blend", "target_rate": 20_000.0}
     done = job(tmp_path, prompt=PROMPT, options=options)

@@ -10,9 +10,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import GENERATORS
+from texvent._registry import GENERATORS, INTERPOLATORS
 from texvent.calibrate.rate import reach_target_rate
-from texvent.errors import InputError
+from texvent.config import InterpolateConfig
+from texvent.errors import ConfigError, InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.memory import check_memory
@@ -28,16 +29,29 @@ def check_run(settings: Settings) -> None:
     """Refuse a run that cannot be, before any work.
 
     Raises:
-        ConfigError: the simulator has no such backend.
+        ConfigError: the simulator has no such backend, or the interpolator reads no weights.
         InputError: weights of the simulator or the interpolator are not here, or the sensor's
             pixels do not fit into memory.
         MissingDependencyError: the backend or a network needs a package.
     """
+    _check_weights(settings.interpolate)
     describe_weights(settings)
     if settings.size is not None:
         check_memory(settings, settings.size)
     if settings.run.backend != "auto":
         build_simulator(settings.run, settings.simulate)
+
+
+def _check_weights(config: InterpolateConfig) -> None:
+    name = config.interpolate
+    ships = name in INTERPOLATORS.builtin
+    if config.interpolator_weights is not None and ships and not hasattr(
+        INTERPOLATORS.load(name), "provenance"
+    ):  # fmt: skip
+        raise ConfigError(
+            f"interpolator_weights is {config.interpolator_weights}, and interpolate is {name}, "
+            "which reads no weights; leave it out, or interpolate with rife or super-slomo"
+        )
 
 
 def prepare_prompt(

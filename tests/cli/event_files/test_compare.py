@@ -234,6 +234,10 @@ def test_a_short_recording_has_too_few_windows(candidates, capsys):
         (["near.npz", "far.npz", "truth.npz", "-o", "a.html"], "a page shows one file"),
         (["near.npz", "truth.npz", "--window", "0.03"], "window is 0.03 s; it must be"),
         (["near.npz", "truth.npz", "--window", "0.07"], "a multiple of 0.05 s"),
+        (["near.npz", "truth.npz", "--window", "inf"], "--window is inf"),
+        (["near.npz", "truth.npz", "--start", "1e20"], "--start is 1e+20"),
+        (["near.npz", "truth.npz", "--stop=-inf"], "--stop is -inf"),
+        (["near.npz", "truth.npz", "--start", "2", "--stop", "1"], "it must come after start"),
         (["near.npz", "none.npz", "truth.npz"], "no such file: none.npz"),
     ],
 )

@@ -13,6 +13,7 @@ from texvent.cli.event_files.comparison_output import Candidate, Findings, metri
 from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.atomic import check_output
@@ -30,6 +31,9 @@ from texvent.view.page.comparison import write_comparison
 DESCRIPTION = """Compare event files of one sensor: one or several to judge, then the true one. Each
 metric says what it does not see, and how sure it is over windows of time; of several files, which
 is closer. docs/metrics.md gives definitions and the self-test."""
+
+LATEST_S = 1e12
+"""Beyond any clock: the seconds since 1970 are below 2e9."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +82,9 @@ class CompareOptions:
                 f"a page shows one file beside the true one; got {len(self.files) - 1} to judge: "
                 "leave out --out, or all but one"
             )
+        for name in ("start", "stop"):
+            check_range(name, getattr(self, name), -LATEST_S, LATEST_S)
+        check_range("window", self.window, 1e-6, 1e6)
         check_window(self.window_us)
 
     @property

@@ -61,6 +61,7 @@ class BatchOptions(UpsampleConfig):
     loaded once per process."""
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         check_range("jobs", self.jobs, 1, 256)
 
 
