@@ -85,7 +85,7 @@ def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
 
 def test_weights_that_nothing_reads_are_refused(tmp_path, prompts):
     options = {**SMALL, "interpolate": "flow", "interpolator_weights": str(tmp_path / "rife.pkl")}
-    with pytest.raises(ConfigError, match=r"rife\.pkl, and interpolate is flow, which reads no"):
+    with pytest.raises(ConfigError, match=r"\.pkl', and interpolate is flow, which reads no"):
         prepare_prompt(PROMPT, resolve("generate", options))
     assert prompts == []
 

@@ -13,7 +13,7 @@ from typing import Any
 from texvent._registry import GENERATORS, INTERPOLATORS
 from texvent.calibrate.rate import reach_target_rate
 from texvent.config import InterpolateConfig
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.memory import check_memory
@@ -48,8 +48,9 @@ def _check_weights(config: InterpolateConfig) -> None:
     if config.interpolator_weights is not None and ships and not hasattr(
         INTERPOLATORS.load(name), "provenance"
     ):  # fmt: skip
+        weights = shown(str(config.interpolator_weights))
         raise ConfigError(
-            f"interpolator_weights is {config.interpolator_weights}, and interpolate is {name}, "
+            f"interpolator_weights is {weights}, and interpolate is {name}, "
             "which reads no weights; leave it out, or interpolate with rife or super-slomo"
         )
 
