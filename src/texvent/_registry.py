@@ -34,6 +34,8 @@ def load_object(target: str) -> Any:
 def suggest(name: object, allowed: tuple[str, ...], *, longest: int = LONGEST_LISTING) -> str:
     """Say what is allowed, and the closest match if there is one: ` did you mean 'blend'?`.
 
+    Where none is close, it is the first one that begins with the name.
+
     Of a list of more than `longest` characters, only the closest match or the first names are said.
     """
     text = name if isinstance(name, str) and len(name) <= LONGEST_NAME else ""

@@ -83,11 +83,16 @@ def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
     assert prompts == []
 
 
-def test_weights_that_nothing_reads_are_refused(tmp_path, prompts):
-    options = {**SMALL, "interpolate": "flow", "interpolator_weights": str(tmp_path / "rife.pkl")}
-    with pytest.raises(ConfigError, match=r"\.pkl', and interpolate is flow, which reads no"):
-        prepare_prompt(PROMPT, resolve("generate", options))
-    assert prompts == []
+def test_weights_that_nothing_reads_are_said_and_do_not_stop_a_replay(tmp_path, capsys):
+    unread = ["--interpolate", "blend", "--interpolator-weights", "rife.pkl"]
+    words = ["generate", PROMPT, *unread, "--events-only"]
+    small = ["--sensor", "48x36", "--duration", "0.2"]
+    first, again = tmp_path / "first.h5", tmp_path / "again.h5"
+    for command in ([*words, *small, "-o", str(first)], ["replay", str(first), "-o", str(again)]):
+        assert main(command) == 0
+        said = capsys.readouterr().err
+        assert said.count("rife.pkl', and nothing reads it: interpolate is blend") == 1
+    np.testing.assert_array_equal(texvent.load(first).t, texvent.load(again).t)
 
 
 def test_a_web_job_reaches_its_target_rate(tmp_path):

@@ -13,7 +13,7 @@ from typing import Any
 from texvent._registry import GENERATORS, INTERPOLATORS
 from texvent.calibrate.rate import reach_target_rate
 from texvent.config import InterpolateConfig
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import InputError, shown, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.memory import check_memory
@@ -29,12 +29,11 @@ def check_run(settings: Settings) -> None:
     """Refuse a run that cannot be, before any work.
 
     Raises:
-        ConfigError: the simulator has no such backend, or the interpolator reads no weights.
+        ConfigError: the simulator has no such backend.
         InputError: weights of the simulator or the interpolator are not here, or the sensor's
             pixels do not fit into memory.
         MissingDependencyError: the backend or a network needs a package.
     """
-    _check_weights(settings.interpolate)
     describe_weights(settings)
     if settings.size is not None:
         check_memory(settings, settings.size)
@@ -42,16 +41,18 @@ def check_run(settings: Settings) -> None:
         build_simulator(settings.run, settings.simulate)
 
 
-def _check_weights(config: InterpolateConfig) -> None:
-    name = config.interpolate
-    ships = name in INTERPOLATORS.builtin
-    if config.interpolator_weights is not None and ships and not hasattr(
-        INTERPOLATORS.load(name), "provenance"
-    ):  # fmt: skip
-        weights = shown(str(config.interpolator_weights))
-        raise ConfigError(
-            f"interpolator_weights is {weights}, and interpolate is {name}, "
-            "which reads no weights; leave it out, or interpolate with rife or super-slomo"
+def warn_of_unread_weights(config: InterpolateConfig) -> None:
+    """Say so if weights are given to an interpolator that ships with texvent and reads none.
+
+    No error: files of former versions store such runs, and can be made again.
+    """
+    name, weights = config.interpolate, config.interpolator_weights
+    if weights is None or name not in INTERPOLATORS.builtin:
+        return
+    if not hasattr(INTERPOLATORS.load(name), "provenance"):
+        warn(
+            f"interpolator_weights is {shown(str(weights))}, and nothing reads it: interpolate is "
+            f"{name}, not rife or super-slomo"
         )
 
 
@@ -75,6 +76,7 @@ def prepare_prompt(
         InputError: the prompt is empty, a file is missing, or the target rate is out of reach.
     """
     check_run(settings)
+    warn_of_unread_weights(settings.interpolate)
     detailed = _detailed(prompt, upsample, progress)
     simulation = replace(text_to_events(detailed, settings, progress=progress), prompt=prompt)
     return reach_target_rate(simulation, progress=progress)
@@ -170,6 +172,7 @@ def prepare_video(
 ) -> Simulation:
     """The run of a video that is open already; arguments and errors as `prepare_source`."""
     check_run(settings)
+    warn_of_unread_weights(settings.interpolate)
     check_memory(settings, video.size)
     simulation = video_to_events(video, settings, prompt=prompt)
     return reach_target_rate(simulation, progress=progress)

@@ -21,7 +21,7 @@ from texvent.interpolate.pairing import plan_pairs
 from texvent.pipeline import select_events
 from texvent.run.light import suit_light
 from texvent.run.memory import check_memory
-from texvent.run.prepare import check_run
+from texvent.run.prepare import check_run, warn_of_unread_weights
 from texvent.run.settings import Settings
 from texvent.sensor import SensorSize
 from texvent.simulate.build import build_simulator, gains_from_frames
@@ -128,6 +128,7 @@ def check_pushable(settings: Settings) -> None:
             "choose flow, blend, rife or none"
         )
     check_run(settings)
+    warn_of_unread_weights(settings.interpolate)
 
 
 class _PushedFrames:

@@ -199,6 +199,8 @@ _OTHER_ARTICLES = _words("ein eine das der une il una")
 def is_of_other_grammar(prompt: str) -> bool:
     """Whether its small words are those of German, French, Spanish or Italian, none English.
 
+    One is enough if it is an article that opens the prompt.
+
     Nouns alone do not tell: many German ones are English words too.
 
     Example:

@@ -13,7 +13,7 @@ from texvent.scenes.language.meaning.surroundings_reader import SurroundingsRead
 from texvent.scenes.language.words.word import mark_used
 
 MAX_RATE_HZ = 100_000.0
-"""Faster ones are reported: no pixel follows them, and paths of a million turns fill the memory."""
+"""Faster ones are reported: no pixel follows them, and paths of a billion turns fill the memory."""
 
 
 class QuantityReader:
