@@ -112,9 +112,8 @@ def write_shard(folder: Path, number: int, made: Mapping[str, EventStream]) -> N
         writer = TarShardWriter(file)
         for key, events in made.items():
             facts = {"prompt": "a red car drives left", "key": key, "settings": {"fps": 30}}
-            members = sample_members(
-                MadeEvents(events, 0, DURATION_US), facts, class_number=0, preview=False
-            )
+            sample = MadeEvents(events, 0, DURATION_US, len(events))
+            members = sample_members(sample, facts, class_number=0, preview=False)
             records.append(
                 SampleRecord(
                     key=key, clip=key, status=MADE, seed=0, label="car", events=len(events),

@@ -59,6 +59,7 @@ def make_recipe(folder: Path, samples: int, *, clips_per_shard: int, seeds: int 
         "name": "tiny",
         "samples_per_shard": clips_per_shard,
         "previews": False,
+        "filters": {"min_events": 1},
         "options": {"fps": 120, "interpolate": "none"},
         "sources": [{"videos": [f"{clips.name}/*.npy"]}],
         "variants": {"paper": {"seeds": seeds}},

@@ -38,7 +38,7 @@ PAIRS = (1, 2, 5)
 ARMS: Mapping[str, Way] = {
     "physical": "exact",
     "texvent accurate": "exact",
-    "texvent": "exact",
+    "texvent paper": "exact",
     "esim": "exact",
     "v2e noisy": "exact",
     "frame difference": "frames",

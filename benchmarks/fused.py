@@ -38,7 +38,7 @@ SPEEDS = (0.25, 1, 3, 10, 24)
 SIZE = (346, 260)
 REPEATS = 5
 MODELS: Mapping[str, Mapping[str, Any]] = {
-    "texvent paper": {"simulator": "texvent"},
+    "texvent paper": {"simulator": "texvent", "preset": "paper"},
     "esim": {"simulator": "esim"},
     "texvent accurate": {"simulator": "texvent", "preset": "accurate"},
 }

@@ -36,7 +36,7 @@ from texvent.simulate import gpu
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu.device import EXTRA, default_device
 from texvent.simulate.gpu.frame_pairs import GpuPairs
-from texvent.simulate.texvent.simulator import TexventConfig
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Video
 
 VGA, HD = SensorSize(640, 480), SensorSize(1280, 720)
@@ -151,9 +151,7 @@ def make_clips(plan: Plan, density: float, batch: int, pixels: str, device: str)
 def _config(model: str) -> TexventConfig | EsimConfig:
     if model == "esim":
         return EsimConfig()
-    if model == "accurate":
-        return TexventConfig(cache="leaky", reset="step", multi_event=True, timestamp_rule="linear")
-    return TexventConfig()
+    return TexventSimulator.presets[model]
 
 
 class _Clips:

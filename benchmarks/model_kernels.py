@@ -24,7 +24,6 @@ from typing import Any, NamedTuple
 from benchmarks.speed.floor import Bandwidth, measure_bandwidth
 from benchmarks.speed.scenes import Bytes, jumping_pixels, to_and_fro
 from texvent._registry import SIMULATORS
-from texvent.runtime.background_jit import wait_until_idle
 from texvent.sensor import SensorSize
 
 SIZES = (SensorSize(346, 260), SensorSize(1280, 720))
@@ -85,7 +84,6 @@ class Run:
         self._frames = to_and_fro(frames)
         self.step()
         self.step()
-        wait_until_idle()
         self.step()
 
     def step(self) -> int:

@@ -84,7 +84,6 @@ def train_arm(config: ReconstructionConfig, folder: Path) -> list[dict[str, floa
         config.make_task(),
         config.schedule,
         folder,
-        seed=config.seed,
         tables=plain(config),
         hardware=Hardware(device="cpu"),
         progress=NO_PROGRESS,

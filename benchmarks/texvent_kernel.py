@@ -144,24 +144,21 @@ def clips_per_second(
         return len(clips) / (time.perf_counter() - start)
 
 
-def time_cold_start() -> Iterator[tuple[str, float, float]]:
-    """What, seconds until the first events, and seconds until compiled kernels make them.
+def time_cold_start() -> Iterator[tuple[str, float]]:
+    """What, and seconds until the first events.
 
     Each in a process of its own; the first has nothing in Numba's cache.
     """
     program = (
         "import time; start = time.perf_counter()\n"
         "import numpy as np\n"
-        "from texvent.runtime.background_jit import wait_until_idle\n"
         "from texvent.simulate.texvent.simulator import TexventSimulator\n"
         "from texvent.video import Frame\n"
         "imported = time.perf_counter()\n"
         "simulator = TexventSimulator()\n"
         "for k in range(3):\n"
         "    simulator.step(Frame(np.full((720, 1280), 60 * k, np.uint8), 5000 * k))\n"
-        "first = time.perf_counter()\n"
-        "wait_until_idle()\n"
-        "print(first - imported, time.perf_counter() - imported)\n"
+        "print(time.perf_counter() - imported)\n"
     )
     with tempfile.TemporaryDirectory() as cache:
         for name in ("nothing compiled yet", "compiled before"):
@@ -172,8 +169,7 @@ def time_cold_start() -> Iterator[tuple[str, float, float]]:
                 capture_output=True,
                 text=True,
             )
-            first, ready = map(float, made.stdout.split())
-            yield name, first, ready
+            yield name, float(made.stdout)
 
 
 def percentile(times: Sequence[float], percent: float) -> float:
@@ -206,8 +202,8 @@ def main() -> None:
     one, two = (clips_per_second(clips, TexventConfig(), threads) for threads in (1, 2))
     print(f"\nclips at once, 1280x720, 5 %: 2 threads {two / one:.2f} times one thread")
     if arguments.cold:
-        for name, first, ready in time_cold_start():
-            print(f"{name}: first events after {first:.2f} s, compiled after {ready:.2f} s")
+        for name, first in time_cold_start():
+            print(f"{name}: first events after {first:.2f} s")
 
 
 if __name__ == "__main__":

@@ -173,6 +173,8 @@ def one_signature_each() -> None:
         analyzer = ModuleAnalyzer.for_module(module)
         analyzer.analyze()
         analyzer.overloads.clear()
+    for function in (texvent.generate, texvent.simulate, texvent.video):
+        del function.__signature__  # it names all options, which have a page of their own
 
 
 def short_types(*event: Any) -> tuple[str | None, str | None]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import json
 import os
 import shutil
+import signal
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -18,6 +21,15 @@ from hypothesis import HealthCheck, settings
 if shutil.which("nvidia-smi") is None:
     # Triton looks when it is first imported, and other packages may import it first.
     os.environ.setdefault("TRITON_INTERPRET", "1")
+
+# A background job of a shell ignores SIGINT, one of nohup SIGHUP, and what tests start inherits it;
+# of a handler it does not.
+for number, handler in {
+    signal.SIGINT: signal.default_int_handler,
+    signal.SIGHUP: lambda *_: None,
+}.items():
+    if signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, handler)
 
 # The stand-in for NVIDIA's guardrail must be importable before any test imports diffusers, which
 # looks for it once.
@@ -81,6 +93,19 @@ def pytest_collection_finish(session: pytest.Session) -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000, 20, 50)
+
+
+@pytest.fixture
+def spawn() -> Iterator[Callable[..., subprocess.Popen[Any]]]:
+    """`subprocess.Popen`, for processes that end with the test at the latest."""
+    with contextlib.ExitStack() as ended:
+
+        def begin(words: list[str], **options: Any) -> subprocess.Popen[Any]:
+            process = ended.enter_context(subprocess.Popen(words, **options))
+            ended.callback(process.kill)
+            return process
+
+        yield begin
 
 
 @pytest.fixture(scope="session")

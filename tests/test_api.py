@@ -102,7 +102,7 @@ def test_what_there_is_to_choose_from_is_listed():
     assert texvent.generators()[0] == "procedural"
     assert texvent.simulators()[0] == "texvent"
     assert "flow" in texvent.interpolators()
-    assert texvent.presets()[0] == "paper"
+    assert texvent.presets()[:2] == ("accurate", "paper")
     assert "noisy" in texvent.presets("v2e")
     assert "davis346" in texvent.sensors()
     assert "aedat4" in texvent.formats()

@@ -89,7 +89,7 @@ def test_ids_of_objects_survive_cutting_concatenation_and_masks():
     assert EventStream.concat([events[:1], events[1:]]).equals(events)
     assert EventStream.concat([events, stream([9])]).instance is None
     assert events.without_label().class_id.tolist() == [2, 0, 2]
-    assert not events.equals(events.with_ids(None, None))
+    assert events != events.with_ids(None, None)
     with pytest.raises(InputError, match=r"instance runs up to 65536; it must be 0\.\.65535"):
         events.with_ids(np.array([0, 1, 65536]), None)
 
@@ -162,3 +162,20 @@ def test_errors_say_what_to_do_about_polarities_of_one_and_times_in_seconds():
         EventStream(zero, zero, zero, np.array([-1, 1]), SensorSize(4, 3))
     with pytest.raises(InputError, match=r"t must hold integers, µs.*float64"):
         EventStream(zero, zero, np.array([0.1, 0.2]), zero, SensorSize(4, 3))
+
+
+def test_streams_are_equal_by_size_and_events():
+    events = stream([1, 2], label=[0, 1])
+    assert events == stream([1, 2], label=[0, 1]).with_metadata({"seed": 3})
+    assert events.equals(stream([1, 2], label=[0, 1]))
+    for other in (stream([1, 3], label=[0, 1]), stream([1, 2], label=[1, 1]), stream([1, 2]), [1]):
+        assert events != other
+    assert EventStream.empty((3, 2)) != EventStream.empty((2, 3))
+
+
+@pytest.mark.parametrize("add", [lambda one: one + one, lambda one: sum([one, one])])
+def test_adding_events_names_what_joins_them(add):
+    events = stream([1, 2])
+    for one in (events, EventPackets([events], SIZE)):
+        with pytest.raises(TypeError, match=r"EventStream\.concat.*merge EventPackets"):
+            add(one)

@@ -79,7 +79,7 @@ def run(options: argparse.Namespace, progress: Progress) -> dict[str, Any]:
     task, tables = config.make_task(), plain(config)
     state = train(
         task, config.schedule, folder / "head",
-        seed=config.seed, tables=tables, hardware=CPU, progress=progress,
+        tables=tables, hardware=CPU, progress=progress,
     )  # fmt: skip
     pairs = LatentPairs(config.data, "test", config.network.bins, config.network.balance)
     ways = score.Ways(

@@ -12,6 +12,7 @@ import argparse
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 
 from benchmarks.prompts.rates import Share
@@ -59,7 +60,7 @@ def read_names(path: Path) -> list[str]:
         InputError: it cannot be read, or holds no name.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = list(StringIO(path.read_text(encoding="utf-8")))
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror}") from error
     names = [line.strip() for line in lines if line.strip() and not line.startswith("#")]

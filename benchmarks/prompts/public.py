@@ -19,6 +19,7 @@ import csv
 import hashlib
 import json
 from collections.abc import Sequence
+from io import StringIO
 from pathlib import Path
 
 from benchmarks.prompts.sheet import Prompt
@@ -118,7 +119,7 @@ def _is_detailed(text: str) -> bool:
 
 
 def _lines(path: Path) -> list[str]:
-    lines = (line.strip() for line in _read(path).splitlines())
+    lines = (line.strip() for line in StringIO(_read(path)))
     return [line for line in lines if line]
 
 

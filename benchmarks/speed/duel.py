@@ -30,7 +30,6 @@ from benchmarks.speed.peers import (
 )
 from benchmarks.speed.scenes import EXCERPT, dense_video, heavy_clip, source_frames
 from benchmarks.speed.timing import Quartiles, cpu_in_turns, rounded
-from texvent.runtime.background_jit import wait_until_idle
 from texvent.video import Video
 
 LOWEST, HIGHEST = 0.01, 3.0
@@ -90,7 +89,6 @@ def measure_duel(
     pairs = len(clip) - 1
     own: Simulate = ours.prepare()
     own(clip, OWN_THRESHOLD)
-    wait_until_idle()
     target = own(clip, OWN_THRESHOLD)
     calls: dict[str, Callable[[], int]] = {ours.name: lambda: own(clip, OWN_THRESHOLD)}
     rows = [_match(clip, peer, target, calls) for peer in peers]

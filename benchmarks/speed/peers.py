@@ -106,11 +106,10 @@ def _prepare_evlib() -> Simulate:
     return simulate
 
 
-def _prepare_ours(model: str) -> Simulate:
+def _prepare_ours(model: str, preset: str) -> Simulate:
     simulator_class = SIMULATORS.load(model)
-    preset = next(iter(simulator_class.presets.values()))
-    quiet = {"noise": "none"} if hasattr(preset, "noise") else {}
-    config = replace(preset, **quiet)
+    config = simulator_class.presets[preset]
+    config = replace(config, noise="none") if hasattr(config, "noise") else config
 
     def simulate(clip: Video, threshold: float) -> int:
         simulator = simulator_class(with_contrast_threshold(config, threshold))
@@ -121,7 +120,12 @@ def _prepare_ours(model: str) -> Simulate:
 
 def _prepare_pipeline(interpolate: str) -> Simulate:
     def simulate(clip: Video, threshold: float) -> int:
-        options = {"interpolate": interpolate, "noise": "none", "contrast_threshold": threshold}
+        options = {
+            "preset": "paper",
+            "interpolate": interpolate,
+            "noise": "none",
+            "contrast_threshold": threshold,
+        }
         steps = video_to_events(clip, resolve("simulate", options)).steps()
         return sum(len(packet) for _, packet in steps)
 
@@ -147,10 +151,11 @@ AS_SHIPPED = Contender(
     own_threshold=0.2,
 )
 OURS = (
-    Contender("texvent, paper preset", "texvent", (), lambda: _prepare_ours("texvent")),
-    Contender("texvent, esim", "texvent", (), lambda: _prepare_ours("esim")),
+    Contender("texvent, paper preset", "texvent", (), lambda: _prepare_ours("texvent", "paper")),
+    Contender("texvent, default", "texvent", (), lambda: _prepare_ours("texvent", "accurate")),
+    Contender("texvent, esim", "texvent", (), lambda: _prepare_ours("esim", "default")),
 )
-"""One event per pixel and frame, and the peers' own model, several."""
+"""One event per pixel and frame; several; and the peers' own model, several."""
 OURS_WITH_FLOW = Contender(
     "texvent, paper preset, with flow", "texvent", (), lambda: _prepare_pipeline("flow")
 )

@@ -21,7 +21,6 @@ from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import video_to_events
 from texvent.run.settings import Settings, resolve
-from texvent.runtime.background_jit import wait_until_idle
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.simulate.build import build_simulator, gains_from_frames
 from texvent.video import Frame, FrameStream
@@ -184,8 +183,6 @@ def _run_alone(
                 writer.append(packet)
             if frame.is_source and frame.t_us > 0:
                 clock.end_pair()
-                if len(clock.pairs) < WARM_UP_PAIRS:
-                    wait_until_idle()
     return total
 
 
@@ -203,7 +200,6 @@ def _with_timed_frames(pairs: Iterable[FramePair], clock: StageClock) -> Iterato
 
 def _run_overlapped(video: FrameStream, settings: Settings, pairs: int, path: Path) -> float:
     """Seconds per pair behind the warm-up of what `texvent simulate --events-only` does."""
-    wait_until_idle()
     done = -1
     started = ended = 0.0
     with open_writer(path, size=video.size) as writer, BackgroundWriter(writer) as behind:

@@ -8,11 +8,12 @@ from statistics import mean
 from typing import Any
 
 import matplotlib.pyplot as plt
+from grating import grating
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 RESULTS = Path(__file__).parents[1] / "results"
-SIMULATORS = ("physical", "texvent accurate", "esim", "voltmeter", "v2e", "texvent", "senpi")
+SIMULATORS = ("physical", "texvent accurate", "esim", "voltmeter", "v2e", "texvent paper", "senpi")
 # Ink, faint ink, and colours that colour-blind readers can tell apart, for light and dark pages.
 LOOKS = {
     "light": ("#1f2328", "#c8ccd0", ("#0b62a4", "#c2410c", "#3f7d20", "#6b7280", "#7c3aed")),
@@ -109,7 +110,7 @@ def fidelity(colours: tuple[str, ...]) -> Figure:
 def real(colours: tuple[str, ...]) -> Figure:
     """STPP against two recordings, with and without motion between frames."""
     figure, both = plt.subplots(1, 2, figsize=(5.8, 3.6), sharey=True, sharex=True)
-    names = ("physical", "texvent accurate", "texvent", "esim")
+    names = ("physical", "texvent accurate", "texvent paper", "esim")
     for axes, recording in zip(both, ("slider_depth", "davis346"), strict=True):
         scores = {
             score["entry"]: mean(score["values"]["stpp"])
@@ -205,4 +206,5 @@ PLOTS: dict[str, Draw] = {
     "digits": digits,
     "speed": speed,
     "codecs": codecs,
+    "grating": grating,
 }

@@ -7,6 +7,7 @@ dataclasses; None means "as the preset has it".
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
 
@@ -18,10 +19,12 @@ from texvent.events import EventStream
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.options.fields import option_names
 from texvent.options.keywords import GenerateOptions, SimulateOptions
+from texvent.options.signatures import naming_options
 from texvent.options.values import with_options
-from texvent.pipeline import NO_EVENTS, Simulation
+from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.settings import Settings, resolve
+from texvent.run.silence import SignalTally
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.sensor import SizeLike
@@ -67,6 +70,7 @@ def generate(
     truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[GenerateOptions],
 ) -> EventStream | EventPackets: ...
+@naming_options(GenerateOptions)
 def generate(
     prompt: str,
     *,
@@ -93,7 +97,7 @@ def generate(
         The events, with their provenance in `metadata`.
 
     Warns:
-        TexventWarning: words of the prompt are not understood, or there is no event.
+        TexventWarning: words of the prompt are not understood, or hardly an event is signal.
 
     Raises:
         InputError: the prompt is empty, or the embedded generator understands nothing in it.
@@ -151,6 +155,7 @@ def simulate(
     truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[SimulateOptions],
 ) -> EventStream | EventPackets: ...
+@naming_options(SimulateOptions)
 def simulate(
     source: Source,
     *,
@@ -186,7 +191,7 @@ def simulate(
         The events, with their provenance in `metadata`.
 
     Warns:
-        TexventWarning: there is no event, or the motion vectors explain little.
+        TexventWarning: hardly an event is signal, or the motion vectors explain little.
 
     Raises:
         InputError: the source cannot be read, or holds NaN, negative or infinite intensities; or
@@ -196,7 +201,7 @@ def simulate(
     Example:
         >>> import numpy as np
         >>> frames = np.zeros((3, 4, 4), np.uint8)
-        >>> frames[1:, 2, 2] = 200  # one pixel becomes bright
+        >>> frames[1:, 2, 2] = 6  # one pixel becomes brighter
         >>> events = simulate(frames, fps=100, interpolate="none", noise="none")
         >>> events.x.tolist(), events.y.tolist(), events.p.tolist()
         ([2], [2], [1])
@@ -212,6 +217,7 @@ def simulate(
     return run.packets if as_packets else _collected(run, progress)
 
 
+@naming_options(GenerateOptions)
 def video(
     prompt: str,
     *,
@@ -358,11 +364,12 @@ def _simulation(
 
 
 def _collected(run: Simulation, progress: ProgressOption) -> EventStream:
-    """The events of a run, with a warning if there are none."""
-    events = run.packets.collect(progress=progress)
-    kept = run.settings.run.events
-    if not len(events):
-        warn(NO_EVENTS if kept == "all" else f"no events: the run keeps those of {kept} alone")
+    """The events of a run, with a warning if there is no signal or hardly any."""
+    tally = SignalTally()
+    events = replace(run, tally=tally).packets.collect(progress=progress)
+    doubt = tally.doubt(run.settings.run.events)
+    if doubt is not None:
+        warn(doubt)
     return events
 
 

@@ -44,19 +44,13 @@ def check_range(
         ConfigError: with the option's name, its value and the range, or that it is no number.
     """
     if value is not None and not isinstance(value, numbers.Real):
-        raise _refusal(name, shown(value), "a number")
+        raise ConfigError(f"{name} is {shown(value)}; it must be a number")
     if value is not None and not (low <= value <= high and value != math.inf):
         allowed = f"at least {low:g}" if high == math.inf else f"{_number(low)}..{_number(high)}"
         if value == math.inf:
             allowed += " and finite"
         unit = UNITS.get(name, "")
-        raise _refusal(name, f"{_number(value)}{unit}", f"{allowed}{unit}")
-
-
-def _refusal(name: str, value: str, allowed: str) -> ConfigError:
-    error = ConfigError(f"{name} is {value}; it must be {allowed}")
-    error.option = name
-    return error
+        raise ConfigError(f"{name} is {_number(value)}{unit}; it must be {allowed}{unit}")
 
 
 def check_whole(name: str, value: Any, low: float = -math.inf, high: float = math.inf) -> None:
@@ -67,7 +61,7 @@ def check_whole(name: str, value: Any, low: float = -math.inf, high: float = mat
     """
     is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
     if not (is_number and math.isfinite(value) and value == int(value)):
-        raise _refusal(name, shown(value), "a whole number")
+        raise ConfigError(f"{name} is {shown(value)}; it must be a whole number")
     check_range(name, value, low, high)
 
 
@@ -103,14 +97,15 @@ class RunConfig:
     }
 
     simulator: str = "texvent"
-    """Pixel model, such as texvent, esim, v2e, voltmeter or physical. It turns brightness into
-    events."""
-    preset: str = "paper"
-    """Named set of simulator options; single options override it."""
+    """Pixel model. It turns brightness into events: texvent, physical, esim, v2e, senpi, v2ce or
+    voltmeter."""
+    preset: str = "accurate"
+    """Set of simulator options. Single options override it. Without simulator it is that of the
+    one that has the preset."""
     sensor: str | None = None
-    """Sensor: a name such as davis346, WIDTHxHEIGHT, or a file of texvent calibrate.
-    Frames are fitted to its size, and a simulator that knows its measured constants uses
-    them. Without it, a video keeps its own size and a generated scene is davis346."""
+    """Sensor: name or WIDTHxHEIGHT. Names are those of cameras, such as davis346, and of files of
+    texvent calibrate. Frames are fitted to its size, and a simulator that knows its measured
+    constants uses them. Without it, a video keeps its size and a generated scene is davis346."""
     seed: int = 0
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""

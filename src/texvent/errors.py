@@ -8,9 +8,11 @@
     └── MissingDependencyError   an optional package is not installed
 
 A message says what was wrong, the value, what is allowed and what to do. The command line
-prints it as one line and exits with `exit_code`; it never shows a traceback for these. What a
-message echoes of a file or a caller goes through `shown`, what a library said through `one_line`:
-both are bounded, so that a hostile file cannot fill the terminal.
+prints it as one line and exits with `exit_code`; it never shows a traceback for these. Its text may
+write an option as a keyword or as a flag: the reader sees keywords in Python (`in_keywords`), flags
+on the command line (`texvent.cli.wording`). What a message echoes of a file or a caller goes
+through `shown`, what a library said through `one_line`: both are bounded, so that a hostile file
+cannot fill the terminal.
 
 A `TexventWarning` says that a result is there but is hardly what was meant.
 """
@@ -89,6 +91,47 @@ def one_line(error: BaseException) -> str:
     ).__name__
 
 
+KEPT = r"`[^`]*`|(?<!\w)'[^']*'|\"[^\"]*\"|\b(?:texvent|hf) [a-z-]+(?:[^;:,.()]|\.\b)*"
+"""What no wording changes: values that a message echoes, and lines for a shell."""
+_FLAG = re.compile(
+    rf"{KEPT}|(?<![\w/.-])--(?P<no>no-)?(?P<name>[a-z][a-z0-9-]*)"
+    r"(?: (?P<value>[A-Z]{2,}|\d+(?:\.\d+)?)(?![\w/]))?"
+)
+
+
+def in_keywords(text: str) -> str:
+    """A message whose flags are written as the keywords of Python.
+
+    Example:
+        >>> in_keywords("a smaller --sensor, --fps 25 or --no-shadows; see texvent info --json")
+        'a smaller `sensor`, fps=25 or shadows=False; see texvent info --json'
+    """
+
+    def keyword(found: re.Match[str]) -> str:
+        if found["name"] is None:
+            return found[0]
+        name, value = found["name"].replace("-", "_"), "False" if found["no"] else found["value"]
+        return f"{name}={value}" if value else f"`{name}`"
+
+    return _FLAG.sub(keyword, text)
+
+
+_wordings: list[Callable[[str], str]] = [in_keywords]
+
+
+@contextlib.contextmanager
+def worded(wording: Callable[[str], str]) -> Iterator[None]:
+    """Give errors and warnings inside the block to their reader in another wording.
+
+    As `warnings_to`, this holds in all threads.
+    """
+    _wordings.append(wording)
+    try:
+        yield
+    finally:
+        _wordings.remove(wording)
+
+
 def _short_repr() -> reprlib.Repr:
     short = reprlib.Repr()
     short.maxlevel = 3
@@ -108,6 +151,10 @@ class TexventError(Exception):
         """Keep the message, its line breaks as spaces."""
         super().__init__(" ".join(f"{message}".splitlines()), *more, **facts)
 
+    def __str__(self) -> str:
+        """The message, its options as the reader writes them."""
+        return _wordings[-1](super().__str__())
+
 
 class InputError(TexventError, ValueError):
     """What the caller gave cannot be used: a missing file, a NaN, a wrong shape."""
@@ -117,9 +164,6 @@ class InputError(TexventError, ValueError):
 
 class ConfigError(InputError):
     """An option, a preset name or a config file is wrong."""
-
-    option: str | None = None
-    """The option whose value the message begins with, if it does: a command names its flag."""
 
 
 class FileFormatError(InputError):
@@ -164,6 +208,7 @@ def warnings_to(listener: Callable[[str], None]) -> Iterator[None]:
 
 def warn(message: str) -> None:
     """Issue a `TexventWarning` that points at the first line outside texvent."""
+    message = _wordings[-1](message)
     if _listeners:
         _listeners[-1](message)
         return

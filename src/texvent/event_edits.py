@@ -8,7 +8,7 @@ packets give packets that are made as they are read. Each is noted under `edits`
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, NoReturn, Self
 
 if TYPE_CHECKING:
     from texvent.sensor import SizeLike
@@ -35,6 +35,15 @@ class EventEdits:
 
     What the methods call lies above and is imported when it is called: a convenience for users.
     """
+
+    def __add__(self, other: object) -> NoReturn:
+        """Refused, as it could mean two things; the message names both."""
+        raise TypeError(
+            "events are not added: EventStream.concat([first, second]) joins streams that follow "
+            "each other, texvent.transform.merge.merge EventPackets of the same time"
+        )
+
+    __radd__ = __add__  # sum([first, second])
 
     def crop(self, x: int, y: int, width: int, height: int) -> Self:
         """The events of a region, whose top left pixel (x, y) becomes (0, 0).

@@ -216,14 +216,20 @@ class EventStream(EventEdits):
         first, last = np.searchsorted(self.t, (start_us, stop_us), side="left")
         return self[int(first) : int(last)]
 
-    def equals(self, other: EventStream) -> bool:
-        """True if size and every column agree; metadata does not count."""
+    def __eq__(self, other: object) -> bool:
+        """True for a stream of the same size and columns; metadata does not count."""
+        if not isinstance(other, EventStream):
+            return NotImplemented
         mine, theirs = self.columns(), other.columns()
         return (
             self.size == other.size
             and mine.keys() == theirs.keys()
             and all(np.array_equal(mine[name], theirs[name]) for name in mine)
         )
+
+    def equals(self, other: EventStream) -> bool:
+        """As `==`."""
+        return self == other
 
     def with_metadata(self, metadata: Mapping[str, Any]) -> EventStream:
         """The same events with other metadata."""
@@ -358,7 +364,7 @@ def _check_columns(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> Non
         return
     for name, column in columns.items():
         if column.dtype.kind not in "iub":
-            what = "integers, µs: (seconds * 1e6).astype(int)" if name == "t" else "integers"
+            what = "integers, µs: np.rint(seconds * 1e6).astype(int)" if name == "t" else "integers"
             raise InputError(f"{name} must hold {what}; got {column.dtype}")
     for name, side in (("x", size.width), ("y", size.height)):
         low, high = int(columns[name].min()), int(columns[name].max())

@@ -25,16 +25,11 @@ from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
 from texvent.run.light import suit_light
 from texvent.run.provenance import describe_run
 from texvent.run.settings import Settings
+from texvent.run.silence import SignalTally
 from texvent.runtime.progress import Progress
 from texvent.simulate.build import build_simulator, gains_from_frames
 from texvent.simulate.randomized_options import draw_training_config
 from texvent.video import Frame, FrameStream
-
-NO_EVENTS = (
-    "no events: nothing changed by more than the contrast threshold; lower contrast_threshold, or "
-    "check the video"
-)
-"""What is said of a run that gives no event."""
 
 
 def text_to_events(
@@ -91,6 +86,8 @@ class Simulation:
     video: FrameStream
     settings: Settings
     prompt: str | None = None
+    tally: SignalTally | None = None
+    """Counts signal and noise of the latest pass, if it is given."""
 
     def steps(
         self, on_scene_change: OnSceneChange | None = None
@@ -104,6 +101,8 @@ class Simulation:
         """
         run = self.settings.run
         simulator = build_simulator(run, self.settings.simulate)
+        tally = self.tally or SignalTally()
+        tally.begin(simulator)
         with ExitStack() as threads:
             pairs = plan_pairs(
                 self.video,
@@ -115,9 +114,12 @@ class Simulation:
             )
             for pair in pairs:
                 notify_scene_change(pair, on_scene_change)
+                tally.see(pair.second)
                 for frame, packet in simulator.advance(pair):
+                    tally.count(packet)
                     yield frame, select_events(packet, run)
             for frame, packet in simulator.finish():
+                tally.count(packet)
                 yield frame, select_events(packet, run)
 
     def __iter__(self) -> Iterator[EventStream]:

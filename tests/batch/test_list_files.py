@@ -13,19 +13,19 @@ def written(tmp_path, name, text):
 
 
 def test_a_text_file_has_one_prompt_per_line_and_comments(tmp_path):
-    path = written(tmp_path, "p.txt", "# cars\na red car\n\n  # bears\n  ein Bär läuft \n")
+    path = written(tmp_path, "p.txt", "# cars\na red\u2028car\n\n  # bears\n  ein Bär läuft \n")
     assert read_list(path) == (
-        ListEntry(f"{path} line 2", "a red car"),
+        ListEntry(f"{path} line 2", "a red\u2028car"),
         ListEntry(f"{path} line 5", "ein Bär läuft"),
     )
 
 
 def test_a_csv_has_columns_for_prompt_name_and_seed(tmp_path):
-    text = 'name,prompt,seed\ncar,"a red car, fast",7\n,"a\nball",\n'
-    path = written(tmp_path, "p.csv", text)
+    path = tmp_path / "p.csv"
+    path.write_bytes(b'name,prompt,seed\r\ncar,"a red car, fast",7\r\n,"a\r\nball",\r\n')
     entries = read_list(path)
     assert entries[0] == ListEntry(f"{path} line 2", "a red car, fast", name="car", seed=7)
-    assert (entries[1].prompt, entries[1].name, entries[1].seed) == ("a\nball", None, None)
+    assert (entries[1].prompt, entries[1].name, entries[1].seed) == ("a\r\nball", None, None)
 
 
 def test_videos_count_from_the_folder_of_the_list(tmp_path):
@@ -41,10 +41,10 @@ def test_other_names_of_the_prompt_are_understood(tmp_path, column):
 
 
 def test_json_lines_hold_texts_or_objects(tmp_path):
-    text = '"a red car"\n{"text": "a ball", "seed": 0, "name": "ball"}\n'
+    text = '"a red\x85car"\r\n{"text": "a ball", "seed": 0, "name": "ball"}\n'
     path = written(tmp_path, "p.jsonl", text)
     assert read_list(path) == (
-        ListEntry(f"{path} line 1", "a red car"),
+        ListEntry(f"{path} line 1", "a red\x85car"),
         ListEntry(f"{path} line 2", "a ball", name="ball", seed=0),
     )
 

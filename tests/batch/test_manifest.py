@@ -45,6 +45,16 @@ def test_sizes_and_digests_are_stored(tmp_path: Path) -> None:
     # printf events | sha256sum
     assert entry["files"]["car.h5"][1].startswith("862417b9e7c3720b")
     assert (entry["prompt"], entry["seed"], entry["events"]) == ("a red car", 7, 5)
+    digests = []
+    for names in ("xy", "yx"):
+        folder = tmp_path / names
+        folder.mkdir()
+        for name, text in zip(names, ("one", "other"), strict=True):
+            (folder / name).write_text(text)
+        Manifest(tmp_path).add(DOG, [folder], events=1)
+        line = (tmp_path / SAMPLES_FILE).read_text().splitlines()[-1]
+        digests.append(json.loads(line)["files"][names][1])
+    assert digests[0] != digests[1]
 
 
 def test_a_line_cut_off_by_a_power_failure_is_not_done_and_goes(tmp_path: Path) -> None:
@@ -75,7 +85,7 @@ def test_damage_before_the_last_line_is_named(tmp_path: Path) -> None:
 def test_other_options_are_refused_with_the_difference(tmp_path: Path) -> None:
     with_car(tmp_path)
     other = {"settings": {"run": {"seed": 0}, "simulate": {"threshold": 0.3}}, "previews": []}
-    with pytest.raises(ConfigError, match=r"--threshold was 0\.2, is 0\.3; --previews was png, is"):
+    with pytest.raises(ConfigError, match=r"threshold` was 0\.2, is 0\.3; `previews` was png"):
         Manifest(tmp_path).begin(other, overwrite=False)
     assert Manifest(tmp_path).is_done(CAR)
 
@@ -92,21 +102,3 @@ def test_samples_that_left_the_list_are_told(tmp_path: Path) -> None:
     manifest = with_car(tmp_path)
     assert manifest.others([DOG]) == ["car"]
     assert manifest.others([CAR, DOG]) == []
-
-
-def test_options_are_told_by_their_flags_and_never_cut_inside(tmp_path: Path) -> None:
-    old = {f"option_{number}": "x" * 50 for number in range(9)} | {"capture": {"fit": "cover"}}
-    Manifest(tmp_path).begin({"samples": "prompts", "settings": old}, overwrite=False)
-    with pytest.raises(ConfigError) as caught:
-        Manifest(tmp_path).begin({"samples": "prompts", "settings": {}}, overwrite=False)
-    text = str(caught.value).replace(str(tmp_path), "")
-    assert f"--option-0 was {'x' * 37}..., is not set" in text
-    assert "and 9 more; name another folder" in text
-    assert len(text) < 300
-
-
-def test_a_batch_of_another_kind_is_said_to_be_one(tmp_path: Path) -> None:
-    tables = {"capture": {"fit": "cover", "start": 0.0}, "run": {"seed": 3}}
-    Manifest(tmp_path).begin({"samples": "videos", "settings": tables}, overwrite=False)
-    with pytest.raises(ConfigError, match="it holds a batch of videos, and this is one of prompts"):
-        Manifest(tmp_path).begin({"samples": "prompts", "settings": {}}, overwrite=False)

@@ -59,6 +59,9 @@ def test_a_seed_and_a_name_in_the_list_count(tmp_path: Path) -> None:
     (tmp_path / "p.csv").write_text("prompt,name,seed\na dog,rex,7\n")
     (sample,) = read_samples([tmp_path / "p.csv"], seed=3)
     assert (sample.name, sample.seed) == ("rex", 7)
+    (tmp_path / "p.csv").write_text("prompt,name,seed\na dog,rex,8\n")
+    (other,) = read_samples([tmp_path / "p.csv"], seed=3)
+    assert other.key != sample.key
 
 
 def test_folders_and_patterns_give_their_videos(tmp_path: Path) -> None:
@@ -71,6 +74,9 @@ def test_folders_and_patterns_give_their_videos(tmp_path: Path) -> None:
     (pattern,) = read_samples([f"{clips}/*.mp4"], seed=0)
     assert pattern.video == clips / "b.mp4"
     assert pattern.key == found[1].key
+    (tmp_path / "moved").mkdir()
+    clips = clips.rename(tmp_path / "moved" / "clips")
+    assert [sample.key for sample in read_samples([clips], seed=0)] == [one.key for one in found]
     assert are_videos([clips])
     assert not are_videos([listed(tmp_path, "a dog")])
 
@@ -92,7 +98,7 @@ def test_under_a_camera_every_image_is_a_sample(tmp_path: Path) -> None:
     assert [sample.video for sample in samples] == [tmp_path / "a.JPG", tmp_path / "b.png"]
     assert len({sample.seed for sample in samples}) == 2
     (tmp_path / "none").mkdir()
-    with pytest.raises(InputError, match="none holds no image, and --camera moves"):
+    with pytest.raises(InputError, match="none holds no image, and `camera` moves"):
         read_samples([tmp_path / "none"], seed=0, of_stills=True)
 
 

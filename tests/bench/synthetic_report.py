@@ -47,7 +47,7 @@ def synthetic_report():
         )
 
     scores = [
-        score("texvent, blend", [0.5, 0.4]),
+        score("texvent paper, blend", [0.5, 0.4]),
         score("better", [0.7, 0.8], is_matched=False),
         score("lost", [math.nan, math.nan]),
     ]

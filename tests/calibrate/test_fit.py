@@ -2,6 +2,7 @@ import dataclasses
 
 import pytest
 
+from texvent.calibrate.distance import measure_distance
 from texvent.calibrate.estimates import describe_estimates
 from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.preset import describe_fit, write_preset
@@ -41,6 +42,8 @@ def test_the_fit_is_better_where_it_was_not_fitted(fit):
     assert fit.span.stop_us <= fit.held_out.start_us
     assert fitted[1].total < 0.3 * start[1].total
     assert fitted[0].total < 0.3 * start[0].total
+    recorded, simulated = fit.compared
+    assert fitted[1] == measure_distance(simulated, recorded)
 
 
 def test_every_step_is_reported(fit, lines):

@@ -41,6 +41,19 @@ def test_the_noise_of_a_still_recording_is_found_again():
     assert noise.leak_rate_hz == pytest.approx(0, abs=0.1)
 
 
+def test_noise_is_counted_from_a_still_frame_to_the_next():
+    still = still_recording()
+    y, x = np.mgrid[:40, :60].reshape(2, -1)
+    # An OFF event of every pixel between the last two frames of the span, 1.9 and 1.95 s; the first
+    # frame that has two neighbours comes at 0.05 s. For each OFF event there is one of ON.
+    late = EventStream(x, y, np.full(2400, 1_925_000), np.zeros(2400, int), still.events.size)
+    noise = measure_noise(dataclasses.replace(still, events=late), SPAN, gamma=1.0)
+    assert noise.curve.rates_hz == pytest.approx([2 / 1.9] * 3)
+    # Of 800 pixels without an event, 3 OFF events would have been seen 95 times of 100.
+    none = measure_noise(dataclasses.replace(still, events=late[:0]), SPAN, gamma=1.0)
+    assert [one.high for one in none.estimates()[:3]] == pytest.approx([2 * 3 / (800 * 1.9)] * 3)
+
+
 def test_noise_follows_from_off_events_and_the_share_of_on():
     recording = still_recording(
         noise_scale=1.0, noise_curve="1:6 25:2 120:0.5", noise_on_fraction=0.3, leak_rate_hz=0.0
@@ -50,6 +63,14 @@ def test_noise_follows_from_off_events_and_the_share_of_on():
     assert noise.leak_rate_hz == pytest.approx(0, abs=0.1)
     halves = measure_noise(recording, SPAN, gamma=1.0)
     assert halves.curve.rates_hz == pytest.approx(noise.curve.rates_hz * 1.4)
+
+
+def test_the_leak_is_seen_where_noise_is_rare():
+    recording = still_recording(
+        noise_scale=1.0, noise_curve="1:60 25:20 120:0.5", noise_on_fraction=0.6, leak_rate_hz=0.0
+    )
+    # Taken for half ON, noise leaves a fifth of itself: 12, 4 and 0.1 ON events per second.
+    assert measure_noise(recording, SPAN, gamma=1.0).leak_rate_hz < 0.3
 
 
 def test_on_events_without_off_events_are_leak():

@@ -66,6 +66,11 @@ def test_only_the_start_of_the_clip_is_simulated():
     measure_rate(simulation(counted, simulator="physical"), 0.2)
     # Up to three frames more are decoded ahead.
     assert 208_333 <= max(read) <= 333_333
+    early, late = (
+        measure_rate(simulation(one, simulator="physical"), 0.2)
+        for one in (video, Video(video.pixels, np.add(video.times_us, 10**6)))
+    )
+    assert early == late
 
 
 def test_what_cannot_be_matched_fails_clearly():

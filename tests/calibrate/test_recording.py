@@ -29,8 +29,11 @@ def test_a_simulated_span_holds_its_events_only(recording):
     assert len(events) > 1000
     assert span.start_us <= events.t[0]
     assert events.t[-1] < span.stop_us
-    late = simulate_span(frames, span, TRUTH, offset_us=10_000)
-    assert not np.array_equal(late.t, events.t)
+    late = simulate_span(frames, TimeSpan(410_000, 610_000), TRUTH, offset_us=10_000)
+    assert np.array_equal(late.t, events.t + 10_000)
+    longer = simulate_span(frames, TimeSpan(300_000, 600_000), TRUTH).cut(*span)
+    first = [len(one.cut(400_000, 410_000)) for one in (events, longer)]
+    assert first[0] == pytest.approx(first[1], rel=0.05)
 
 
 def test_unlike_sizes_are_refused(recording):

@@ -28,13 +28,14 @@ class ClipWriter:
         stored: str = "yuv420p",
         given: str = "rgb24",
         times_ms: Sequence[int] | None = None,
+        rate: int = 25,
         rotation: int = 0,
         container: dict[str, str] | None = None,
         options: dict[str, str] | None = None,
     ) -> Path:
         path = self.folder / name
         with av.open(str(path), "w", options=container or {}) as clip:
-            stream = clip.add_stream(codec, rate=25, options=options or {})
+            stream = clip.add_stream(codec, rate=rate, options=options or {})
             stream.height, stream.width = frames[0].shape[:2]
             stream.pix_fmt = stored
             stream.codec_context.time_base = Fraction(1, 1000)
@@ -42,7 +43,7 @@ class ClipWriter:
                 stream.set_display_rotation(rotation)
             for index, pixels in enumerate(frames):
                 frame = av.VideoFrame.from_ndarray(pixels, format=given)
-                frame.pts = times_ms[index] if times_ms else 40 * index
+                frame.pts = times_ms[index] if times_ms else 1000 // rate * index
                 frame.time_base = Fraction(1, 1000)
                 clip.mux(stream.encode(frame))
             clip.mux(stream.encode(None))

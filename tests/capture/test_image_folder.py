@@ -67,22 +67,11 @@ def test_float_images_up_to_one_need_a_white_level(tmp_path):
     assert float(frames[0].pixels[0, 0]) == 127.5
 
 
-def test_without_times_the_message_says_what_to_give(tmp_path):
-    save_images(tmp_path / "a")
-    with pytest.raises(InputError, match=r"times of its images are unknown.*--fps.*--timestamps"):
-        open_frames(tmp_path / "a", CaptureConfig())
-
-
 def test_a_wrong_number_of_times_is_refused(tmp_path):
     save_images(tmp_path)
     (tmp_path / "timestamps.txt").write_text("0\n0.1\n")
     with pytest.raises(InputError, match=r"timestamps\.txt has 2 times for 3 frames"):
         open_frames(tmp_path, CaptureConfig())
-
-
-def test_an_empty_folder_is_refused(tmp_path):
-    with pytest.raises(InputError, match="holds no image"):
-        open_frames(tmp_path, CaptureConfig(fps=Fraction(10)))
 
 
 def test_a_listed_image_that_is_missing_is_named(tmp_path):

@@ -9,19 +9,20 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize
-from texvent.video import Video
+from texvent.video import Video, frame_time_us
 
 
-def hundred(**options):
-    frames = np.zeros((100, 2, 2), np.uint8)
-    return open_frames(frames, CaptureConfig(fps=Fraction(100), **options))
-
-
-@given(st.integers(0, 90), st.integers(2, 120))
-def test_start_is_included_and_stop_is_not(first, length):
-    stream = hundred(start=first / 100, stop=(first + length) / 100)
-    expected = list(range(first, min(100, first + length)))
-    assert [frame.t_us // 10_000 for frame in stream] == expected
+@given(
+    st.sampled_from([Fraction(10), Fraction(30_000, 1001), Fraction(100)]),
+    st.integers(0, 900),
+    st.integers(250, 1_200),
+)
+def test_start_is_included_and_stop_is_not(fps, first, length):
+    config = CaptureConfig(fps=fps, start=first / 1000, stop=(first + length) / 1000)
+    stream = open_frames(np.zeros((100, 2, 2), np.uint8), config)
+    times_us = [frame_time_us(index, fps) for index in range(100)]
+    expected = [t for t in times_us if first <= t / 1000 < first + length]
+    assert [frame.t_us for frame in stream] == expected
     assert stream.frame_count == len(expected)
 
 
@@ -33,8 +34,9 @@ def test_start_and_stop_count_from_the_first_frame_and_times_are_not_shifted():
 
 
 def test_nothing_between_start_and_stop_is_an_error_that_says_how_long_the_input_is():
+    config = CaptureConfig(fps=Fraction(100), start=5.0)
     with pytest.raises(InputError, match=r"no frame between 5 s and the end .*up to 0\.99 s"):
-        list(hundred(start=5.0))
+        list(open_frames(np.zeros((100, 2, 2), np.uint8), config))
 
 
 def test_a_stream_that_needs_nothing_is_returned_itself():

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
+from subprocess import PIPE
 
 import numpy as np
 import pytest
@@ -139,12 +139,6 @@ def long_frames(path: Path, count: int = 20_000) -> None:
     frames.flush()
 
 
-def start(*words: str) -> subprocess.Popen[str]:
-    return subprocess.Popen(
-        [*COMMAND, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-
-
 def wait_for_parts(folder: Path, kilobytes: int = 200) -> None:
     deadline = time.monotonic() + 300
     while time.monotonic() < deadline:
@@ -156,9 +150,10 @@ def wait_for_parts(folder: Path, kilobytes: int = 200) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_leaves_nothing(folder, number):
+def test_a_signal_leaves_nothing(folder, spawn, number):
     long_frames(folder / "long.npy")
-    process = start("simulate", "long.npy", "--fps", "500", "-o", "out.h5", *SMALL)
+    words = ("simulate", "long.npy", "--fps", "500", "-o", "out.h5", *SMALL)
+    process = spawn([*COMMAND, *words], stderr=PIPE, text=True)
     wait_for_parts(folder)
     for _ in range(5):
         process.send_signal(number)
@@ -172,10 +167,10 @@ def test_a_signal_leaves_nothing(folder, number):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_keeps_what_is_done_if_that_was_asked_for(folder, number):
+def test_a_signal_keeps_what_is_done_if_that_was_asked_for(folder, spawn, number):
     long_frames(folder / "long.npy")
     words = ("simulate", "long.npy", "--fps", "500", "-o", "out.h5", "--keep-partial", *SMALL)
-    process = start(*words)
+    process = spawn([*COMMAND, *words], stderr=PIPE, text=True)
     wait_for_parts(folder)
     process.send_signal(number)
     _, said = process.communicate(timeout=300)

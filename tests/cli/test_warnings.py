@@ -8,7 +8,6 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
-from texvent.runtime.background_jit import wait_until_idle
 
 SMALL = ["--sensor", "48x36", "--events-only"]
 
@@ -61,7 +60,6 @@ def test_words_without_effect_are_a_line_of_their_own(capsys):
     lines = capsys.readouterr().err.splitlines()
     assert lines[0] == "warning  prompt words not understood: wug"
     assert sum("not understood" in line for line in lines) == 1
-    wait_until_idle()  # a kernel compiled in another thread resets the filters of warnings
     with pytest.warns(texvent.TexventWarning, match="not understood: wug") as caught:
         texvent.generate("a red ball bounces. A wug.", sensor="48x36", duration=0.1)
     assert caught[0].filename == __file__
@@ -89,8 +87,7 @@ def test_strict_refuses_what_is_not_shown_as_it_says(capsys):
 def test_a_run_without_events_warns(capsys):
     still_video("still.avi")
     words = ["simulate", "still.avi", "-o", "a.h5", "--noise", "none", "--events-only", "-q"]
-    assert "--contrast-threshold" in warnings_of(capsys, *words)[0]
-    wait_until_idle()  # a kernel compiled in another thread resets the filters of warnings
+    assert "(0.2); check the video" in warnings_of(capsys, *words)[0]
     with pytest.warns(texvent.TexventWarning, match="no events: nothing changed"):
         assert len(texvent.simulate("still.avi", noise="none")) == 0
 

@@ -91,7 +91,7 @@ def test_options_of_a_pixel_model_are_those_of_its_dataclass(simulator):
     [
         ("texvent", "contrast_threshold", 1e-4, 10.0),
         ("texvent", "noise_rate_hz", 0.0, 1e4),
-        ("texvent", "cache_reset_pairs", 0, 2**53 - 1),  # needs another cache first
+        ("texvent", "residual_decay_hz", 0.0, 1e6),
         ("v2e", "linear_below", 2.0, 255.0),
         ("v2e", "refractory_period_us", 0, 10**9),
         ("voltmeter", "k4", -0.01, 0.01),
@@ -212,7 +212,7 @@ def test_bad_inputs_are_refused_before_anything_runs(node, inputs, words):
     ("simulator", "inputs", "words"),
     [
         ("Physical", {"sensor_seed": "many"}, "sensor_seed is 'many'; it must be a number"),
-        ("Texvent", {"cache_reset_pairs": 3}, "cache_reset_pairs"),  # of another cache
+        ("Texvent", {"timestamp_rule": "eq7"}, "multi_event"),
         ("V2e", {"preset": "x"}, "preset is 'x'"),
     ],
 )

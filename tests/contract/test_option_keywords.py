@@ -1,11 +1,12 @@
 """The typed keywords of the Python API are the options of the dataclasses."""
 
 import ast
+import inspect
 import typing
 
 from tests.contract import option_keywords
 
-from texvent.api import generate, simulate
+from texvent.api import generate, simulate, video
 from texvent.options.fields import option_names
 from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.run.settings import default_settings
@@ -28,3 +29,9 @@ def test_every_option_of_a_run_is_a_typed_keyword():
 def test_every_overload_takes_the_same_keywords():
     for function in (generate, simulate):
         assert len(typing.get_overloads(function)) == 3
+
+
+def test_signatures_name_every_option():
+    pairs = ((generate, GenerateOptions), (simulate, SimulateOptions), (video, GenerateOptions))
+    for function, keywords in pairs:
+        assert set(keywords.__annotations__) < set(inspect.signature(function).parameters)

@@ -20,6 +20,7 @@ CARS: dict[str, Any] = {
     "license": "cc-by-4.0",
     "seed": 3,
     "samples_per_shard": 2,
+    "filters": {"min_events": 1},
     "splits": {"train": 0.67, "test": 0.33},
     "options": {
         "duration": 0.1,

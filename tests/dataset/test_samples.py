@@ -105,28 +105,6 @@ def test_without_slices_a_sample_is_the_whole_clip_without_an_axis_of_time():
     assert sample["stop_us"] == 100_000
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({}, "give either prompts or videos"),
-        ({"prompts": PROMPTS, "videos": [CLIP]}, "give either prompts or videos"),
-        ({"prompts": "a dog"}, "prompts is one str; give a list"),
-        ({"videos": CLIP}, "videos is one ndarray; give a list"),
-        ({"prompts": PROMPTS, "targets": ["flo"]}, "unknown target 'flo'.*did you mean 'flow'"),
-        ({"prompts": PROMPTS, "seed": -1}, "seed is -1"),
-        ({"prompts": PROMPTS, "slice_us": 0}, "slice_us is 0"),
-        ({"prompts": PROMPTS, "simulation": {"seed": 1}}, "a seed of its own"),
-        ({"prompts": PROMPTS, "simulation": {"sensr": "32x24"}}, "unknown option 'sensr'"),
-        ({"prompts": PROMPTS, "representation": "voxel"}, "unknown representation 'voxel'"),
-        ({"prompts": PROMPTS, "representation_options": {"bins": 0}}, "bins is 0"),
-        ({"videos": [CLIP], "representation_options": {"bin": 5}}, "no option 'bin'"),
-    ],
-)
-def test_wrong_options_are_refused_before_any_simulation(options, message):
-    with pytest.raises(ConfigError, match=message):
-        SimulatedSamples(**options)
-
-
 def test_a_clip_shorter_than_a_slice_and_a_negative_number_are_refused():
     samples = SimulatedSamples(videos=[CLIP], slice_us=10**6, simulation={"fps": 50})
     with pytest.raises(InputError, match="lasts 100000 µs, less than one slice of 1000000 µs"):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from texvent.errors import InputError
 from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.pairs import motion_interpolation
@@ -120,8 +119,3 @@ def test_a_small_moving_frame_beats_blending(moving_texture, psnr, flow, blend):
     first, second, truth = (moving_texture(dx, width=40, height=30) for dx in (0, 3, 1.5))
     moved, mixed = (psnr(middle(part, first, second), truth) for part in (flow, blend))
     assert moved >= mixed + 3.0
-
-
-def test_frames_of_two_sizes_are_refused(flow):
-    with pytest.raises(InputError, match="both must have one size"):
-        middle(flow, np.zeros((4, 4), np.uint8), np.zeros((4, 5), np.uint8))

@@ -3,11 +3,11 @@ from __future__ import annotations
 import errno
 import os
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from subprocess import PIPE, Popen
 
 import pytest
 
@@ -72,7 +72,7 @@ def _write_while_another_does(target: Path) -> None:
 def test_an_existing_file_is_refused_and_the_message_says_what_to_do(tmp_path: Path) -> None:
     target = tmp_path / "out.bin"
     target.write_bytes(b"old")
-    with pytest.raises(OutputError, match=r"out\.bin exists already.*--overwrite"):
+    with pytest.raises(OutputError, match=r"out\.bin exists already.*overwrite=True"):
         check_output(target, overwrite=False)
     assert check_output(target, overwrite=True) == target
 
@@ -132,35 +132,31 @@ def test_other_system_errors_are_not_called_a_full_disk() -> None:
     assert is_disk_full(OSError(errno.EDQUOT, "Disk quota exceeded"))
 
 
-def _start_writer(target: Path) -> subprocess.Popen[str]:
-    process = subprocess.Popen(
-        [sys.executable, "-c", WRITER, str(target)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    if process.stdout is None or process.stdout.readline() != "writing\n":
-        process.kill()
-        pytest.fail(f"the writer did not start: {process.communicate()[1]}")
+@pytest.fixture
+def writer(tmp_path: Path, spawn: Callable[..., Popen[str]]) -> Popen[str]:
+    """A process that writes `out.h5`."""
+    words = [sys.executable, "-c", WRITER, str(tmp_path / "out.h5")]
+    process = spawn(words, stdout=PIPE, text=True)
+    assert process.stdout is not None
+    assert process.stdout.readline() == "writing\n"
     return process
 
 
-def test_a_killed_writer_leaves_no_file_under_the_name(tmp_path: Path) -> None:
-    target = tmp_path / "out.h5"
-    process = _start_writer(target)
-    process.kill()
-    process.communicate()
-    assert not target.exists()
+def test_a_killed_writer_leaves_no_file_under_the_name(tmp_path: Path, writer: Popen[str]) -> None:
+    writer.kill()
+    writer.communicate()
+    assert not (tmp_path / "out.h5").exists()
     left = [path.name for path in tmp_path.iterdir()]
     assert all(name.startswith(".texvent-") and ".part" in name for name in left)
 
 
-def test_ctrl_c_leaves_nothing_at_all(tmp_path: Path, folder_is_clean: Callable[[], bool]) -> None:
-    process = _start_writer(tmp_path / "out.h5")
+def test_ctrl_c_leaves_nothing_at_all(
+    writer: Popen[str], folder_is_clean: Callable[[], bool]
+) -> None:
     time.sleep(0.1)
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=300)
-    assert process.returncode != 0
+    writer.send_signal(signal.SIGINT)
+    writer.communicate(timeout=300)
+    assert writer.returncode != 0
     assert folder_is_clean()
 
 

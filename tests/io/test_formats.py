@@ -6,6 +6,7 @@ import itertools
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError, InputError, OutputError
+from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import load, open_events, open_writer, save
@@ -88,7 +89,17 @@ def test_late_times_come_back_or_are_refused_before_anything_is_kept(
     tmp_path: Path, case: FormatCase, folder_is_clean: Callable[[], bool]
 ) -> None:
     path = tmp_path / case.file
-    for last in (2**23 - 1, 2**23, 2**31 - 1, 2**31, 2**32 - 1, 2**32 + 5):
+    for last in (
+        2**23 - 1,
+        2**23,
+        2**31 - 1,
+        2**31,
+        2**32 - 1,
+        2**32 + 5,
+        2**51 - 1,
+        2**53 - 1,
+        2**62 - 1,
+    ):
         stream = at_times([last - 1, last], case.sensor)
         if case.stop_us is not None and last >= case.stop_us:
             with pytest.raises(InputError, match=f"holds times below {case.stop_us} µs.*hdf5"):
@@ -117,18 +128,19 @@ def test_a_sensor_that_does_not_fit_is_refused_with_the_formats_that_hold_it(
     assert folder_is_clean()
 
 
-def test_the_noise_label_is_kept_or_refused_with_the_formats_that_hold_it(
-    tmp_path: Path, case: FormatCase, folder_is_clean: Callable[[], bool]
-) -> None:
+def test_labels_are_kept_or_left_out_with_one_warning(tmp_path: Path, case: FormatCase) -> None:
     events = at_times([1, 2], case.sensor)
-    label = np.array([0, 1], dtype=np.uint8)
-    labelled = EventStream(events.x, events.y, events.t, events.p, events.size, {}, label)
+    labelled = replace(events, label=np.array([0, 1]))
+    packets = EventPackets([labelled[:1], labelled[1:]], events.size)
+    path = tmp_path / case.file
     if case.name in LABELLED:
-        assert load(save(tmp_path / case.file, labelled, format=case.name)).equals(labelled)
+        assert load(save(path, packets, format=case.name), format=case.name) == labelled
         return
-    with pytest.raises(InputError, match=r"no place for the signal/noise label; hdf5"):
-        save(tmp_path / case.file, labelled, format=case.name)
-    assert folder_is_clean()
+    with pytest.warns(TexventWarning, match=r"signal/noise label.*without_label\(\)") as said:
+        save(path, packets, format=case.name)
+    assert len(said) == 1
+    assert load(path, format=case.name) == events
+    save(path, labelled.without_label(), format=case.name, overwrite=True)  # no warning
 
 
 def test_packet_sizes_do_not_change_the_file(tmp_path: Path, case: FormatCase) -> None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from subprocess import PIPE, Popen
 
 import pytest
 
@@ -54,38 +56,34 @@ def _forget_swept_folders(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(hidden_parts, "_swept", set())
 
 
-def start_holder(target: Path) -> subprocess.Popen[str]:
-    process = subprocess.Popen(
-        [sys.executable, "-c", HOLD, str(target)],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
+@pytest.fixture(params=["out.h5", "folder"])
+def holder(
+    request: pytest.FixtureRequest, tmp_path: Path, spawn: Callable[..., Popen[str]]
+) -> Popen[str]:
+    """A process that writes a file or a folder until it is told to go on."""
+    words = [sys.executable, "-c", HOLD, str(tmp_path / request.param)]
+    process = spawn(words, stdin=PIPE, stdout=PIPE, text=True)
     assert process.stdout is not None
     assert process.stdout.readline() == "writing\n"
     return process
 
 
-@pytest.mark.parametrize("name", ["out.h5", "folder"])
-def test_parts_of_a_killed_process_go_at_the_next_run(tmp_path: Path, name: str) -> None:
-    process = start_holder(tmp_path / name)
-    process.send_signal(signal.SIGKILL)
-    process.communicate()
+def test_parts_of_a_killed_process_go_at_the_next_run(tmp_path: Path, holder: Popen[str]) -> None:
+    holder.send_signal(signal.SIGKILL)
+    holder.communicate()
     assert len(list(tmp_path.glob(".texvent-*"))) == 1
     with atomic_file(tmp_path / "next.bin", overwrite=False) as part:
         part.write_bytes(b"next")
     assert [path.name for path in tmp_path.iterdir()] == ["next.bin"]
 
 
-@pytest.mark.parametrize("name", ["out.h5", "folder"])
-def test_parts_of_a_living_process_stay(tmp_path: Path, name: str) -> None:
-    process = start_holder(tmp_path / name)
+def test_parts_of_a_living_process_stay(tmp_path: Path, holder: Popen[str]) -> None:
     (living,) = tmp_path.glob(".texvent-*")
     with atomic_file(tmp_path / "next.bin", overwrite=False) as part:
         part.write_bytes(b"next")
     assert living.exists()
-    process.communicate("")
-    assert {path.name for path in tmp_path.iterdir()} == {"next.bin", name}
+    holder.communicate("")
+    assert {path.name for path in tmp_path.iterdir()} == {"next.bin", Path(holder.args[-1]).name}
 
 
 def test_the_own_open_parts_and_files_of_others_stay(tmp_path: Path) -> None:

@@ -103,7 +103,9 @@ def test_interval_distance_of_intervals_ten_times_longer_is_one_decade():
 def test_interval_distance_without_any_interval_is_undefined():
     assert math.isnan(IntervalDistance()(one_event(), one_event()))
     # Intervals of 0 µs count as 1 µs.
-    assert IntervalDistance()(one_event(count=2), one_event(count=2)) == 0.0
+    same = one_event(count=2)
+    ten_us = EventStream([0] * 2, [0] * 2, [0, 10], [1] * 2, same.size)
+    assert IntervalDistance()(same, ten_us) == pytest.approx(1.0)
 
 
 def test_event_frame_values_of_one_event():

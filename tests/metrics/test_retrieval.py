@@ -84,6 +84,7 @@ def test_exchanged_texts_come_out_at_chance_and_the_p_value_tells_pairs_from_non
     assert unrelated.shuffled.median_rank == pytest.approx(30.5, abs=1.5)
     assert unrelated.shuffled.mean_similarity == pytest.approx(noise.mean(), abs=0.03)
     assert 0.01 < unrelated.p_value < 0.99
+    assert score(noise, exchanges=400, seed=1).shuffled != unrelated.shuffled
     paired = score(noise + np.eye(60), exchanges=400)
     assert paired.p_value == 1 / 401
     assert paired.shuffled.recall[1] < paired.low.recall[1]

@@ -92,3 +92,15 @@ def test_plots_show_inline():
         "ax = events.plot()"
     )
     assert any("image/png" in output.data for output in cells[0].outputs)
+
+
+def test_tab_completes_options_and_shift_tab_lists_them():
+    source = """
+kernel, code = get_ipython().kernel, "texvent.simulate(frames, contrast_thre"
+print(*kernel.do_complete(code, len(code))["matches"])
+print(kernel.do_inspect(code, 16)["data"]["text/plain"])
+"""
+    cells, _ = run_cells(source)
+    printed = "".join(one["text"] for one in cells[0].outputs if one.get("name") == "stdout")
+    assert "contrast_threshold= " in printed.splitlines()[0]
+    assert "interpolator_tile" in printed

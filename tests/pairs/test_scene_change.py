@@ -101,12 +101,27 @@ def test_white_and_black_images_are_flashes(scene):
 def test_a_plain_image_at_about_the_same_level_is_a_cut_if_much_changes(scene):
     contrasty = np.where(scene(0) > np.median(scene(0)), 220.0, 20.0)
     assert change(contrasty, np.full((HEIGHT, WIDTH), 120.0)) is SceneChange.CUT
+    faint = np.where(contrasty > 100, 90.0, 50.0)
+    assert change(faint, np.full((HEIGHT, WIDTH), 70.0)) is SceneChange.NONE
+
+
+def test_another_image_that_changes_little_in_levels_or_in_log_is_no_cut():
+    rng = np.random.default_rng(7)
+    for low, high, expected in ((10, 190, "cut"), (180, 250, "none"), (0, 24, "none")):
+        blocks = (np.kron(rng.uniform(low, high, (18, 24)), np.ones((8, 8))) for _ in "ab")
+        assert change(*blocks).value == expected
 
 
 def test_a_lamp_that_lights_a_corner_is_no_jump(scene):
     lit = scene(0) * 0.5
     lit[:60, :70] *= 2
     assert change(scene(0) * 0.5, lit) is SceneChange.NONE
+
+
+def test_a_flash_brightens_three_quarters_of_the_image(scene):
+    for lit_rows, expected in ((100, SceneChange.NONE), (116, SceneChange.FLASH)):  # of 144
+        gain = np.where(np.arange(HEIGHT) < lit_rows, 1.0, 0.4)
+        assert change(scene(0) * 0.5, scene(0) * gain[:, np.newaxis]) is expected
 
 
 def test_equal_frames_do_not_jump(scene):

@@ -14,6 +14,7 @@ from texvent.cli.app import main
 NAME = "Ereignis daten – 事件 ü"
 SPECIFICATION = """
 name = "cubes"
+filters = { min_events = 1 }
 splits = { train = 1.0 }
 
 [[sources]]

@@ -17,7 +17,7 @@ def test_without_weights_the_message_says_where_they_come_from_and_go(name, tmp_
     message = str(told.value)
     assert f"{name} needs its weights" in message
     assert "ercanburak/EVREAL" in message
-    assert "--weights" in message
+    assert "`weights`" in message
     assert str(tmp_path / "weights" / f"{name}.pth") in message
     assert "\n" not in message
 

@@ -163,8 +163,8 @@ def test_without_ros_one_line_says_what_to_do(world, monkeypatch, capsys, missin
     ("words", "message"),
     [
         ("clip.mp4 --prompt x", "a video and --prompt are both given"),
-        ("--events-topic 1st", "events_topic is '1st'; a topic has letters"),
-        ("--events-topic ~x", "events_topic is '~x'; a topic has letters"),
+        ("--events-topic 1st", "--events-topic is '1st'; a topic has letters"),
+        ("--events-topic ~x", "--events-topic is '~x'; a topic has letters"),
         ("--node a/b", "node is 'a/b'"),
         ("--packet-ms 0", "--packet-ms is 0; it must be 0.001..1000"),
         ("--stamps never", "stamps"),

@@ -28,7 +28,8 @@ def test_a_smaller_sensor_averages_the_blocks_of_compression(tmp_path):
     def excess(**options):
         """Events of the compressed clip over those of the clean one."""
         made, true = (
-            len(texvent.simulate(one, **PLAIN, **options)) for one in (path, video_of(images))
+            len(texvent.simulate(one, **PLAIN, preset="paper", **options))
+            for one in (path, video_of(images))
         )
         return made / true
 

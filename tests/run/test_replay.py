@@ -8,7 +8,7 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.pipeline import text_to_events
-from texvent.run.replay import prepare_replay, render_again
+from texvent.run.replay import COMPARED, describe_differences, prepare_replay, render_again
 from texvent.run.settings import resolve
 
 OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
@@ -68,6 +68,22 @@ def test_recordings_from_before_an_option_was_removed_are_made_again(simulation)
     stored["settings"]["run"]["engine"] = "continuous"
     with pytest.raises(ConfigError, match="engine 'continuous' was removed; leave it out"):
         prepare_replay(stored, path=Path("events.h5"))
+
+
+def test_whatever_decides_the_bytes_is_compared(simulation) -> None:
+    stored = {**simulation.provenance, "weights": {"simulator": {"sha256": "1"}}}
+    assert describe_differences(stored, stored) == []
+    for name, other in {
+        "texvent_version": "0.0.9",
+        "weights": {"simulator": {"sha256": "2"}},
+        "source": {**stored["source"], "prompt": "a dog"},
+        "settings": {**stored["settings"], "run": {}},
+        "seed": 5,
+    }.items():
+        (said,) = describe_differences(stored, {**stored, name: other})
+        assert said.startswith(COMPARED[name])
+    (said,) = describe_differences(stored, simulation.provenance)
+    assert said.startswith("weights: was")
 
 
 def test_a_changed_asset_refuses_the_run(tmp_path) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
+import math
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +14,11 @@ import pytest
 import texvent
 from texvent._registry import SIMULATORS
 from texvent.cli.app import main
+from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
 from texvent.io.files import save
-from texvent.runtime.background_jit import wait_until_idle
 
-from .pixel_frames import moving_texture
+from .pixel_frames import moving_texture, run
 
 RATE_HZ = 4.0
 DARK = 10.0
@@ -86,10 +88,34 @@ def test_without_noise_every_event_is_signal_and_a_scene_at_rest_is_silent(model
     assert len(moving) > 100
     assert (moving.label == SIGNAL).all()
     still = np.full((13, 8, 9), DARK, np.float32)
-    wait_until_idle()  # a kernel compiled in another thread resets the filters of warnings
     with pytest.warns(texvent.TexventWarning, match="no events: nothing changed"):
         at_rest = texvent.simulate(still, fps=24, simulator=model, **CLEAN[model])
     assert len(at_rest) == 0
+
+
+@pytest.mark.parametrize("model", SIMULATORS.builtin)
+def test_impossible_options_fail_by_name(model):
+    config = SIMULATORS.load(model).config_type()
+    numbers = -1e19, 1e19, math.nan
+    for name, value in vars(config).items():
+        words = ("abacus",) if isinstance(value, str) and model != "v2ce" else ()
+        for wrong in numbers if type(value) in (int, float) else words:
+            with pytest.raises(ConfigError, match=name):
+                dataclasses.replace(config, **{name: wrong})
+
+
+@pytest.mark.parametrize("model", CLEAN)
+def test_a_whole_number_may_be_an_int(model):
+    kind = SIMULATORS.load(model)
+    config = dataclasses.replace(kind.config_type(), **NOISY.get(model, {}))
+    if hasattr(config, "noise_on_fraction"):
+        config = dataclasses.replace(config, noise_on_fraction=1.0)
+    floats = {name: value for name, value in vars(config).items() if isinstance(value, float)}
+    whole = {name: int(value) for name, value in floats.items() if value.is_integer()}
+    runs = (kind(one) for one in (config, dataclasses.replace(config, **whole)))
+    expected, given = (run(simulator, moving_texture(6, (30, 40))) for simulator in runs)
+    assert len(expected) > 100
+    assert given.equals(expected)
 
 
 @pytest.mark.parametrize("model", CLEAN)

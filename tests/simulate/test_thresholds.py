@@ -1,10 +1,11 @@
-from dataclasses import dataclass
+import math
 
+import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.random.mismatch import draw_threshold_pair, sensor_key
 from texvent.simulate.texvent.simulator import TexventConfig
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.simulate.v2e.config import V2eConfig
@@ -38,17 +39,9 @@ def test_on_and_off_keep_their_ratio_unless_it_is_given():
     assert physical.contrast_threshold_on / physical.contrast_threshold_off == pytest.approx(1.2)
 
 
-def test_a_model_without_a_threshold_fails_by_name():
-    @dataclass
-    class ThinkingConfig:
-        depth: int = 3
-
-    with pytest.raises(ConfigError, match="'thinking' has no contrast threshold"):
-        contrast_threshold_of(ThinkingConfig())
-    with pytest.raises(ConfigError, match="'thinking' has no contrast threshold"):
-        with_contrast_threshold(ThinkingConfig(), 0.2)
-
-
-def test_an_impossible_threshold_fails():
-    with pytest.raises(ConfigError, match="contrast_threshold"):
-        with_contrast_threshold(PhysicalConfig(), 100.0)
+def test_mismatch_of_on_and_off_is_independent():
+    config = EsimConfig(contrast_threshold_on=0.2, contrast_threshold_off=0.3, threshold_sigma=0.03)
+    pair = np.reshape(draw_threshold_pair((60, 80), sensor_key(0), config), (2, -1))
+    assert pair.mean(axis=1) == pytest.approx([0.2, 0.3], abs=5 * 0.03 / math.sqrt(4800))
+    assert pair.std(axis=1) == pytest.approx([0.03, 0.03], rel=5 / math.sqrt(9600))
+    assert abs(np.corrcoef(pair)[0, 1]) < 5 / math.sqrt(4800)

@@ -40,6 +40,7 @@ SPECIFICATION = f"""
 name = "tiny"
 samples_per_shard = 2
 previews = false
+filters = {{ min_events = 1 }}
 [options]
 fps = 120
 interpolate = "none"

@@ -1,4 +1,4 @@
-"""Batches made by worker processes: what a worker refuses is said in one line."""
+"""Batches are drawn by epoch and sample; what a worker process refuses is said in one line."""
 
 from __future__ import annotations
 
@@ -14,6 +14,23 @@ from texvent.errors import InputError  # noqa: E402
 from texvent.train.batches import Batches  # noqa: E402
 
 pytestmark = pytest.mark.torch
+
+
+def draw(number: int, chance: np.random.Generator) -> Mapping[str, Any]:
+    return {"number": float(number), "drawn": chance.random()}
+
+
+def test_order_and_chance_are_those_of_the_epoch_and_the_sample() -> None:
+    batches = Batches(make=draw, count=8, batch_size=3, seed=1)
+    first, again, second = (
+        [pair for batch in batches.epoch(epoch) for pair in zip(*batch.values(), strict=True)]
+        for epoch in (0, 0, 1)
+    )
+    assert len(batches) == 3
+    assert first == again
+    assert len({drawn for _, drawn in first + second}) == 16
+    assert [number for number, _ in first] != [number for number, _ in second]
+    assert sorted(number for number, _ in second) == list(range(8))
 
 
 def refuse(number: int, chance: np.random.Generator) -> Mapping[str, Any]:

@@ -1,8 +1,9 @@
-"""The training loop: scores, files, continuation to equal weights, refusals."""
+"""The training loop: scores, files, refusals; `test_resuming.py` has what follows a kill."""
 
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -12,16 +13,13 @@ from texvent.cli.app import main
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent.errors import TexventError  # noqa: E402
-from texvent.options.values import plain  # noqa: E402
-from texvent.train.checkpoint import read_state  # noqa: E402
 from texvent.train.classification.config import ClassificationConfig  # noqa: E402
 from texvent.train.classification.task import ClassificationTask  # noqa: E402
-from texvent.train.reading import read_training  # noqa: E402
 from texvent.train.run import train_from_file  # noqa: E402
-from texvent.train.schedule import Hardware  # noqa: E402
+from texvent.train.schedule import Hardware, Schedule  # noqa: E402
 
-from .killed_training import kill_after_epochs  # noqa: E402
-from .written_samples import write_bars  # noqa: E402
+from ..dataset.loading.written_set import write_shard  # noqa: E402
+from .written_samples import LABELS, bar, write_bars  # noqa: E402
 
 pytestmark = pytest.mark.torch
 CPU = Hardware(device="cpu")
@@ -75,23 +73,6 @@ def test_workers_change_nothing(specification: Path, tmp_path: Path) -> None:
     assert all(torch.equal(one[name], two[name]) for name in one)
 
 
-def test_a_killed_training_ends_with_equal_weights(specification: Path, tmp_path: Path) -> None:
-    text = specification.read_text().replace("epochs = 4", "epochs = 20")
-    specification.write_text(text)
-    train_from_file(ClassificationConfig, specification, tmp_path / "whole", CPU)
-    words = ["train", "classification", str(specification), "-o", str(tmp_path / "killed")]
-    words += ["--device", "cpu", "-q"]
-    for rows in (1, 5):
-        kill_after_epochs(words, tmp_path / "killed", rows)
-    config = read_training(specification, ClassificationConfig())
-    stopped = read_state(tmp_path / "killed", plain(config))
-    assert stopped is not None
-    assert 4 <= stopped.epochs < 20
-    assert main(words) == 0
-    whole, killed = weights(tmp_path / "whole"), weights(tmp_path / "killed")
-    assert all(torch.equal(whole[name], killed[name]) for name in whole)
-
-
 def test_the_rate_falls_and_training_stops_where_nothing_improves(
     specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -99,11 +80,26 @@ def test_the_rate_falls_and_training_stops_where_nothing_improves(
         'data = {folder = "bars"}\n[schedule]\nepochs = 30\npatience = 1\nreduction = 0.5\n'
         "stop_after = 5\nlearning_rate = 1e-9\n"
     )
+    scores = iter([math.nan, 0.5, 0.9, 0.9, math.nan, *[0.8] * 25])
+    monkeypatch.setattr(ClassificationTask, "validate", lambda *_, **__: {"accuracy": next(scores)})
     state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
-    assert state.epochs == state.best_epoch + 5
+    assert (state.best_epoch, state.epochs) == (3, 8)
     rate = state.optimizer["param_groups"][0]["lr"]
     # Reduced after two epochs without a better score, and again after two more.
     assert rate == pytest.approx(0.25e-9)
+
+
+def test_options_of_the_schedule_reach_the_optimiser(specification: Path, tmp_path: Path) -> None:
+    optimizer = Schedule(
+        optimizer="adamw", learning_rate=0.1, weight_decay=0.2, amsgrad=True
+    ).make_optimizer(torch.nn.Linear(1, 1))
+    assert isinstance(optimizer, torch.optim.AdamW)
+    expected = {"lr": 0.1, "weight_decay": 0.2, "amsgrad": True}
+    assert optimizer.param_groups[0].items() >= expected.items()
+    specification.write_text(specification.read_text() + "clip_gradient = 1e-6\n")
+    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+    moments = [one["exp_avg_sq"].sum() for one in state.optimizer["state"].values()]
+    assert 0 < sum(moments) < 1e-12
 
 
 def test_a_loss_that_is_no_number_ends_it_with_the_place(
@@ -125,25 +121,11 @@ def test_another_training_is_not_continued(
     specification.write_text(specification.read_text().replace("0.01", "0.02"))
     assert main(words) == 2
     assert "learning_rate was 0.01, is 0.02" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ("epochs = 0", "epochs is 0; it must be 1..1e+06"),
-        ("epoch = 3", "unknown option 'epoch'; allowed"),
-        ('optimizer = "sgd"', "optimizer"),
-        ("learning_rate = nan", "learning_rate is nan"),
-    ],
-)
-def test_wrong_files_are_refused_before_any_work(
-    specification: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], change: str,
-    message: str
-) -> None:  # fmt: skip
-    specification.write_text(f'data = {{folder = "bars"}}\n[schedule]\n{change}\n')
-    words = ["train", "classification", str(specification), "-o", str(tmp_path / "run"), "-q"]
+    specification.write_text(specification.read_text().replace("0.02", "0.01"))
+    write_shard(tmp_path / "bars", "paper", "train", 1, {"one more": bar(0, 24)}, labels=LABELS)
     assert main(words) == 2
-    error = capsys.readouterr().err
-    assert message in error
-    assert len(error.strip().splitlines()) == 1
-    assert not (tmp_path / "run").exists()
+    assert "samples was 24 (" in capsys.readouterr().err
+    path = tmp_path / "run" / "checkpoint.pt"
+    torch.save({**torch.load(path, weights_only=True), "version": "0.0.9"}, path)
+    assert main(words) == 2
+    assert "was begun by texvent 0.0.9" in capsys.readouterr().err

@@ -98,6 +98,7 @@ def test_dropping_by_hand() -> None:
     # 71 µs in all: a span of 0.5 · 71 = 36 µs (35.5 rounds to even) from 0.25 · 36 = 9 µs on.
     kept = DropTime(most=1.0).apply(events, Chance(0.5, 0.25))
     assert sorted(set(kept.t.tolist())) == [0, 50, 60, 70]
+    assert DropTime(most=1.0).apply(events, Chance(0.5, 0.999)).t.max() == 30  # up to the last µs
     # A rectangle of half of each side, as far to the right and down as it fits.
     kept = DropArea(most=1.0).apply(events, Chance(0.5, 0.999, 0.999))
     assert {(x, y) for x, y, _, _ in rows_of(events)} - {

@@ -30,13 +30,20 @@ def test_a_dark_sky_with_something_in_it_is_no_bar():
 
 
 def test_a_black_clip_has_no_bars():
-    assert bars(np.zeros(20, np.float32), np.zeros(20, np.float32)) == (0, 0)
+    assert bars(*np.zeros((3, 20), np.float32)) == (0, 0)
+
+
+def test_a_dark_background_is_no_bar():
+    images = np.zeros((12, 96, 128), np.uint8)
+    for i, image in enumerate(images):
+        image[30:60, 40 + 3 * i : 70 + 3 * i] = 255
+    assert check_video(frames(images)).measures["bar_share"] == 0
 
 
 def test_one_dark_row_is_no_bar():
     rows = np.full(100, 90, np.float32)
     rows[0] = 0
-    assert bars(rows, np.zeros(100, np.float32)) == (0, 0)
+    assert bars(rows, np.zeros(100, np.float32), rows / 90) == (0, 0)
 
 
 def at(times_us):

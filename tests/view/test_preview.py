@@ -8,7 +8,7 @@ import av
 import cv2
 import pytest
 
-from texvent.errors import ConfigError, InputError, OutputError
+from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
@@ -84,10 +84,3 @@ def test_every_output_is_checked_before_any_work(tmp_path: Path, steps: Steps) -
     assert [path.name for path in tmp_path.iterdir()] == ["out.png"]
     write_preview(tmp_path / "out", steps, overwrite=True)
     assert (tmp_path / "out.png").read_bytes() != b"old"
-
-
-def test_unknown_kinds_and_palettes_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match=r"unknown preview 'mp5'.*did you mean 'mp4'"):
-        Preview(tmp_path / "out", size=SIZE, fps=None, kinds=("mp5",))
-    with pytest.raises(ConfigError, match="unknown palette"):
-        Preview(tmp_path / "out", size=SIZE, fps=None, palette="sepia")

@@ -4,6 +4,8 @@ import html
 import re
 from pathlib import Path
 
+import pytest
+
 from texvent.web.answer_html import failure_html, progress_html, summary_html, viewer_html
 from texvent.web.examples import examples
 from texvent.web.job import Answer
@@ -17,6 +19,19 @@ def test_text_from_the_visitor_stays_text() -> None:
     for text in (failure_html(HOSTILE), progress_html(answer), summary_html(answer)):
         assert "<script" not in text
         assert html.escape(HOSTILE) in text
+
+
+@pytest.mark.parametrize(
+    ("message", "shown"),
+    [
+        ("/tmp/texvent-app-x/uploads/5f3/my film.mp4 is no video", "my film.mp4 is no video"),
+        ("no weights in '/home/lab/.cache/texvent/v2ce.pt'", "no weights in 'v2ce.pt'"),
+        (r"C:\Users\lab\uploads\a.mp4 is damaged", "a.mp4 is damaged"),
+        ("20 m/s and/or 1/2; see https://example.org/a", None),
+    ],
+)
+def test_folders_of_the_server_are_not_shown(message: str, shown: str | None) -> None:
+    assert html.unescape(failure_html(message)).endswith(f"</strong> {shown or message}</div>")
 
 
 def test_a_bar_shows_how_far_the_job_is_if_somebody_knows() -> None:

@@ -141,7 +141,7 @@ def test_a_body_that_drips_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_visitor_gets_a_session_once() -> None:
     cookie = ask()[1]["set-cookie"]
     assert "HttpOnly" in cookie
-    assert "SameSite=Strict" in cookie
+    assert "SameSite=Lax" in cookie
     session = session_of(cookie.partition(";")[0])
     assert session is not None
     assert "set-cookie" not in ask(cookie=f"{guard.SESSION}={session}")[1]

@@ -28,6 +28,8 @@ pytestmark = pytest.mark.app
 VISITORS = 19
 JOBS = 6
 """How many of them make events; the others only look."""
+SHOWN = 7
+"""Parts of the page that a job's handlers fill."""
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +52,7 @@ class Visitor:
         jar = http.cookiejar.CookieJar()
         self._opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(jar))
         self.get("")
+        self._handlers = json.loads(self.get("config"))["dependencies"]
 
     def get(self, path: str) -> bytes:
         with self._opener.open(self._address + path, timeout=120) as answer:
@@ -75,29 +78,22 @@ class Visitor:
 
     def make_events(self, source: Any, *, video: bool = False) -> str:
         """What the page says in the end."""
-        jobs = [
-            one
-            for one in json.loads(self.get("config"))["dependencies"]
-            if len(one["inputs"]) == 7 and len(one["outputs"]) == 6
-        ]
-        values = [source, "procedural", 0.1, "texvent", "paper (default)", "dvs128", 0]
-        job = jobs[1 if video else 0]
-        call = {"data": values, "fn_index": job["id"], "session_hash": self._session}
-        self.post("gradio_api/queue/join", call)
-        said = ""
-        stream = self._opener.open(
-            f"{self._address}gradio_api/queue/data?session_hash={self._session}", timeout=120
-        )
-        with stream:
-            for line in stream:
-                if not line.startswith(b"data:"):
-                    continue
-                message = json.loads(line[5:])
-                if message["msg"] == "process_generating":
-                    said = str(message["output"]["data"][0]) or said
-                if message["msg"] == "process_completed":
-                    return said
+        scene = [] if video else ["procedural", 0.1]
+        said = self.call(source, *scene, "texvent", "paper", "dvs128", 0)
+        while "<progress" in said:
+            time.sleep(0.5)
+            said = self.call()
         return said
+
+    def call(self, *values: Any) -> str:
+        """The status after the first handler that takes so many values besides the tab."""
+        handler = next(
+            one["id"]
+            for one in self._handlers
+            if len(one["inputs"]) == 1 + len(values) and len(one["outputs"]) == SHOWN
+        )
+        call = {"data": ["tab", *values], "fn_index": handler, "session_hash": self._session}
+        return str(self.post("gradio_api/run/predict", call)["data"][0])
 
 
 def refused(act: Any, *values: Any) -> int:

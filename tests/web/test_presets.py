@@ -1,14 +1,25 @@
-"""The presets that the web page offers; what it offers is what there is."""
+"""What the web page chooses unless the visitor does."""
+
+import pytest
 
 import texvent
-from texvent.web.gradio_page import _options, _presets
+from texvent.config import RunConfig
+from texvent.errors import ConfigError
+from texvent.run.settings import resolve
+from texvent.web.gradio_page import NO_SENSOR, _options, _presets
+
+FIRST = (RunConfig.simulator, _presets(RunConfig.simulator)[0], NO_SENSOR)
 
 
-def test_the_page_offers_presets_by_their_names():
-    assert _presets("texvent") == ["paper (default)", "accurate"]
+def test_the_first_choices_are_the_defaults_of_the_command_line():
+    assert resolve("simulate", _options(*FIRST, 0)) == resolve("simulate", {})
+    scene = {"generator": "procedural", "duration": 1.0}
+    assert resolve("generate", _options(*FIRST, 0, **scene)) == resolve("generate", scene)
     for simulator in texvent.simulators():
-        first, *others = _presets(simulator)
-        assert others == list(texvent.presets(simulator))[1:]
-        asked = ("procedural", 1.0, simulator, first, "dvs128", 0)
-        assert _options(asked)["preset"] is None  # the default, or what the sensor has measured
-    assert _options(("procedural", 1.0, "texvent", "accurate", "dvs128", 0))["preset"] == "accurate"
+        assert _presets(simulator) == list(texvent.presets(simulator))
+
+
+@pytest.mark.parametrize(("seconds", "seed", "name"), [(None, 0, "duration"), (1.0, None, "seed")])
+def test_an_empty_field_is_refused_by_name(seconds, seed, name):
+    with pytest.raises(ConfigError, match=f"{name} is empty"):
+        _options(*FIRST, seed, duration=seconds)

@@ -34,8 +34,10 @@ def address(temporary: Path) -> Iterator[str]:
 
 @pytest.fixture
 def page(browser: Any, address: str) -> Any:
+    """The page as a new visitor finds it."""
+    browser.execute_cdp_cmd("Network.clearBrowserCookies", {})
     browser.get(address)
-    until(browser, lambda: browser.find_elements("id", "from-prompt"))
+    until(browser, lambda: browser.find_elements("id", "examples"))
     return browser
 
 
@@ -70,6 +72,15 @@ def make_events(page: Any, prompt: str) -> str:
     page.find_element("id", "from-prompt").click()
     until(page, lambda: "events on" in status(page) or "did not work" in status(page))
     return status(page)
+
+
+def enter(page: Any, which: str, text: str) -> None:
+    """Replace what a number's field holds."""
+    from selenium.webdriver.common.keys import Keys
+
+    field = page.find_element("css selector", f"#{which} input")
+    field.send_keys(Keys.CONTROL, "a")
+    field.send_keys(Keys.DELETE, text)
 
 
 def upload(page: Any, path: Path) -> None:
@@ -120,15 +131,33 @@ def test_a_prompt_gives_a_video_a_viewer_and_a_download(
 
 
 def test_the_main_options_are_on_the_first_screen_and_stop_rests(page: Any) -> None:
-    names = ("from-prompt", "simulator", "preset", "sensor", "seed", "format", "download", "stop")
+    names = ("from-prompt", "simulator", "preset", "sensor", "seed", "status", "stop")
     bottoms = page.execute_script(
         "return arguments[0].map((id) => document.getElementById(id))"
         ".map((one) => one.getBoundingClientRect().bottom)",
         names,
     )
     assert max(bottoms) < 700, dict(zip(names, bottoms, strict=True))
-    for name in ("stop", "download"):
-        assert not page.find_element("id", name).is_enabled()
+    examples = page.find_element("id", "examples")
+    assert examples.rect["x"] > 380  # beside the options, at first in place of the results
+    assert examples.rect["y"] < 250
+    assert not page.find_element("id", "stop").is_enabled()
+    assert not page.find_elements("id", "download")
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_no_name_of_a_select_runs_into_its_arrow(page: Any, width: int) -> None:
+    page.set_window_size(width, 1100)
+    room = page.execute_script(
+        """return [...document.querySelectorAll("input[role=combobox]")].map((field) => {
+          const arrow = field.parentElement.querySelector(".icon-wrap").getBoundingClientRect();
+          const inside = field.getBoundingClientRect().right
+            - parseFloat(getComputedStyle(field).paddingRight);
+          return arrow.left - inside;
+        })"""
+    )
+    assert len(room) == 4, page.execute_script("return innerWidth")
+    assert min(room) >= 0
 
 
 def test_stop_ends_a_job_and_rests_again(page: Any) -> None:
@@ -138,6 +167,41 @@ def test_stop_ends_a_job_and_rests_again(page: Any) -> None:
     page.find_element("id", "stop").click()
     until(page, lambda: "Stopped" in status(page))
     assert not page.find_element("id", "stop").is_enabled()
+
+
+def test_a_reload_finds_the_job_and_then_its_result_and_another_tab_does_not(
+    page: Any, address: str
+) -> None:
+    enter(page, "duration", "0.2")
+    page.find_element("id", "from-prompt").click()
+    until(page, page.find_element("id", "stop").is_enabled)
+    page.refresh()
+    until(page, lambda: "events on" in page.find_element("id", "status").text)
+    until(page, lambda: page.find_elements("id", "texvent-viewer"))
+    page.refresh()
+    until(page, lambda: page.find_elements("id", "download"))
+    assert "events on" in status(page)
+    first = page.current_window_handle
+    page.switch_to.new_window("tab")
+    page.get(address)
+    until(page, lambda: "No events yet" in page.find_element("id", "status").text)
+    page.close()
+    page.switch_to.window(first)
+
+
+def test_an_error_names_its_field_and_takes_the_place_of_the_one_before(page: Any) -> None:
+    for field, value, message in (
+        ("duration", "1000", "duration is 1000 s; at most 0.2 s here"),
+        ("duration", "", "duration is empty"),
+        ("seed", "-3", "seed is -3"),
+    ):
+        enter(page, field, value)
+        page.find_element("id", "from-prompt").click()
+        until(page, lambda said=message: said in status(page))
+        assert status(page).startswith("This did not work.")
+        assert not page.find_element("id", "stop").is_enabled()
+        enter(page, "duration", "0.2")
+    assert not page.find_elements("class name", "toast-body")
 
 
 def test_an_example_fills_in_its_prompt(page: Any) -> None:
@@ -157,6 +221,7 @@ def test_bad_uploads_are_refused_and_harm_nobody(page: Any, tmp_path: Path) -> N
         page.find_element("id", "from-video").click()
         until(page, lambda: "did not work" in status(page))
         assert message in status(page)
+        assert "/" not in status(page)
         page.refresh()
         until(page, lambda: page.find_elements("id", "from-prompt"))
     assert "events on" in make_events(page, "a ball bounces")

@@ -62,7 +62,7 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
     if reader is None:
         raise InputError(f"{path} is no list; its name must end in {', '.join(LIST_EXTENSIONS)}")
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = path.read_bytes().decode("utf-8-sig")
     except OSError as error:
         raise InputError(f"cannot read the list {path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
@@ -74,13 +74,13 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
 
 
 def _read_text(path: Path, text: str) -> Iterator[ListEntry]:
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(io.StringIO(text, newline=None), start=1):
         if line.strip() and not line.lstrip().startswith(COMMENT):
             yield ListEntry(_where(path, number), line.strip())
 
 
 def _read_csv(path: Path, text: str) -> Iterator[ListEntry]:
-    reader = csv.DictReader(io.StringIO(text), strict=True)
+    reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     try:
         columns = tuple(reader.fieldnames or ())
         if not set(columns) & {*PROMPT_COLUMNS, VIDEO_COLUMN}:
@@ -112,7 +112,7 @@ def _check_width(path: Path, number: int, row: Mapping[Any, Any], columns: int) 
 
 
 def _read_jsonl(path: Path, text: str) -> Iterator[ListEntry]:
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(io.StringIO(text, newline=None), start=1):
         if not line.strip():
             continue
         try:

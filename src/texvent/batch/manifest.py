@@ -80,9 +80,9 @@ class Manifest:
     def is_done(self, sample: Sample) -> bool:
         """True if all files of the sample are there, as large as when they were complete."""
         done = self._done.get(sample.key)
-        if done is None or done.name != sample.name or done.seed != sample.seed:
-            return False
-        return all(_size(self._folder / name) == size for name, (size, _) in done.files.items())
+        return done is not None and all(
+            _size(self._folder / name) == size for name, (size, _) in done.files.items()
+        )
 
     def report_of(self, sample: Sample) -> PromptReport | None:
         """The report of a complete sample's prompt; None where it has none."""
@@ -93,8 +93,7 @@ class Manifest:
 
     def is_known(self, sample: Sample) -> bool:
         """True if the sample was complete once, so that what is left of it may be replaced."""
-        done = self._done.get(sample.key)
-        return done is not None and done.name == sample.name
+        return sample.key in self._done
 
     def others(self, samples: Sequence[Sample]) -> list[str]:
         """Names of complete samples that the list no longer has."""

@@ -19,13 +19,16 @@ from texvent.errors import (
     MissingDependencyError,
     OutputError,
     TexventError,
+    warn,
     warnings_to,
+    worded,
 )
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.files import open_events
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import is_strict, prepare_prompt, prepare_source, report_prompt
 from texvent.run.settings import Settings
+from texvent.run.silence import SignalTally
 from texvent.runtime.progress import NoProgress, Progress
 from texvent.scenes.report import PromptReport
 from texvent.video import Frame
@@ -156,7 +159,11 @@ def make_sample(
             report = PromptReport.of_metadata(simulation.video.metadata)
             facts = {**simulation.provenance, BATCH_KEY: sample.key}
             files = replace(files, overwrite=overwrite)
-            write_run(simulation, files, metadata=facts, on_step=count)
+            tally = SignalTally()
+            write_run(replace(simulation, tally=tally), files, metadata=facts, on_step=count)
+            doubt = tally.doubt(settings.run.events)
+            if doubt is not None:
+                warn(doubt)
     except ENDING_ALL:
         raise
     except TexventError as error:
@@ -176,5 +183,5 @@ def _is_own(path: Path, sample: Sample) -> bool:
 
 
 def _make_in_process(plan: BatchPlan, sample: Sample, is_replaceable: bool) -> Outcome:
-    with interruptible():
+    with interruptible(), worded(str):  # the process that shows them words them
         return make_sample(plan, sample, is_replaceable, NoProgress())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -148,7 +149,7 @@ def read_timestamps(path: Path, unit: str) -> Timestamps:
 
 def _lines(path: Path) -> list[str]:
     try:
-        return usable_path(path).read_text(encoding="utf-8").splitlines()
+        return list(StringIO(usable_path(path).read_text(encoding="utf-8")))
     except FileNotFoundError:
         raise InputError(f"timestamp file {path} does not exist; check --timestamps") from None
     except (OSError, UnicodeDecodeError) as error:

@@ -151,8 +151,7 @@ def _open_array(frames: Any, config: CaptureConfig, given: FrameTimes | None) ->
     times = _file_times(config, given)
     if times is None:
         raise InputError(
-            "frames in memory have no times; give fps= (--fps), or t_us= with one time per frame, "
-            "in µs"
+            "frames in memory have no times; give fps=, or t_us= with one time per frame, in µs"
         )
     return ArrayFrames(frames, times, white_level=config.white_level)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
@@ -11,7 +13,14 @@ from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, Frame, FrameStream, PixelArray, StreamChecker
+from texvent.video import (
+    MICROSECONDS,
+    Frame,
+    FrameStream,
+    PixelArray,
+    StreamChecker,
+    frame_time_us,
+)
 
 FEWEST_FRAMES = 2
 """Events are changes between frames, so one frame has none."""
@@ -65,16 +74,14 @@ class PreparedFrames(FrameSource):
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order; see the class for what can go wrong."""
-        start_us = round(self._config.start * MICROSECONDS)
-        stop = self._config.stop
-        stop_us = None if stop is None else round(stop * MICROSECONDS)
+        start_us, stop_us = _ends_us(self._config)
         checker = StreamChecker()
         first_us: int | None = None
         offset_us = count = 0
         for frame in self._source:
             first_us = frame.t_us if first_us is None else first_us
             offset_us = frame.t_us - first_us
-            if stop_us is not None and offset_us >= stop_us:
+            if offset_us >= stop_us:
                 break
             if offset_us < start_us:
                 continue
@@ -110,8 +117,17 @@ def _count_frames(source: FrameStream, config: CaptureConfig) -> int | None:
         return count
     if count is None or fps is None:
         return None
-    stop = count if config.stop is None else min(count, round(config.stop * fps))
-    return max(0, stop - round(config.start * fps))
+    first, stop = (
+        bisect_left(range(count), end_us, key=lambda index: frame_time_us(index, fps))
+        for end_us in _ends_us(config)
+    )
+    return max(0, stop - first)
+
+
+def _ends_us(config: CaptureConfig) -> tuple[int, float]:
+    """Start, which belongs to the part, and stop, which does not, µs from the first frame."""
+    stop = math.inf if config.stop is None else round(config.stop * MICROSECONDS)
+    return round(config.start * MICROSECONDS), stop
 
 
 def _too_few(count: int, config: CaptureConfig, last_us: int) -> str:

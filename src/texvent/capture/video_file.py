@@ -139,7 +139,7 @@ class PresentationClock:
     """Time of the last frame, on the clock that the caller sees."""
     end_us: int = 0
     """End of the last frame, on the file's own clock."""
-    first_pts_us: int = 0
+    first_pts_us: Fraction = Fraction(0)
     """Presentation time of the first frame, before it is shifted to 0."""
 
     def read(self, frame: VideoFrame) -> int | None:
@@ -169,12 +169,13 @@ class PresentationClock:
     def _own_time_us(self, frame: VideoFrame) -> int:
         if frame.pts is None or frame.time_base is None:
             return self._nominal_time_us()
-        pts_us = round(frame.pts * frame.time_base * MICROSECONDS)
+        pts_us = frame.pts * frame.time_base * MICROSECONDS
         if self.count == 0:
             self.first_pts_us = pts_us
+        t_us = round(pts_us - self.first_pts_us)
         duration_us = round((frame.duration or 0) * frame.time_base * MICROSECONDS)
-        self.end_us = max(self.end_us, pts_us - self.first_pts_us + duration_us)
-        return pts_us - self.first_pts_us
+        self.end_us = max(self.end_us, t_us + duration_us)
+        return t_us
 
     def _nominal_time_us(self) -> int:
         if self.times is None and self.rate is None:
@@ -229,7 +230,7 @@ def _damaged(path: Path, clock: PresentationClock, problem: str) -> FileFormatEr
     )
 
 
-def _promised_end_us(stream: VideoStream, first_pts_us: int) -> int | None:
+def _promised_end_us(stream: VideoStream, first_pts_us: Fraction) -> int | None:
     """When the file's header says the video ends, counted from its first frame."""
     if stream.duration and stream.time_base:
         return round(stream.duration * stream.time_base * MICROSECONDS)
@@ -238,10 +239,10 @@ def _promised_end_us(stream: VideoStream, first_pts_us: int) -> int | None:
     if tag is None:
         return None
     seconds = int(tag[1]) * 3600 + int(tag[2]) * 60 + Fraction(tag[3])
-    return round(seconds * MICROSECONDS) - first_pts_us
+    return round(seconds * MICROSECONDS - first_pts_us)
 
 
 def _count_by_duration(stream: VideoStream, container: InputContainer) -> int | None:
     rate = stream.average_rate or stream.guessed_rate
-    end_us = _promised_end_us(stream, 0) or container.duration
+    end_us = _promised_end_us(stream, Fraction(0)) or container.duration
     return round(Fraction(end_us, MICROSECONDS) * rate) if end_us and rate else None

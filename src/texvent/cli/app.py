@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, write_out
-from texvent.cli.shutdown import end_process
+from texvent.cli.wording import flags_in_messages
 from texvent.errors import ConfigError, OutputError, TexventError, shown
 from texvent.io.hidden_parts import remove_own_parts
 from texvent.io.protected_inputs import protected_inputs
@@ -124,7 +124,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line.
 
     Args:
-        arguments: words after `texvent`; default: those of the process, which then ends.
+        arguments: words after `texvent`; default: those of the process.
 
     Returns:
         Exit code: 0, or the `exit_code` of the error (2 for bad input), or 128 + n after signal n.
@@ -133,10 +133,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if arguments is None:
         # Imports and kernels leave few cycles: looking for them took 7 % of the first run.
         gc.set_threshold(50_000, 20, 50)
-        return end_process(_run(sys.argv[1:], is_process=True))
+        return _run(sys.argv[1:], is_process=True)
     return _run(list(arguments))
 
 
+@flags_in_messages()
 def _run(words: list[str], *, is_process: bool = False) -> int:
     """Exit code of a command; every error becomes one line."""
     try:

@@ -8,10 +8,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from texvent._registry import SIMULATORS
-from texvent.cli.options import naming_flags, parse_options, peek_options
+from texvent.cli.options import parse_options, peek_options
 from texvent.cli.outputs import OutputOptions
+from texvent.cli.wording import name_flags
+from texvent.config import RunConfig
 from texvent.errors import ConfigError
 from texvent.options.fields import former_names, option_names
+from texvent.run.presets import presets_by_simulator
 from texvent.run.settings import DECIDING, Command, Settings, apply_options, base_settings
 
 
@@ -52,6 +55,7 @@ def resolve_command(
     deciding: dict[str, Any] = peek_options(arguments, (*DECIDING, "config"))
     if command == "simulate":
         deciding.pop("generator")
+    name_flags((subject, RunConfig()))
     defaults = base_settings(command, **deciding)
     output = output or OutputOptions()
     groups = {"input": subject, "output": output, **defaults.groups()}
@@ -59,10 +63,13 @@ def resolve_command(
         groups["threshold"] = OneThreshold()
     _refuse_options_of_others(arguments, groups, defaults)
     values = parse_options(
-        arguments, groups, prog=prog or f"texvent {command}", description=description
+        arguments,
+        groups,
+        prog=prog or f"texvent {command}",
+        description=description,
+        names=dict if prog else lambda: {"preset": presets_by_simulator()},
     )
-    with naming_flags():
-        own, output = _take(subject, values), _take(output, values)
+    own, output = _take(subject, values), _take(output, values)
     shown = {
         name: getattr(group, name)
         for title, group in groups.items()
@@ -72,8 +79,7 @@ def resolve_command(
     given = {name: value for name, value in values.items() if value != shown[name]}
     for name in DECIDING:  # they have had their effect; a sensor file is a size by now
         given.pop(name, None)
-    with naming_flags():
-        return apply_options(defaults, given, where="options"), own, output
+    return apply_options(defaults, given, where="options"), own, output
 
 
 def _refuse_options_of_others(

@@ -9,7 +9,8 @@ import re
 import shutil
 import textwrap
 import typing
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from texvent.cli.option_types import REQUIRED, metavar
@@ -49,7 +50,13 @@ def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
 
 
 def render_help(
-    asked: str, groups: Mapping[str, Any], *, prog: str, description: str, width: int | None = None
+    asked: str,
+    groups: Mapping[str, Any],
+    *,
+    prog: str,
+    description: str,
+    names: Mapping[str, Mapping[str, Sequence[str]]] = MappingProxyType({}),
+    width: int | None = None,
 ) -> str:
     """Help as text.
 
@@ -59,6 +66,7 @@ def render_help(
             `main_options` of the first names the options that "main" shows; without it, all.
         prog: how the command is called.
         description: paragraphs; indented ones are kept as they are.
+        names: option → what it may be, by what decides that: rows below the option.
         width: columns; default: those of the terminal, at most 100.
     """
     width = width or min(shutil.get_terminal_size().columns, WIDEST)
@@ -72,14 +80,18 @@ def render_help(
     if asked == MAIN and main:
         named = {option.name: option for option in every}
         shown = [*operands, *(named[name] for name in main if name in named)]
-        lines += [line for option in shown for line in option.lines(width, is_brief=True)]
+        for option in shown:
+            lines += option.lines(width, is_brief=True)
+            lines += _rows(names.get(option.name, {}), width)
         lines += ["", *_more(prog, sections, width)]
         return "\n".join([*lines, ""])
     for title, options in sections.items():
         if asked in (MAIN, ALL, title):
             purpose = (type(groups[title]).__doc__ or "").strip().partition("\n")[0]
             lines += textwrap.wrap(f"{title}: {purpose}", width)
-            lines += [line for option in options for line in option.lines(width)]
+            for option in options:
+                lines += option.lines(width)
+                lines += _rows(names.get(option.name, {}), width)
             lines.append("")
     return "\n".join(lines)
 
@@ -141,6 +153,19 @@ def _options(config: Any) -> list[_Option]:
         flags = name.upper() if is_positional else flags
         options.append(_Option(name, flags, texts.get(name, ""), default, is_positional))
     return options
+
+
+def _rows(names: Mapping[str, Sequence[str]], width: int) -> Iterator[str]:
+    """A row for each owner of names."""
+    column = 6 + max(map(len, names), default=0)
+    for owner, own in names.items():
+        yield from textwrap.wrap(
+            ", ".join(own),
+            width,
+            initial_indent=f"    {owner}".ljust(column),
+            subsequent_indent=" " * column,
+            break_on_hyphens=False,
+        )
 
 
 def first_sentence(text: str) -> str:

@@ -9,7 +9,7 @@ import itertools
 import re
 import typing
 import warnings
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -18,6 +18,7 @@ import tyro
 from texvent.cli.help import ALL, asked_help, render_help
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
+from texvent.cli.wording import name_flags
 from texvent.errors import ConfigError, shown
 from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import (
@@ -36,7 +37,12 @@ LONGEST_HELP = 120
 
 
 def parse_options(
-    arguments: Sequence[str], groups: Mapping[str, Any], *, prog: str, description: str
+    arguments: Sequence[str],
+    groups: Mapping[str, Any],
+    *,
+    prog: str,
+    description: str,
+    names: Callable[[], Mapping[str, Mapping[str, Sequence[str]]]] = dict,
 ) -> dict[str, Any]:
     """Values of all options after parsing a command line.
 
@@ -51,6 +57,7 @@ def parse_options(
             are too many for one screen.
         prog: how the command is called.
         description: first lines of its help; indented ones are kept as they are.
+        names: gives what help lists below options, as `render_help` takes it.
 
     Returns:
         Option name → value, every option included.
@@ -61,8 +68,10 @@ def parse_options(
     """
     asked = asked_help(arguments, groups)
     if asked is not None:
-        write_out(render_help(asked, groups, prog=prog, description=description))
+        page = render_help(asked, groups, prog=prog, description=description, names=names())
+        write_out(page)
         raise SystemExit(0)
+    name_flags(groups.values())
     form = dataclasses.make_dataclass(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
     )
@@ -181,26 +190,10 @@ def parse_configs(
     Arguments and errors are those of `parse_options`; a config may refuse a value.
     """
     values = parse_options(arguments, groups, prog=prog, description=description)
-    with naming_flags():
-        return tuple(
-            dataclasses.replace(
-                config, **{name: values[name] for name in option_names(type(config))}
-            )
-            for config in groups.values()
-        )
-
-
-@contextlib.contextmanager
-def naming_flags() -> Iterator[None]:
-    """Let errors about the value of an option name its flag: --duration, not duration."""
-    try:
-        yield
-    except ConfigError as error:
-        name = error.option
-        if name is None or not str(error).startswith(f"{name} "):
-            raise
-        flag = f"--{name.replace('_', '-')}"
-        raise ConfigError(f"{flag}{str(error)[len(name) :]}") from None
+    return tuple(
+        dataclasses.replace(config, **{name: values[name] for name in option_names(type(config))})
+        for config in groups.values()
+    )
 
 
 def refuse_arguments(arguments: Sequence[str], *, prog: str, description: str) -> None:

@@ -16,6 +16,7 @@ from texvent.options.fields import renamed
 from texvent.run.files import RunFiles
 from texvent.truth.layout import check_truth_folder
 from texvent.truth.parts import parse_parts
+from texvent.view.drawing.palettes import get_palette
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,8 +27,8 @@ class OutputOptions:
     repeated: ClassVar[tuple[str, ...]] = ("out", "format")
 
     out: tuple[Path, ...] = ()
-    """Event file to write; its extension decides the format. Without it: a name made from the
-    input, in the current folder. Given again, it writes the events to one more file."""
+    """Event file; its extension decides the format. Without it: a name made from the input, in the
+    current folder. Given again, it writes the events to one more file."""
     format: tuple[str, ...] = ()
     """Format to write, where the extension does not say which (docs/files.md lists them); for
     several files, one for each."""
@@ -38,7 +39,7 @@ class OutputOptions:
     page: bool = True
     """Write a page (.events.html): x-y-t point cloud, event rate, facts of the run."""
     events_only: bool = False
-    """Write the event file only: no video, image or page."""
+    """Event file only: no video, image or page."""
     palette: str = "paper"
     """Colours of events in video, image and page."""
     truth: str = ""
@@ -51,7 +52,8 @@ class OutputOptions:
     print_config: bool = False
     """Print all resolved options as TOML, ready for --config, and stop."""
     dry_run: bool = False
-    """Try a few frames, estimate events, time and memory of the whole run, and stop."""
+    """Estimate events, time and memory, and stop. It tries up to three pairs of frames, for 10 s
+    at most."""
     keep_partial: bool = False
     """If the run is stopped (Ctrl-C, SIGTERM) or the video ends in damage, keep what is done: the
     files end there and say so (complete = false). A second Ctrl-C discards them."""
@@ -83,6 +85,7 @@ class OutputOptions:
             OutputError: a file is named twice, exists already, is an input, or its folder is
                 missing or not writable.
         """
+        get_palette(self.palette)  # refused before any work
         events = self.out or (default_event_file(subject, self.format),)
         if self.format and len(self.format) != len(events):
             raise ConfigError(
@@ -100,9 +103,10 @@ class OutputOptions:
         )
         for path, format in itertools.zip_longest(events, self.format):
             codec_for(path, format)
-        check_outputs(files.paths, overwrite=self.overwrite)
+        overwrite = self.overwrite or self.dry_run  # which writes nothing
+        check_outputs(files.paths, overwrite=overwrite)
         if files.truth_folder is not None:
-            check_truth_folder(files.truth_folder, overwrite=self.overwrite)
+            check_truth_folder(files.truth_folder, overwrite=overwrite)
         return files
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +14,15 @@ import tomli_w
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.notices import say, write_out
 from texvent.cli.outputs import OutputOptions
-from texvent.errors import warn
+from texvent.errors import few, warn
 from texvent.events import EventStream
 from texvent.io.atomic import noting_completed
 from texvent.pairs.scene_change import SceneChange
-from texvent.pipeline import NO_EVENTS, Simulation
+from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
 from texvent.run.settings import Settings, unmeasured_sensor
+from texvent.run.silence import SignalTally
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import PromptReport
 from texvent.video import MICROSECONDS, Frame, FrameStream
@@ -47,6 +48,8 @@ class Tally:
     last_us: int = 0
     first_us: int | None = None
     scene_changes: list[str] = field(default_factory=list)
+    kinds: SignalTally = field(default_factory=SignalTally)
+    """Signal and noise, whether the run keeps them or not."""
 
     def add(self, frame: Frame, packet: EventStream) -> None:
         """Count one step."""
@@ -109,6 +112,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     progress = ConsoleProgress(is_quiet=options.quiet)
     _announce(progress, _notes(simulation))
     tally, started, total = Tally(), time.perf_counter(), simulation.video.frame_count
+    simulation = replace(simulation, tally=tally.kinds)
 
     def count(frame: Frame, packet: EventStream) -> None:
         tally.add(frame, packet)
@@ -117,8 +121,9 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     with progress, _saying_what_is_complete(files.outputs):
         early = write_run(simulation, files, on_step=count, on_scene_change=tally.add_scene_change)
     _announce(progress, _summary(tally, time.perf_counter() - started))
-    if tally.events == 0 and tally.source_frames > 1:
-        warn(NO_EVENTS.replace("contrast_threshold", "--contrast-threshold"))
+    doubt = tally.kinds.doubt(simulation.settings.run.events)
+    if doubt is not None:
+        warn(doubt)
     if early is not None:
         progress.announce(
             f"stopped  at {early.t_us / MICROSECONDS:.3f} s; the files end there (complete = false)"
@@ -139,6 +144,9 @@ def _estimate(simulation: Simulation, options: OutputOptions, files: RunFiles) -
         for line in describe_scene(simulation.video.metadata, with_words=True):
             say(line)
     write_out(describe_estimate(estimate_run(simulation, files)) + "\n")
+    there = [str(path) for path in files.outputs if path.exists()]
+    if there and not (options.overwrite or options.quiet):
+        say(f"note     the run needs --overwrite: there is already {few(there)}")
     return 0
 
 
@@ -177,7 +185,9 @@ def describe_scene(metadata: Mapping[str, Any], *, with_words: bool = False) -> 
 
 def _notes(simulation: Simulation) -> Iterator[str]:
     yield from describe_scene(simulation.video.metadata)
-    unmeasured = unmeasured_sensor(simulation.settings.run)
+    run = simulation.settings.run
+    yield f"model    {run.simulator}, preset {run.preset}"
+    unmeasured = unmeasured_sensor(run)
     if unmeasured is not None:
         yield f"note     {unmeasured}"
     asked, made = getattr(simulation.settings.source, "duration", None), _duration(simulation.video)
@@ -199,8 +209,10 @@ def _summary(tally: Tally, seconds: float) -> list[str]:
     """What a run made in `seconds` of work, in a few lines."""
     rate = tally.events / tally.seconds if tally.seconds else 0.0
     share = f", {tally.on_events / tally.events:.0%} ON" if tally.events else ""
+    kinds = f": {tally.kinds.signal:,} signal, {tally.kinds.noise:,} noise"
     lines = [
-        f"events   {tally.events:,} in {tally.seconds:.3f} s ({rate:,.0f} per second{share})",
+        f"events   {tally.events:,} in {tally.seconds:.3f} s ({rate:,.0f} per second{share})"
+        f"{kinds if tally.events == tally.kinds.signal + tally.kinds.noise else ''}",
         f"frames   {tally.source_frames:,} source + {tally.intermediate_frames:,} intermediate, "
         f"computed in {seconds:.1f} s (elapsed)",
     ]
@@ -208,6 +220,4 @@ def _summary(tally: Tally, seconds: float) -> list[str]:
         more = ", ..." if len(tally.scene_changes) > 8 else ""
         shown = ", ".join(tally.scene_changes[:8]) + more
         lines.append(f"note     not smeared over the interval: {shown}")
-    if tally.source_frames == 1:
-        lines.append("note     one frame only, so nothing could change")
     return lines

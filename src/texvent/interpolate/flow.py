@@ -8,7 +8,7 @@ from typing import ClassVar
 from texvent.config import InterpolateConfig
 from texvent.interpolate.dis_flow.pair_flow import PairFlow
 from texvent.pairs.instants import check_between
-from texvent.pairs.motion_interpolation import MotionInterpolation, prepare_warp
+from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.video import Frame, FrameStream
 
 
@@ -28,7 +28,6 @@ class FlowInterpolator:
         del config, stream  # the arguments of every interpolator; not used here
         self.pair_flow = PairFlow()
         """The flow of the last pair; `CountPolicy` uses it to count frames."""
-        prepare_warp()
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> MotionInterpolation:
         """Frames with every point moved along its path from `first` to `second`.

@@ -63,8 +63,7 @@ def check_output(path: str | Path, *, overwrite: bool) -> Path:
         raise OutputError(f"cannot write {path}: it is {what}; give the name of a file")
     if target.exists() and not overwrite:
         raise OutputError(
-            f"{path} exists already; choose another name, or allow replacing it "
-            "(--overwrite, or overwrite=True in Python)"
+            f"{path} exists already; choose another name, or allow replacing it (overwrite=True)"
         )
     if not folder.is_dir():
         raise OutputError(
@@ -154,7 +153,7 @@ def check_output_folder(
         if not overwrite:
             raise OutputError(
                 f"{path} exists already; choose another name, or allow replacing it "
-                "(--overwrite, or overwrite=True in Python)"
+                "(overwrite=True)"
             )
         return target
     return check_output(path, overwrite=False)

@@ -127,11 +127,8 @@ class BlockWriter:
             raise InputError(f"the packet is {packet.size}, the file is {self._target.size}")
         if len(packet) == 0:
             return
-        if packet.instance is not None and not self._limits.keeps_ids:
-            self._warn_of("instance and class of events, which are")
-            packet = packet.with_ids(None, None)
-        if packet.label is not None and self._limits.label == "left out":
-            self._warn_of("signal/noise label, which is")
+        if not self._limits.keeps_labels:
+            packet = self._without_labels(packet)
         self._check(packet)
         self._last_us = int(packet.t[-1])
         self._pending.append(packet)
@@ -183,17 +180,25 @@ class BlockWriter:
         return atomic_folder(path, overwrite=overwrite, is_own=self._is_own)
 
     @property
-    def keeps_ids(self) -> bool:
-        """Whether the file holds the instance and class of events."""
-        return self._limits.keeps_ids
+    def keeps_labels(self) -> bool:
+        """Whether the file holds the signal/noise label, the instance and class of events."""
+        return self._limits.keeps_labels
 
-    def _warn_of(self, what: str) -> None:
-        """Say once that a column is left out."""
+    def _without_labels(self, packet: EventStream) -> EventStream:
+        """The packet without what has no place in the file, which is said once."""
+        if packet.instance is not None:
+            self._warn_of("instance and class of events, which are left out", "hold them")
+            packet = packet.with_ids(None, None)
+        if packet.label is not None:
+            silence = "hold it, and without_label() silences this"
+            self._warn_of("signal/noise label, which is left out", silence)
+            packet = packet.without_label()
+        return packet
+
+    def _warn_of(self, what: str, advice: str) -> None:
         if what not in self._left_out:
-            warn(
-                f"{self._target.path}: {self._limits.name} has no place for the {what} left out; "
-                f"{LABELLED} hold {'them' if what.endswith('are') else 'it'}"
-            )
+            name = self._limits.name
+            warn(f"{self._target.path}: {name} has no place for the {what}; {LABELLED} {advice}")
         self._left_out.add(what)
 
     def _check(self, packet: EventStream) -> None:
@@ -207,7 +212,7 @@ class BlockWriter:
                 f"a packet starts at {first_us} µs, before the one before it ends "
                 f"({self._last_us} µs); append packets in time order"
             )
-        if self._limits.label == "kept" and has_label != self._has_label:
+        if has_label != self._has_label:
             raise InputError(
                 "some packets have a signal/noise label and some do not; give all or none one"
             )

@@ -122,7 +122,7 @@ def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
     what = f"extension {shown(extension)}" if extension else "no extension"
     raise ConfigError(
         f"{path} has {what}; event files end in {', '.join(known)}; or state the format "
-        "(texvent.formats(), docs/files.md)"
+        "(docs/files.md lists them)"
     )
 
 

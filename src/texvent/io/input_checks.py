@@ -205,7 +205,7 @@ def stored_or_given_size(
         if given is None:
             raise InputError(
                 f"{path} does not store the sensor size; give it "
-                "(--sensor davis240c or --sensor 240x180, size=(240, 180) in Python)"
+                "(size='davis240c' or size='240x180')"
             )
         return checked_size(*given)
     try:

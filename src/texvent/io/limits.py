@@ -1,10 +1,9 @@
-"""What a file format cannot hold is refused before it is written, with the formats that can."""
+"""What a file format cannot hold: refused before it is written, or left out; and which can."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -14,8 +13,8 @@ UNLIMITED = "hdf5 (.h5), npz (.npz) and ecd (.txt)"
 """Formats that hold every sensor size and time."""
 LONGEST = "npz (.npz) or ecd (.txt)"
 """Formats that hold any span of time."""
-LABELLED = "hdf5 (.h5) and npz (.npz)"
-"""Formats that hold the signal/noise label."""
+LABELLED = "hdf5 (.h5), npz (.npz) and dsec"
+"""Formats that keep labels."""
 
 
 @dataclass(frozen=True)
@@ -32,10 +31,9 @@ class FormatLimits:
     """Longest time from the origin of the file's times to the last event, µs, where limited."""
     start_us: int = 0
     """Events lie at this time or later, µs."""
-    label: Literal["kept", "refused", "left out"] = "refused"
-    """What becomes of the signal/noise label."""
-    keeps_ids: bool = False
-    """Whether it holds the instance and class of events; else they are left out."""
+    keeps_labels: bool = False
+    """Whether it has a place for the signal/noise label, the instance and the class of events; else
+    they are left out, with a warning."""
 
     def check_size(self, path: Path, size: SensorSize) -> None:
         """Refuse a sensor that is too large.
@@ -54,7 +52,7 @@ class FormatLimits:
         return first_us
 
     def check_packet(self, path: Path, packet: EventStream, first_us: int) -> None:
-        """Refuse times that do not fit, and the signal/noise label.
+        """Refuse times that do not fit.
 
         Args:
             path: the file, for the message.
@@ -79,9 +77,4 @@ class FormatLimits:
                 f"cannot write {path}: events span {span_us / 3.6e9:.3g} h; {self.name} holds up "
                 f"to {self.max_span_us / 3.6e9:.3g} h. Split the recording, check its time unit, "
                 f"or write {LONGEST}"
-            )
-        if packet.label is not None and self.label == "refused":
-            raise InputError(
-                f"cannot write {path}: {self.name} has no place for the signal/noise label; "
-                f"{LABELLED} hold it, or drop it with without_label()"
             )

@@ -66,9 +66,8 @@ class SimulatorOptions(TypedDict, total=False):
 
     contrast_threshold: float | None
     balance: float | None
-    cache: Literal["local", "global", "none", "leaky"] | None
-    cache_reset_pairs: int | None
-    cache_leak: float | None
+    cache: Literal["local", "global", "none"] | None
+    residual_decay_hz: float | None
     reset: Literal["current", "step"] | None
     multi_event: bool | None
     noise: Literal["adaptive", "gaussian", "random", "none"] | None
@@ -83,7 +82,6 @@ class SimulatorOptions(TypedDict, total=False):
     threshold_sigma: float | None
     threshold_map: str | Path | None
     initial_phase: Literal["random", "zero"] | None
-    residual_decay_hz: float | None
     cutoff_hz: float | None
     cutoff_limit_hz: float | None
     refractory_period_us: int | None

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.instants import check_between, float_luma, position
-from texvent.runtime.background_jit import is_ready, wait_until_ready
 from texvent.runtime.read_only import read_only
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
@@ -22,7 +19,6 @@ from texvent.video import Frame
 FloatImage = NDArray[np.float32]
 Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
 
-WARP = "texvent.pairs.warp_cpu"
 DRAWN_BYTES = 16 << 20
 """Moved frames are drawn a few at a time, which is faster; this much of them at most."""
 
@@ -102,7 +98,9 @@ class MotionInterpolation:
     def _draw(self, start: int, stop: int) -> Iterator[FloatImage]:
         places = np.array(self.positions[start:stop], np.float64)
         if self.flows is not None:
-            yield from load_warp().warp_pair(self.prepared, places)
+            from texvent.pairs import warp_cpu  # blending needs no Numba
+
+            yield from warp_cpu.warp_pair(self.prepared, places)
             return
         for place in places.tolist():
             yield self.earlier + np.float32(place) * (self.later - self.earlier)
@@ -112,7 +110,9 @@ class MotionInterpolation:
         """The pair as the compiled kernels read it, a `pairs.warp_cpu.WarpPair`; only with flow."""
         if self.flows is None:
             raise ValueError("the frames of the pair are blended, and no pixel moves")
-        return load_warp().prepare_pair(self.earlier, self.later, *self.flows)
+        from texvent.pairs import warp_cpu  # as above
+
+        return warp_cpu.prepare_pair(self.earlier, self.later, *self.flows)
 
 
 class UndrawnFrame(Frame):
@@ -134,14 +134,3 @@ class UndrawnFrame(Frame):
         """Width and height, pixels."""
         size: SensorSize = vars(self)["_size"]
         return size
-
-
-def load_warp() -> ModuleType:
-    """The compiled warp kernels. Imported by name: blending needs no Numba."""
-    wait_until_ready(WARP)
-    return importlib.import_module(WARP)
-
-
-def prepare_warp() -> None:
-    """Begin to compile the warp kernels."""
-    is_ready(WARP)

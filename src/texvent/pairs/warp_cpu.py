@@ -137,12 +137,6 @@ def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Float
     return WarpPair(frames[0], frames[1], *prepared, words[0], words[1], sweep, contested)
 
 
-def warm_up() -> None:
-    """Compile the kernels that draw frames, or load them from disk."""
-    image, flow = np.zeros((2, 2), np.float32), np.zeros((2, 2, 2), np.float32)
-    warp_pair(prepare_pair(image, image, flow, flow), np.array([0.5]))
-
-
 @jit(nogil=False, parallel=True)
 def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
     """`warp_between` of a pair that is prepared, at several positions: [n, H, W].

@@ -206,7 +206,7 @@ def _labelled(
     def append_packet(packet: EventStream) -> None:
         plain = packet.with_ids(None, None)
         for writer, append in zip(writers, appends, strict=True):
-            append(packet if getattr(writer, "keeps_ids", False) else plain)
+            append(packet if getattr(writer, "keeps_labels", False) else plain)
 
     return append_packet
 

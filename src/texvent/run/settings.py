@@ -19,6 +19,7 @@ from texvent.errors import ConfigError, InputError, one_line, shown
 from texvent.io.files import event_extensions, open_events
 from texvent.options.fields import option_names, with_current_names
 from texvent.options.values import plain, with_options
+from texvent.run.presets import find_preset
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
 from texvent.simulate.thresholds import with_contrast_threshold
@@ -78,7 +79,7 @@ def default_settings(
     Args:
         command: "generate" (from a prompt) or "simulate" (from frames).
         generator: name of the generator, or None for the default.
-        simulator: name of the simulator, or None for the default.
+        simulator: name of the simulator, or None for the default, or that which has the preset.
         preset: name of the preset, or None for the simulator's first.
         has_motion: whether the frames come with motion vectors.
         has_camera: whether they are made by a camera that moves over a still image.
@@ -86,15 +87,9 @@ def default_settings(
     Raises:
         ConfigError: a part or preset of that name does not exist.
     """
-    simulator_name = simulator or RunConfig.simulator
+    simulator_name, preset_name = find_preset(simulator, preset)
     simulator_class = SIMULATORS.load(simulator_name)
     presets = simulator_class.presets
-    preset_name = preset or next(iter(presets))
-    if not isinstance(preset_name, str) or preset_name not in presets:
-        raise ConfigError(
-            f"simulator {shown(simulator_name)} has no preset {shown(preset_name)}; "
-            f"{suggest(preset_name, tuple(presets))}"
-        )
     run = RunConfig(simulator=simulator_name, preset=preset_name)
     if command == "simulate":
         return Settings(
@@ -183,7 +178,13 @@ def base_settings(
     has_motion = has_motion or any(one is not None for one in named)
     has_camera = command == "simulate" and chosen.get("camera") is not None
     defaults = default_settings(command, **parts, has_motion=has_motion, has_camera=has_camera)
-    return apply_options(defaults, chosen, where=where)
+    try:
+        return apply_options(defaults, chosen, where=where)
+    except ConfigError as error:
+        message = str(error.args[0])
+        if config is None or message.startswith(where):
+            raise
+        raise ConfigError(f"{where}: {message}") from None
 
 
 def sensor_preset(simulator: str | None, sensor: str | None) -> str | None:

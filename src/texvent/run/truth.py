@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from texvent.errors import ConfigError, warn
 from texvent.events import EventStream
-from texvent.pipeline import NO_EVENTS, Simulation
+from texvent.pipeline import Simulation
+from texvent.run.silence import SignalTally
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.progress import Progress
 from texvent.truth.layout import check_truth_folder
@@ -75,22 +76,23 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
         OutputError: the folder cannot be written.
 
     Warns:
-        TexventWarning: there is no event.
+        TexventWarning: there is no signal, or hardly any.
     """
     packets = [EventStream.empty(run.video.size)]
-    has_ids, done = "events" in folder.names, 0
+    has_ids, done, tally = "events" in folder.names, 0, SignalTally()
     with ExitStack() as stack:
         writer = stack.enter_context(_truth_writer(run, folder, packets.append))
         background = stack.enter_context(BackgroundWriter(writer))
-        for frame, packet in run.steps():
+        for frame, packet in replace(run, tally=tally).steps():
             background.append(frame, packet)
             if not has_ids:
                 packets.append(packet)
             done += frame.is_source
             progress.advance("simulate", done, run.video.frame_count)
     events = EventStream.concat(packets)
-    if not len(events):
-        warn(NO_EVENTS)
+    doubt = tally.doubt(run.settings.run.events)
+    if doubt is not None:
+        warn(doubt)
     return events.with_metadata(run.provenance)
 
 

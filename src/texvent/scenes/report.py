@@ -192,8 +192,13 @@ class ReportTally:
             },
         }
 
-    def line(self, noun: str = "prompts") -> str:
+    def line(self, noun: str = "prompts", verb: str = "shown as they say") -> str:
         """The counts in a line.
+
+        Args:
+            noun: what is counted.
+            verb: what is true of the faithful ones; of prompts that are only read, without their
+                scenes, "understood word for word".
 
         Example:
             >>> tally = ReportTally()
@@ -202,7 +207,7 @@ class ReportTally:
             >>> tally.line()
             '1 of 2 prompts shown as they say; 1 with words not understood (dax, wug)'
         """
-        parts = [f"{self.faithful:,} of {self.prompts:,} {noun} shown as they say"]
+        parts = [f"{self.faithful:,} of {self.prompts:,} {noun} {verb}"]
         for kind, count in self.kinds.items():
             parts.append(f"{count:,} with words {kind} ({self._few(kind)})")
         if self.refused:

@@ -24,7 +24,9 @@ class Simulator(Protocol):
     that wait for it take, measured on moving texture; `run.memory` adds it up. It may declare
     `takes_linear` as True: then frames of linear light reach it as they are, and are gamma-coded
     before otherwise. It may declare `gains_from_frames` as True: then a pair in which
-    things move fast gets more frames than Eq. 4 asks for (`interpolate.count_policy`).
+    things move fast gets more frames than Eq. 4 asks for (`interpolate.count_policy`). It may
+    declare `slow_change`, a text or None: why slow change may fire nothing, and the options that
+    help, which `run.silence` says of a run that has lost its signal.
     """
 
     config_type: ClassVar[type]

@@ -43,7 +43,7 @@ THRESHOLDS: Mapping[str, Range] = {
 configurations, which the project ercanburak/HyperE2VID on GitHub carries: 0.100 to 1.500 in steps
 of 0.005."""
 RATIO_SIGMA = 0.1
-"""Stoffregen et al.: one threshold is the other times a normal number of mean 1 and this sd."""
+"""Stoffregen et al.: ON is OFF times a normal number of mean 1 and this sd."""
 RATIO_LIMIT = 1.5
 """V2V: one threshold is at most this many times the other."""
 NOISE: Mapping[str, Range] = {
@@ -82,8 +82,7 @@ def draw_training_config(config: Config, recipe: Recipe, *, seed: int) -> Config
     if recipe == "v2v":
         ratio = math.pow(RATIO_LIMIT, 2 * chances[1] - 1)
     else:
-        factor = 1.0 + RATIO_SIGMA * float(draw_normals(key, 0, 1, 0))
-        ratio = factor if chances[1] < 0.5 else 1.0 / factor
+        ratio = 1.0 + RATIO_SIGMA * float(draw_normals(key, 0, 1, 0))
     drawn = with_contrast_threshold(config, THRESHOLDS[recipe].at(chances[0]), on_off_ratio=ratio)
     options: Any = drawn
     known = option_names(type(options))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +17,20 @@ from texvent.train.schedule import EXTRA
 
 _data: Any = require("torch.utils.data", extra=EXTRA)
 _Dataset: Any = _data.Dataset
-MakeSample = Callable[[int, np.random.Generator], Mapping[str, Any]]
-"""(number of the sample, chance of this sample in this epoch) → arrays by name."""
 _AUGMENTATION = 1
+
+
+class MakeSample(Protocol):
+    """Samples as arrays by name; picklable, for worker processes."""
+
+    @property
+    def identity(self) -> str:
+        """Of the samples; a training goes on with equal ones alone."""
+        ...
+
+    def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
+        """A sample, by its number and the chance of this sample in this epoch."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -30,7 +41,6 @@ class Batches:
     """
 
     make: MakeSample
-    """Must be picklable with workers."""
     count: int
     """Number of samples."""
     batch_size: int

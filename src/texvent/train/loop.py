@@ -6,6 +6,7 @@ training that was killed therefore ends with the weights of one that was not.
 
 from __future__ import annotations
 
+import copy
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -32,7 +33,6 @@ def train(
     schedule: Schedule,
     folder: Path,
     *,
-    seed: int,
     tables: Mapping[str, Any],
     hardware: Hardware,
     progress: Progress,
@@ -46,7 +46,6 @@ def train(
         task: what to train.
         schedule: how long and how.
         folder: of the training; made if it is missing.
-        seed: see `TaskConfig`.
         tables: what is trained and how, as plain values; another training is not continued.
         hardware: what trains.
         progress: told of batches, and of the scores of epochs.
@@ -64,6 +63,7 @@ def train(
     device = hardware.find_device()
     batches = task.batches(workers=hardware.workers)
     _make_folder(folder)
+    tables = {**tables, "samples": batches.make.identity}
     state = read_state(folder, tables) or TrainingState(tables=tables)
     network = task.make_network().to(device)
     optimizer = schedule.make_optimizer(network)
@@ -71,7 +71,6 @@ def train(
     computed = torch.compile(network) if hardware.compile else network
     while not _is_over(state, schedule):
         started = time.perf_counter()
-        torch.manual_seed(int(np.random.SeedSequence((seed, state.epochs)).generate_state(1)[0]))
         loss = _train_epoch(
             task, batches, computed, optimizer, schedule, state.epochs, hardware, progress
         )
@@ -143,11 +142,9 @@ def _note_epoch(
     state.epochs += 1
     weights = {name: one.detach().cpu().clone() for name, one in network.state_dict().items()}
     state.network = weights
-    score, sign = task.score.name, 1 if task.score.is_higher_better else -1
-    if (
-        not state.best_epoch
-        or sign * state.rows[-1][score] > sign * (state.rows[state.best_epoch - 1][score])
-    ):
+    name, sign = task.score.name, 1 if task.score.is_higher_better else -1
+    now, best = (sign * state.rows[number - 1][name] for number in (state.epochs, state.best_epoch))
+    if not state.best_epoch or now > best or (np.isnan(best) and not np.isnan(now)):
         state.best_epoch, state.best = state.epochs, weights
     waited = state.epochs - max(state.best_epoch, state.reduced_at)
     if schedule.patience is not None and waited > schedule.patience:
@@ -174,9 +171,9 @@ def _write_results(folder: Path, state: TrainingState, task: Task, network: Any)
         TRAINING: state.tables,
     }
     write_history(folder, facts, state.rows)
-    network.load_state_dict(state.best)
-    save(folder / WEIGHTS_FILE, {**task.published(network), NOTES: facts})
-    network.load_state_dict(state.network)
+    best = copy.deepcopy(network)
+    best.load_state_dict(state.best)
+    save(folder / WEIGHTS_FILE, {**task.published(best), NOTES: facts})
 
 
 def _row_text(row: Mapping[str, float], epochs: int) -> str:

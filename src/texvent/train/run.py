@@ -53,7 +53,6 @@ def train_from_file(
         config.make_task(),
         config.schedule,
         folder,
-        seed=config.seed,
         tables=plain(config),
         hardware=hardware,
         progress=progress,

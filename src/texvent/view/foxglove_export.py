@@ -115,15 +115,14 @@ def _jpeg(image: Image) -> bytes:
 
 
 def _checked(packets: EventPackets, path: Path) -> Iterable[EventStream]:
-    """The packets, each checked, anew at each pass; a file of messages has no place for labels."""
+    """The packets that are not empty, each checked, anew at each pass."""
     limits: FormatLimits = McapCodec.limits
 
     class Checked:
         def __iter__(self) -> Iterator[EventStream]:
             for packet in packets:
-                plain = packet.without_label()
-                if len(plain):
-                    limits.check_packet(path, plain, int(plain.t[0]))
-                    yield plain
+                if len(packet):
+                    limits.check_packet(path, packet, int(packet.t[0]))
+                    yield packet
 
     return Checked()

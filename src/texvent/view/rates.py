@@ -27,7 +27,7 @@ def rate_counts(events: EventStream, extent: tuple[int, int], bins: int) -> NDAr
         [[0, 1], [1, 1]]
     """
     start_us, stop_us = extent
-    edges = start_us + np.ceil(np.arange(bins + 1) * ((stop_us - start_us) / bins)).astype(np.int64)
+    edges = start_us - np.arange(bins + 1) * (start_us - stop_us) // bins  # rounded up
     places = np.searchsorted(events.t, edges)
     is_on = events.p.view(np.bool_)
     on = [np.count_nonzero(is_on[first:last]) for first, last in pairwise(places.tolist())]

@@ -3,11 +3,24 @@
 from __future__ import annotations
 
 import html
+import re
 from pathlib import Path
 
 from texvent.web.job import Answer
 
 PAGE_HEIGHT_PX = 900
+FOLDERS = re.compile(r"(?<![\w/\\])(?:[A-Za-z]:)?[/\\](?:[^\s/\\]+[/\\]+)+")
+"""What a path has before the name of its file."""
+
+
+def _text(text: str) -> str:
+    """The text without folders of this machine, which are not the visitor's to know."""
+    return html.escape(FOLDERS.sub("", text))
+
+
+def status_html(text: str) -> str:
+    """One line."""
+    return f'<div class="texvent-status" role="status">{_text(text)}</div>'
 
 
 def progress_html(answer: Answer) -> str:
@@ -15,14 +28,14 @@ def progress_html(answer: Answer) -> str:
     value = "" if answer.share is None else f' value="{answer.share:.3f}"'
     return (
         f'<div class="texvent-status" role="status"><progress max="1"{value}></progress> '
-        f"{html.escape(answer.text)}</div>"
+        f"{_text(answer.text)}</div>"
     )
 
 
 def summary_html(answer: Answer) -> str:
     """What a finished job made and understood, one line each."""
     first, *rest = answer.text.splitlines() or [""]
-    items = "".join(f"<li>{html.escape(line)}</li>" for line in rest)
+    items = "".join(f"<li>{_text(line)}</li>" for line in rest)
     return (
         f'<div class="texvent-status" role="status"><strong id="texvent-done">'
         f"{html.escape(first)}</strong><ul>{items}</ul></div>"
@@ -33,7 +46,7 @@ def failure_html(message: str) -> str:
     """One clear error."""
     return (
         '<div class="texvent-status texvent-error" role="alert"><strong>This did not work.'
-        f"</strong> {html.escape(message)}</div>"
+        f"</strong> {_text(message)}</div>"
     )
 
 

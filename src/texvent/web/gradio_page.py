@@ -3,50 +3,42 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
 from typing import Any
 
 from texvent._registry import CODECS, SIMULATORS
 from texvent._require import require
+from texvent.config import RunConfig
 from texvent.errors import ConfigError, TexventError
-from texvent.run.settings import DEFAULT_SENSOR
-from texvent.sensor import SENSORS
+from texvent.run.settings import DEFAULT_SENSOR, sensor_preset
+from texvent.sensor import SENSORS, parse_sensor
 from texvent.web.answer_html import (
     download_html,
     failure_html,
     progress_html,
+    status_html,
     summary_html,
     video_html,
     viewer_html,
 )
 from texvent.web.examples import examples
 from texvent.web.guard import SESSION, Guard
-from texvent.web.job import Answer, ConvertJob, Job, SimulateJob
+from texvent.web.job import Answer, ConvertJob, SimulateJob
 from texvent.web.limits import Limits
+from texvent.web.page_jobs import Page, PageJobs
+from texvent.web.page_style import CSS, FONTS
 from texvent.web.results import add_results, address_of
 from texvent.web.server import Server
 from texvent.web.supervisor import Supervisor
 from texvent.web.workspace import Workspace
 
-OWN_SIZE = "as the video"
-DEFAULT_PRESET = "(default)"
-"""Ends the name of the preset that is used unless one is chosen or the sensor has its own."""
-FONTS = ("system-ui", "Segoe UI", "Roboto", "DejaVu Sans", "sans-serif")
-"""Fonts of the visitor's own machine: none is fetched."""
-CSS = """
-.texvent-status { padding: 8px 12px; min-height: 24px; }
-.texvent-status progress { width: 12em; }
-.texvent-status ul { margin: 4px 0 0 1.2em; font-size: .92em; }
-#examples .caption-label { position: static; display: block; max-width: 100%; padding: 2px 6px;
-  white-space: normal; font-size: .75rem; line-height: 1.25; text-align: left; }
-#examples .thumbnail-lg { height: auto; aspect-ratio: auto; }
-#examples .thumbnail-lg img { height: auto; aspect-ratio: 4 / 3; }
-#examples .grid-wrap { max-height: none; }
-#preview { display: block; width: 100%; max-height: 46vh; background: #fff; border-radius: 8px; }
-.texvent-error { border-left: 4px solid #c62828; }
-"""
-WELCOME = '<div class="texvent-status">No events yet.</div>'
+NO_SENSOR = "none"
+WELCOME = status_html("No events yet. Type a prompt or drop a video, and press Make events.")
 MINUTES_KEPT = 60
+LOOK_S = 1.0
+"""How often a page asks how its job gets on."""
+WITH_TAB = """(_, ...values) =>
+  [sessionStorage.texvent ??= Math.random().toString(36).slice(2), ...values]"""
+"""Puts the browser's name of this tab, which outlives a reload, before the values of a call."""
 FETCH = """(address) => {
   if (!address) return;
   const link = document.createElement("a");
@@ -95,6 +87,7 @@ class WebPage:
         self._workspace = workspace
         self._limits = limits
         self._supervisor = Supervisor(time_limit_s=limits.time_limit)
+        self._jobs = PageJobs(self._supervisor, max_waiting=limits.max_waiting)
         self._server: Server | None = None
         self._allowed_hosts = allowed_hosts
         self._generators = generators
@@ -125,7 +118,8 @@ class WebPage:
         return self._server.start()
 
     def close(self) -> None:
-        """Stop the jobs that run, then the server."""
+        """Stop the jobs, then the server."""
+        self._jobs.close()
         self._supervisor.close()
         if self._server is not None:
             self._server.close()
@@ -165,7 +159,7 @@ class WebPage:
                     inputs = self._inputs()
                 with gr.Column(scale=5, min_width=320):
                     outputs = self._outputs()
-            self._connect(inputs, outputs)
+            self._connect(blocks, inputs, outputs)
         return blocks
 
     def _inputs(self) -> dict[str, Any]:
@@ -180,10 +174,9 @@ class WebPage:
                     parts["generator"] = _choice(gr, "Generator", self._generators)
                     parts["duration"] = gr.Number(
                         min(1.0, limits.max_seconds),
-                        label="Seconds",
-                        minimum=0.01,
-                        maximum=limits.max_seconds,
+                        label="Duration, s",
                         min_width=120,
+                        elem_id="duration",
                     )
                 parts["from_prompt"] = gr.Button(
                     "Make events", variant="primary", elem_id="from-prompt"
@@ -199,24 +192,13 @@ class WebPage:
                     "Make events", variant="primary", elem_id="from-video"
                 )
         with gr.Row():
-            parts["simulator"] = _choice(gr, "Simulator", SIMULATORS.names())
-            parts["preset"] = _choice(gr, "Preset", _presets(SIMULATORS.names()[0]))
+            simulator = RunConfig.simulator
+            parts["simulator"] = _choice(gr, "Simulator", SIMULATORS.names(), simulator)
+            parts["preset"] = _choice(gr, "Preset", _presets(simulator))
         with gr.Row():
-            parts["sensor"] = _choice(gr, "Sensor", [OWN_SIZE, *SENSORS], DEFAULT_SENSOR)
-            parts["seed"] = gr.Number(
-                0, label="Seed", precision=0, minimum=0, min_width=120, elem_id="seed"
-            )
-        gr.Markdown("Or click an example:")
-        parts["gallery"] = gr.Gallery(
-            [(str(path), prompt) for path, prompt in examples()],
-            show_label=False,
-            columns=2,
-            height="auto",
-            buttons=[],
-            allow_preview=False,
-            interactive=False,
-            elem_id="examples",
-        )
+            parts["sensor"] = _choice(gr, "Sensor", [NO_SENSOR, *SENSORS])
+            parts["seed"] = gr.Number(0, label="Seed", min_width=120, elem_id="seed")
+        gr.Markdown(_hint(), elem_classes="texvent-hint")
         return parts
 
     def _outputs(self) -> dict[str, Any]:
@@ -229,55 +211,57 @@ class WebPage:
                 "Stop", elem_id="stop", scale=1, min_width=80, interactive=False
             )
         parts["preview"] = gr.HTML()
-        with gr.Row(equal_height=True):
+        with gr.Row(visible=False) as parts["results"]:
             parts["format"] = _choice(gr, "Format", CODECS.names())
-            parts["download"] = gr.Button("Download", elem_id="download", interactive=False)
+            parts["download"] = gr.Button("Download", elem_id="download", variant="primary")
         parts["viewer"] = gr.HTML()
+        gr.Markdown("Prompts to try:")
+        parts["gallery"] = gr.Gallery(
+            [(str(path), prompt) for path, prompt in examples()],
+            show_label=False,
+            height="auto",
+            buttons=[],
+            allow_preview=False,
+            interactive=False,
+            elem_id="examples",
+        )
         parts["events"] = gr.State(None)
         parts["address"] = gr.Textbox(visible=False)
+        parts["tab"] = gr.Textbox(visible=False)
+        parts["timer"] = gr.Timer(LOOK_S, active=False)
         return parts
 
-    def _connect(self, inputs: dict[str, Any], outputs: dict[str, Any]) -> None:
+    def _connect(self, blocks: Any, inputs: dict[str, Any], outputs: dict[str, Any]) -> None:
         """Connect the buttons to their handlers."""
         gr = self._gradio
-        stop, download = outputs["stop"], outputs["download"]
-        shown = [outputs[name] for name in ("status", "preview", "viewer", "events")]
-        shown += [stop, download]
-        asked = [
-            inputs[name]
-            for name in ("generator", "duration", "simulator", "preset", "sensor", "seed")
+        shown = [
+            outputs[name]
+            for name in ("status", "preview", "viewer", "events", "stop", "results", "timer")
         ]
+        common = [inputs[name] for name in ("simulator", "preset", "sensor", "seed")]
+        scene = [inputs[name] for name in ("prompt", "generator", "duration")]
         private = {"api_visibility": "private"}
-        running = []
-        for button, source, run in (
-            (inputs["from_prompt"], inputs["prompt"], self.from_prompt),
-            (inputs["from_video"], inputs["video"], self.from_video),
+        at_once = {**private, "queue": False, "show_progress": "hidden", "js": WITH_TAB}
+        for listen, run, values in (
+            (inputs["from_prompt"].click, self.from_prompt, [*scene, *common]),
+            (inputs["from_video"].click, self.from_video, [inputs["video"], *common]),
+            (outputs["timer"].tick, self.look, []),
+            (outputs["stop"].click, self.stop, []),
+            (blocks.load, self.reopen, []),
         ):
-            begun = button.click(
-                lambda: gr.Button(interactive=True), None, stop, queue=False, **private
-            )
-            job = begun.then(
-                _with_request(gr, run),
-                [source, *asked],
-                shown,
-                show_progress="minimal",
-                show_progress_on=outputs["status"],
-                concurrency_id="jobs",
-                **private,
-            )
-            job.then(None, js=REST_IF_UNWANTED, **private)
-            running.append(job)
-        stop.click(
-            lambda: ('<div class="texvent-status">Stopped.</div>', gr.Button(interactive=False)),
-            None,
-            [outputs["status"], stop],
-            cancels=running,
-            queue=False,
+            listen(_with_session(gr, run), [outputs["tab"], *values], shown, **at_once)
+        outputs["preview"].change(None, js=REST_IF_UNWANTED, **private)
+        inputs["simulator"].change(
+            lambda name, sensor: gr.Dropdown(
+                _presets(name), value=sensor_preset(name, sensor) or _presets(name)[0]
+            ),
+            [inputs["simulator"], inputs["sensor"]],
+            inputs["preset"],
             **private,
         )
-        inputs["simulator"].change(
-            lambda name: gr.Dropdown(_presets(name), value=_presets(name)[0]),
-            inputs["simulator"],
+        inputs["sensor"].change(
+            lambda name, sensor: sensor_preset(name, sensor) or gr.skip(),
+            [inputs["simulator"], inputs["sensor"]],
             inputs["preset"],
             **private,
         )
@@ -287,9 +271,9 @@ class WebPage:
 
         # Gradio passes the event because of this annotation.
         chosen.__annotations__["event"] = gr.SelectData
-        inputs["gallery"].select(chosen, None, [inputs["tabs"], inputs["prompt"]], **private)
-        download.click(
-            _with_request(gr, self.prepare_download),
+        outputs["gallery"].select(chosen, None, [inputs["tabs"], inputs["prompt"]], **private)
+        outputs["download"].click(
+            _with_session(gr, self.prepare_download),
             [outputs["events"], outputs["format"]],
             [outputs["status"], outputs["address"]],
             show_progress="minimal",
@@ -297,58 +281,81 @@ class WebPage:
             **private,
         ).then(None, outputs["address"], js=FETCH, **private)
 
-    def from_prompt(self, session: str, prompt: str, *asked: Any) -> Iterator[list[Any]]:
-        """Run a prompt; yields the values of status, preview, viewer, events, stop, download."""
-        options = _options(asked)
-        yield from self._simulate(session, options, prompt=prompt)
+    def from_prompt(
+        self, session: str, tab: str, prompt: str, generator: str, duration: Any, *common: Any
+    ) -> list[Any]:
+        """Start on a prompt; returns the values that the page shows."""
+        more = {"generator": generator, "duration": duration}
+        return self._start((session, tab), common, more, prompt=prompt)
 
-    def from_video(self, session: str, video: str | None, *asked: Any) -> Iterator[list[Any]]:
-        """Run an uploaded video; yields the same."""
-        options = _options(asked)
-        for name in ("generator", "duration"):
-            options.pop(name)
-        yield from self._simulate(session, options, video=video or "")
+    def from_video(self, session: str, tab: str, video: str | None, *common: Any) -> list[Any]:
+        """Start on an uploaded video; returns the same."""
+        return self._start((session, tab), common, {}, video=video or "")
 
-    def prepare_download(
-        self, session: str, events: str | None, format: str
-    ) -> Iterator[list[Any]]:
-        """Convert the events; yields the values of status and of the address to fetch."""
+    def look(self, session: str, tab: str) -> list[Any]:
+        """How the tab's job gets on; returns the same."""
+        return self._values(self._jobs.latest((session, tab)))
+
+    def reopen(self, session: str, tab: str) -> list[Any]:
+        """The tab's job or its result after a reload, but no old error; returns the same."""
+        answer = self._jobs.latest((session, tab))
+        is_over = answer is not None and answer.kind in ("failed", "stopped")
+        return self._values(None if is_over else answer)
+
+    def stop(self, session: str, tab: str) -> list[Any]:
+        """Give the tab's job up; returns the same."""
+        self._jobs.stop((session, tab))
+        return self.look(session, tab)
+
+    def prepare_download(self, session: str, events: str | None, format: str) -> list[str]:
+        """Convert the events; returns the values of status and of the address to fetch."""
         try:
             if events is None or not os.path.exists(events):
-                raise ConfigError("there are no events to download yet; make some first")
-            yield [progress_html(Answer(kind="progress", text="converting")), ""]
+                raise ConfigError("there are no events to download; make some first")
             folder = str(self._workspace.new_folder(session))
-            done = self._last(ConvertJob(source=events, folder=folder, format=format))
+            job = ConvertJob(source=events, folder=folder, format=format)
+            *_, done = self._supervisor.run(job)
         except TexventError as error:
-            yield [failure_html(str(error)), ""]
-            return
+            return [failure_html(str(error)), ""]
         address = address_of(done.files["download"])
-        yield [download_html(done, address), address]
+        return [download_html(done, address), address]
 
-    def _simulate(
-        self, session: str, options: Mapping[str, Any], **source: str
-    ) -> Iterator[list[Any]]:
-        gr = self._gradio
-        skip, active, idle = gr.skip(), gr.Button(interactive=True), gr.Button(interactive=False)
+    def _start(
+        self, page: Page, common: tuple[Any, ...], more: dict[str, Any], **source: str
+    ) -> list[Any]:
+        def job() -> SimulateJob:
+            folder = str(self._workspace.new_folder(page[0]))
+            return SimulateJob(folder=folder, options=options, limits=self._limits, **source)
+
+        self._jobs.stop(page)
         try:
             if source.get("video") == "":
                 raise ConfigError("there is no video yet; drop one, or choose a file")
-            folder = str(self._workspace.new_folder(session))
-            job = SimulateJob(folder=folder, options=options, limits=self._limits, **source)
-            for answer in self._supervisor.run(job):
-                if answer.kind == "progress":
-                    yield [progress_html(answer), skip, skip, skip, skip, idle]
-                    continue
-                files = answer.files
-                video, viewer = video_html(address_of(files["video"])), viewer_html(files["page"])
-                yield [summary_html(answer), video, viewer, files["events"], idle, active]
+            options = _options(*common, **more)
+            self._jobs.start(page, job)
         except TexventError as error:
-            # Results of an earlier job are removed: they could be mistaken for this one's.
-            yield [failure_html(str(error)), "", "", None, idle, idle]
+            return self._values(Answer(kind="failed", text=str(error)))
+        return self.look(*page)
 
-    def _last(self, job: Job) -> Answer:
-        *_, done = self._supervisor.run(job)
-        return done
+    def _values(self, answer: Answer | None) -> list[Any]:
+        """Values of status, preview, viewer, events, stop, results and timer; None: unchanged."""
+        gr = self._gradio
+        skip = gr.skip()
+        stop, timer = gr.Button(interactive=False), gr.Timer(active=False)
+        if answer is None:
+            return [skip] * 7
+        if answer.kind == "progress":
+            stop, timer = gr.Button(interactive=True), gr.Timer(active=True)
+            return [progress_html(answer), skip, skip, skip, stop, skip, timer]
+        if answer.kind == "stopped":
+            return [status_html(answer.text), skip, skip, skip, stop, skip, timer]
+        if answer.kind == "failed":
+            # Results of an earlier job are removed: they could be mistaken for this one's.
+            return [failure_html(answer.text), "", "", None, stop, gr.Row(visible=False), timer]
+        files = answer.files
+        video, viewer = video_html(address_of(files["video"])), viewer_html(files["page"])
+        results = gr.Row(visible=True)
+        return [summary_html(answer), video, viewer, files["events"], stop, results, timer]
 
 
 def _choice(gr: Any, label: str, names: Any, value: str | None = None) -> Any:
@@ -357,11 +364,11 @@ def _choice(gr: Any, label: str, names: Any, value: str | None = None) -> Any:
     )
 
 
-def _with_request(gr: Any, handler: Any) -> Any:
+def _with_session(gr: Any, handler: Any) -> Any:
     """The handler, given the visitor's session first."""
 
-    def handle(request: Any, *values: Any) -> Iterator[list[Any]]:
-        yield from handler(str(request.cookies.get(SESSION, "")), *values)
+    def handle(request: Any, *values: Any) -> Any:
+        return handler(str(request.cookies.get(SESSION, "")), *values)
 
     # Gradio passes the request because of this annotation.
     handle.__annotations__["request"] = gr.Request
@@ -369,17 +376,24 @@ def _with_request(gr: Any, handler: Any) -> Any:
 
 
 def _presets(simulator: str) -> list[str]:
-    first, *others = SIMULATORS.load(simulator).presets
-    return [f"{first} {DEFAULT_PRESET}".replace("default (", "("), *others]
+    return list(SIMULATORS.load(simulator).presets)
 
 
-def _options(asked: tuple[Any, ...]) -> dict[str, Any]:
-    generator, duration, simulator, preset, sensor, seed = asked
-    return {
-        "generator": generator,
-        "duration": duration,
-        "simulator": simulator,
-        "preset": None if preset.endswith(DEFAULT_PRESET) else preset,
-        "sensor": None if sensor == OWN_SIZE else sensor,
-        "seed": int(seed or 0),
-    }
+def _hint() -> str:
+    simulator = RunConfig.simulator
+    return (
+        f"Which one? **{simulator}** with **{_presets(simulator)[0]}** is the most accurate by "
+        "measurement; the others are there to compare. A preset named after a camera has its "
+        "constants. Without a sensor a video keeps its size, and a prompt is drawn at "
+        f"{parse_sensor(DEFAULT_SENSOR)}."
+    )
+
+
+def _options(
+    simulator: str, preset: str, sensor: str, seed: float | None, **more: Any
+) -> dict[str, Any]:
+    options = {"simulator": simulator, "preset": preset, "sensor": sensor, "seed": seed, **more}
+    for name, value in options.items():
+        if value is None:
+            raise ConfigError(f"{name} is empty; fill it in")
+    return {name: value for name, value in options.items() if value != NO_SENSOR}

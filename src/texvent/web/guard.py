@@ -241,7 +241,7 @@ class _Reply:
             if name.encode() not in given
         ]
         if self._new_session is not None:
-            cookie = f"{SESSION}={self._new_session}; Path=/; HttpOnly; SameSite=Strict"
+            cookie = f"{SESSION}={self._new_session}; Path=/; HttpOnly; SameSite=Lax"
             headers.append((b"set-cookie", cookie.encode()))
         return headers
 

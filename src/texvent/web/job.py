@@ -46,7 +46,7 @@ KINDS: dict[str, type[Job]] = {"simulate": SimulateJob, "convert": ConvertJob}
 class Answer:
     """One line from a worker."""
 
-    kind: Literal["progress", "done", "failed"]
+    kind: Literal["progress", "done", "failed", "stopped"]
     share: float | None = None
     """Of a progress line: how much is done, 0..1, or None where it is unknown."""
     text: str = ""

@@ -9,14 +9,14 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from texvent.errors import InputError
 from texvent.web.job import Answer, Job, job_line, read_answer
 
 WORKER = (sys.executable, "-m", "texvent.web.worker")
 POLL_S = 0.5
-"""How often the time limit is checked while a worker writes nothing."""
+"""How often the limits are checked while a worker writes nothing."""
 
 
 class Supervisor:
@@ -31,13 +31,14 @@ class Supervisor:
         self._lock = threading.Lock()
         self._is_closed = False
 
-    def run(self, job: Job) -> Iterator[Answer]:
+    def run(self, job: Job, is_wanted: Callable[[], bool] = lambda: True) -> Iterator[Answer]:
         """Answers of a worker as they come; the last one is "done".
 
         Closing the iterator stops the worker.
 
         Args:
             job: what to do.
+            is_wanted: asked while the worker works; False stops it and ends the answers.
 
         Raises:
             InputError: the worker refused the job, crashed, or ran out of time; the page shows the
@@ -45,7 +46,7 @@ class Supervisor:
         """
         worker = self._start()
         try:
-            yield from _read_answers(worker, job, self._time_limit_s)
+            yield from _read_answers(worker, job, self._time_limit_s, is_wanted)
         finally:
             with self._lock:
                 self._running.discard(worker)
@@ -86,13 +87,15 @@ def _end(worker: subprocess.Popen[str]) -> None:
                 pipe.close()
 
 
-def _read_answers(worker: subprocess.Popen[str], job: Job, time_limit_s: float) -> Iterator[Answer]:
+def _read_answers(
+    worker: subprocess.Popen[str], job: Job, time_limit_s: float, is_wanted: Callable[[], bool]
+) -> Iterator[Answer]:
     deadline = time.monotonic() + time_limit_s
     lines: queue.Queue[str | None] = queue.Queue()
     reader = threading.Thread(target=_queue_lines, args=(worker, lines), daemon=True)
     _send(worker, job)
     reader.start()
-    while True:
+    while is_wanted():
         try:
             line = lines.get(timeout=POLL_S)
         except queue.Empty:
@@ -111,8 +114,8 @@ def _read_answers(worker: subprocess.Popen[str], job: Job, time_limit_s: float) 
                 return
         if time.monotonic() > deadline:
             raise InputError(
-                f"the job took longer than {time_limit_s:g} s and was stopped; try a shorter or "
-                "smaller one"
+                f"the job took longer than {time_limit_s:g} s and was stopped; try a shorter one, "
+                "or a smaller sensor"
             )
 
 

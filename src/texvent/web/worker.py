@@ -14,7 +14,7 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent.capture.open import open_frames
-from texvent.errors import InputError, TexventError, shown
+from texvent.errors import InputError, TexventError, shown, warnings_to
 from texvent.events import EventStream
 from texvent.io.files import extension_of, open_events, save
 from texvent.pipeline import Simulation
@@ -69,16 +69,20 @@ def simulate(job: SimulateJob, send: SendAnswer) -> Answer:
         ConfigError: an unknown option, or a value out of range.
     """
     send(Answer(kind="progress", text="starting"))
-    simulation = _prepare(job, _JobProgress(send))
-    _check_size(simulation.video.size, job.limits)
-    folder = Path(job.folder)
-    tally = _Tally(simulation.video.frame_count, job.limits, send)
-    output = RunFiles(events=(folder / "events.h5",), previews=("mp4", "html"))
-    write_run(simulation, output, metadata=_shown(simulation), on_step=tally.add)
+    warnings: list[str] = []
+    with warnings_to(warnings.append):
+        simulation = _prepare(job, _JobProgress(send))
+        if job.video is None:
+            warnings.clear()  # The prompt's report says the same.
+        _check_size(simulation.video.size, job.limits)
+        folder = Path(job.folder)
+        tally = _Tally(simulation.video.frame_count, job.limits, send)
+        output = RunFiles(events=(folder / "events.h5",), previews=("mp4", "html"))
+        write_run(simulation, output, metadata=_shown(simulation), on_step=tally.add)
     files = dict(zip(("events", "video", "page"), output.paths, strict=True))
     return Answer(
         kind="done",
-        text=_summary(simulation, tally.events),
+        text=_summary(simulation, tally.events, warnings),
         files={name: str(path) for name, path in files.items()},
     )
 
@@ -180,8 +184,8 @@ class _Tally:
             )
         if self.events > self.limits.max_events:
             raise InputError(
-                f"more than {self.limits.max_events:,} events; choose a higher contrast threshold "
-                "or a smaller sensor"
+                f"more than {self.limits.max_events:,} events; choose a smaller sensor, or give "
+                "fewer seconds"
             )
         if frame.is_source:
             self.frames += 1
@@ -200,11 +204,18 @@ def _shown(simulation: Simulation) -> dict[str, Any]:
     return {**metadata, "source": source}
 
 
-def _summary(simulation: Simulation, count: int) -> str:
-    lines = [f"{count:,} events on {simulation.video.size} pixels"]
+def _summary(simulation: Simulation, count: int, warnings: list[str]) -> str:
+    run = simulation.settings.run
+    lines = [
+        f"{count:,} events on {simulation.video.size} pixels",
+        f"simulator {run.simulator}, preset {run.preset}",
+    ]
+    if simulation.settings.generator is None:
+        fit = f"frames fitted to {run.sensor}" if run.sensor else "the video's own size"
+        lines.append(fit)
     report = PromptReport.of_metadata(simulation.video.metadata)
     lines += report.lines() if report is not None else []
-    return "\n".join(lines)
+    return "\n".join(dict.fromkeys([*lines, *warnings]))
 
 
 if __name__ == "__main__":

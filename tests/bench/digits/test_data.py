@@ -121,7 +121,7 @@ def test_a_digit_has_the_same_events_on_a_sheet_as_alone(arm):
 
 def test_images_of_a_sheet_are_those_of_its_digits():
     sheet = DigitSheet(Digits.as_measured(figures(5, 2)))
-    events = prepare_video(sheet, find_arm("texvent").settings("exact")).packets.collect()
+    events = prepare_video(sheet, find_arm("texvent paper").settings("exact")).packets.collect()
     images, counts = represent_all(events)
     for number in range(5):
         own, own_counts = represent_all(tile_events(sheet, events, number))

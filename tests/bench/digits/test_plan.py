@@ -87,7 +87,7 @@ def test_steps_depend_on_what_they_compute_and_on_nothing_else():
 
 
 def test_networks_are_listed_once_and_sets_before_seeds():
-    listed = list_trainings(plan(arms=("texvent", "esim"), choices=("matched", "random")))
+    listed = list_trainings(plan(arms=("texvent paper", "esim"), choices=("matched", "random")))
     assert len(set(listed)) == len(listed)
     simulated = [one for one in listed if one.cell and not one.shots]
     assert [one.seed for one in simulated] == sorted(one.seed for one in simulated)

@@ -93,8 +93,8 @@ def test_tables_mark_the_best_arm_and_those_that_cannot_be_told_apart_from_it():
 
 
 def test_comparisons_state_the_difference_its_interval_and_holms_p():
-    pairs = {("texvent", "a"): (10, 4, 0.18), ("texvent", "b"): (9, 0, 0.004)}
-    scores = [set_score(name, 0.9) for name in ("texvent", "a", "b")]
+    pairs = {("texvent paper", "a"): (10, 4, 0.18), ("texvent paper", "b"): (9, 0, 0.004)}
+    scores = [set_score(name, 0.9) for name in ("texvent paper", "a", "b")]
     rows = comparison_table(digits_report(scores, pairs), "surface", "exact", "matched")
-    assert "| texvent | a | 10 | 4 | +0.012 [-0.003, +0.027] | 0.18 | 0.18 |" in rows
+    assert "| texvent paper | a | 10 | 4 | +0.012 [-0.003, +0.027] | 0.18 | 0.18 |" in rows
     assert "| 0.004 | 0.008 |" in rows

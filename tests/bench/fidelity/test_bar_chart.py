@@ -17,7 +17,7 @@ def test_the_chart_is_an_svg_with_a_bar_per_entry_as_long_as_its_stpp():
     assert widths == pytest.approx([0.75 * BAR_PX, 0.45 * BAR_PX, 0.0], abs=0.06)
     texts = [text.text for text in panel.findall(f"{SVG}text")]
     assert texts[:3] == ["mixed, noisy pixels: STPP", "null", "floor"]
-    assert texts[3:] == ["better", "0.750", "texvent, blend", "0.450", "lost", "undefined"]
+    assert texts[3:] == ["better", "0.750", "texvent paper, blend", "0.450", "lost", "undefined"]
 
 
 def test_error_bars_are_one_standard_error_to_each_side():

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -6,7 +7,7 @@ from texvent.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent.bench.fidelity.table import fidelity_tables
 from texvent.bench.paper.config_entry import read_ablations
 from texvent.errors import ConfigError, InputError
-from texvent.simulate.texvent.simulator import TexventConfig
+from texvent.simulate.texvent.simulator import TexventSimulator
 
 PAPER = Path(__file__).parents[3] / "configs" / "paper"
 
@@ -33,7 +34,7 @@ def test_the_paper_has_twelve_ablations_in_their_order():
 )
 def test_each_ablation_changes_what_the_paper_says(name, changes):
     entry = next(entry for entry in read_ablations(PAPER) if entry.name == name)
-    assert entry.settings(5).simulate == TexventConfig(**changes)
+    assert entry.settings(5).simulate == replace(TexventSimulator.presets["paper"], **changes)
     assert entry.settings(5).run.seed == 5
 
 

@@ -70,7 +70,7 @@ def test_our_figures_stand_below_the_papers_with_notes_and_what_is_missing():
 
 def test_ablations_give_scores_and_paired_differences_to_the_papers_setting():
     report = synthetic_report()
-    names = {"texvent, blend": "Texvent", "better": "E12", "lost": "E9"}
+    names = {"texvent paper, blend": "Texvent", "better": "E12", "lost": "E9"}
     report = dataclasses.replace(
         report, scores=[dataclasses.replace(one, entry=names[one.entry]) for one in report.scores]
     )

@@ -32,6 +32,7 @@ def test_no_events_are_at_rest():
 def test_a_lamp_on_the_mains_is_told_from_noise():
     noise = scattered(20_000)
     assert mains_flicker(noise) is None
+    assert all(mains_flicker(scattered(40, seed)) is None for seed in range(9))
     assert mains_flicker(EventStream.empty(SIZE)) is None
     lit = noise[(noise.t % 10_000 < 4_000) | (noise.t % 5 == 0)]
     assert mains_flicker(lit) == 100.0

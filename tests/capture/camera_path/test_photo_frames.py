@@ -159,19 +159,19 @@ POSES = "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n"
     ("options", "error", "said"),
     [
         ({"camera": "wobble"}, InputError, "give saccade, shake, pan, or a file that exists"),
-        ({"camera": "pan", "start": 1.0}, ConfigError, "start is for videos.*--duration says"),
+        ({"camera": "pan", "start": 1.0}, ConfigError, "start is for videos.*`duration` says"),
         ({"camera": "pan", "fit": "stretch"}, ConfigError, "fit is for videos"),
         ({"camera": "pan", "motion": "flow"}, ConfigError, "motion is for videos"),
         ({"camera": "pan", "camera_fov": 60.0}, ConfigError, "camera_fov is for poses"),
         ({"camera": "pan", "duration": 0.0}, ConfigError, "duration is 0 s; it must be"),
         ({"camera": "pan", "camera_amplitude": -1.0}, ConfigError, "camera_amplitude is -1"),
         ({"camera": "pan", "fps": 1e6, "duration": 1e4}, ConfigError, "10,000,000,000 frames"),
-        ({"camera": "POSES"}, InputError, "give --camera-fov"),
-        ({"camera": "POSES", "camera_fov": 60.0}, InputError, "give --depth FILE, or poses that"),
+        ({"camera": "POSES"}, InputError, "give `camera_fov`"),
+        ({"camera": "POSES", "camera_fov": 60.0}, InputError, "give depth=FILE, or poses that"),
         ({"camera": "POSES", "camera_amplitude": 2.0}, ConfigError, "a file states its own sizes"),
-        ({"duration": 2.0}, ConfigError, r"duration is for a camera .*; --stop ends a video"),
+        ({"duration": 2.0}, ConfigError, r"duration is for a camera .*; `stop` ends a video"),
         ({"camera_amplitude": 2.0}, ConfigError, r"camera_amplitude is for a camera"),
-        ({}, InputError, "is one image, so nothing changes; move a camera over it with --camera"),
+        ({}, InputError, "is one image, so nothing changes; move a camera over it with `camera`"),
     ],
 )
 def test_what_does_not_go_together_gets_one_line(photo, tmp_path, options, error, said):
@@ -186,7 +186,7 @@ def test_what_does_not_go_together_gets_one_line(photo, tmp_path, options, error
 def test_what_is_no_image_gets_one_line(photo, tmp_path):
     video = tmp_path / "clip.mp4"
     video.write_bytes(b"x")
-    with pytest.raises(InputError, match=r"clip.mp4 is no still image .* leave --camera out"):
+    with pytest.raises(InputError, match=r"clip.mp4 is no still image .* leave `camera` out"):
         texvent.simulate(video, camera="pan")
     with pytest.raises(InputError, match="texvent batch FOLDER"):
         texvent.simulate(tmp_path, camera="pan")
@@ -212,7 +212,7 @@ def test_what_is_no_image_gets_one_line(photo, tmp_path):
     [
         (np.ones((5, 5)), "80x60"),
         (np.where(COLUMNS == 3, np.nan, 1.0), "NaN or negative"),
-        (np.ones((60, 80), np.uint16), "give --depth-scale"),
+        (np.ones((60, 80), np.uint16), "give `depth_scale`"),
     ],
 )
 def test_bad_depth_gets_one_line(depth, said, tmp_path, photo):

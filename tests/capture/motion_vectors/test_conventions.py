@@ -74,11 +74,6 @@ def test_a_coarser_field_is_repeated_and_its_pixels_count_as_several():
     assert in_ndc[0, 3].tolist() == [2.0 * 2, 3.0 * 1]  # a share of the image is the same
 
 
-def test_a_size_that_is_no_whole_fraction_is_refused():
-    with pytest.raises(ValueError, match="3x2 for frames of 8x4"):
-        to_pixels(np.zeros((2, 3, 2)), parse_convention("standard"), "forward", SIZE, 1.0)
-
-
 @pytest.mark.parametrize("text", ["blendr", "scale=0", "scale=x", "px,,", ""])
 def test_unknown_words_are_named(text):
     with pytest.raises(ConfigError, match="motion_convention has"):

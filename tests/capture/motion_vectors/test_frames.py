@@ -139,10 +139,10 @@ def test_what_is_not_valid_in_a_png_is_not_known(tmp_path):
 def test_a_png_of_flow_is_never_guessed(tmp_path):
     for index, flow in enumerate(FORWARD):
         write_png(tmp_path / f"{index}.png", flow, 64)
-    with pytest.raises(InputError, match=r"KITTI and DSEC count .* --motion-convention kitti"):
+    with pytest.raises(InputError, match=r"KITTI and DSEC count .* `motion_convention` kitti"):
         open_frames(FILM, CaptureConfig(fps=Fraction(25), motion=tmp_path))
     wrong = CaptureConfig(fps=Fraction(25), motion=tmp_path, motion_convention="dsec")
-    with pytest.raises(InputError, match=r"--motion-convention kitti; give that"):
+    with pytest.raises(InputError, match=r"`motion_convention` kitti; give that"):
         open_frames(FILM, wrong)
 
 
@@ -158,7 +158,7 @@ def test_a_png_of_flow_is_never_guessed(tmp_path):
     ],
 )
 def test_vectors_of_another_convention_are_refused_with_the_option_to_give(flow, option):
-    told = rf"differ by \d+\.\d grey levels, and by [0-3]\.\d .*--motion-convention {option}; give"
+    told = rf"differ by \d+\.\d grey levels, and by [0-3]\.\d .*`motion_convention` {option}; give"
     with pytest.raises(InputError, match=told):
         opened({"motion": flow})
     option = option.strip("()").split("|")[0]
@@ -199,7 +199,7 @@ def test_vectors_of_another_film_are_warned_of():
             {"motion": FORWARD, "depth": np.full_like(DEPTH, np.nan)},
             r"3072 value\(s\) that are NaN",
         ),
-        ({"motion": FORWARD, "depth": DEPTH.astype(np.uint16)}, r"give --depth-scale: metres per"),
+        ({"motion": FORWARD, "depth": DEPTH.astype(np.uint16)}, r"give `depth_scale`: metres per"),
         ({"motion": FORWARD, "instances": DEPTH + 0.5}, r"no whole numbers"),
     ],
 )
@@ -250,7 +250,7 @@ def test_depth_in_millimetres():
     millimetres = (DEPTH * 1000).astype(np.float32)
     with pytest.warns(
         TexventWarning,
-        match=r"median of 9000 m, so it is probably in another unit; give --depth-scale: 0.001",
+        match=r"median of 9000 m, so it is probably in another unit; give `depth_scale`: 0.001",
     ):
         list(opened({"motion": FORWARD, "depth": millimetres}))
     stream = opened({"motion": FORWARD, "depth": millimetres.astype(np.uint16)}, depth_scale=1e-3)
@@ -277,12 +277,6 @@ def test_start_stop_and_fit_change_motion_as_pixels():
             np.tile(np.float32(scene.SQUARE_PX) / 2, (inside.sum(), 1))
         )
         assert set(frame.motion.depth[inside]) == {scene.NEAR_M}
-
-
-def test_a_live_source_is_refused():
-    frames = (image for image in FILM)
-    with pytest.raises(InputError, match="read twice, not a live stream"):
-        open_frames(frames, CaptureConfig(fps=Fraction(25)), motion={"motion": FORWARD})
 
 
 def test_the_metadata_says_what_the_vectors_mean():

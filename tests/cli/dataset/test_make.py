@@ -18,6 +18,7 @@ from texvent.cli.app import main
 SPECIFICATION = """
 name = "cars"
 samples_per_shard = 2
+filters = { min_events = 1 }
 splits = { train = 0.75, test = 0.25 }
 
 [options]
@@ -74,12 +75,13 @@ def test_a_plan_says_what_there_will_be_and_leaves_nothing(folder, capsys):
     assert "paper (2 seeds), esim" in said
     assert "classes  2, 2 prompts each" in said
     assert "no license" in said
-    assert "prompts  4 of 4 prompts shown as they say" in said
+    assert "prompts  4 of 4 prompts understood word for word" in said
     assert [path.name for path in folder.iterdir()] == ["cars.toml"]
 
 
 WUGS = """
 name = "wugs"
+filters = { min_events = 1 }
 [options]
 duration = 0.1
 sensor = "32x24"
@@ -92,9 +94,9 @@ prompts = ["a red ball bounces", "a wug and a dog run", "qwerty zxcv"]
 
 def test_prompts_that_are_not_shown_as_they_say_are_counted_and_fail_the_set(folder, capsys):
     (folder / "wugs.toml").write_text(WUGS)
-    expected = "1 of 3 prompts shown as they say; 1 with words not understood (wug); 1 refused"
+    wug = "; 1 with words not understood (wug); 1 refused"
     assert run("plan", "wugs.toml", "--trial", 0) == 0
-    assert f"prompts  {expected}" in capsys.readouterr().out
+    assert f"prompts  1 of 3 prompts understood word for word{wug}" in capsys.readouterr().out
     assert run("make", "wugs.toml", "--workers", 1, "-q") == 1
     said = capsys.readouterr()
     assert "2 samples" in said.out
@@ -102,10 +104,32 @@ def test_prompts_that_are_not_shown_as_they_say_are_counted_and_fail_the_set(fol
     assert run("make", "wugs", "--workers", 1, "-q", "--allow-failed") == 0
     capsys.readouterr()
     assert run("stats", "wugs") == 0
-    counted = "1 of 2 samples shown as they say; 1 with words not understood (wug)"
     said_of_set = capsys.readouterr().out
-    assert f"prompts: {counted}" in said_of_set
-    assert "failed: nothing in the prompt was understood: qwerty, zxcv" in said_of_set
+    assert f"prompts  1 of 3 clips shown as they say{wug}" in said_of_set
+    assert "failed   1: nothing in the prompt was understood: qwerty, zxcv" in said_of_set
+
+
+def test_plan_make_and_stats_say_the_same_of_samples_and_name_those_left_out(folder, capsys):
+    wugs = WUGS.replace('"qwerty zxcv"', '"qwerty zxcv", "a white sailboat approaches"')
+    (folder / "wugs.toml").write_text(wugs.replace("min_events = 1", "min_events = 20"))
+    said = []
+    for words in (
+        ("plan", "wugs.toml", "--trial", 4, "--workers", 1),
+        ("make", "wugs.toml", "--workers", 1, "-q", "--allow-failed"),
+        ("stats", "wugs"),
+    ):
+        assert run(*words) == 0
+        text = capsys.readouterr().out
+        start = text.index("\nsamples  ") + 1
+        said.append(text[start : text.index("1 refused", start)])
+    assert said[0] == said[1] == said[2]
+    assert said[0].startswith("samples  2 made, 1 left out, 1 failed\n")
+    assert "left out 1: fewer than 20 signal events\n" in said[0]
+    assert " 'a white sailboat approaches': " in said[0]
+    assert "prompts  1 of 4 clips shown as they say" in said[0]
+    assert run("stats", "wugs", "--json") == 0
+    (left_out,) = json.loads(capsys.readouterr().out)["total"]["left_out"]
+    assert f"events/{left_out['key']} " in said[0]
 
 
 def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
@@ -128,7 +152,7 @@ def test_a_plan_of_a_learned_model_costs_gpu_hours(folder, capsys):
 def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
     assert run("plan", "cars.toml", "--trial", 4, "--workers", 1) == 0
     rows = [line.split() for line in capsys.readouterr().out.splitlines()]
-    planned = {row[0]: int(row[2].replace(",", "")) for row in rows if row[0] in ("paper", "esim")}
+    planned = {row[0]: int(row[4].replace(",", "")) for row in rows if row[0] in ("paper", "esim")}
     assert run("make", "cars.toml", "--workers", 1, "-q") == 0
     capsys.readouterr()
     assert run("status", "cars", "--json") == 0
@@ -177,10 +201,10 @@ def test_what_cannot_be_is_refused_in_one_line(folder, capsys, words, message):
 
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-def test_a_killed_data_set_goes_on_without_loss(folder, whole, workers, number):
+def test_a_killed_data_set_goes_on_without_loss(folder, whole, spawn, workers, number):
     words = [sys.executable, "-m", "texvent.cli.app", "dataset", "make", "cars.toml",
              "--workers", str(workers)]  # fmt: skip
-    process = subprocess.Popen([*words, "-o", "killed"], stderr=subprocess.PIPE)
+    process = spawn([*words, "-o", "killed"], stderr=subprocess.PIPE)
     while process.poll() is None and not list(Path("killed").rglob("*.tar")):
         time.sleep(0.02)
     process.send_signal(number)  # to the one that leads: its workers must end by themselves

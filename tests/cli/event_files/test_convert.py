@@ -118,11 +118,10 @@ def test_a_label_is_dropped_where_that_is_asked_for(
     label = np.zeros(len(recording), dtype=np.uint8)
     columns = (recording.x, recording.y, recording.t, recording.p)
     save("labelled.h5", EventStream(*columns, SIZE, {}, label))
-    assert "no place for the signal/noise label" in refused(
-        capsys, "convert", "labelled.h5", "x.aedat4"
-    )
-    assert run("convert", "labelled.h5", "x.aedat4", "--drop-label") == 0
-    assert load("x.aedat4").equals(recording)
+    for words, said in (((), 1), (("--drop-label",), 0)):
+        assert run("convert", "labelled.h5", "x.aedat4", "--overwrite", *words) == 0
+        assert load("x.aedat4") == recording
+        assert capsys.readouterr().err.count("and --drop-label silences this") == said
 
 
 def test_validate_gives_a_verdict_and_an_exit_code(

@@ -26,6 +26,7 @@ def clips_recipe(folder: Path, *, clips: int = 6, **changes: Any) -> Recipe:
         "name": "tiny",
         "samples_per_shard": 2,
         "previews": False,
+        "filters": {"min_events": 1},
         "options": {"fps": 120, "interpolate": "none"},
         "sources": [{"videos": ["clips/*.npy"]}],
         "variants": {"paper": {"seeds": 3}, "esim": {"simulator": "esim"}},

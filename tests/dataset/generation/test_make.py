@@ -19,11 +19,15 @@ from texvent.dataset.generation.engines.processes import ProcessEngine
 from texvent.dataset.generation.engines.protocol import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.records import FAILED, FILTERED, read_record
+from texvent.dataset.generation.records import FAILED, FILTERED, MADE, read_record
+from texvent.dataset.generation.sample import FilteredError, simulate_sample
 from texvent.dataset.generation.status import read_status
 from texvent.dataset.generation.tar_shard import read_members
 from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.specification.specification import Filters
 from texvent.errors import ConfigError, FileFormatError, OutputError
+from texvent.pipeline import text_to_events
+from texvent.run.settings import resolve
 
 SMALL = {"duration": 0.1, "sensor": "32x24"}
 CARS = {
@@ -31,6 +35,7 @@ CARS = {
     "seed": 3,
     "samples_per_shard": 2,
     "splits": {"train": 0.5, "test": 0.5},
+    "filters": {"min_events": 1},
     "options": {**SMALL, "contrast_threshold": {"uniform": [0.1, 0.3]}},
     "sources": [
         {"template": "a {c} {t} drives left", "label": "{t}",
@@ -133,6 +138,15 @@ def test_the_videos_of_variants_are_the_same_and_simulations_differ(whole: Path)
     assert len(thresholds) == 2
 
 
+def test_as_many_events_as_are_allowed_are_kept() -> None:
+    settings = resolve("generate", {**SMALL, "simulator": "esim"})
+    simulation = text_to_events("a red car drives left", settings)
+    count = len(simulation.packets.collect())
+    assert len(simulate_sample(simulation, Filters(max_events=count)).events) == count
+    with pytest.raises(FilteredError, match="more than"):
+        simulate_sample(simulation, Filters(max_events=count - 1))
+
+
 def test_only_what_is_missing_is_made(whole: Path, tmp_path: Path) -> None:
     import shutil
 
@@ -199,13 +213,13 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     work = make(recipe, folder)
     assert not work.failures
     assert {(one.made, one.filtered, one.failed) for one in work.complete.values()} == {
-        (6, 0, 2),  # a still video has the noise of the sensor
+        (4, 2, 2),  # a still video has the noise of the sensor, and no signal
         (2, 1, 1),
     }
     (record,) = (one.record for one in MadeSet.open(folder).shards("esim"))
     reasons = {one.status: one.reason or "" for one in record.samples}
     assert "b.npy" in reasons[FAILED]
-    assert "0 events, fewer than 1" in reasons[FILTERED]
+    assert reasons[FILTERED] == "fewer than 1 signal events"
     np.save(tmp_path / "b.npy", clip)
     assert not find_work(recipe, folder).todo
     work = make(recipe, folder, retry_failed=True)
@@ -214,6 +228,30 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     whole = tmp_path / "again"
     make(recipe, whole)
     assert digests(whole) == digests(folder)
+
+
+@pytest.mark.parametrize("kept", ["all", "noise"])
+def test_events_of_noise_save_no_sample_from_the_filter(tmp_path: Path, kept: str) -> None:
+    clip = np.zeros((12, 24, 32), np.uint8)
+    np.save(tmp_path / "still.npy", clip)
+    clip[:, 4:16, 4:16] = np.arange(12, dtype=np.uint8)[:, None, None] * 20
+    np.save(tmp_path / "brighter.npy", clip)
+    recipe = recipe_of(
+        tmp_path,
+        sources=[{"videos": "*.npy", "label": "{name}"}],
+        options={"fps": 30, "simulator": "v2e", "shot_noise_rate_hz": 20.0, "events": kept},
+        splits={"train": 1.0},
+        filters={},
+        variants={"v2e": {}},
+    )
+    make(recipe, tmp_path / "out")
+    (shard,) = MadeSet.open(tmp_path / "out").shards()
+    made, still = sorted(shard.record.samples, key=lambda one: one.label or "")
+    assert (made.status, still.status) == (MADE, FILTERED)
+    assert still.reason == "fewer than 200 signal events"
+    assert still.signal_events < 100
+    assert made.signal_events >= 200
+    assert made.events > made.signal_events if kept == "all" else made.events > 100
 
 
 def test_stored_videos_serve_every_variant(tmp_path: Path) -> None:

@@ -24,6 +24,7 @@ SPECIFICATION = """
 name = "tiny"
 seed = 1
 samples_per_shard = 1
+filters = { min_events = 1 }
 [options]
 fps = 120
 interpolate = "none"

@@ -116,26 +116,6 @@ def test_filters_choose_variant_split_and_label(folder, written):
     assert texvent.dataset.open(folder, label="car")[0].class_number == 1
 
 
-@pytest.mark.parametrize(
-    ("chosen", "message"),
-    [
-        ({"variant": "pape"}, "unknown variant 'pape'.*'paper'"),
-        ({"split": "val"}, "unknown split 'val'"),
-        ({"label": "dag"}, "unknown label 'dag'.*did you mean 'dog'"),
-        ({"label": "dog"}, "no sample of 'dog'"),
-        ({"split": ()}, "split names nothing; there is: test, train"),
-        ({"representation": "voxel"}, "unknown representation 'voxel'"),
-        ({"representation": "voxel-e2vid", "representation_options": {"bins": 0}}, "bins is 0"),
-        ({"representation_options": {"bins": 5}}, "belong to a representation"),
-        ({"slice_us": 0}, "slice_us is 0"),
-        ({"slice_us": 5, "slice_events": 5}, "either slice_us or slice_events"),
-    ],
-)
-def test_wrong_choices_are_refused(folder, written, chosen, message):
-    with pytest.raises(InputError, match=message):
-        texvent.dataset.open(folder, **chosen)
-
-
 def test_slices_longer_than_a_sample_are_refused_at_once(folder, written):
     with pytest.raises(InputError, match=r"24 of 24 samples are shorter than a slice of 10,001 µs"):
         texvent.dataset.open(folder, slice_us=10_001)
@@ -322,6 +302,7 @@ def test_stored_and_simulated_samples_are_the_same_arrays(tmp_path):
     options = {"duration": 0.125, "sensor": "32x24", "samples": 1, "shadows": False}
     tables = {
         "name": "one",
+        "filters": {"min_events": 1},
         "sources": [{"prompts": ["a red ball flies left"]}],
         "options": options,
     }

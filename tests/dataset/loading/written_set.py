@@ -47,7 +47,7 @@ def write_shard(
             label = labels[place % len(labels)] if labels else None
             facts = {"prompt": f"a {label} drives left", "key": key, "label": label}
             members = sample_members(
-                MadeEvents(events, start_us, DURATION_US),
+                MadeEvents(events, start_us, DURATION_US, len(events)),
                 facts,
                 class_number=None if label is None else labels.index(label),
                 preview=False,

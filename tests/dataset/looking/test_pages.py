@@ -47,7 +47,14 @@ def test_the_page_shows_every_sample_with_its_caption(
     assert sheet is not None
     assert len(np.unique(sheet)) > 10
     assert main(["dataset", "sample", str(cars), "-o", str(out)]) == 3
-    assert main(["dataset", "sample", str(cars), "-o", str(tmp_path / "look.png")]) == 2
+    assert main(["dataset", "sample", str(cars), "-o", str(tmp_path / "look.jpg")]) == 2
+    assert "name a page, .html, or an image, .png" in capsys.readouterr().err
+    assert main(["dataset", "sample", str(cars), "-o", str(tmp_path / "sheet.png")]) == 0
+    assert [path.name for path in sorted(tmp_path.iterdir())] == [
+        "look.html",
+        "look.png",
+        "sheet.png",
+    ]
 
 
 def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> None:

@@ -131,27 +131,6 @@ def test_the_captions_become_events_that_stand_beside_their_streams(
     assert {pair["id"] for pair in pairs} == {stream_id(number) for number in CAPTIONS}
 
 
-def test_mistakes_are_named(data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    def said(*words: str) -> str:
-        assert main(["dataset", "nt-imagenet", *words]) in (2, 3)
-        return capsys.readouterr().err
-
-    real = ["--n-imagenet", str(data / "N_Imagenet"), "-o", str(tmp_path / "nt")]
-    assert "no captions; give --model" in said(*real)
-    assert "give their folder with --imagenet" in said(*real, "--model", "llava")
-    assert "no streams; give N-ImageNet's folder" in said("-o", "nt", "--captions", "a.csv")
-    assert "leave_out names 'colour'" in said(*real, "--leave-out", "colour", "--captions", "a.csv")
-    assert "has 2 classes, fewer than 100" in said(*real, "--captions", "a.csv")
-    two = [*real, "--class-count", "2"]
-    (tmp_path / "a.csv").write_text("id,caption\nnone,x\n")
-    assert "has no caption of these streams" in said(*two, "--captions", str(tmp_path / "a.csv"))
-    inside = ["--captions", str(tmp_path / "nt" / "captions.jsonl")]
-    assert "lies in the folder that is written" in said(*two, *inside)
-    other = ["--captions", str(data / "elsewhere.jsonl")]
-    assert "holds other files" in said(*two[:2], "-o", str(tmp_path), *two[4:], *other)
-    assert "cannot be read as captions" in said("-o", str(tmp_path / "nt"), "--events", str(data))
-
-
 def test_events_of_other_prompts_are_refused(
     built: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

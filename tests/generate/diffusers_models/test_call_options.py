@@ -56,13 +56,13 @@ def stand_in(name):
     return pipe, calls
 
 
-def call(pipe, **options):
+def call(pipe, fps=Fraction(24), **options):
     return call_pipeline(
         pipe,
         {"prompt": PROMPT},
         DiffusersConfig(**options),
         model=VideoModel(name="someone's"),
-        fps=Fraction(24),
+        fps=fps,
         generator=torch.Generator("cpu").manual_seed(0),
         output_type="np",
         progress=NoProgress(),
@@ -110,6 +110,14 @@ def test_steps_and_guidance_are_refused_where_the_noise_levels_are_fixed():
             call(pipe, **{option: 7})
     call(pipe)
     assert len(calls) == 1
+
+
+def test_a_fractional_frame_rate_reaches_the_call():
+    pipe, calls = stand_in("CosmosTextToWorldPipeline")
+    for fps in (Fraction(24), Fraction(30_000, 1001)):
+        call(pipe, fps=fps)
+    assert [arguments["fps"] for arguments, _ in calls] == [24, 30_000 / 1001]
+    assert isinstance(calls[0][0]["fps"], int)
 
 
 def test_a_negative_prompt_that_would_be_left_out_is_refused():

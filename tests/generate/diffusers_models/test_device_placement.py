@@ -15,7 +15,7 @@ COSMOS = MODELS["cosmos-7b"]  # 74 GB on the device, 24.4 GB with offload
     ("free_gb", "offload"), [(80, "none"), (74, "none"), (48, "model"), (24, "sequential")]
 )
 def test_offload_follows_the_free_memory(free_gb, offload):
-    placed = place(COSMOS, DiffusersConfig(), "cuda", int(free_gb * GB))
+    placed = place(COSMOS, DiffusersConfig(quantize="none"), "cuda", int(free_gb * GB))
     assert (placed.offload, placed.dtype) == (offload, "bfloat16")
     assert placed.tiles_decoder == (offload != "none")
 

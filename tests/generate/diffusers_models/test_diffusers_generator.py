@@ -142,6 +142,8 @@ def test_a_prompt_asked_again_needs_no_text_encoder(models):
     assert again._run._pipe.text_encoder is None
     whole = pixels(build(models("wan"), seed=8, reuse_video=False).generate(PROMPT))
     assert np.array_equal(from_embeddings, whole)
+    dark = build(models("wan"), seed=8, negative_prompt="dark").generate(PROMPT)
+    assert not np.array_equal(pixels(dark), whole)
     # The same loaded model is then asked for a prompt without stored embeddings.
     assert again.generate("a blue dog").frame_count == 5
 
@@ -293,7 +295,7 @@ def test_what_a_pipeline_refuses_is_one_clear_error(models):
         build(models("wan"), width=36).generate(PROMPT)
     with pytest.raises(InputError, match="the prompt is empty"):
         build(models("wan")).generate("  ")
-    with pytest.raises(ConfigError, match=r"frame rate of .* is not known.*--fps 16"):
+    with pytest.raises(ConfigError, match=r"frame rate of .* is not known.*fps=16"):
         build(models("wan"), fps=None).generate(PROMPT)
     with pytest.raises(ConfigError, match="generator_device is 'warp'"):
         build(models("wan"), generator_device="warp").generate(PROMPT)
@@ -305,7 +307,7 @@ def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(caps
     generator = part(part.config_type(), seed=0, size=None)
     with pytest.raises(TexventError, match=r"model_index.json and .*put them into") as caught:
         generator.generate(PROMPT, progress=watcher)
-    assert "--generator ./FOLDER" in str(caught.value)
+    assert "`generator` ./FOLDER" in str(caught.value)
     read = "licence: Apache-2.0 (read in github.com/Wan-Video/Wan2.1: README.md;"
     assert read in watcher.lines[0]
     with pytest.raises(TexventError):

@@ -142,7 +142,7 @@ def test_only_the_frames_that_are_made_are_followed_fitted_to_their_size(hdr, cl
 
 def test_another_rate_than_the_reference_is_told(hdr, tmp_path):
     fast = write_clip(tmp_path / "fast.avi", 5, fps=30)
-    with pytest.warns(TexventWarning, match=r"30 frames per second.*give --fps 30 to keep it"):
+    with pytest.warns(TexventWarning, match=r"30 frames per second.*give fps=30 to keep it"):
         hdr(reference_video=fast).generate(PROMPT)
 
 
@@ -152,11 +152,11 @@ def test_what_cannot_be_followed_is_refused_before_anything_is_loaded(hdr, model
     text = tmp_path / "note.mp4"
     text.write_text("no video")
     for path, kind, message in (
-        (None, ConfigError, "LTX2HDRPipeline follows a video; give --reference-video FILE"),
+        (None, ConfigError, "LTX2HDRPipeline follows a video; give reference_video=FILE"),
         (tmp_path / "none.mp4", InputError, "no such video"),
         (tmp_path, FileFormatError, "cannot be read"),
         (text, FileFormatError, "cannot be read"),
-        (short, InputError, "has 3 frames, and 5 are to be made; .*--frames 3"),
+        (short, InputError, "has 3 frames, and 5 are to be made; .*frames=3"),
         (light, InputError, "is linear light; the model follows ordinary video"),
     ):
         generator = hdr(reference_video=path)

@@ -137,7 +137,7 @@ def test_options_are_compared_with_what_a_pipeline_takes():
             return image, prompt, num_frames
 
     assert "num_frames" in check_options(FromImages, DiffusersConfig(image="a.png", frames=9))
-    with pytest.raises(ConfigError, match="FromImages starts from an image; give --image PATH"):
+    with pytest.raises(ConfigError, match="FromImages starts from an image; give image=PATH"):
         check_options(FromImages, DiffusersConfig())
     with pytest.raises(ConfigError, match="steps is set, but FromImages does not take it"):
         check_options(FromImages, DiffusersConfig(image="a.png", steps=5))

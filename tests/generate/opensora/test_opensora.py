@@ -168,7 +168,7 @@ def test_what_is_missing_is_named_with_what_to_do(root, monkeypatch, remove, why
 def test_without_a_checkout_the_place_to_get_it_is_named(monkeypatch, tmp_path):
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
     monkeypatch.delenv("OPENSORA_ROOT", raising=False)
-    with pytest.raises(TexventError, match="OPENSORA_ROOT or pass --opensora-root"):
+    with pytest.raises(TexventError, match="OPENSORA_ROOT or pass `opensora_root`"):
         build().generate(PROMPT)
     with pytest.raises(TexventError, match="there is no folder"):
         build(opensora_root=tmp_path / "gone").generate(PROMPT)

@@ -59,5 +59,5 @@ def test_light_that_texvent_stored_is_refused_and_other_videos_of_it_are_not(tmp
 
 def test_a_video_that_is_too_short_says_how_many_frames_it_has(tmp_path):
     path = write_clip(tmp_path / "v.mp4", "h264", "yuv420p")
-    with pytest.raises(InputError, match=r"has 3 frames, and 9 are to be made; .*--frames 3"):
+    with pytest.raises(InputError, match=r"has 3 frames, and 9 are to be made; .*frames=3"):
         list(read_reference(path, 9))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -113,6 +115,16 @@ def test_what_the_nearer_thing_reveals_comes_from_the_frame_that_shows_it():
     assert image[:, 12] == pytest.approx(160.0, abs=0.5)  # covered in the end, not yet
 
 
+def test_what_has_no_depth_is_behind_everything():
+    sky = []
+    for frame in bar_pair(start=4.0, step=6.0, wide=3.0):
+        depth = np.where(frame.motion.depth == OBJECT_M, frame.motion.depth, np.nan)
+        sky.append(replace(frame, motion=replace(frame.motion, depth=depth.astype(np.float32))))
+    image, _ = MotionPair.of(*sky).draw(0.5)
+    assert image[:, 8] == pytest.approx(40.0, abs=0.5)
+    assert image[:, 4] == pytest.approx(160.0, abs=0.5)
+
+
 def test_without_depth_the_faster_thing_is_nearer():
     first, second = bar_pair(start=4.0, step=6.0, wide=3.0)
     bare = [
@@ -129,6 +141,17 @@ def test_one_direction_is_enough_where_nothing_hides(missing):
     pair = MotionPair.of(*moving_texture(2.0, 1.0, **{missing: False}))
     image, _ = pair.draw(0.5)
     assert np.abs(image - texture(1.0, 0.5))[3:-3, 3:-3].max() < 0.5
+
+
+@pytest.mark.parametrize("missing", ["forward", "backward"])
+def test_of_two_vectors_that_arrive_at_a_pixel_the_nearer_one_is_turned_round(missing):
+    first, second = bar_pair(start=4.0, step=6.0, wide=3.0)
+    one = first if missing == "forward" else second
+    one = replace(one, motion=replace(one.motion, **{missing: None}))
+    image, _ = MotionPair.of(*((one, second) if one.t_us == 0 else (first, one))).draw(0.5)
+    # The bar has left its place in the other frame.
+    assert image[:, 5 if missing == "forward" else 11] == pytest.approx(160.0, abs=0.5)
+    assert image[:, 8] == pytest.approx(40.0, abs=0.5)
 
 
 def test_paths_are_curved_with_vectors_to_both_neighbours():
@@ -208,7 +231,7 @@ def test_only_what_moves_is_looked_at():
 
 def test_frames_without_vectors_are_refused():
     plain = Frame(texture().astype(np.float32), 0), Frame(texture().astype(np.float32), 40_000)
-    with pytest.raises(InputError, match="no motion vectors to each other; give --motion"):
+    with pytest.raises(InputError, match="no motion vectors to each other; give `motion`"):
         MotionPair.of(*plain)
 
 

@@ -3,11 +3,9 @@
 from itertools import pairwise
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError
 from texvent.interpolate.networks.tiles import OVERLAP_PX, cut_tiles, tile_weights
 
 SIZES = st.integers(1, 700)
@@ -44,8 +42,3 @@ def test_neighbours_overlap_enough_and_no_tile_is_too_large(length, side):
 
 def test_zero_means_one_tile():
     assert [(tile.height, tile.width) for tile in cut_tiles(4000, 5000, 0)] == [(4000, 5000)]
-
-
-def test_a_tile_without_an_inside_is_refused():
-    with pytest.raises(ConfigError, match=r"tiles of 128 px are too small.*above 128 px"):
-        cut_tiles(1000, 1000, 128)

@@ -8,7 +8,6 @@ import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -124,19 +123,6 @@ def test_times_that_do_not_fit_are_refused_with_the_formats_that_hold_them(
     with pytest.raises(InputError, match=message):
         save(tmp_path / f"e{EXTENSIONS[format]}", at_times(*times), format=format)
     assert folder_is_clean()
-
-
-@formats
-def test_the_noise_label_is_refused_instead_of_lost(
-    tmp_path: Path, format: str, folder_is_clean: Callable[[], bool]
-) -> None:
-    one = np.ones(1, dtype=np.int64)
-    events = EventStream(one, one, one, one, SIZE, {}, one)
-    path = tmp_path / f"e{EXTENSIONS[format]}"
-    with pytest.raises(InputError, match=r"no place for the signal/noise label; hdf5"):
-        save(path, events, format=format)
-    assert folder_is_clean()
-    save(path, events.without_label(), format=format)
 
 
 @formats

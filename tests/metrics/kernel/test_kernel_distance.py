@@ -6,7 +6,6 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.kernel.distance import KernelDistance
 from texvent.sensor import SensorSize
@@ -48,11 +47,6 @@ def test_two_empty_streams_are_undefined():
     nothing = EventStream.empty(one_event().size)
     assert math.isnan(KernelDistance()(nothing, nothing))
     assert KernelDistance()(nothing, one_event()) == 1.0
-
-
-def test_a_kernel_narrower_than_its_bins_is_refused():
-    with pytest.raises(ConfigError, match="sd_us is 100; it must be 500"):
-        KernelDistance(sd_us=100)
 
 
 def test_negative_times_fall_into_bins_like_others():

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.motion.contrast_maximisation import (
     estimate_patch_flow,
@@ -34,6 +33,16 @@ def test_the_velocity_of_moving_points_is_found_within_a_pixel_per_window(veloci
     assert found == pytest.approx(velocity, abs=1.0 / 0.04 + 1e-6)
 
 
+def test_a_velocity_is_found_wherever_in_the_image_the_points_are():
+    rng = np.random.default_rng(14)
+    t = np.sort(rng.integers(0, 40_000, 400))
+    places = rng.uniform(0, 8, (2, 40))[:, rng.integers(0, 40, 400)]
+    moved = np.round(places + np.outer((300.0, 400.0), t) * 1e-6).astype(int)
+    ones = np.ones(400, np.uint8)
+    found = [estimate_velocity(EventStream(*moved + at, t, ones, SIZE)) for at in (0, 1, 30)]
+    assert found[0] == found[1] == found[2] == pytest.approx((300, 400), abs=25)
+
+
 def test_each_window_has_its_velocity_and_at_most_four_are_used():
     events = moving_points((100.0, 0.0), stop_us=400_000, left=0, right=60, count=9000)
     velocities = estimate_velocities(events)
@@ -57,8 +66,3 @@ def test_too_few_events_have_no_velocity():
     assert estimate_velocity(few) is None
     assert estimate_velocities(few) == []
     assert np.isnan(estimate_patch_flow(few)).all()
-
-
-def test_a_window_of_no_length_is_refused():
-    with pytest.raises(ConfigError, match="window_us"):
-        estimate_velocity(moving_points((0.0, 0.0)), window_us=0)

@@ -26,6 +26,7 @@ def test_the_interval_of_many_values_is_that_of_the_normal_distribution():
     error = values.std(ddof=1) / 20
     assert low == pytest.approx(values.mean() - 1.966 * error, abs=0.1 * error)
     assert high == pytest.approx(values.mean() + 1.966 * error, abs=0.1 * error)
+    assert bootstrap_interval(values, seed=1) != (low, high)
 
 
 @pytest.mark.parametrize("count", [6, 8, 16])

@@ -2,13 +2,11 @@
 
 import sys
 
-import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, MissingDependencyError
+from texvent.errors import MissingDependencyError
 from texvent.simulate.backend import select
 from texvent.simulate.esim import crossings_cpu
-from texvent.simulate.esim import reference as esim_reference
 from texvent.simulate.esim.crossings import CROSS_THRESHOLDS
 from texvent.simulate.packets import sorting_reference
 from texvent.simulate.packets.sorting import SORT_EVENTS
@@ -24,24 +22,8 @@ def without_numba(monkeypatch):
     select._load.cache_clear()
 
 
-@pytest.fixture
-def kernel():
-    """A kernel that was not asked for yet."""
-    return select.Kernel("texvent.simulate.esim.crossings", "cross_thresholds")
-
-
-@pytest.mark.parametrize(("is_ready", "module"), [(True, crossings_cpu), (False, esim_reference)])
-def test_auto_is_the_compiled_kernel_once_it_is_ready(is_ready, module, kernel, monkeypatch):
-    monkeypatch.setattr(select, "is_ready", lambda *_: is_ready)
-    for _ in range(2):
-        assert kernel.load("auto", np.dtype(np.uint8)) is module.cross_thresholds
-
-
-def test_a_kernel_is_compiled_for_the_type_of_the_frames(kernel, monkeypatch):
-    asked = []
-    monkeypatch.setattr(select, "is_ready", lambda *module: asked.append(module))
-    kernel.load("auto", np.dtype(np.uint8))
-    assert asked == [("texvent.simulate.esim.crossings_cpu", "uint8")]
+def test_auto_is_the_compiled_kernel():
+    assert CROSS_THRESHOLDS.load() is crossings_cpu.cross_thresholds
 
 
 def test_the_reference_serves_as_numpy_where_a_model_has_no_other():
@@ -57,8 +39,3 @@ def test_a_module_named_reference_defines_the_kernels_of_its_folder(backend):
 def test_cpu_without_numba_fails_with_the_command_that_installs_it():
     with pytest.raises(MissingDependencyError, match="pip install"):
         CROSS_THRESHOLDS.load("cpu")
-
-
-def test_unknown_backend_fails():
-    with pytest.raises(ConfigError, match=r"unknown backend 'cqu'.*did you mean 'cpu'"):
-        CROSS_THRESHOLDS.load("cqu")

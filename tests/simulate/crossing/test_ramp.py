@@ -6,7 +6,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from texvent.errors import ConfigError
 from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
 from texvent.simulate.crossing.ramp_reference import cross_ramp
 from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
@@ -26,7 +25,7 @@ def cross(backend, ramp, fired_us=None, *, span=(0, 1000), rest=None):
     fired = np.full(SENSOR[0] * SENSOR[1], NEVER) if fired_us is None else fired_us
     candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
     levels = CrossingState(np.zeros(fired.size), fired)
-    cross_thresholds = CROSS_THRESHOLDS.load(backend, np.dtype(np.float64))
+    cross_thresholds = CROSS_THRESHOLDS.load(backend)
     events = cross_thresholds(candidates, levels, span, rest or RefractoryPeriod(0, True), SENSOR)
     return events, levels.reference
 
@@ -106,7 +105,7 @@ def test_backends_agree_on_many_crossings_of_many_pixels(rest):
     for backend in ("reference", "cpu"):
         rng = np.random.default_rng(0)
         ramp = Ramp(np.arange(1500), *rng.normal(0, 0.7, (2, 1500)), *np.full((2, 1500), 0.02))
-        cross_thresholds = CROSS_THRESHOLDS.load(backend, np.dtype(np.float64))
+        cross_thresholds = CROSS_THRESHOLDS.load(backend)
         levels = CrossingState(np.zeros(1500), np.full(1500, NEVER))
         candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
         events = cross_thresholds(candidates, levels, (0, 5000), rest, (30, 50))
@@ -119,8 +118,3 @@ def test_a_crossing_far_in_time_is_exact(backend):
     late = 10**15
     found, _ = cross(backend, one(0.0, 0.3), span=(late, late + 900))
     assert found.t.tolist() == [late + math.floor(0.2 / 0.3 * 900)]
-
-
-def test_an_unknown_backend_fails_by_name():
-    with pytest.raises(ConfigError, match="abacus"):
-        CROSS_THRESHOLDS.load("abacus", np.dtype(np.float64))

@@ -10,7 +10,6 @@ from texvent._registry import INTERPOLATORS
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.run.settings import resolve
-from texvent.runtime.background_jit import wait_until_ready
 from texvent.simulate.build import build_simulator
 from texvent.video import Video
 
@@ -61,13 +60,7 @@ def readable(video: Video, options: dict[str, Any]) -> list[Any]:
     return [(frame, simulator.step(frame)) for pair in pairs() for frame in pair.frames]
 
 
-def wait_for_kernels() -> None:
-    """Return when the fused kernels are compiled."""
-    for name in ("fused.candidates", "esim.segments"):
-        wait_until_ready(f"texvent.simulate.{name}_cpu")
-
-
 def fused(video: Video, options: dict[str, Any]) -> list[Any]:
-    """Frames and packets of `advance`, with whatever kernels are ready."""
+    """Frames and packets of `advance`."""
     _, simulator, pairs = plan(video, options)
     return [step for pair in pairs() for step in simulator.advance(pair)]

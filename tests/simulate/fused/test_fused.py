@@ -17,8 +17,8 @@ from texvent.pairs.motion_interpolation import MotionInterpolation, UndrawnFrame
 from texvent.simulate.esim import segments_reference
 from texvent.simulate.esim import simulator as esim_simulator
 from texvent.simulate.esim.segments import CROSS_SEGMENTS
-from texvent.simulate.fused import candidates
-from texvent.simulate.fused.candidates import compiled_kernels, find_bounds
+from texvent.simulate.fused import candidates, candidates_cpu
+from texvent.simulate.fused.candidates import find_bounds
 from texvent.simulate.texvent import fused as texvent_fused
 from texvent.video import Frame, Video
 
@@ -26,25 +26,20 @@ from .clips import fused, panning, plan, readable
 
 NOISY = {"noise_rate_hz": 20.0, "seed": 3}
 TEXVENT = {
-    "the paper's": {},
+    "default": {},
+    "the paper's": {"preset": "paper"},
     "without noise": {"noise": "none"},
     "noise anywhere": {"noise": "random"},
-    "global cache": {"cache": "global"},
-    "cache reset every other pair": {"cache": "global", "cache_reset_pairs": 2},
-    "no cache": {"cache": "none"},
-    "leaky cache, steps": {"cache": "leaky", "reset": "step"},
-    "accurate": {
-        "cache": "leaky",
-        "reset": "step",
-        "multi_event": True,
-        "timestamp_rule": "linear",
-    },
-    "steps": {"reset": "step"},
+    "global cache": {"preset": "paper", "cache": "global"},
+    "no cache": {"preset": "paper", "cache": "none"},
+    "decay": {"residual_decay_hz": 3.0},
+    "decay, one event": {"residual_decay_hz": 3.0, "multi_event": False},
+    "steps": {"preset": "paper", "reset": "step"},
     "random times": {"timestamp_rule": "random"},
     "hyperbolic times": {"timestamp_rule": "hyperbolic"},
     "many events": {"multi_event": True, "timestamp_rule": "even", "contrast_threshold": 0.06},
     "times at the end": {"timestamp_rule": "end", "timestamp_scale": 0.5},
-    "scaled times": {"timestamp_scale": 0.5},
+    "scaled times": {"preset": "paper", "timestamp_scale": 0.5},
 }
 ESIM = {
     "default": {},
@@ -132,7 +127,7 @@ def test_texvent_events_are_those_of_the_drawn_frames(name):
 
 
 @pytest.mark.parametrize("interpolate", INTERPOLATE)
-@pytest.mark.parametrize("name", ["the paper's", "accurate"])
+@pytest.mark.parametrize("name", ["the paper's", "default"])
 def test_any_interpolator_gives_the_same_events(name, interpolate):
     assert assert_equal(panning(3), **NOISY, interpolate=interpolate, **TEXVENT[name]) > 200
 
@@ -181,12 +176,6 @@ def test_any_frames_give_the_same_events(seed, simulator, spread):
     assert_equal(video, simulator=simulator, seed=seed % 1000, max_intermediate=9)
 
 
-@pytest.mark.parametrize("simulator", ["texvent", "esim"])
-def test_until_kernels_are_compiled_the_events_are_the_same(simulator, monkeypatch):
-    monkeypatch.setattr(candidates, "is_ready", lambda module: False)
-    assert assert_equal(panning(3), simulator=simulator, max_intermediate=5) > 200
-
-
 def test_the_definition_of_crossings_gives_the_same_events(monkeypatch):
     monkeypatch.setattr(CROSS_SEGMENTS, "load", lambda: segments_reference.cross_segments)
     assert assert_equal(panning(3), simulator="esim", max_intermediate=5) > 200
@@ -232,7 +221,7 @@ def test_pairs_out_of_order_are_refused():
     ("options", "is_tried"),
     [
         ({}, True),
-        ({"preset": "accurate"}, True),
+        ({"preset": "paper"}, True),
         ({"simulator": "esim"}, True),
         ({"interpolate": "blend"}, False),
         ({"interpolate": "none", "simulator": "esim"}, False),
@@ -243,10 +232,9 @@ def test_pairs_out_of_order_are_refused():
 )
 def test_a_pair_is_not_drawn_where_it_can_be_fused(options, is_tried, monkeypatch):
     estimated = []
-    kernels = compiled_kernels()
-    whole = kernels.estimate_active
+    whole = candidates_cpu.estimate_active
     monkeypatch.setattr(
-        kernels, "estimate_active", lambda *given: estimated.append(1) or whole(*given)
+        candidates_cpu, "estimate_active", lambda *given: estimated.append(1) or whole(*given)
     )
     texvent.simulate(panning(3), **options)
     assert bool(estimated) is is_tried

@@ -12,6 +12,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,17 +24,18 @@ from triton.runtime.jit import JITFunction
 
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu import engine
-from texvent.simulate.texvent.simulator import TexventConfig
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 
 TOOL = Path(triton.__file__).parent / "backends" / "nvidia" / "bin" / "cuobjdump"
+PAPER = TexventSimulator.presets["paper"]
 RANDOM = {"noise": "random", "timestamp_rule": "random"}
-ACCURATE = {"cache": "leaky", "reset": "step", "multi_event": True}
+DECAYING = {"residual_decay_hz": 3.0}
 RESTING = {"threshold_sigma": 0.1, "threshold_redraw": "never", "refractory_period_us": 5}
 CONFIGS: dict[str, Any] = {
-    "paper": TexventConfig(),
-    "random": TexventConfig(**RANDOM),
+    "paper": PAPER,
+    "random": replace(PAPER, **RANDOM),
     **{
-        name: TexventConfig(**ACCURATE, timestamp_rule=name)
+        name: TexventConfig(**DECAYING, timestamp_rule=name)
         for name in ("linear", "hyperbolic", "even")
     },
     "end": TexventConfig(cache="global", reset="step", timestamp_rule="end"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -33,15 +34,16 @@ pytest.importorskip("triton")
 
 from texvent.simulate.gpu import GpuSimulator  # noqa: E402
 
+PAPER = TexventSimulator.presets["paper"]
 TEXVENT = {
     "paper": {"noise_rate_hz": 5.0},
     "other noise": {"noise": "random", "noise_rate_hz": 9.0, "noise_on_fraction": 0.3},
     "dark": {"noise_rate_hz": 9.0, "noise_intensity": 120.5, "timestamp_scale": 0.6},
     "no cache": {"noise": "none", "cache": "none", "timestamp_rule": "random"},
-    "periodic": {"cache": "global", "cache_reset_pairs": 2, "timestamp_rule": "hyperbolic"},
-    "accurate": {
-        "noise": "none", "cache": "leaky", "reset": "step", "multi_event": True,
-        "timestamp_rule": "linear",
+    "current": {"cache": "global", "timestamp_rule": "hyperbolic"},
+    "default": {
+        "noise": "none", "cache": "global", "reset": "step", "multi_event": True,
+        "timestamp_rule": "linear", "residual_decay_hz": 3.0,
     },
     "even": {
         "cache": "global", "multi_event": True, "timestamp_rule": "even", "noise_rate_hz": 5.0,
@@ -59,12 +61,12 @@ ESIM = {
 
 
 MODELS = {
-    **{name: (TexventSimulator, TexventConfig(**one)) for name, one in TEXVENT.items()},
+    **{name: (TexventSimulator, replace(PAPER, **one)) for name, one in TEXVENT.items()},
     **{name: (EsimSimulator, EsimConfig(**FEW, **one)) for name, one in ESIM.items()},
 }
 CASES = [
     *((name, np.uint8) for name in MODELS),
-    *((name, np.float32) for name in ("paper", "periodic", "accurate", "esim", "esim at rest")),
+    *((name, np.float32) for name in ("paper", "current", "default", "esim", "esim at rest")),
 ]
 
 

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from texvent.errors import InputError
 from texvent.simulate.gpu.intervals import Clock
-from texvent.simulate.gpu.kernel_types import FORGET, LEAK
 from texvent.simulate.gpu.launch import alignment
 from texvent.simulate.texvent.brightness_cache import BrightnessCache
 from texvent.simulate.texvent.gpu.rules import byte_brightness, byte_trigger_levels
@@ -63,35 +62,32 @@ def test_a_time_that_does_not_increase_is_named_with_its_clip():
 
 
 @pytest.mark.torch
-@pytest.mark.parametrize("cache", ["none", "local", "leaky", "global"])
-@pytest.mark.parametrize("every", [0, 2])
-def test_references_are_renewed_as_the_brightness_cache_does(cache, every):
+@pytest.mark.parametrize(
+    ("cache", "decay_hz"), [("none", 0.0), ("local", 0.0), ("global", 0.0), ("global", 3.0)]
+)
+def test_references_are_renewed_as_the_brightness_cache_does(cache, decay_hz):
     pytest.importorskip("triton")
     from texvent.simulate.texvent.gpu.pixels import TexventPixels
     from texvent.simulate.texvent.simulator import TexventConfig
 
-    reset_pairs = every if cache in ("leaky", "global") else 0
-    config = TexventConfig(cache=cache, cache_reset_pairs=reset_pairs)
+    config = TexventConfig(cache=cache, residual_decay_hz=decay_hz)
+    times_us = np.array([0, 40, 100, 250, 300, 700]) * 1000
     flags = [True, False, True, True, False, True]
     pixels, clock = TexventPixels(config, [0]), Clock(1)
-    policies = []
+    shares = []
     for part in (slice(0, 3), slice(3, 6)):
-        span = clock.read(3, np.arange(6)[part], flags[part])
-        policies += pixels.policy(span)[0].tolist()
+        span = clock.read(3, times_us[part], flags[part])
+        shares += pixels.shares(span)[0].tolist()
         pixels.advance(span)
         clock.advance()
-    memory = BrightnessCache(
-        np.zeros((1, 1)), policy=cache, leak=config.cache_leak, reset_pairs=reset_pairs
-    )
-    for index, policy in enumerate(policies):
-        before = memory.calibrate(np.full((1, 1), 10.0 + index), is_source=flags[index]).copy()
+    memory = BrightnessCache(np.zeros((1, 1)), policy=cache, decay_hz=decay_hz)
+    for index, share in enumerate(shares):
+        image = np.full((1, 1), 10.0 + index)
+        before = memory.calibrate(image, times_us[index], is_source=flags[index]).copy()
         if index == 0:
-            assert policy == FORGET
-        elif policy == FORGET:
-            assert before == 10.0 + index
+            assert share == 1  # the first interval has no reference yet
         else:
-            assert before != 10.0 + index
-            assert (policy == LEAK) == (cache == "leaky" and flags[index])
+            assert before == pytest.approx(-5.0 + share * (15.0 + index))
         memory._reference[...] = -5.0  # far from any brightness, so that every renewal shows
 
 

@@ -112,6 +112,13 @@ def test_hot_pixels_are_as_many_and_as_hot_as_stated():
     assert len(events) == pytest.approx(mean, abs=poisson_interval(mean))
 
 
+def test_hot_pixels_make_noise_of_their_own():
+    equal = {"noise_curve": "0:20 255:20", "hot_pixel_fraction": 1.0, "hot_pixel_rate_hz": 20.0}
+    events = run(noisy(**equal), static(200.0, fps=24, seconds=1.0, shape=(20, 20)))
+    times_of_pixels = np.stack([events.t, events.y, events.x], axis=1)
+    assert len(np.unique(times_of_pixels, axis=0)) > 0.99 * len(events) > 15_000
+
+
 def test_a_static_scene_at_the_default_preset_fires_at_the_sum_of_its_rates():
     config = dataclasses.replace(PRESETS["davis346"], gamma=1.0)
     frames = static(10.0, fps=24, seconds=3.0, shape=(100, 120))
@@ -154,8 +161,10 @@ def test_the_sensor_seed_fixes_the_sensor_and_nothing_else():
     assert not noise[0].equals(noise[1])
 
 
-def test_the_first_frame_finds_pixels_in_random_phase(backend):
-    times = first_times(clean(backend, initial_phase="random")) * 1e-6
-    # From anywhere in -0.2..0.2 up to 0.2: uniform over 0..0.4 s.
-    assert np.quantile(times, [0.25, 0.5, 0.75]) == pytest.approx([0.1, 0.2, 0.3], abs=0.05)
-    assert times.max() <= 0.4
+@pytest.mark.parametrize(("ratio", "whole"), [(1.0, 0.4), (0.25, 0.5)])
+def test_the_first_frame_finds_pixels_in_random_phase(backend, ratio, whole):
+    times = first_times(clean(backend, initial_phase="random", on_off_ratio=ratio)) * 1e-6
+    # From anywhere between both thresholds, 0.2 and 0.2 or 0.4 and 0.1, up to the ON threshold.
+    quartiles = np.quantile(times / whole, [0.25, 0.5, 0.75])
+    assert quartiles == pytest.approx([0.25, 0.5, 0.75], abs=0.1)
+    assert 0.95 * whole < times.max() <= whole

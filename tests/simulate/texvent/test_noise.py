@@ -1,5 +1,7 @@
 """Eq. 6 and its ablations: how much noise, where, when, and that it disturbs nothing else."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,7 @@ from texvent.simulate.texvent.noise import (
     poisson_cumulative,
     voltage_noise_sd,
 )
-from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
+from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.video import Frame, frame_time_us
 
 SECOND = 1_000_000
@@ -26,7 +28,8 @@ def resting(shape, times_us, level=20.0):
 
 
 def simulate(frames, *, backend="cpu", seed=0, **options) -> EventStream:
-    simulator = TexventSimulator(TexventConfig(**options), seed=seed, backend=backend)
+    config = replace(TexventSimulator.presets["paper"], **options)
+    simulator = TexventSimulator(config, seed=seed, backend=backend)
     return EventStream.concat([simulator.step(frame) for frame in frames])
 
 

@@ -35,8 +35,8 @@ def is_possible(options) -> bool:
 SWITCHES = [
     options
     for values in itertools.product(
-        ("local", "global", "none", "leaky"),
-        (0, 2),
+        ("local", "global", "none"),
+        (0.0, 5.0),
         ("current", "step"),
         (False, True),
         ("eq7", "random", "linear", "hyperbolic", "even", "end"),
@@ -44,7 +44,7 @@ SWITCHES = [
     if is_possible(
         options := dict(
             zip(
-                ("cache", "cache_reset_pairs", "reset", "multi_event", "timestamp_rule"),
+                ("cache", "residual_decay_hz", "reset", "multi_event", "timestamp_rule"),
                 values,
                 strict=True,
             )
@@ -80,14 +80,13 @@ def naive_events(frames, config: TexventConfig) -> list[tuple[int, int, int, int
     """(t, y, x, p) of all events, one pixel at a time; no noise, no random times."""
     images = [balanced_log(frame.luma, config.balance).tolist() for frame in frames]
     reference = [row[:] for row in images[0]]
-    pairs, events = 0, []
+    decayed_us, events = None, []
     for earlier, later, before, now in zip(frames, frames[1:], images, images[1:], strict=False):
-        pairs += earlier.is_source
+        share = naive_share(config, earlier, decayed_us)
+        decayed_us = earlier.t_us if share or decayed_us is None else decayed_us
         fired = []
         for y, x in np.ndindex(len(now), len(now[0])):
-            reference[y][x] = naive_reference(
-                reference[y][x], before[y][x], earlier.is_source, pairs, config
-            )
+            reference[y][x] += share * (before[y][x] - reference[y][x])
             change = now[y][x] - reference[y][x]
             if abs(change) >= config.contrast_threshold:
                 fired.append((y, x, change))
@@ -112,14 +111,14 @@ def naive_events(frames, config: TexventConfig) -> list[tuple[int, int, int, int
     return sorted(events)
 
 
-def naive_reference(reference, before, is_source, pairs, config):
-    period = config.cache_reset_pairs
-    periodic = is_source and period and (pairs - 1) % period == 0
-    if config.cache == "none" or periodic or (config.cache == "local" and is_source):
-        return before
-    if config.cache == "leaky" and is_source:
-        return reference + config.cache_leak * (before - reference)
-    return reference
+def naive_share(config, earlier, decayed_us):
+    """Share of the way that references move to the earlier frame."""
+    if config.cache == "none" or (config.cache == "local" and earlier.is_source):
+        return 1.0
+    if config.cache == "local" or not earlier.is_source or decayed_us is None:
+        return 0.0
+    share = 1 - math.exp(-config.residual_decay_hz * (earlier.t_us - decayed_us) / 1e6)
+    return share if share >= 0.01 else 0.0
 
 
 def naive_fraction(stamp, sizes, size, line, rank):

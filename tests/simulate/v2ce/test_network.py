@@ -173,7 +173,7 @@ def test_too_little_memory_says_what_to_lower(network, monkeypatch):
         raise RuntimeError("DefaultCPUAllocator: can't allocate memory: you tried to ...")
 
     monkeypatch.setattr(torch.nn.functional, "conv3d", fail)
-    with pytest.raises(InputError, match=r"2 pairs of 7x5 frames.*--sequence-length"):
+    with pytest.raises(InputError, match=r"2 pairs of 7x5 frames.*`sequence_length`"):
         network.predict(some_pairs(2, 5, 7))
 
 

@@ -30,7 +30,7 @@ class Sensor:
     """Pixels of given constants, stepped by one backend every 1000 µs."""
 
     def __init__(self, backend, constants, light, residual):
-        self.step = FIND_FIRST_PASSAGES.load(backend, np.dtype(np.float32))
+        self.step = FIND_FIRST_PASSAGES.load(backend)
         self.constants, self.seen = constants, np.array(light, np.float32)
         self.voltage, self.start_us = new_voltage(np.array(residual, np.float64)), 7000
 

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.train.classification.augmentation import augment, take_run
@@ -92,8 +91,3 @@ def test_a_run_is_drawn_of_longer_recordings_only() -> None:
         assert np.diff(run.t).tolist() == [1] * 6
         firsts.add(int(run.t[0]))
     assert firsts == {0, 1, 2}
-
-
-def test_a_negative_shift_is_refused() -> None:
-    with pytest.raises(ConfigError, match="shift is -1"):
-        Augmentation(shift=-1)

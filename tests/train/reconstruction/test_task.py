@@ -1,8 +1,7 @@
-"""Training of reconstruction networks: examples, learning, continuation, published files."""
+"""Training of reconstruction networks: examples, learning, published files."""
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,7 +18,6 @@ from texvent.metrics.structural_similarity import structural_similarity
 from texvent.represent.voxel_grid import voxel_e2vid
 
 from ...metrics.lpips.lpips_files import narrow_weights
-from ..killed_training import kill_after_epochs
 from ..sequences.windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
@@ -151,18 +149,6 @@ def test_mixed_precision_trains_weights_of_full_precision(folder: Path, tmp_path
     assert {one.dtype for one in weights(tmp_path / "run").values()} == {torch.float32}
 
 
-def test_a_killed_training_ends_with_equal_weights(folder: Path, tmp_path: Path) -> None:
-    path = write(folder, TRAINING.replace("epochs = 2", "epochs = 6"), "six-epochs.toml")
-    train_from_file(ReconstructionConfig, path, tmp_path / "whole", CPU)
-    words = ["train", "reconstruction", str(path), "-o", str(tmp_path / "killed")]
-    words += ["--device", "cpu", "-q"]
-    kill_after_epochs(words, tmp_path / "killed")
-    assert len(json.loads((tmp_path / "killed" / "history.json").read_text())["epochs"]) < 6
-    assert main(words) == 0
-    whole, killed = weights(tmp_path / "whole"), weights(tmp_path / "killed")
-    assert all(torch.equal(whole[name], killed[name]) for name in whole)
-
-
 @pytest.mark.parametrize("name", ["firenet", "firenet+", "e2vid", "e2vid+"])
 def test_a_published_file_is_read_as_that_network_and_gives_its_images(
     folder: Path, tmp_path: Path, name: str
@@ -272,31 +258,6 @@ def test_videos_train_without_flow(tmp_path: Path) -> None:
     assert "flow" not in next(batches.epoch(0))
     state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
     assert np.isfinite(state.rows[-1]["training loss"])
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (("crop = 16", "crop = 10"), "trained on 10x10 px; give a crop of at least 11 px"),
-        (("firenet", "firenett"), "name is 'firenett'"),
-        (("l1 = 1.0, ssim = 1.0", "l1 = 0"), "lpips, l1 and ssim are all 0; give one of them"),
-        (('"esim"', '"esimm"'), "unknown variant 'esimm'"),
-        (("length = 4", "length = 40"), "has 6 windows of 20000 µs, fewer than 40"),
-        (("tiny.toml", "none.toml"), "none.toml"),
-        (("slice_us", "slices"), "unknown option 'slices'"),
-    ],
-)
-def test_wrong_files_are_refused_before_any_work(
-    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], change: tuple[str, str],
-    message: str
-) -> None:  # fmt: skip
-    path = write(folder, TRAINING.replace(*change), "wrong.toml")
-    words = ["train", "reconstruction", str(path), "-o", str(tmp_path / "run"), "-q"]
-    assert main(words) == 2
-    error = capsys.readouterr().err
-    assert message in error
-    assert len(error.strip().splitlines()) == 1
-    assert not (tmp_path / "run").exists()
 
 
 def test_a_crop_that_the_encoders_cannot_halve_is_refused(

@@ -5,6 +5,7 @@ from pathlib import Path
 TEXT = """\
 name = "tiny"
 splits = {train = 0.5, validation = 0.5}
+filters = {min_events = 1}
 options = {duration = 0.125, sensor = "32x24", samples = 1, shadows = false}
 [[sources]]
 template = "a {colour} ball flies {way}"

@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.view.drawing.palettes import PALETTES, get_palette
 
 
@@ -27,11 +26,6 @@ def test_polarities_background_and_ink_can_be_told_apart(name: str) -> None:
     contrast = abs(sum(palette.ink) - sum(palette.background))
     assert contrast > 200
     assert palette.name == name
-
-
-def test_an_unknown_palette_lists_the_known_ones() -> None:
-    with pytest.raises(ConfigError, match=r"unknown palette 'papr'.*did you mean 'paper'"):
-        get_palette("papr")
 
 
 @pytest.mark.parametrize("name", list(PALETTES))

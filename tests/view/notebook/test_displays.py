@@ -142,6 +142,7 @@ def test_rate_counts_by_hand():
     events = EventStream.from_columns([0] * 5, [0] * 5, t, p, size=SIZE)
     assert rate_counts(events, (10, 40), 3).tolist() == [[1, 0, 1], [2, 1, 0]]
     assert rate_counts(events, (10, 20), 1).tolist() == [[1], [2]]
+    assert rate_counts(events, (8, 11), 187).sum() == 1  # 187 · (3 / 187) is above 3
     assert rate_counts(EventStream.empty(SIZE), (0, 1), 1).tolist() == [[0], [0]]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,7 +9,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, MissingDependencyError
+from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.view.plots.curves import pixel_intervals
@@ -144,9 +143,3 @@ def test_a_cloud_needs_3d_axes_and_only_a_cloud(pyplot):
         EVENTS.plot("cloud", ax=pyplot.figure().add_subplot())
     with pytest.raises(ConfigError, match="plot rate cannot be drawn"):
         EVENTS.plot("rate", ax=pyplot.figure().add_subplot(projection="3d"))
-
-
-def test_without_matplotlib_the_error_names_the_extra(monkeypatch):
-    monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
-    with pytest.raises(MissingDependencyError, match=r"pip install 'texvent\[plot\]'"):
-        EVENTS.plot()

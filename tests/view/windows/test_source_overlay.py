@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError
 from texvent.scenes.raycast.ground_truth import Box, GroundTruth
 from texvent.sensor import SensorSize
 from texvent.video import Video
@@ -84,11 +84,6 @@ def test_an_overlay_without_ground_truth_is_refused() -> None:
     for frames in (None, video(Video)):
         with pytest.raises(ConfigError, match="embedded generator"):
             SourceOverlay(frames, "both", size=SIZE)
-
-
-def test_a_video_of_another_size_is_refused() -> None:
-    with pytest.raises(InputError, match="the video is 48x32, the events are 8x8"):
-        SourceOverlay(video(), "none", size=SensorSize(8, 8))
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from typing import TypeAlias
 
@@ -154,7 +155,7 @@ def _image(path: Path, seed: int, index: int) -> NDArray[np.float32]:
 
 def _read_classes(path: Path) -> list[str]:
     try:
-        words = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
+        words = [line.split() for line in StringIO(path.read_text(encoding="utf-8"))]
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror or error}") from error
     return [line[0] for line in words if line]

@@ -65,8 +65,8 @@ class Arm:
 
 _PAPER = {"simulator": "texvent", "preset": "paper"}
 ARMS: tuple[Arm, ...] = (
-    Arm("texvent", _PAPER),
     Arm("texvent accurate", {"simulator": "texvent", "preset": "accurate"}),
+    Arm("texvent paper", _PAPER),
     Arm("physical", {"simulator": "physical"}),
     Arm("esim", {"simulator": "esim"}),
     Arm("v2e", {"simulator": "v2e"}),

@@ -26,8 +26,8 @@ SCHEDULE = Schedule(epochs=12, batch_size=64, learning_rate=1e-2)
 SHOT_REPRESENTATION = "histogram"
 """Of the networks that see a few recordings."""
 SHOT_ARMS = (
-    "texvent",
     "texvent accurate",
+    "texvent paper",
     "physical",
     "esim",
     "v2e",

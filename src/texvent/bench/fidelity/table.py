@@ -13,7 +13,7 @@ from texvent.bench.oracle.pixel import TARGETS
 from texvent.errors import ConfigError, shown
 from texvent.metrics.summary import normalise, summarise
 
-BASELINE = "texvent, blend"
+BASELINE = "texvent paper, blend"
 """The paper's own method: what the others are compared with, pair by pair."""
 COLUMNS = {
     "ef_mse": "EF MSE",

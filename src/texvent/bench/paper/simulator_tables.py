@@ -36,7 +36,7 @@ ENTRIES: Mapping[str, Entry] = {
     "V2CE": Entry(simulator="v2ce", interpolate="none"),
     "DVS-Voltmeter": Entry(simulator="voltmeter", interpolate="none"),
     "SENPI": Entry(simulator="senpi", interpolate="none"),
-    "Texvent": Entry(simulator="texvent", interpolate="flow"),
+    "Texvent": Entry(simulator="texvent", preset="paper", interpolate="flow"),
 }
 """Column of the paper → what stands for it here. Those that come with a network for interpolation
 get motion compensation, as Texvent does; the others get the frames alone."""

@@ -56,8 +56,9 @@ class ReconstructionPlan:
     """
 
     entries: Sequence[Entry] = (
-        Entry(simulator="texvent", interpolate="blend"),
-        Entry(simulator="texvent", interpolate="flow"),
+        Entry(simulator="texvent", preset="paper", interpolate="blend"),
+        Entry(simulator="texvent", preset="paper", interpolate="flow"),
+        Entry(simulator="texvent", preset="accurate", interpolate="flow"),
         Entry(simulator="physical", interpolate="flow"),
         Entry(simulator="esim", interpolate="flow"),
         Entry(simulator="v2e", interpolate="flow"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -189,7 +190,7 @@ def _rows(path: Path) -> Iterator[tuple[int, Sequence[float]]]:
 
 def _lines(path: Path) -> list[str]:
     try:
-        lines = usable_path(path).read_text(encoding="utf-8-sig").splitlines()
+        lines = list(StringIO(usable_path(path).read_text(encoding="utf-8-sig")))
     except FileNotFoundError:
         raise InputError(f"no such camera path: {path}; check --camera") from None
     except (OSError, UnicodeDecodeError) as error:

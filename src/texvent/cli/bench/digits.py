@@ -29,7 +29,14 @@ page of Y. LeCun, C. Cortes and C. Burges. --nmnist is the unpacked N-MNIST of G
 
 Every step is kept in --work, so a run that was stopped goes on."""
 QUICK: Mapping[str, Any] = {
-    "arms": ("texvent", "texvent accurate", "physical", "esim", "v2e noisy", "frame difference"),
+    "arms": (
+        "texvent accurate",
+        "texvent paper",
+        "physical",
+        "esim",
+        "v2e noisy",
+        "frame difference",
+    ),
     "ways": ("exact",),
     "choices": ("matched",),
     "digits": 2000,

@@ -24,7 +24,7 @@ class FidelityOptions:
     prompt-car, prompt-dog, prompt-bird; default: mixed,translate,fast,slow."""
     simulators: str | None = None
     """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
-    default: all that are registered, texvent:accurate, and physical:calibrated, which knows the
+    default: all that are registered, texvent:paper, and physical:calibrated, which knows the
     sensor that makes the true events."""
     interpolations: str | None = None
     """Names of interpolators, separated by commas; default: none,blend,flow,exact (the true

@@ -54,7 +54,7 @@ class RealOptions:
     """Exponent that makes the frames linear; default: 1 (DAVIS), for DSEC 2.2."""
     simulators: str | None = None
     """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
-    default: all that are registered, texvent:accurate, and sensor presets of physical."""
+    default: all that are registered, texvent:paper, and sensor presets of physical."""
     interpolations: str | None = None
     """Names of interpolators, separated by commas; default: none,blend,flow."""
     config: Path | None = None

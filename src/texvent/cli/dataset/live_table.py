@@ -14,7 +14,7 @@ from rich.table import Table
 from texvent.dataset.generation.engines.protocol import Outcome
 from texvent.dataset.generation.make import Work
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.records import FAILED, FILTERED
+from texvent.dataset.generation.records import FAILED, MADE
 from texvent.dataset.generation.status import StageStatus, read_status
 
 REFRESH_S = 1.0
@@ -69,9 +69,8 @@ class LiveTable:
                     soft_wrap=True,
                 )
         if self._live is None:
-            left_out = record.count(FILTERED)
             self._console.print(
-                f"made     {shard.path}: {len(record.samples) - left_out} samples, "
+                f"made     {shard.path}: {record.count(MADE)} samples, "
                 f"{record.events:,} events, {record.seconds:.1f} s",
                 markup=False,
                 soft_wrap=True,
@@ -101,8 +100,8 @@ def status_table(
         before: stage → samples that were there when it began.
     """
     table = Table(box=None, pad_edge=False)
-    for name in ("", "samples", "of", "failed", "events", "samples/s", "events/s", "at work",
-                 "left"):  # fmt: skip
+    for name in ("", "samples", "of", "left out", "failed", "events", "samples/s", "events/s",
+                 "at work", "left"):  # fmt: skip
         table.add_column(name, justify="left" if not name else "right")
     for stage in stages:
         made = stage.samples - (before or {}).get(stage.name, stage.samples)
@@ -112,6 +111,7 @@ def status_table(
             stage.name,
             f"{stage.samples:,}",
             f"{stage.total:,}",
+            f"{stage.filtered:,}",
             f"{stage.failed:,}",
             f"{stage.events:,}",
             f"{rate:.2f}" if rate else "",

@@ -15,10 +15,13 @@ from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.contents.statistics import Statistics
+from texvent.dataset.contents.summary import summary_lines
 from texvent.dataset.generation.engines.protocol import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards, remove_dead_parts
 from texvent.dataset.generation.prompt_check import refuse_prompts
-from texvent.dataset.generation.recipe import VIDEOS, Recipe, load_recipe
+from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.specification.reading import read_specification
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.threads import count_threads
@@ -143,13 +146,14 @@ def _engine(options: MakeOptions, work: Work) -> Engine:
 
 def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -> int:
     failed = sum(one.failed for one in work.complete.values())
-    shards = [one for shard, one in work.complete.items() if shard.variant != VIDEOS]
+    places = {str(shard.path) for shard in work.complete}
+    shards = (one.record for one in MadeSet.open(folder).shards() if one.place in places)
+    made = Statistics.of(shards)
     write_out(
-        f"{folder}: {sum(one.made for one in shards):,} samples, "
-        f"{sum(one.events for one in shards):,} events in {len(shards):,} shards; "
-        f"{sum(one.filtered for one in shards):,} filtered out, "
-        f"{failed:,} failed\n"
+        f"{folder}: {made.samples:,} samples, {sum(made.events):,} events in "
+        f"{made.shards:,} shards\n"
     )
+    write_out("".join(f"{line}\n" for line in summary_lines(made)))
     if work.failures:
         shard, reason = next(iter(work.failures.items()))
         raise TexventError(

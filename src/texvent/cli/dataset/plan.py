@@ -16,8 +16,11 @@ from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
+from texvent.dataset.contents.statistics import Statistics
+from texvent.dataset.contents.summary import summary_lines
 from texvent.dataset.generation.prompt_check import MOST_READ, tally_prompts
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
+from texvent.dataset.generation.records import FILTERED
 from texvent.dataset.generation.trial import StageEstimate, try_samples
 from texvent.dataset.specification.reading import read_specification
 from texvent.runtime.displays.console_progress import ConsoleProgress
@@ -65,7 +68,7 @@ def run(arguments: Sequence[str]) -> int:
     tally = tally_prompts(recipe)
     if tally is not None:
         drawn = f", drawn from {len(recipe.items.all):,}" if tally.prompts == MOST_READ else ""
-        write_out(f"prompts  {tally.line()}{drawn}\n")
+        write_out(f"prompts  {tally.line(verb='understood word for word')}{drawn}\n")
     trial = options.trial
     if trial is None:
         trial = 0 if recipe.stores_videos else DEFAULT_TRIAL
@@ -75,7 +78,9 @@ def run(arguments: Sequence[str]) -> int:
             stages = try_samples(recipe, trial, progress, workers=workers)
         _print_trial(stages, workers)
     else:
-        write_out("no trial: give --trial 1 to measure size and time of a sample\n")
+        write_out(
+            "no trial: give --trial 1 to measure size and time of a sample, and what is left out\n"
+        )
     if recipe.stores_videos:
         write_out(_video_cost(recipe, options.seconds_per_video))
     return 0
@@ -115,13 +120,15 @@ def describe_contents(recipe: Recipe) -> list[str]:
 def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
     table = Table(box=None, pad_edge=False)
     noun = "worker" if workers == 1 else "workers"
-    for name in ("", "samples", "events each", "size", "s each", f"time, {workers} {noun}", "±"):
+    for name in ("", "samples", "left out", "events each", "size", "s each",
+                 f"time, {workers} {noun}", "±"):  # fmt: skip
         table.add_column(name, justify="left" if not name else "right")
     for stage in stages:
         processes = 1 if stage.name == VIDEOS else workers
         table.add_row(
             stage.name,
             f"{stage.samples:,}",
+            f"{100 * stage.share(FILTERED):.0f} %",
             f"{stage.events:,.0f}",
             size_text(stage.bytes * stage.samples),
             f"{stage.seconds:.2f}",
@@ -131,13 +138,10 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
     with result_console() as console:
         console.print(table)
     total = sum(stage.bytes * stage.samples for stage in stages)
-    write_out(f"in all   {size_text(total)}, from a trial of {stages[0].tried} samples each\n")
-    for stage in stages:
-        if stage.made < stage.tried:
-            write_out(
-                f"note     {stage.tried - stage.made} of {stage.tried} samples of {stage.name} "
-                f"would not be there: {'; '.join(stage.reasons)[:150]}\n"
-            )
+    write_out(f"in all   {size_text(total)}, from a trial of {stages[0].tried} samples each:\n")
+    of_events = (stage for stage in stages if stage.name != VIDEOS)
+    tried = Statistics.of(record for stage in of_events for record in stage.records)
+    write_out("".join(f"{line}\n" for line in summary_lines(tried)))
 
 
 def _video_cost(recipe: Recipe, seconds: float | None) -> str:

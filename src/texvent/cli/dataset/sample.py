@@ -33,7 +33,8 @@ class SampleOptions:
     folder: Path = REQUIRED
     """Folder of the data set."""
     out: Path | None = None
-    """The page; the sheet is beside it as .png. Default: samples.html in the folder."""
+    """The page (.html), with the sheet beside it as .png; or the sheet alone (.png). Default:
+    samples.html in the folder."""
     count: int = 24
     """How many."""
     variant: str | None = None
@@ -62,12 +63,13 @@ def run(arguments: Sequence[str]) -> int:
     from texvent.dataset.looking.sample_page import write_contact_sheet, write_sample_page
     from texvent.io.atomic import check_outputs
 
-    page = options.folder / "samples.html" if options.out is None else options.out
-    if page.suffix.lower() not in (".html", ".htm"):
-        raise ConfigError(f"out is {page}; it names the page, which ends in .html")
-    sheet = page.with_suffix(".png")
+    out = options.folder / "samples.html" if options.out is None else options.out
+    if out.suffix.lower() not in (".html", ".htm", ".png"):
+        raise ConfigError(f"out is {out}; name a page, .html, or an image, .png")
+    sheet = out.with_suffix(".png")
     made = MadeSet.open(options.folder)
-    check_outputs([page, sheet], overwrite=options.overwrite)
+    outputs = list(dict.fromkeys([out, sheet]))
+    check_outputs(outputs, overwrite=options.overwrite)
     choice = Choice(
         count=options.count,
         variant=options.variant,
@@ -77,6 +79,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     samples = choose_samples(made, choice)
     write_contact_sheet(samples, sheet, overwrite=options.overwrite)
-    write_sample_page(made, samples, page, overwrite=options.overwrite)
-    write_out(f"{len(samples)} samples of {made.name}: {page}, {sheet}\n")
+    if out != sheet:
+        write_sample_page(made, samples, out, overwrite=options.overwrite)
+    write_out(f"{len(samples)} samples of {made.name}: {', '.join(map(str, outputs))}\n")
     return 0

@@ -18,6 +18,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.contents.statistics import COUNTS, MICROSECONDS, SetStatistics, counts_rows
+from texvent.dataset.contents.summary import summary_lines
 
 MOST_CLASSES = 12
 WIDTH = 110
@@ -79,10 +80,9 @@ def _print(made: MadeSet, statistics: SetStatistics) -> None:
     total = statistics.total
     _print_counts(console, "classes", total.classes)
     _print_counts(console, "sensors", total.sensors)
-    _print_counts(console, "not there", total.reasons)
     _print_counts(console, "warnings", total.warnings)
-    if total.reports.prompts:
-        console.print(escape(f"prompts: {total.reports.line('samples')}"))
+    for line in summary_lines(total):
+        console.print(escape(line))
     console.print(
         f"{escape(made.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "
         f"{sum(total.events):,} events in {sum(total.durations_us) / MICROSECONDS:,.1f} s, "

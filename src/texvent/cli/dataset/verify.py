@@ -79,6 +79,6 @@ def _lines(options: VerifyOptions, findings: Findings) -> Iterator[str]:
     read = "every sample read" if options.contents else "samples not read"
     yield (
         f"{options.folder}: {findings.shards:,} shards hashed, {read}: {findings.samples:,} "
-        f"samples, {findings.events:,} events, {findings.filtered:,} filtered out, "
+        f"samples, {findings.events:,} events, {findings.filtered:,} left out, "
         f"{findings.failed:,} failed; {'all is well' if findings.is_sound else 'NOT SOUND'}"
     )

@@ -65,7 +65,8 @@ class CompareOptions:
     json: bool = False
     """Print JSON instead of a table; undefined values are null."""
     out: Path | None = None
-    """Write a page too (.html): the same window of both, their event rates and the metrics."""
+    """Write a page too (.html), of one file to judge: the same window of it and of the reference,
+    their event rates and the metrics."""
     overwrite: bool = False
     """Replace the page if it exists already."""
 

@@ -101,7 +101,7 @@ class ConvertOptions:
     time: str | None = None
     """Keep START,STOP in seconds, START included; either may be left out."""
     drop_label: bool = False
-    """Leave out the signal/noise label, for formats that have no place for it."""
+    """Leave out the signal/noise label; without a warning where the format has no place for it."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False

@@ -92,7 +92,7 @@ def _compare(path: Path, out: Path) -> int:
         write_out(f"{out}: the same bytes as {path}\n")
         return 0
     before, again = load(path), load(out)
-    if again.equals(before):
+    if again == before:
         write_out(f"{out}: the same events as {path}, in other bytes\n")
         return 0 if out.is_dir() else 1
     write_out(f"{out}: other events than {path}, {len(again):,} for {len(before):,}\n")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from texvent.errors import ConfigError, shown
 from texvent.event_packets import EventPackets
+from texvent.options.values import parse_fraction
 from texvent.time_range import END_OF_TIME_US
 from texvent.transform.window import keep_time
 from texvent.video import MICROSECONDS
@@ -20,7 +21,11 @@ def keep_time_range(events: EventPackets, text: str | None) -> EventPackets:
 
 
 def parse_time_range(text: str) -> tuple[int, int]:
-    """`START,STOP` in seconds as µs; either may be left out.
+    """`START,STOP` in seconds as µs, exactly; either may be left out.
+
+    Example:
+        >>> parse_time_range("0.5,9007199254.740993")
+        (500000, 9007199254740993)
 
     Raises:
         ConfigError: it is not two numbers.
@@ -29,9 +34,9 @@ def parse_time_range(text: str) -> tuple[int, int]:
     try:
         if len(words) != 2:
             raise ValueError(text)
-        start = round(float(words[0]) * MICROSECONDS) if words[0] else 0
-        stop = round(float(words[1]) * MICROSECONDS) if words[1] else END_OF_TIME_US
-    except (ValueError, OverflowError) as error:
+        start = round(parse_fraction(words[0]) * MICROSECONDS) if words[0] else 0
+        stop = round(parse_fraction(words[1]) * MICROSECONDS) if words[1] else END_OF_TIME_US
+    except (ValueError, ZeroDivisionError) as error:
         raise ConfigError(
             f"time is {shown(text)}; give START,STOP in seconds, such as 0.5,2 or 0.5, or ,2"
         ) from error

@@ -195,7 +195,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
 
 
 def _read_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[str]:
-    """How many prompts would be shown as they say; a line, or none."""
+    """How many prompts are understood word for word; a line, or none."""
     tally = ReportTally()
     if plan.upsample is None and samples[0].video is None:
         for sample in samples:
@@ -208,7 +208,7 @@ def _read_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[str]:
                 return
             tally.add(report)
     if tally.prompts:
-        yield tally.line()
+        yield tally.line(verb="understood word for word")
 
 
 def _make_all(
@@ -244,8 +244,7 @@ def _make_all(
                 done += 1
                 paths = plan.files_of(sample).paths
                 manifest.add(sample, paths, events=outcome.events, report=outcome.report)
-                warning = "" if outcome.events else ": nothing changed enough to fire"
-                progress.announce(f"made     {paths[0]}, {outcome.events:,} events{warning}")
+                progress.announce(f"made     {paths[0]}, {outcome.events:,} events")
                 progress.advance("samples", done, len(samples))
             for line in _count_reports(manifest, samples):
                 progress.announce(line)

@@ -29,8 +29,7 @@ from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
-generator renders simple 3-D shapes, without weights or download; `texvent generators` lists learned
-models, whose videos are cached.
+generator renders simple 3-D shapes; `texvent generators` lists learned models.
 
   texvent generate "a red car drives left past two trees at dusk" -o out.h5
   texvent generate "a dog runs" --generator wan-1.3b --simulator v2e --seed 3"""
@@ -58,8 +57,8 @@ class PromptOptions(UpsampleConfig):
     video_only: bool = False
     """Write the generated video (.avi, lossless, 16 bits) instead of events, and stop."""
     preview: Path | None = None
-    """Write stills of the scene (.png), say what is shown, and stop. With --dry-run the estimate
-    follows."""
+    """Stills of the scene (.png) instead of events. Says what is shown, and stops; with --dry-run
+    the estimate follows."""
     from_video: Path | None = None
     """Take this video for the prompt's instead of generating one; all further options are then
     those of texvent simulate, which does the same: texvent simulate VIDEO --prompt TEXT."""

@@ -31,8 +31,8 @@ class VideoOptions:
     )  # fmt: skip
 
     source: str = REQUIRED
-    """Video file, image folder, camera (/dev/video0), stream (rtsp://...), - (standard input); or a
-    still image, with --camera."""
+    """Video, image folder, camera, stream, or -. A camera is /dev/video0, a stream rtsp://...; - is
+    standard input. With --camera: a still image."""
     prompt: str | None = None
     """What the video shows; stored with the events."""
 

@@ -5,31 +5,50 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from texvent.dataset.contents.made_set import MadeSet, MadeShard
-from texvent.dataset.generation.records import FAILED, FILTERED, MADE
+from texvent.dataset.generation.records import (
+    FAILED,
+    FILTERED,
+    MADE,
+    SampleRecord,
+    ShardRecord,
+)
 from texvent.scenes.report import PromptReport, ReportTally
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 10
 MICROSECONDS = 1_000_000
-COUNTS = ("variant", "split", "samples", "filtered", "failed", "events", "median events",
+COUNTS = ("variant", "split", "samples", "left out", "failed", "events", "median events",
           "median s", "median events/s", "MB")  # fmt: skip
+
+
+@dataclass(frozen=True, order=True)
+class LeftOut:
+    """A sample that the filters leave out."""
+
+    signal_events: int
+    """That its video fired, noise apart."""
+    key: str
+    shows: str
+    """Its prompt, or the key of its video."""
+    variant: str
+    reason: str
 
 
 @dataclass
 class Statistics:
-    """Of all shards, of a variant, or of a split of one."""
+    """Of all shards, of a variant, of a split of one, or of the trial of a plan."""
 
     shards: int = 0
     bytes: int = 0
     seconds: float = 0.0
     """Working time that the shards took."""
-    filtered: int = 0
+    left_out: list[LeftOut] = field(default_factory=list)
     failed: int = 0
     events: list[int] = field(default_factory=list)
     """Of each sample."""
@@ -42,26 +61,38 @@ class Statistics:
     """Why samples are not there, numbers left out."""
     warnings: Counter[str] = field(default_factory=Counter)
     reports: ReportTally = field(default_factory=ReportTally)
-    """What became of the words of prompts, over the samples that were made."""
+    """What became of the words of prompts; each clip counts once, in whatever variants it is."""
+    reported: set[str] = field(default_factory=set)
+    """Clips with a report."""
+    unreported: set[str] = field(default_factory=set)
+    """Clips of samples that failed, with no report."""
     versions: Counter[str] = field(default_factory=Counter)
     """Version of texvent → shards."""
 
-    def add(self, shard: MadeShard) -> None:
+    @classmethod
+    def of(cls, records: Iterable[ShardRecord]) -> Statistics:
+        """Count some shards."""
+        statistics = cls()
+        for record in records:
+            statistics.add(record)
+        return statistics
+
+    def add(self, record: ShardRecord) -> None:
         """Count a shard."""
-        record = shard.record
         self.shards += 1
         self.bytes += record.bytes
         self.seconds += record.seconds
-        self.filtered += record.count(FILTERED)
         self.failed += record.count(FAILED)
         self.versions[record.versions.get("texvent", "unknown")] += 1
         for sample in record.samples:
             self.warnings.update(map(without_numbers, sample.warnings))
+            self._add_report(sample)
+            if sample.status == FILTERED:
+                self._leave_out(sample, record.variant)
+            if sample.status == FAILED:
+                self.reasons[f"failed: {without_numbers(sample.reason or '')}"] += 1
             if sample.status != MADE:
-                self.reasons[f"{sample.status}: {without_numbers(sample.reason or '')}"] += 1
                 continue
-            if sample.prompt_report is not None:
-                self.reports.add(PromptReport.from_json(sample.prompt_report))
             self.events.append(sample.events)
             self.durations_us.append(sample.duration_us)
             self.clips.add(sample.clip)
@@ -69,10 +100,34 @@ class Statistics:
             if sample.label is not None:
                 self.classes[sample.label] += 1
 
+    def _leave_out(self, sample: SampleRecord, variant: str) -> None:
+        reason, shows = sample.reason or "", sample.prompt or sample.clip
+        self.left_out.append(LeftOut(sample.signal_events, sample.key, shows, variant, reason))
+        self.reasons[f"left out: {reason}"] += 1
+
+    def _add_report(self, sample: SampleRecord) -> None:
+        if sample.prompt_report is None:
+            if sample.status == FAILED:
+                self.unreported.add(sample.clip)
+        elif sample.clip not in self.reported:
+            self.reported.add(sample.clip)
+            self.reports.add(PromptReport.from_json(sample.prompt_report))
+
     @property
     def samples(self) -> int:
         """How many there are."""
         return len(self.events)
+
+    @property
+    def prompts(self) -> ReportTally | None:
+        """How many clips show what their prompts say; a clip that could not be made is refused.
+
+        None for videos, for learned generators, and where every clip failed.
+        """
+        if not self.reported:
+            return None
+        refused = len(self.unreported - self.reported)
+        return replace(self.reports, prompts=self.reports.prompts + refused, refused=refused)
 
     @property
     def rates(self) -> list[float]:
@@ -85,7 +140,7 @@ class Statistics:
         """Plain values, ready for JSON."""
         return {
             "samples": self.samples,
-            "filtered": self.filtered,
+            "left_out": [asdict(one) for one in sorted(self.left_out)],
             "failed": self.failed,
             "clips": len(self.clips),
             "shards": self.shards,
@@ -100,7 +155,7 @@ class Statistics:
             "classes": dict(sorted(self.classes.items())),
             "reasons": dict(self.reasons.most_common(MOST_REASONS)),
             "warnings": dict(self.warnings.most_common(MOST_REASONS)),
-            "prompts": self.reports.tables,
+            "prompts": (self.prompts or ReportTally()).tables,
             "texvent_versions": dict(sorted(self.versions.items())),
         }
 
@@ -122,9 +177,9 @@ class SetStatistics:
         """
         total, parts = Statistics(), dict[tuple[str, str], Statistics]()
         for shard in made.shards():
-            total.add(shard)
+            total.add(shard.record)
             place = shard.record.variant, shard.record.split
-            parts.setdefault(place, Statistics()).add(shard)
+            parts.setdefault(place, Statistics()).add(shard.record)
         return cls(total, parts)
 
     @property
@@ -145,7 +200,7 @@ def counts_rows(statistics: SetStatistics) -> list[list[str]]:
             facts[name].get("median", 0.0)
             for name in ("events_per_sample", "duration_s_per_sample", "events_per_second")
         )
-        counts = (part.samples, part.filtered, part.failed, facts["events"])
+        counts = (part.samples, len(part.left_out), part.failed, facts["events"])
         rows.append(
             [
                 *(variant, split),
@@ -181,8 +236,8 @@ def without_numbers(text: str) -> str:
     """A message with N for its numbers, so that equal ones count together.
 
     Example:
-        >>> without_numbers("12 events, fewer than 1,000")
-        'N events, fewer than N'
+        >>> without_numbers("frame 12 of 1,000 is damaged")
+        'frame N of N is damaged'
     """
     return re.sub(r"\b\d[\d,.]*\b", "N", text)
 

@@ -28,7 +28,7 @@ from texvent.dataset.generation.records import (
     record_path,
     write_record,
 )
-from texvent.dataset.generation.sample import FilteredError, sample_members, simulate_sample
+from texvent.dataset.generation.sample import sample_members, simulate_sample
 from texvent.dataset.generation.tar_shard import TarShardWriter, read_members
 from texvent.dataset.specification.clips import Clip
 from texvent.dataset.specification.items import KEY_DIGITS
@@ -54,7 +54,7 @@ class _Job:
     record: SampleRecord
     """What is known before; its status is not."""
     make: Callable[[], tuple[Members, dict[str, Any]]]
-    """Its members, and further facts for its record."""
+    """Its members, none of one that is left out, and further facts for its record."""
 
 
 def make_shard(
@@ -146,8 +146,6 @@ def _made(job: _Job, writer: TarShardWriter) -> SampleRecord:
             members, facts = job.make()
     except ENDING_ALL:
         raise
-    except FilteredError as error:
-        return replace(job.record, status=FILTERED, reason=str(error), warnings=tuple(found))
     except (TexventError, MemoryError) as error:
         reason = str(error) or "memory ran out"
         return replace(job.record, status=FAILED, reason=reason, warnings=tuple(found))
@@ -213,14 +211,20 @@ def _events_job(
     def make() -> tuple[Members, dict[str, Any]]:
         simulation = source(clip, with_seed(settings, seed))
         made = simulate_sample(simulation, recipe.specification.filters)
+        told = {
+            "signal_events": made.signal_events,
+            REPORT_KEY: simulation.provenance.get(REPORT_KEY),
+        }
+        if made.left_out is not None:
+            return {}, {"status": FILTERED, "reason": made.left_out, **told}
         width, height = simulation.video.size
         known = {
+            **told,
             "events": len(made.events),
             "start_us": made.start_us,
             "duration_us": made.duration_us,
             "width": width,
             "height": height,
-            REPORT_KEY: simulation.provenance.get(REPORT_KEY),
         }
         facts = {
             **simulation.provenance,

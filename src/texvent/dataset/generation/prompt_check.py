@@ -19,7 +19,7 @@ MOST_READ = 2_000
 
 
 def tally_prompts(recipe: Recipe) -> ReportTally | None:
-    """How many prompts are shown as they say, of at most `MOST_READ`.
+    """How many prompts are understood, of at most `MOST_READ`: read, without their scenes.
 
     Returns:
         The counts; None for videos, and for learned generators, which give no report.

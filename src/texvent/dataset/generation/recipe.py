@@ -7,6 +7,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -211,7 +212,7 @@ def read_recipe(folder: Path) -> Recipe:
             f"{folder} has no {path.name}, so it is a copy to load from and cannot be made further"
         )
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = StringIO(path.read_text(encoding="utf-8"))
         items = tuple(Item(**json.loads(line)) for line in lines)
         specification = specification_from(facts["specification"], folder=Path())
     except (OSError, ValueError, TypeError, KeyError) as error:

@@ -35,6 +35,9 @@ class SampleRecord:
     prompt_report: Mapping[str, Any] | None = None
     """What became of the prompt's words, a `PromptReport` as JSON; None where it is not known."""
     events: int = 0
+    """That are stored."""
+    signal_events: int = 0
+    """That the video fired, noise apart; also known of a sample that the filters leave out."""
     duration_us: int = 0
     start_us: int = 0
     """Time of the first frame: 0, but for clips cut from a longer video."""

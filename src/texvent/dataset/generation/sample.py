@@ -5,26 +5,21 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.specification.specification import Filters
-from texvent.errors import TexventError
-from texvent.events import EventStream
-from texvent.pipeline import Simulation
+from texvent.events import SIGNAL, EventStream
+from texvent.pipeline import Simulation, select_events
 from texvent.represent.event_frame import count_events
 from texvent.video_check.measurer import VideoMeasurer
 from texvent.video_check.report import judge_measures
 
 COLUMNS = ("x", "y", "t", "p")
 PREVIEW_US, PREVIEW_WIDTH = 50_000, 256
-
-
-class FilteredError(TexventError):
-    """A sample that the filters leave out."""
 
 
 @dataclass(frozen=True)
@@ -36,34 +31,55 @@ class MadeEvents:
     """Time of the first frame, µs."""
     duration_us: int
     """From the first frame to the last, µs."""
+    signal_events: int
+    """Events that the video fired, noise apart; all of them where a simulator does not tell."""
+    left_out: str | None = None
+    """Why the filters leave it out; equal reasons are equal words. None: it is kept."""
 
 
 def simulate_sample(simulation: Simulation, filters: Filters) -> MadeEvents:
-    """Run a simulation and apply the filters.
+    """Run a simulation and apply the filters; one with too many events is stopped there.
 
     Raises:
-        FilteredError: too few or too many events, or the video looks failed.
         TexventError: the video cannot be read or made.
     """
+    run = simulation.settings.run
+    told_apart = replace(run, events="all", label_noise=True)
+    labelled = replace(simulation, settings=replace(simulation.settings, run=told_apart))
     measurer = VideoMeasurer() if filters.failed_videos else None
-    packets, count, times = [], 0, []
-    for frame, packet in simulation.steps():
-        packets.append(packet)
-        count += len(packet)
+    packets, count, signal, times = [], 0, 0, []
+    left_out = None
+    for frame, packet in labelled.steps():
+        packets.append(select_events(packet, run))
+        count += len(packets[-1])
+        signal += _count_signal(packet)
         times.append(frame.t_us)
         if filters.max_events is not None and count > filters.max_events:
-            raise FilteredError(f"more than {filters.max_events:,} events")
+            left_out = f"more than {filters.max_events:,} events"
+            break
         if measurer is not None and frame.is_source:
             measurer.add(frame)
-    if count < filters.min_events:
-        raise FilteredError(f"{count:,} events, fewer than {filters.min_events:,}")
-    if measurer is not None:
-        report = judge_measures(measurer.measures())
-        if not report.is_fine:
-            raise FilteredError(f"the video looks failed: {report.summary}")
+    else:
+        left_out = _too_weak(signal, filters) or _looks_failed(measurer)
     events = EventStream.concat(packets) if packets else EventStream.empty(simulation.video.size)
     start = times[0] if times else 0
-    return MadeEvents(events, start, times[-1] - start if times else 0)
+    return MadeEvents(events, start, times[-1] - start if times else 0, signal, left_out)
+
+
+def _count_signal(packet: EventStream) -> int:
+    return len(packet) if packet.label is None else int(np.sum(packet.label == SIGNAL))
+
+
+def _too_weak(signal: int, filters: Filters) -> str | None:
+    is_weak = signal < filters.min_events
+    return f"fewer than {filters.min_events:,} signal events" if is_weak else None
+
+
+def _looks_failed(measurer: VideoMeasurer | None) -> str | None:
+    if measurer is None:
+        return None
+    report = judge_measures(measurer.measures())
+    return None if report.is_fine else f"the video looks failed: {report.summary}"
 
 
 def event_columns(events: EventStream) -> dict[str, NDArray[Any]]:

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 
 from texvent.dataset.generation.recipe import Shard
@@ -56,7 +57,7 @@ def read_log(folder: Path, shard: Shard) -> LogState | None:
         text, changed = path.read_text(encoding="utf-8"), path.stat().st_mtime
     except OSError:
         return None
-    words = [line.split() for line in text.splitlines()]
+    words = [line.split() for line in StringIO(text)]
     lines = [line for line in words if len(line) >= 6]
     return LogState(
         samples=len(lines),

@@ -25,7 +25,7 @@ class StageStatus:
     shards: int
     """Shards in all."""
     samples: int = 0
-    """Done: made, filtered out or failed."""
+    """Done: made, left out or failed."""
     filtered: int = 0
     failed: int = 0
     events: int = 0

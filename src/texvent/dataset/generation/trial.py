@@ -23,7 +23,6 @@ from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard, load_recipe
 from texvent.dataset.generation.records import FAILED, MADE, ShardRecord
 from texvent.dataset.generation.tar_shard import size_in_tar
 from texvent.errors import TexventError
-from texvent.runtime.background_jit import wait_until_idle
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
 
@@ -39,10 +38,8 @@ class StageEstimate:
     samples: int
     """In all, before filters."""
     shards: int
-    tried: int
-    """Samples of the trial."""
-    made: int = 0
-    """Of those, how many were neither filtered out nor failed."""
+    records: tuple[ShardRecord, ...]
+    """Of the trial."""
     events: float = 0.0
     """Mean events of a sample that was made."""
     bytes: float = 0.0
@@ -51,8 +48,15 @@ class StageEstimate:
     """Mean working time per sample."""
     seconds_error: float = 0.0
     """Standard error of that mean, from how much samples differ."""
-    reasons: tuple[str, ...] = ()
-    """Why samples of the trial are not there."""
+
+    @property
+    def tried(self) -> int:
+        """Samples of the trial."""
+        return sum(len(record.samples) for record in self.records)
+
+    def share(self, status: str) -> float:
+        """Share of the trial with a status, such as `records.FILTERED`."""
+        return sum(record.count(status) for record in self.records) / max(self.tried, 1)
 
 
 def try_samples(
@@ -125,7 +129,6 @@ def _try_shards(folder: Path, shards: Sequence[Shard]) -> list[ShardRecord]:
     recipe = load_recipe_once(folder)
     records: list[ShardRecord] = []
     for _ in range(2):
-        wait_until_idle()
         shards, records = shards[: len(records) or None], []
         for shard in shards:
             records.append(make_shard(recipe, folder, shard))
@@ -163,11 +166,9 @@ def _estimate(recipe: Recipe, stage: str, seeds: int, records: list[ShardRecord]
         name=stage,
         samples=sum(recipe.clips.counts.values()) * seeds,
         shards=sum(1 for _ in recipe.shards(stage)),
-        tried=len(samples),
-        made=len(made),
+        records=tuple(records),
         events=sum(one.events for one in made) / max(len(made), 1),
         bytes=sum(size_in_tar(size) for one in made for _, size in one.members.values()) / tried,
         seconds=sum(record.seconds for record in records) / tried,
         seconds_error=spread / math.sqrt(max(len(per_sample), 1)),
-        reasons=tuple(dict.fromkeys(one.reason or "" for one in samples if one.status != MADE)),
     )

@@ -8,13 +8,15 @@ number of workers; an epoch goes on from any batch; nothing is read twice.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
+from texvent.batch.manifest import describe_differences
 from texvent.config import check_range
 from texvent.dataset.loading.collate import as_tensors, collate
 from texvent.dataset.loading.order import epoch_order, share_of
@@ -269,28 +271,27 @@ class Loader:
     def load_state_dict(self, state: Mapping[str, Any]) -> None:
         """Let the next pass go on where another loader of the same samples stood.
 
+        Without `drop_last`, batches may have another size from there on.
+
         Raises:
-            ConfigError: it had other samples, another order or another number of processes.
+            ConfigError: it had other samples, or gave this process others or in another order.
         """
-        if state["key"] != self._key:
+        changed = describe_differences(state["key"], self._key)
+        if changed:
             raise ConfigError(
-                f"the state is of a loader with {state['key']}, and this one has {self._key}; "
-                "use the same samples, shuffle, seed, rank and number of processes"
+                f"the state is of another loader: {changed}; make one of the same samples with the "
+                "same options"
             )
         self.epoch = state["epoch"]
         self._position = self._batches.begin = state["position"]
 
-    @property
+    @cached_property
     def _key(self) -> dict[str, Any]:
-        sharing = self.sharing
-        return {
-            "samples": len(self.samples),
-            "shuffle": sharing.shuffle,
-            "shuffle_buffer": sharing.shuffle_buffer,
-            "seed": sharing.seed,
-            "rank": sharing.rank,
-            "world_size": sharing.world_size,
-        }
+        """All that decides which samples this process gets, in which order."""
+        key = {**asdict(self.sharing), "samples": self.samples.index.identity}
+        if not self.sharing.drop_last:
+            del key["batch_size"]
+        return key
 
 
 @dataclass

@@ -13,6 +13,7 @@ from texvent.dataset.contents.statistics import (
     Statistics,
     counts_rows,
 )
+from texvent.dataset.contents.summary import summary_lines
 from texvent.dataset.looking.charts import bars, histogram
 from texvent.io.atomic import atomic_file
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
@@ -31,6 +32,7 @@ def write_statistics_page(
     total = statistics.total
     body = [
         table_html(COUNTS, counts_rows(statistics)),
+        f"<p>{'<br>'.join(map(html.escape, summary_lines(total)))}</p>",
         "<h2>Samples</h2>",
         f'<div class="charts">{_charts(total)}</div>',
     ]

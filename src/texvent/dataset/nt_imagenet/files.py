@@ -10,6 +10,7 @@ import csv
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -72,7 +73,7 @@ def read_captioned(path: Path) -> list[Captioned]:
         FileFormatError: it cannot be read or holds something else.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = StringIO(path.read_text(encoding="utf-8"))
         captioned = [Captioned(**json.loads(line)) for line in lines]
     except (OSError, ValueError, TypeError) as error:
         raise FileFormatError(

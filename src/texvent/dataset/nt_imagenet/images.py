@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from io import StringIO
 from pathlib import Path
 
 from texvent.errors import FileFormatError, InputError, shown
@@ -45,7 +46,7 @@ def find_class_names(
             return {}
         file = found[0]
     try:
-        lines = file.read_text(encoding="utf-8").splitlines()
+        lines = StringIO(file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"cannot read {file}: {error}") from error
     names: dict[str, tuple[str, ...]] = {}
@@ -56,8 +57,8 @@ def find_class_names(
             continue
         if not synonyms:
             raise FileFormatError(
-                f"{file} line {number} is {shown(line)}; it must be an id and names, such as "
-                "n01440764 tench, Tinca tinca"
+                f"{file} line {number} is {shown(line.strip())}; it must be an id and names, such "
+                "as n01440764 tench, Tinca tinca"
             )
         names[wnid] = synonyms
     return names

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from io import StringIO
 from pathlib import Path
 
 from texvent.dataset.contents.made_set import MadeSet
@@ -61,7 +62,7 @@ def ids_of_clips(folder: Path, captioned: Sequence[Captioned]) -> Mapping[str, s
     path, ids = folder / ITEMS_FILE, dict[str, str]()
     try:
         root, repeats = int(specification["seed"]), int(specification["repeats"])
-        items = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+        items = [json.loads(line) for line in StringIO(path.read_text(encoding="utf-8"))]
         for item in items:
             id = known.get((item["seed"], item["label"], item["prompt"]))
             if id is not None:

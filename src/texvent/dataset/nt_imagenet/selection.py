@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 
 from texvent.errors import InputError, TexventError
@@ -149,7 +150,7 @@ def choose_classes(folder: Path, count: int = CLASSES, file: Path | None = None)
     """
     if file is not None:
         try:
-            lines = [line.split() for line in file.read_text(encoding="utf-8").splitlines()]
+            lines = [line.split() for line in StringIO(file.read_text(encoding="utf-8"))]
         except (OSError, UnicodeDecodeError) as error:
             raise InputError(f"cannot read {file}: {error}") from error
         wnids = [words[0] for words in lines if words]

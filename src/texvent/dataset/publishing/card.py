@@ -170,10 +170,9 @@ def _limits(total: Statistics) -> str:
             f"{doubtful:,} samples carry a warning, such as a word that was not understood: see "
             "`warnings` in the index."
         )
-    left_out = total.filtered + total.failed
-    if left_out:
+    if total.left_out or total.failed:
         lines.append(
-            f"{total.filtered:,} samples were filtered out and {total.failed:,} failed; the "
+            f"{len(total.left_out):,} samples were left out and {total.failed:,} failed; the "
             "records beside the shards name each with its reason."
         )
     if len(total.versions) > 1:

@@ -17,6 +17,8 @@ from texvent.options.values import plain
 MAX_SHARD = 100_000
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 DEFAULT_VARIANT = "events"
+FEWEST_SIGNAL = 200
+"""At 64×48 pixels most clips with as many show what they are of, hardly any with half as many."""
 SOURCE_KINDS = ("prompts", "file", "videos", "template")
 
 
@@ -79,8 +81,8 @@ class Variant:
 class Filters:
     """Which samples are left out."""
 
-    min_events: int = 1
-    """Fewest events of a sample."""
+    min_events: int = FEWEST_SIGNAL
+    """Fewest events of a sample that its video fires: those of noise do not count."""
     max_events: int | None = None
     """Most events of a sample; the simulation of one that has more is stopped."""
     failed_videos: bool = False

@@ -30,7 +30,6 @@ from texvent.interpolate.dis_flow.frame_motion import (
 from texvent.interpolate.dis_flow.shifts import find_shift
 from texvent.interpolate.dis_flow.things.fast_things import follow_fast_things, level_of_things
 from texvent.runtime.allocator import keep_freed_memory
-from texvent.runtime.background_jit import is_ready, wait_until_ready
 
 FlowArray = NDArray[np.float32]
 
@@ -54,8 +53,6 @@ class DisFlow:
 
     def __init__(self) -> None:
         keep_freed_memory()
-        # Compiled before the simulation kernels: those have slower forms, the flow has none.
-        is_ready(flow_cpu.__name__)
         # One thread per direction where there is more than one core; it ends with this object.
         self._helper = (
             ThreadPoolExecutor(1, "texvent-flow") if numba.get_num_threads() > 1 else None
@@ -73,7 +70,6 @@ class DisFlow:
         Returns:
             Two flows, [H, W, 2] float32 as (x, y), px; finite.
         """
-        wait_until_ready(flow_cpu.__name__)
         shape = first.shape
         images = [_pad_small(image) for image in stretch(first, second)]
         finest = 0 if min(shape) < SMALL_SIDE_PX else 1

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 
 from texvent.interpolate.dis_flow.confirmation_cpu import unconfirmed
-from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, coarse_to_fine, make_pyramid
+from texvent.interpolate.dis_flow.definitions import MARGIN, Floats
 from texvent.interpolate.dis_flow.refine_cpu import change_along, refine
 from texvent.interpolate.dis_flow.repeats_cpu import take_nearest
 from texvent.interpolate.dis_flow.search_cpu import join, search
@@ -25,7 +23,6 @@ __all__ = [
     "take_nearest",
     "try_vectors",
     "unconfirmed",
-    "warm_up",
 ]
 
 # As float32: Numba computes with float64 where a constant is one.
@@ -33,17 +30,6 @@ _2 = np.float32(2.0)
 _HALF = np.float32(0.5)
 _EIGHTH = np.float32(0.125)
 _QUARTER = np.float32(0.25)
-
-
-def warm_up() -> None:
-    """Compile, or load what was compiled before."""
-    image, kernels = np.zeros((64, 64), np.float32), sys.modules[__name__]
-    pyramid, rest = make_pyramid(image, 1, 2, kernels), np.zeros((2, 3), np.float32)
-    coarse_to_fine(pyramid, pyramid, rest, kernels=kernels)
-    flow = coarse_to_fine(pyramid, pyramid, kernels=kernels)
-    unconfirmed(pyramid[0], pyramid[0], flow, flow)
-    change_along(pyramid[0], pyramid[0], flow)
-    double(flow, image.shape)
 
 
 @jit

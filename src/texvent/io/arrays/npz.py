@@ -57,7 +57,7 @@ class NpzCodec(BlockCodec):
     has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".npz",)
     limits: ClassVar[FormatLimits] = FormatLimits(
-        "NumPy archive", 1 << 16, 1 << 63, start_us=-(1 << 63), label="kept", keeps_ids=True
+        "NumPy archive", 1 << 16, 1 << 63, start_us=-(1 << 63), keeps_labels=True
     )
 
     def inspect(self, path: Path) -> FileContents:

@@ -47,7 +47,7 @@ class DsecCodec(Hdf5Codec):
     has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = ()
     limits: ClassVar[OffsetLimits] = OffsetLimits(
-        "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, label="kept", keeps_ids=True, max_absolute_us=0
+        "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, keeps_labels=True, max_absolute_us=0
     )
     sink: ClassVar[type[Hdf5Sink]] = DsecSink
 

@@ -143,7 +143,7 @@ class Hdf5Codec(Hdf5BlockCodec):
     name: ClassVar[str] = "hdf5"
     has_checksums: ClassVar[bool] = True
     limits: ClassVar[OffsetLimits] = OffsetLimits(
-        "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, label="kept", keeps_ids=True
+        "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, keeps_labels=True
     )
     sink: ClassVar[type[Hdf5Sink]] = NativeSink
 

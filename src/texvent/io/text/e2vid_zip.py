@@ -24,8 +24,7 @@ from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
 from texvent.io.text.rows import (
-    MAX_EXACT_S,
-    MICROSECONDS,
+    STOP_US,
     make_rows,
     parse_rows,
     read_text_blocks,
@@ -44,7 +43,7 @@ class E2vidZipCodec(BlockCodec):
     name: ClassVar[str] = "e2vid"
     has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".zip",)
-    limits: ClassVar[FormatLimits] = FormatLimits("E2VID zip", 1 << 16, MAX_EXACT_S * MICROSECONDS)
+    limits: ClassVar[FormatLimits] = FormatLimits("E2VID zip", 1 << 16, STOP_US)
     has_sidecar: ClassVar[bool] = True
 
     def inspect(self, path: Path) -> FileContents:

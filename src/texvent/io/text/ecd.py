@@ -4,7 +4,6 @@ The rows hold neither the sensor size nor how the events were made, so texvent w
 `NAME.txt.json` beside the text, and reads the size from there. Any other file needs the size
 from the caller; it is never guessed from the largest coordinate.
 
-The signal/noise label of events has no place in these rows and is left out, with a warning.
 
 Times are written with exactly six decimals: whole µs, read back unchanged.
 
@@ -24,7 +23,13 @@ from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
-from texvent.io.text.rows import make_rows, parse_rows, read_text_blocks, warn_of_wrong_unit
+from texvent.io.text.rows import (
+    STOP_US,
+    make_rows,
+    parse_rows,
+    read_text_blocks,
+    warn_of_wrong_unit,
+)
 
 
 class EcdCodec(BlockCodec):
@@ -32,7 +37,7 @@ class EcdCodec(BlockCodec):
 
     name: ClassVar[str] = "ecd"
     extensions: ClassVar[tuple[str, ...]] = (".txt",)
-    limits: ClassVar[FormatLimits] = FormatLimits("ECD text", 1 << 16, 1 << 63, label="left out")
+    limits: ClassVar[FormatLimits] = FormatLimits("ECD text", 1 << 16, STOP_US)
     has_sidecar: ClassVar[bool] = True
 
     def inspect(self, path: Path) -> FileContents:

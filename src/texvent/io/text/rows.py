@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
+from decimal import Decimal
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -18,8 +19,10 @@ BLOCK_BYTES = 16 * 2**20
 MICROSECONDS = 1_000_000
 DAY_S, RAREST_HZ = 86_400, 100
 """Longer recordings with fewer events per second are hardly meant."""
-MAX_EXACT_S = 2**33
-"""Up to here (272 years) float64 seconds keep every µs."""
+STOP_US = 1 << 63
+"""Events lie before this time, µs."""
+EXACT_S = 2**32
+"""Below this (136 years) the nearest float64 of a time in seconds gives back its µs."""
 
 
 def make_rows(columns: Columns) -> bytes:
@@ -52,15 +55,15 @@ def read_text_blocks(file: BinaryIO) -> Iterator[bytes]:
 
 
 def parse_table(
-    block: bytes, path: Path, *, delimiter: str | None = None, rows: str = "text rows of `t x y p`"
-) -> NDArray[np.float64]:
-    """Numbers of a block of text, [rows, columns] float64; no rows: [0, 0].
+    block: bytes, path: Path, *, rows: str = "text rows of `t x y p`", **options: Any
+) -> NDArray[Any]:
+    """Numbers of a block of text, [rows, columns], float64 by default; no rows: [0, 0].
 
     Args:
         block: the text.
         path: the file, for messages.
-        delimiter: what stands between two numbers; default: white space.
         rows: what it should hold, for messages.
+        **options: of `np.loadtxt`, such as `delimiter`.
 
     Raises:
         FileFormatError: it is not a table of numbers.
@@ -69,7 +72,7 @@ def parse_table(
         return np.empty((0, 0))
     try:
         text = io.StringIO(block.decode("ascii"))
-        return np.loadtxt(text, dtype=np.float64, ndmin=2, delimiter=delimiter)
+        return np.loadtxt(text, ndmin=2, **options)
     except (ValueError, OverflowError, MemoryError) as error:
         reason = " ".join(str(error).split("; use")[0].split())[:100]
         raise FileFormatError(f"{path} is not {rows} ({reason})") from error
@@ -117,10 +120,14 @@ def parse_rows(block: bytes, path: Path) -> dict[str, NDArray[Any]]:
             f"{path} has rows of {table.shape[1]} values; event rows are `t x y p`"
         )
     seconds, pixels = table[:, 0], table[:, 1:]
-    if not (np.abs(seconds) < MAX_EXACT_S).all():
+    if not (np.abs(seconds) <= STOP_US / MICROSECONDS).all():
         raise FileFormatError(f"{path} holds times that are not seconds (first column)")
     whole = whole_numbers(pixels, path)
-    times = np.rint(seconds * MICROSECONDS).astype(np.int64)
+    if (np.abs(seconds) < EXACT_S).all():
+        times = np.rint(seconds * MICROSECONDS).astype(np.int64)
+    else:  # slow
+        exact = {0: lambda word: round(Decimal(word) * MICROSECONDS)}
+        times = parse_table(block, path, dtype=np.int64, usecols=0, converters=exact)[:, 0]
     return {"t": times, "x": whole[:, 0], "y": whole[:, 1], "p": whole[:, 2]}
 
 

@@ -57,7 +57,8 @@ def estimate_velocity(
         return None
     chosen = events[:: -(-len(events) // MOST_EVENTS)]
     share = (chosen.t - chosen.t[0]) / window_us
-    x, y = chosen.x.astype(np.float64), chosen.y.astype(np.float64)
+    # From the first column and row, so that the place in the image changes nothing.
+    x, y = (column.astype(np.float64) - column.min() for column in (chosen.x, chosen.y))
     reach = most_speed_px_s * window_us / MICROSECONDS
     steps = np.arange(-np.floor(reach / COARSE_PX), reach / COARSE_PX + 1) * COARSE_PX
     grid = itertools.product(steps.tolist(), repeat=2)
@@ -153,8 +154,8 @@ def _coarse_contrast(
     x: NDArray[np.float64], y: NDArray[np.float64], share: NDArray[np.float64], shift: FloatPair
 ) -> int:
     """Sum of squared counts in squares of `COARSE_PX`, of events moved by `shift · share`."""
-    column = ((x - shift[0] * share) / COARSE_PX).astype(np.int64)
-    row = ((y - shift[1] * share) / COARSE_PX).astype(np.int64)
+    column = np.floor((x - shift[0] * share) / COARSE_PX).astype(np.int64)
+    row = np.floor((y - shift[1] * share) / COARSE_PX).astype(np.int64)
     column -= column.min()
     row -= row.min()
     counts = np.bincount(row * (int(column.max()) + 1) + column)

@@ -40,9 +40,8 @@ def cadence_energy(
     if not 4 / fps <= seconds <= LONGEST_SECONDS:
         return UNDEFINED
     inside = events.cut(first, stop).t
-    rate = np.bincount(
-        bin_index(inside - first, Fraction(RATE_HZ)), minlength=int(np.ceil(seconds * RATE_HZ))
-    ).astype(np.float64)
+    bins = -(-(stop - first) * RATE_HZ // MICROSECONDS)
+    rate = np.bincount(bin_index(inside - first, Fraction(RATE_HZ)), minlength=bins).astype(float)
     energy = np.abs(np.fft.rfft((rate - rate.mean()) * np.hanning(rate.size))) ** 2
     frequency = np.fft.rfftfreq(rate.size, 1 / RATE_HZ)
     band = (frequency > float(fps) / 2) & (frequency < HIGHEST_HZ)

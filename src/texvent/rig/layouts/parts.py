@@ -84,7 +84,7 @@ def write_events(
         writer = open_writer(path, size=camera.size, metadata=facts, format=format, overwrite=False)
         sink = outputs.enter_context(BackgroundWriter(outputs.enter_context(writer)))
         # With the ids of their objects, events come from the truth.
-        has_ids = "events" in parts and getattr(writer, "keeps_ids", False)
+        has_ids = "events" in parts and getattr(writer, "keeps_labels", False)
         truth = None
         if parts:
             truth = TruthWriter(

@@ -7,19 +7,16 @@ import importlib
 import importlib.util
 from typing import Any, Generic, TypeVar
 
-import numpy as np
-
 from texvent._registry import suggest
 from texvent._require import require
 from texvent.errors import ConfigError, shown
-from texvent.runtime.background_jit import is_ready
 
 Function = TypeVar("Function")
 
 AUTO = "auto"
 _PACKAGES = {"cpu": "numba"}
 BACKENDS = (AUTO, "cpu", "numpy", "reference")
-"""Names of backends; "auto" is the first of the others that is ready."""
+"""Names of backends; "auto" is "cpu"."""
 GPU = "gpu"
 """Runs whole models instead of kernels, those that have it; see `texvent.simulate.gpu`."""
 
@@ -45,7 +42,7 @@ class Kernel(Generic[Function]):
 
     It is `<home>_cpu.NAME`, compiled, `<home>_numpy.NAME`, or `<home>_reference.NAME`, the readable
     definition. The definition may also be in the module `reference` of the same folder, and serves
-    for "numpy" where there is no other. `<home>_cpu.warm_up(*variant)` compiles.
+    for "numpy" where there is no other.
     """
 
     def __init__(self, home: str, name: str) -> None:
@@ -56,29 +53,20 @@ class Kernel(Generic[Function]):
             name: of the function.
         """
         self._home, self._name = home, name
-        self._ready: dict[Any, Function] = {}
 
-    def load(self, backend: str = AUTO, dtype: np.dtype[Any] | None = None) -> Function:
-        """The function of a backend; "auto" is "numpy" until the compiled one is ready.
+    def load(self, backend: str = AUTO) -> Function:
+        """The function of a backend; a compiled one is compiled, once on a machine, when it runs.
 
         Args:
             backend: one of `BACKENDS`.
-            dtype: type of the frames, where the kernel is compiled for one.
 
         Raises:
             ConfigError: no backend has that name.
             MissingDependencyError: what the backend needs is not installed.
         """
-        if backend != AUTO:
-            function: Function = _load(self._home, self._name, check_backend(backend))
-            return function
-        if dtype not in self._ready:
-            variant = () if dtype is None else (dtype.name,)
-            if not is_ready(f"{self._home}_cpu", *variant):
-                return self.load("numpy")
-            # Asked for at every frame, so the answer is kept.
-            self._ready[dtype] = self.load("cpu")
-        return self._ready[dtype]
+        name = "cpu" if backend == AUTO else check_backend(backend)
+        function: Function = _load(self._home, self._name, name)
+        return function
 
 
 @functools.cache

@@ -119,7 +119,7 @@ class TriggerLevels:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen, now = self._as_float(self._seen), self._as_float(now)
             self._low, self._high = self._as_float(self._low), self._as_float(self._high)
-        find_outside = FIND_OUTSIDE.load(self._backend, now.dtype)
+        find_outside = FIND_OUTSIDE.load(self._backend)
         return find_outside(now, self._seen, self._low, self._high)
 
     def set(self, pixel: Int64Array, reference: Float64Array, thresholds: Thresholds) -> None:
@@ -130,7 +130,7 @@ class TriggerLevels:
             reference: of all pixels, [H · W] log units.
             thresholds: of the chosen pixels.
         """
-        set_levels = SET_LEVELS.load(self._backend, self._seen.dtype)
+        set_levels = SET_LEVELS.load(self._backend)
         set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
 
     def set_all(
@@ -149,9 +149,9 @@ class TriggerLevels:
         """
         if of_luma is not None and thresholds.on.size == 1:
             low, high = np.empty(256, np.uint8), np.empty(256, np.uint8)
-            set_levels = SET_LEVELS.load(self._backend, self._seen.dtype)
+            set_levels = SET_LEVELS.load(self._backend)
             set_levels(np.arange(256), of_luma, thresholds, self._curve, low, high)
-            look_up = LOOK_UP.load(self._backend, np.dtype(np.uint8))
+            look_up = LOOK_UP.load(self._backend)
             self._low, self._high = look_up(low, self._seen), look_up(high, self._seen)
             return
         # Some at a time: one list of all is larger than most frames.

@@ -57,16 +57,6 @@ def look_up(table: NDArray[Any], luma: NDArray[np.uint8]) -> NDArray[Any]:
     return found
 
 
-def warm_up(dtype: str) -> None:
-    """Compile for one type of frames, or load what was compiled before."""
-    one, log = np.zeros(1, dtype), np.zeros(1)
-    pixel, _, _ = find_outside(one, *(one.copy() for _ in range(3)))
-    set_levels(pixel, log, Thresholds(log, log), BrightnessCurve(1.0, 0.0), one.copy(), one.copy())
-    if one.dtype == np.uint8:
-        look_up(log, one)
-        look_up(one, one)
-
-
 @jit
 def _look_up(table: NDArray[Any], luma: NDArray[np.uint8], found: NDArray[Any]) -> None:
     for i in range(luma.size):

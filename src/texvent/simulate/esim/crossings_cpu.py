@@ -24,7 +24,6 @@ from texvent.simulate.esim.crossings import Float64Array, RampPixels
 from texvent.simulate.esim.segments import CrossingState
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import sort_keyed_events
-from texvent.simulate.random.mismatch import Thresholds
 
 
 def cross_thresholds(
@@ -49,17 +48,6 @@ def cross_thresholds(
     keys = list_crossing_keys(pixel, changes, references.fired_us, layout, refractory)
     _step(pixel, changes, references.reference)
     return sort_keyed_events(keys, span_us, shape)
-
-
-def warm_up(dtype: str) -> None:
-    """Compile for one type of frames, or load what was compiled before."""
-    one, pixel = np.ones(1), np.zeros(1, np.int64)
-    end = np.zeros(1, dtype)
-    table = np.ones(256) if end.dtype == np.uint8 else None
-    pixels = RampPixels(pixel, end, end, table, Thresholds(one, one))
-    cross_thresholds(
-        pixels, CrossingState(one.copy(), pixel.copy()), (0, 1), RefractoryPeriod(0, False), (1, 1)
-    )
 
 
 @jit

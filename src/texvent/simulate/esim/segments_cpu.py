@@ -22,13 +22,6 @@ def cross_segments(
     return SegmentCrossings(row[:found], t[:found], p[:found])
 
 
-def warm_up() -> None:
-    """Compile everything, or load what was compiled before."""
-    one, level = np.ones(1, np.int64), np.zeros(1)
-    state = CrossingState(level.copy(), one.copy())
-    cross_segments(Segments(one - 1, one, one + 1, level, level), CrossingRules(1.0, 1.0, 0), state)
-
-
 @jit
 def _cross(segments: Segments, rules: CrossingRules, state: CrossingState) -> tuple[int, Events]:
     # Unpacked once: Numba counts references to every array that it takes out of a tuple.

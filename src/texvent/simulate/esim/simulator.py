@@ -145,9 +145,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         if of_luma is None:
             reference = self._log_intensity(intensity).reshape(-1)
         else:
-            reference = LOOK_UP.load(self._backend, np.dtype(np.uint8))(
-                of_luma, intensity.reshape(-1)
-            )
+            reference = LOOK_UP.load(self._backend)(of_luma, intensity.reshape(-1))
         rested = reference.size if config.refractory_period_us else 0
         self._references = CrossingState(reference, np.full(rested, LONG_AGO_US))
         height, width = intensity.shape
@@ -175,7 +173,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         table = self._table if now.dtype == np.uint8 else None
         if table is None:
             before, now = self._log_intensity(before), self._log_intensity(now)
-        cross_thresholds = CROSS_THRESHOLDS.load(self._backend, now.dtype)
+        cross_thresholds = CROSS_THRESHOLDS.load(self._backend)
         columns = cross_thresholds(
             RampPixels(pixel, before, now, table, self._thresholds(pixel, interval.key)),
             self._references,

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from types import ModuleType
 from typing import TypeVar
 
 import numpy as np
 
 from texvent.pairs.motion_interpolation import MotionInterpolation
-from texvent.runtime.background_jit import is_ready
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.simulate.fused.definitions import (
     CrossingCandidates,
@@ -30,18 +28,7 @@ BUSY = 0.65
 at each instant either way, scanning whole frames is faster than evaluating pixels one by one, and
 no list of candidates has to be held (docs/design/speed.md has the measurements)."""
 
-KERNELS = "texvent.simulate.fused.candidates_cpu"
-
 Decided = TypeVar("Decided")
-
-
-def compiled_kernels() -> ModuleType | None:
-    """The compiled kernels; None until they are compiled, and always without Numba."""
-    if not is_ready(KERNELS):
-        return None
-    from texvent.simulate.fused import candidates_cpu  # needs Numba
-
-    return candidates_cpu
 
 
 def find_bounds(
@@ -55,15 +42,17 @@ def find_bounds(
 
     Returns:
         What `map_candidates` takes; None where drawing costs less: a share of `BUSY` or more of
-        the pixels, estimated from a sample of rows, may fire; nothing moves, so that a frame costs
-        next to nothing; or the kernels are not compiled yet.
+        the pixels, estimated from a sample of rows, may fire; or nothing moves, so that a frame
+        costs next to nothing.
     """
-    kernels = compiled_kernels()
-    if kernels is None or motion.flows is None:
+    if motion.flows is None:
         return None
+    from texvent.simulate.fused import bounds_cpu, candidates_cpu  # need Numba
+
     arrays = arrays_of(motion)
-    bounds: LumaBounds = kernels.find_bounds(arrays)
-    return bounds if kernels.estimate_active(arrays, levels(), bounds) < BUSY else None
+    bounds: LumaBounds = bounds_cpu.find_bounds(arrays)
+    share = candidates_cpu.estimate_active(arrays, levels(), bounds)
+    return bounds if share < BUSY else None
 
 
 def map_candidates(

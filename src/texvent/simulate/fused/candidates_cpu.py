@@ -20,7 +20,6 @@ from texvent.pairs.warp_cpu import (
     warp_points,
 )
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
 from texvent.simulate.backend.lanes_cpu import grown
 from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.bounds_cpu import find_bounds, list_active
@@ -59,16 +58,6 @@ def find_candidates(
     arrays = with_sweep(arrays, pair.sweep)
     prepared = PreparedPair(pair, find_bounds(arrays))
     return find_in_rows(arrays, positions, levels, prepared, (0, arrays.earlier.shape[0]))
-
-
-def warm_up() -> None:
-    """Compile everything, or load what was compiled before."""
-    image, flow = (read_only(np.zeros(one, np.float32)) for one in ((1, 1), (1, 1, 2)))
-    arrays = PairArrays(image, image, flow, flow)
-    levels = ReferenceLevels(np.empty((0, 0)), 1.0, 2.0, 0.5, TAKES)
-    find_candidates(arrays, np.ones(1), levels)
-    estimate_active(arrays, levels, find_bounds(arrays))
-    warp_pixels(prepare_pair(*arrays), 0.5, np.zeros(1, np.int64))
 
 
 @jit

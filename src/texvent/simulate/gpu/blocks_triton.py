@@ -109,6 +109,12 @@ def write_events(records: tl.tuple, first: tl.tensor, fires: tl.tensor, event: t
 
 
 @triton.jit
+def read_share(intervals: tl.tuple, segment: tl.tensor) -> tl.tensor:
+    """Share by which references move to the frame before an interval, float64."""
+    return tl.load(intervals.share + segment).to(tl.float64, bitcast=True)
+
+
+@triton.jit
 def read_order(records: tl.tuple, at: tl.tensor, inside: tl.tensor) -> tl.tensor:
     """Which of its pixel's events a record is."""
     if records.order is not None:

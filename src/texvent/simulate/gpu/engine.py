@@ -58,8 +58,8 @@ class GpuSimulator:
         """Prepare a simulator that has seen no frame.
 
         Args:
-            config: options of the model, whose type says which it is; default: Texvent's preset
-                "paper".
+            config: options of the model, whose type says which it is; default: Texvent's default
+                preset.
             seed: one per clip; or one number, and clip b has `seed + b`. 0..2⁶³−1.
 
         Raises:
@@ -94,7 +94,7 @@ class GpuSimulator:
             times_us: [T] or [B, T] whole µs, strictly increasing, also across calls; best on the
                 host, where they are needed.
             is_source: [T] or [B, T], False for frames made by interpolation; None: all are source
-                frames. Texvent's local and leaky caches look at it.
+                frames. Texvent's cache looks at it.
 
         Returns:
             The events of every clip in `[its last frame before, its last frame now)`.
@@ -169,7 +169,7 @@ class GpuSimulator:
             span.start_us,
             span.duration_us,
             clips.pixels.keys(span),
-            clips.pixels.policy(span),
+            clips.pixels.shares(span).view(np.int64),
             np.broadcast_to(span.origins_us[:, None], span.start_us.shape),
             table,
         )

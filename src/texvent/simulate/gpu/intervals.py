@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from texvent.errors import InputError
 
 Int64Array = NDArray[np.int64]
+Float64Array = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
 

@@ -41,8 +41,9 @@ class Intervals(NamedTuple):
     """Time until the next frame, at least 1."""
     key: Tensor
     """The bits of `draws.frame_key`."""
-    policy: Tensor
-    """What the reference does before the interval: `KEEP`, `FORGET` or `LEAK`."""
+    share: Tensor
+    """The bits of the share by which references move to the frame before, float64: 0 keeps them, 1
+    replaces them."""
     origin_us: Tensor
     """Added to a time it gives the time on an axis that puts the clips one after the other."""
     table: Tensor
@@ -86,8 +87,6 @@ class Records(NamedTuple):
 
 PIXELS_PER_MARK = 4
 """Pixels in a byte of `PassCounts.fired`: those of one thread, so that none waits for another."""
-KEEP, FORGET, LEAK = range(3)
-"""Values of `Intervals.policy`."""
 ON_FRACTION, DARK_BELOW = range(2)
 """Where each number lies in `NoiseRules.numbers`."""
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, Generic, TypeVar
 
 from texvent.simulate.gpu.device import LAUNCH
-from texvent.simulate.gpu.intervals import Int64Array, Span
+from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, PassCounts, Records, Tensor
 from texvent.simulate.gpu.launch import LaunchSize, choose_launch_size, pixel_grid
 
@@ -43,8 +43,8 @@ class GpuPixels(abc.ABC, Generic[Config]):
         """Keys of the random draws of every interval, as bits, [B, T]."""
 
     @abc.abstractmethod
-    def policy(self, span: Span) -> Int64Array:
-        """What references do before every interval, [B, T]: KEEP, LEAK or FORGET."""
+    def shares(self, span: Span) -> Float64Array:
+        """Share by which references move to the frame before every interval, [B, T], 0..1."""
 
     def advance(self, span: Span) -> None:
         """Update what is kept on the host after a call; nothing by default."""

@@ -38,6 +38,9 @@ def make_packet(
     events: UnsortedEvents, interval: FrameInterval, size: SensorSize, backend: str = AUTO
 ) -> EventStream:
     """The events in the order every packet has: by (t, y, x, p), labels included."""
+    if not len(events.t):  # the first packet of every run: its kernel may not be needed at all
+        columns = (np.empty(0, dtype) for dtype in (np.uint16, np.uint16, np.int64, np.uint8))
+        return EventStream.unchecked(*columns, size=size, label=np.empty(0, np.uint8))
     span_us = (interval.start_us, interval.stop_us)
     x, y, t, p, label = SORT_EVENTS.load(backend)(events, span_us, size.shape)
     return EventStream.unchecked(x, y, t, p, size=size, label=label)

@@ -73,13 +73,6 @@ def has_room_for_keys(duration_us: int, shape: tuple[int, int]) -> bool:
     return key_bits(shape[0] * shape[1]) + duration_us.bit_length() <= MOST_KEY_BITS
 
 
-def warm_up() -> None:
-    """Compile, or load what was compiled before."""
-    one, byte = np.zeros(1, np.int64), np.zeros(1, np.uint8)
-    sort_events(UnsortedEvents(one, one, byte, byte), (0, 1), (1, 1))
-    sort_keyed_events(np.zeros(1, np.uint64), (0, 1), (1, 1))
-
-
 @jit
 def _sort_events(
     events: UnsortedEvents,

@@ -29,7 +29,6 @@ from texvent.simulate.physical.circuit import (
     NoiseEvents,
     Optics,
     PhotoreceptorInput,
-    new_state,
 )
 from texvent.simulate.physical.circuit_lanes_cpu import (
     LANES,
@@ -88,16 +87,6 @@ def advance_pixels(
     parts = run_parts(advance, split(light.now.size, count_threads(), unit=PIXELS_PER_THREAD))
     keys = parts[0] if len(parts) == 1 else np.concatenate(parts)
     return sort_keyed_events(keys, span_us, shape)
-
-
-def warm_up(dtype: str) -> None:
-    """Compile for one type of frames, or load what was compiled before."""
-    luma, one, none = np.zeros(1, dtype), np.ones(1, np.float32), np.zeros(0, np.int64)
-    table = (np.ones(256), np.ones(256)) if dtype == "uint8" else None
-    light = PhotoreceptorInput(luma.copy(), luma, Optics(1.0, 1.0, 0.0, np.inf), table, (1, 1))
-    state = new_state(np.zeros(1), np.zeros(1), 0)
-    noise = NoiseEvents(none, none, none.astype(np.uint8))
-    advance_pixels(light, PixelMismatch(one, one, one), state, noise, ResetRules(0, True), (0, 1))
 
 
 @jit(error_model="numpy")

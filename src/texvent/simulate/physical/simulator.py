@@ -145,7 +145,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         light = self._frames.until(intensity)
         noise = self._draw_noise(light, interval)
         rules = ResetRules(self.config.refractory_us, self.config.noise_resets)
-        fired = ADVANCE_PIXELS.load(self._backend, light.now.dtype)(
+        fired = ADVANCE_PIXELS.load(self._backend)(
             light, self._mismatch, self._state, noise, rules, (interval.start_us, interval.stop_us)
         )
         self._decay_residual(interval)

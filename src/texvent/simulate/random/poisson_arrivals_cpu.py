@@ -35,11 +35,6 @@ def draw_arrivals(
         room *= 2
 
 
-def warm_up() -> None:
-    """Compile, or load what was compiled before."""
-    draw_arrivals(np.zeros((1, 1)), 1.0, np.uint64(0), 0)
-
-
 @jit(error_model="numpy")
 def _draw_arrivals(
     cumulative_hz: NDArray[np.float64],

@@ -72,7 +72,7 @@ class PoissonNoise:
             chance = self._draw(interval, row, order, Purpose.NOISE_COUNT)
             kept = chance < rate_fraction(pixel)
             pixel, fraction, order, row = pixel[kept], fraction[kept], order[kept], row[kept]
-        if not isinstance(on_fraction, float):
+        if isinstance(on_fraction, np.ndarray):
             on_fraction = on_fraction.reshape(-1)[pixel]
         is_on = self._draw(interval, row, order, Purpose.NOISE_POLARITY) < on_fraction
         offset = np.floor(fraction * interval.duration_us).astype(np.int64)

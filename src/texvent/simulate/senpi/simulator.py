@@ -79,14 +79,14 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         self._levels.set_all(self._reference, self._thresholds)
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
-        fired = self._compare(intensity, interval)
         noise = self._draw_noise(intensity, interval)
+        # A pixel's last event counts: noise is in order of time, and a change fires at the end.
+        self._fired_us[noise.pixel] = noise.t
+        fired = self._compare(intensity, interval)
+        self._fired_us[fired.pixel] = fired.t
         # Every event resets its pixel to the present voltage.
         pixel = np.concatenate([fired.pixel, noise.pixel])
         self._reference[pixel] = self._voltage(intensity.reshape(-1)[pixel])
-        # A pixel's last event counts: noise is in order of time, and a change fires at the end.
-        for events in (noise, fired):
-            self._fired_us[events.pixel] = events.t
         self._levels.set(pixel, self._reference, thresholds_at(pixel, self._thresholds))
         return UnsortedEvents.concat((fired, noise))
 

@@ -6,88 +6,91 @@ small for one sub-interval add up over several. How far back they may add up is 
 ========  =========================================================================
 none      one sub-interval: the reference is the previous frame, everywhere
 local     one pair of source frames (the paper's)
-leaky     at each source frame the reference moves to its brightness by a share
-global    the whole stream, or `reset_pairs` pairs of source frames
+global    the whole stream, or as long as the residual decay leaves of it
 ========  =========================================================================
+
+The residual decay is a rate per second: over a time t a reference covers the share
+1 − exp(−decay · t) of its distance to the brightness. It is applied at source frames, as soon as
+the share since the last time is `LEAST_SHARE`, so that neither the frame rate nor the number of
+intermediate frames changes what is forgotten, and high-speed video pays no more for it.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.texvent.fired_pixels import EventFrame
+from texvent.video import MICROSECONDS
 
-CachePolicy = Literal["local", "global", "none", "leaky"]
+CachePolicy = Literal["local", "global", "none"]
 ResetRule = Literal["current", "step"]
-Renewal = Literal["keep", "leak", "renew"]
 Float64Array = NDArray[np.float64]
+
+LEAST_SHARE = 0.01
+"""Share of a residual that decays at a time, at least."""
 
 
 class CacheSchedule:
-    """When references are renewed: the policy, counted along the frames."""
+    """Shares by which references move to the brightness, followed along the frames."""
 
-    def __init__(self, policy: CachePolicy, reset_pairs: int = 0) -> None:
+    def __init__(self, policy: CachePolicy, decay_hz: float = 0.0) -> None:
         """Begin before the first frame; arguments as for `BrightnessCache`."""
-        self._policy = policy
-        self._reset_pairs = reset_pairs
-        self._pairs_seen = 0
+        self._policy, self._decay_hz = policy, decay_hz
+        self._decayed_us: int | None = None
 
-    def renewal_after(self, *, is_source: bool) -> Renewal:
-        """What happens to the references of all pixels once the next frame was compared with them.
+    def share_after(self, t_us: int, *, is_source: bool) -> float:
+        """Share by which every reference moves to a frame once it was compared with that frame.
 
         Args:
+            t_us: time of the frame.
             is_source: whether it is a source frame, so that a pair begins with it.
 
-        Equation: (5), section 3.2.2; local and global: supplement, Table 4; reset: Fig. 2.
+        Returns:
+            0 keeps the references, 1 replaces them; in between they decay.
+
+        Equation: (5), section 3.2.2; local and global: supplement, Table 4.
         """
-        if self._policy == "none" or (is_source and self._forgets()):
-            return "renew"
-        return "leak" if is_source and self._policy == "leaky" else "keep"
+        if self._policy == "none" or (is_source and self._policy == "local"):
+            return 1.0
+        if not is_source or self._policy == "local" or self._decayed_us is None:
+            return 0.0
+        share = -math.expm1(-self._decay_hz * (t_us - self._decayed_us) / MICROSECONDS)
+        return share if share >= LEAST_SHARE else 0.0
 
-    def pass_frame(self, *, is_source: bool) -> Renewal:
-        """The same, and count the frame."""
-        renewal = self.renewal_after(is_source=is_source)
-        self._pairs_seen += is_source
-        return renewal
-
-    def _forgets(self) -> bool:
-        if self._policy == "local":
-            return True
-        return self._reset_pairs > 0 and self._pairs_seen % self._reset_pairs == 0
+    def pass_frame(self, t_us: int, *, is_source: bool) -> float:
+        """The same, and remember the frame."""
+        share = self.share_after(t_us, is_source=is_source)
+        if share or self._decayed_us is None:
+            self._decayed_us = t_us
+        return share
 
 
 class BrightnessCache:
     """Reference brightness per pixel, with the policy that renews it."""
 
     def __init__(
-        self,
-        first: Float64Array,
-        *,
-        policy: CachePolicy = "local",
-        leak: float = 0.0,
-        reset_pairs: int = 0,
+        self, first: Float64Array, *, policy: CachePolicy = "local", decay_hz: float = 0.0
     ) -> None:
         """Start from the brightness of the first frame.
 
         Args:
             first: [H, W], log units; copied.
             policy: when the reference is renewed.
-            leak: ρ of "leaky", 0..1: 0 is "global", 1 is "local".
-            reset_pairs: with "leaky" and "global", forget everything every this many pairs of
-                source frames; 0 = never.
+            decay_hz: rate at which "global" references decay towards the brightness, 1/s.
         """
         self._reference = first.copy()
-        self._leak = leak
-        self._schedule = CacheSchedule(policy, reset_pairs)
+        self._schedule = CacheSchedule(policy, decay_hz)
 
-    def calibrate(self, previous: Float64Array, *, is_source: bool) -> Float64Array:
+    def calibrate(self, previous: Float64Array, t_us: int, *, is_source: bool) -> Float64Array:
         """The calibrated frame `κ ⋄ I^{j−1}`: what the next frame is compared with.
 
         Args:
             previous: brightness of the frame before, L(α + I^{j−1}), [H, W].
+            t_us: its time.
             is_source: whether that frame is a source frame, so that a pair begins with it.
 
         Returns:
@@ -95,11 +98,11 @@ class BrightnessCache:
 
         Equation: (5), section 3.2.2; see `CacheSchedule`.
         """
-        renewal = self._schedule.pass_frame(is_source=is_source)
-        if renewal == "renew":
+        share = self._schedule.pass_frame(t_us, is_source=is_source)
+        if share == 1:
             self._reference[...] = previous
-        elif renewal == "leak":
-            self._reference += self._leak * (previous - self._reference)
+        elif share:
+            self._reference += share * (previous - self._reference)
         return self._reference
 
     def update(self, fired: EventFrame, brightness: Float64Array, *, step: float | None) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from texvent.config import check_choices, check_range
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError
 from texvent.options.fields import renamed
 from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
 from texvent.simulate.texvent.noise import NoiseKind
@@ -16,7 +16,8 @@ from texvent.simulate.texvent.timestamps import TimestampRule
 class TexventConfig:
     """Options of the Texvent pixel model.
 
-    The defaults are the paper's, or our choice where it gives none; docs/equations.md says which.
+    The defaults are those of the preset "accurate"; "paper" has the publication's, or our choice
+    where it gives none (docs/equations.md says which).
 
     Raises:
         ConfigError: an option is out of range, or two contradict each other.
@@ -24,37 +25,34 @@ class TexventConfig:
 
     contrast_threshold: float = 0.2
     """Contrast threshold δ: change of brightness ln(α + I) that fires an event."""
-    balance: float = 30.0
+    balance: float = 20.0
     """Balance α, in levels of 0..255: what is added to intensities before the logarithm, so that
     dark pixels do not fire more easily than bright ones."""
-    cache: CachePolicy = "local"
-    """How long a pixel that has not fired remembers its reference brightness: within a pair of
-    source frames (local), for the whole video (global), not at all (none), or with a loss at each
-    source frame (leaky)."""
-    cache_reset_pairs: int = 0
-    """With --cache global or leaky: forget all references every this many pairs of source frames;
-    0 is never. (Local forgets at every pair by itself.)"""
-    cache_leak: float = 0.1
-    """With --cache leaky: share of the way, 0..1, by which a reference moves to the brightness of
-    each source frame; 0 is global, 1 is local."""
-    reset: ResetRule = "current"
+    cache: CachePolicy = "global"
+    """How long a pixel that has not fired remembers its reference brightness: for the whole video
+    (global), within a pair of source frames (local, the paper's; slow motion at a high frame rate
+    then gives no event), or not at all (none)."""
+    residual_decay_hz: float = 0.1
+    """With --cache global: rate at which a pixel forgets change that has not fired yet, per second;
+    0 is never."""
+    reset: ResetRule = "step"
     """Where a pixel fires, its reference becomes the current brightness (current), or moves by one
     threshold per event, as in the circuit (step)."""
-    multi_event: bool = False
+    multi_event: bool = True
     """Fire one event per threshold crossed, not one per frame; needs a --timestamp-rule other than
     eq7."""
     noise: NoiseKind = "adaptive"
     """Background activity: adaptive, gaussian, random or none. Adaptive fires dark, resting pixels
     (Eq. 6); gaussian is noise on the brightness; random fires any pixel."""
-    noise_rate_hz: float = 0.1
+    noise_rate_hz: float = 0.2
     """Noise events per pixel and second, where there is noise (λ1)."""
     noise_scale: float = 1.0
     """Sensor factor on the noise rate, such as the ratio of two fill factors (in λ2)."""
-    noise_intensity: float = 80.0
+    noise_intensity: float = 40.0
     """Pixels darker than this level of 0..255 are low-light (σ); with --noise adaptive."""
     noise_on_fraction: float = 0.5
     """Share of ON among noise events, 0..1; Gaussian noise decides polarity by itself."""
-    timestamp_rule: TimestampRule = renamed("eq7", was="stamp")
+    timestamp_rule: TimestampRule = renamed("linear", was="stamp")
     """Time of an event between two frames: larger change earlier (eq7), random, where a straight
     line crosses the threshold (linear), where a ramp from the reference does (hyperbolic), evenly
     spaced (even), or at the end (end)."""
@@ -65,19 +63,13 @@ class TexventConfig:
     def __post_init__(self) -> None:
         check_range("contrast_threshold", self.contrast_threshold, 1e-4, 10.0)
         check_range("balance", self.balance, 0.0, 1e6)
-        check_range("cache_leak", self.cache_leak, 0.0, 1.0)
+        check_range("residual_decay_hz", self.residual_decay_hz, 0.0, 1e6)
         check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
         check_range("noise_scale", self.noise_scale, 0.0, 1e3)
         check_range("noise_intensity", self.noise_intensity, 0.0, 1e6)
         check_range("noise_on_fraction", self.noise_on_fraction, 0.0, 1.0)
         check_range("timestamp_scale", self.timestamp_scale, 1e-6, 1.0)
         check_choices(self)
-        check_range("cache_reset_pairs", self.cache_reset_pairs, 0)
-        if self.cache_reset_pairs > 0 and self.cache in ("local", "none"):
-            raise ConfigError(
-                f"cache_reset_pairs is {shown(self.cache_reset_pairs)}, but cache {self.cache!r} "
-                "forgets at every pair already; use cache 'global' or 'leaky', or leave it 0"
-            )
         if self.multi_event and self.timestamp_rule == "eq7":
             raise ConfigError(
                 "timestamp_rule 'eq7' gives a pixel one time per frame, but multi_event lets it "

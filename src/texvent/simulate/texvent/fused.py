@@ -45,7 +45,7 @@ from texvent.video import Frame
 class FusedPass:
     """Packets of one pair after another. References live in the `Memory` of the pixels.
 
-    With a cache that outlives a pair (global, leaky), references are read from and written to that
+    With a cache that outlives a pair (global), references are read from and written to that
     memory. With one that forgets (local, none), a pair starts from its own first frame, and no
     memory is needed.
     """

@@ -10,7 +10,6 @@ import numpy as np
 from texvent.brightness import Float64Array, balanced_log
 from texvent.runtime.read_only import read_only
 from texvent.simulate.crossing.trigger_levels import MARGIN, trigger_factors
-from texvent.simulate.texvent.brightness_cache import Renewal
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.scan import (
     SCAN_FLOOR,
@@ -44,7 +43,7 @@ def remember(first: Intensity, config: TexventConfig) -> Memory:
         table=_NOTHING if has_levels else brightness_table(first.dtype.str, config.balance),
     )
     if has_levels:
-        move_levels(memory, first, config, "renew")
+        move_levels(memory, first, config.balance, 1.0)
     return memory
 
 
@@ -65,12 +64,12 @@ def needs_levels(config: TexventConfig) -> bool:
     """Whether references lie between intensities, so that their brightness has to be kept."""
     if config.cache == "none":
         return False
-    return config.reset == "step" or (config.cache == "leaky" and config.cache_leak > 0)
+    return config.reset == "step" or (config.cache == "global" and config.residual_decay_hz > 0)
 
 
 def may_renew(config: TexventConfig) -> bool:
     """Whether all references are ever renewed at once."""
-    return config.cache in ("none", "local") or config.cache_reset_pairs > 0
+    return config.cache in ("none", "local")
 
 
 def as_luma(intensity: Intensity) -> Intensity:
@@ -89,23 +88,23 @@ def turn_to_float(memory: Memory) -> None:
     memory.work = None
 
 
-def move_levels(memory: Memory, luma: Intensity, config: TexventConfig, renewal: Renewal) -> None:
-    """Let every pixel's reference become the brightness of a frame, or leak towards it.
+def move_levels(memory: Memory, luma: Intensity, balance: float, share: float) -> None:
+    """Move every pixel's reference towards the brightness of a frame.
 
     Args:
         memory: of pixels whose references lie between intensities.
         luma: of the frame, [n] float32.
-        config: options.
-        renewal: "renew" or "leak".
+        balance: α, 0..255 scale.
+        share: of the distance, above 0 up to 1.
     """
     for first in range(0, luma.size, _CHUNK):
         part = slice(first, first + _CHUNK)
-        brightness = balanced_log(luma[part], config.balance)
+        brightness = balanced_log(luma[part], balance)
         level = memory.level[part]
-        if renewal == "renew":
+        if share == 1:
             level[:] = brightness
         else:
-            level += config.cache_leak * (brightness - level)
+            level += share * (brightness - level)
         memory.reference[part] = np.exp(level)
 
 

@@ -17,7 +17,7 @@ from texvent.events import EventStream
 from texvent.runtime.read_only import read_only
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.limits import check_event_number
-from texvent.simulate.texvent.brightness_cache import CacheSchedule, Renewal
+from texvent.simulate.texvent.brightness_cache import CacheSchedule
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.noise_blocks import PLACE_NOISE, NoiseBlock, NoisePlaces
 from texvent.simulate.texvent.kernels.scan import (
@@ -59,8 +59,8 @@ class SparsePixels:
         check_intensity(frame.pixels, where)
         check_balance(frame.luma, config.balance)
         self._config, self._backend = config, backend
-        self._schedule = CacheSchedule(config.cache, config.cache_reset_pairs)
-        self._schedule.pass_frame(is_source=frame.is_source)
+        self._schedule = CacheSchedule(config.cache, config.residual_decay_hz)
+        self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
         self._memory = remember(_native_intensity(frame), config)
         self._levels = scan_levels(config, self._memory)
         self._rule = FireRule(
@@ -77,11 +77,11 @@ class SparsePixels:
     def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
         """What fires until this frame; see `reference.DensePixels.advance`."""
         intensity = self._read(frame, where)
-        renewal = self._schedule.renewal_after(is_source=frame.is_source)
-        fired = self._fire(intensity, renewal)
+        share = self._schedule.share_after(frame.t_us, is_source=frame.is_source)
+        fired = self._fire(intensity, share)
         if fired is None:
             raise bad_intensity(frame.pixels, where)
-        self._schedule.pass_frame(is_source=frame.is_source)
+        self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
         noise = self._draw_noise(intensity, span)
         timestamp_events = TIMESTAMP_EVENTS.load(self._backend)
         x, y, t, p, label = timestamp_events([fired], noise, self._timing, span, frame.size.shape)
@@ -101,21 +101,21 @@ class SparsePixels:
             frame: a source frame.
         """
         memory, luma = self._memory, as_luma(_native_intensity(frame))
-        renewal = self._schedule.pass_frame(is_source=frame.is_source)
-        if renewal != "keep":
-            move_levels(memory, luma, self._config, renewal)
+        share = self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
+        if share:
+            move_levels(memory, luma, self._config.balance, share)
         if memory.previous.size:
             memory.previous[:] = luma
 
-    def _fire(self, intensity: Intensity, renewal: Renewal) -> Fired | None:
+    def _fire(self, intensity: Intensity, share: float) -> Fired | None:
         """Eq. 5; None where an intensity is impossible."""
         memory = self._memory
         has_levels = memory.level.size > 0
-        rule = self._rule_that_renews if renewal == "renew" and not has_levels else self._rule
-        find_fired = FIND_FIRED.load(self._backend, intensity.dtype)
+        rule = self._rule_that_renews if share == 1 and not has_levels else self._rule
+        find_fired = FIND_FIRED.load(self._backend)
         fired = find_fired(intensity, memory, self._levels, rule)
-        if has_levels and renewal != "keep" and fired is not None:
-            move_levels(memory, intensity, self._config, renewal)
+        if has_levels and share and fired is not None:
+            move_levels(memory, intensity, self._config.balance, share)
         return fired
 
     def _read(self, frame: Frame, where: str) -> Intensity:

@@ -49,12 +49,11 @@ class DensePixels:
         check_intensity(frame.pixels, where)
         self._config, self._backend = config, backend
         self._brightness = balanced_log(frame.luma, config.balance)
-        self._is_source = frame.is_source
+        self._t_us, self._is_source = frame.t_us, frame.is_source
         self._cache = BrightnessCache(
             self._brightness,
             policy=config.cache,
-            leak=config.cache_leak,
-            reset_pairs=config.cache_reset_pairs,
+            decay_hz=config.residual_decay_hz,
         )
 
     def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
@@ -74,7 +73,7 @@ class DensePixels:
         brightness = balanced_log(frame.luma, self._config.balance)
         shaken = self._add_voltage_noise(brightness, span)
         # κ ⋄ I^{j−1}
-        reference = self._cache.calibrate(self._brightness, is_source=self._is_source)
+        reference = self._cache.calibrate(self._brightness, self._t_us, is_source=self._is_source)
         events = self._generate_event_frame(shaken, reference)  # Eq. 5
         noise = add_noise(self._config, frame.luma, events.pixel, span, self._backend)  # Eq. 6
         signal = events
@@ -87,7 +86,8 @@ class DensePixels:
         interval = SubInterval(span, frame.size.width, events.pixel, (previous, now, then))
         timed = self._reconstruct_timestamps(events, signal, interval)  # Eq. 7
         self._cache.update(signal, brightness, step=self._config.reset_step)
-        self._brightness, self._is_source = brightness, frame.is_source
+        self._brightness = brightness
+        self._t_us, self._is_source = frame.t_us, frame.is_source
         return make_packet(UnsortedEvents.concat((timed, noise)), span, frame.size, self._backend)
 
     def _add_voltage_noise(self, brightness: Float64Array, span: FrameInterval) -> Float64Array:

@@ -38,18 +38,23 @@ class TexventSimulator(SteppingSimulator):
         0
         >>> events = simulator.step(Frame(bright, t_us=1000))
         >>> events.x.tolist(), events.t.tolist(), events.polarity.tolist()
-        ([1], [500], [1])
+        ([1, 1], [442, 884], [1, 1])
     """
 
     config_type: ClassVar[type] = TexventConfig
     bytes_per_pixel: ClassVar[int] = 30
     presets: ClassVar[Mapping[str, TexventConfig]] = {
-        "paper": TexventConfig(),
-        # Measured against true and recorded events (docs/benchmark.md): a reference that outlives
-        # the frame and moves by whole thresholds, and more than one event per frame. A global
-        # cache is .005 STPP better on exact scenes, and .018 worse on a recording: it drifts.
-        "accurate": TexventConfig(
-            cache="leaky", reset="step", multi_event=True, timestamp_rule="linear"
+        # Chosen by measurement against true and recorded events (docs/benchmark.md).
+        "accurate": TexventConfig(),
+        "paper": TexventConfig(
+            balance=30.0,
+            cache="local",
+            reset="current",
+            multi_event=False,
+            residual_decay_hz=0.0,
+            noise_rate_hz=0.1,
+            noise_intensity=80.0,
+            timestamp_rule="eq7",
         ),
     }
 
@@ -63,7 +68,7 @@ class TexventSimulator(SteppingSimulator):
         """Prepare a simulator that has seen no frame.
 
         Args:
-            config: options; default: the preset "paper".
+            config: options; default: the preset "accurate".
             seed: of noise and random times, 0..2⁶³−1.
             backend: "auto", "cpu", "numpy", "reference" or "gpu": which kernels scan the pixels.
                 All give the same events; `texvent.simulate.gpu` says how nearly.
@@ -94,6 +99,18 @@ class TexventSimulator(SteppingSimulator):
     def gains_from_frames(self) -> bool:
         """Whether a pixel may fire several times per frame; else more frames are more events."""
         return self.config.multi_event
+
+    @property
+    def slow_change(self) -> str | None:
+        """Why slow change may fire nothing, and the options that help."""
+        if self._forgets:
+            return (
+                f"cache='{self.config.cache}' forgets what it saw within one pair of frames, so "
+                "slow change never adds up; give cache='global', or leave out preset='paper'"
+            )
+        if self.config.residual_decay_hz > 1:
+            return "references decay faster than the video changes; lower residual_decay_hz"
+        return None
 
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""

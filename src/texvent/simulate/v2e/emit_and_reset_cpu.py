@@ -18,7 +18,6 @@ from texvent.simulate.crossing.ramp_cpu import (
     key_layout,
     list_crossing_keys,
 )
-from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import merge_keys, sort_keyed_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
@@ -59,18 +58,6 @@ def emit_and_reset(
     if len(noise.t):
         keys = merge_keys(keys, _keys_of(noise, layout), layout.low)
     return sort_keyed_events(keys, span_us, rules.shape)
-
-
-def warm_up() -> None:
-    """Compile, or load what was compiled before."""
-    one, pixel, threshold = np.ones(1), np.zeros(1, np.int64), np.ones(1, np.float32)
-    nothing = np.empty(0)
-    state = V2ePixelState(one, one.copy(), (nothing, nothing), one)
-    circuits = PixelMismatch(threshold, threshold, threshold[:0]), state
-    noise = UnsortedEvents.noise(pixel, pixel, np.zeros(1, np.uint8))
-    last = LastEvents(pixel.copy(), pixel.copy(), nothing)
-    rules = EmissionRules(FrameInterval(0, 1, np.uint64(0)), 0, (1, 1))
-    emit_and_reset(CrossingPixels(pixel, one, one), circuits, last, noise, rules)
 
 
 class _Moves(NamedTuple):

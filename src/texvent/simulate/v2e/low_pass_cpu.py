@@ -75,15 +75,6 @@ def apply_low_pass(
     return CrossingPixels(*(np.concatenate(column) for column in columns))
 
 
-def warm_up(dtype: str) -> None:
-    """Compile for one type of frames, or load what was compiled before."""
-    table, luma = np.ones((2, 256)) if dtype == "uint8" else None, np.ones(1, dtype)
-    threshold, nothing = np.ones(1, np.float32), np.empty(0)
-    state = V2ePixelState(np.ones(1), np.ones(1), (nothing, nothing), np.ones(1))
-    light = LowPassInput(luma.copy(), luma, table, 20.0, 1.0, (0.0, 1.0))
-    apply_low_pass(light, PixelMismatch(threshold, threshold, threshold[:0]), state)
-
-
 @jit(error_model="numpy")
 def _apply_low_pass(
     luma: tuple[NDArray[Any], NDArray[Any]],

@@ -136,7 +136,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         table = self._table if luma.dtype == np.uint8 else None
         start_us, stop_us = interval.start_us - self._start_us, interval.stop_us - self._start_us
         elapsed_us = float(start_us), float(stop_us)
-        return APPLY_LOW_PASS.load(self._backend, luma.dtype)(
+        return APPLY_LOW_PASS.load(self._backend)(
             LowPassInput(self._seen, luma, table, self.config.linear_below, angle, elapsed_us),
             self._mismatch,
             self._state,

@@ -37,7 +37,6 @@ from texvent.simulate.voltmeter.first_passage import (
     FirstPassageInput,
     Float64Array,
     Voltage,
-    new_voltage,
 )
 
 Uint64Array = NDArray[np.uint64]
@@ -108,14 +107,6 @@ def find_first_passages(
     parts = run_parts(find, split(now.size, count_threads(), unit=PIXELS_PER_THREAD))
     keys = parts[0] if len(parts) == 1 else np.concatenate(parts)
     return sort_keyed_events(keys, (interval.start_us, interval.stop_us), shape)
-
-
-def warm_up(dtype: str) -> None:
-    """Compile for one type of frames, or load what was compiled before."""
-    light = FirstPassageInput(
-        np.zeros((1, 1), dtype), np.zeros((1, 1), dtype), Constants(1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
-    )
-    find_first_passages(light, new_voltage(np.zeros(1)), FrameInterval(0, 1, np.uint64(0)), 0)
 
 
 @jit(error_model="numpy")

@@ -83,5 +83,5 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
             intensity = intensity.astype(np.float32, copy=False)
         light = FirstPassageInput(self._seen, intensity, self._constants)
         check_event_number(most_passages(light, interval.duration_us))
-        find_first_passages = FIND_FIRST_PASSAGES.load(self._backend, intensity.dtype)
+        find_first_passages = FIND_FIRST_PASSAGES.load(self._backend)
         return find_first_passages(light, self._voltage, interval, self._begin_us)

@@ -24,7 +24,7 @@ class DataSetSamples:
         """
         self.name = f"split {split} of {source.folder}"
         self._samples = open(source.folder or Path(), variant=source.variant, split=split)
-        self.labels = self._samples.labels
+        self.labels, self.identity = self._samples.labels, self._samples.index.identity
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -62,7 +62,7 @@ class SpecifiedSamples:
         self._clips = SimulatedClips(
             source.specification or Path(), split=split, variant=source.variant
         )
-        self.labels = self._clips.labels
+        self.labels, self.identity = self._clips.labels, self._clips.recipe.identity
 
     def __len__(self) -> int:
         """Number of samples."""

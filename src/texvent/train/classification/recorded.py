@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from texvent.batch.identity import digest
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.files import event_extensions, load
@@ -40,6 +41,8 @@ class RecordedSamples:
         ]
         if not self._files:
             raise InputError(f"{folder} holds no event files in folders of classes")
+        names = [str(path.relative_to(folder)) for _, path in self._files]
+        self.identity = f"{len(names)} ({digest(names)[:12]})"
 
     def __len__(self) -> int:
         """Number of samples."""

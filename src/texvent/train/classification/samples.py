@@ -27,6 +27,8 @@ class LabelledSamples(Protocol):
     """Of the split, for messages."""
     labels: tuple[str, ...]
     """Names of the classes."""
+    identity: str
+    """Which samples; other ones have another."""
 
     def __len__(self) -> int:
         """Number of samples."""

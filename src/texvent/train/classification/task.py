@@ -165,6 +165,11 @@ class ClassExamples:
     config: ClassificationConfig
     augmentation: Augmentation
 
+    @property
+    def identity(self) -> str:
+        """See `MakeSample`."""
+        return ", ".join(source.identity for source in self.samples.sources)
+
     def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
         """The image and the class of a sample; without events, an image of zeros."""
         network, data = self.config.network, self.config.data

@@ -36,6 +36,11 @@ class LatentPairs:
         """Number of scenes."""
         return len(self.scenes)
 
+    @property
+    def identity(self) -> str:
+        """See `MakeSample`."""
+        return f"{self.scenes.clips.recipe.identity} {self.autoencoder.digest}"
+
     def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, NDArray[Any]]:
         """A pair.
 

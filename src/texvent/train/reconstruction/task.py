@@ -150,6 +150,11 @@ class ReconstructionExamples:
     bins: int
     is_normalised: bool
 
+    @property
+    def identity(self) -> str:
+        """See `MakeSample`."""
+        return self.clips.identity
+
     def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
         """A random run of the clip.
 

@@ -74,6 +74,11 @@ class WindowedClips:
         return SimulatedClips(data.specification, split=self.split, variant=data.variant)
 
     @property
+    def identity(self) -> str:
+        """Of all clips of the specification."""
+        return self.simulated.recipe.identity
+
+    @property
     def folder(self) -> Path:
         """Where the simulated clips are."""
         return self.data.cache or cache_folder("sequences")

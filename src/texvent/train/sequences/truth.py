@@ -66,6 +66,11 @@ class TruthExamples:
         """Number of clips."""
         return len(self.clips)
 
+    @property
+    def identity(self) -> str:
+        """See `MakeSample`."""
+        return self.clips.identity
+
     def batches(self, batch_size: int, *, seed: int, workers: int) -> Batches:
         """The examples in batches; whole clips stay in their order."""
         return Batches(

@@ -23,7 +23,7 @@ WAY_TITLES = {
 }
 BEST, ALIKE = "(best)", "(≈)"
 """Marks of the best arm, and of those that cannot be told apart from it."""
-REFERENCES = ("texvent", "texvent accurate", "physical")
+REFERENCES = ("texvent accurate", "texvent paper", "physical")
 """Arms that the others are compared with."""
 
 

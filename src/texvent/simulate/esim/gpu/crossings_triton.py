@@ -10,7 +10,6 @@ import triton
 import triton.language as tl
 
 from texvent.simulate.esim.gpu import rules
-from texvent.simulate.gpu import kernel_types
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
     find_cell,
@@ -20,11 +19,11 @@ from texvent.simulate.gpu.blocks_triton import (
     read,
     read_before,
     read_now,
+    read_share,
     skip_frames,
     write_events,
 )
 
-_FORGET = tl.constexpr(kernel_types.FORGET)
 _THRESHOLD_ON = tl.constexpr(rules.THRESHOLD_ON)
 _THRESHOLD_OFF = tl.constexpr(rules.THRESHOLD_OFF)
 _LOG_EPS = tl.constexpr(rules.LOG_EPS)
@@ -62,7 +61,7 @@ def scan_ramp(
         segment = clip * frames.intervals + interval
         intensity = read(pixels + skip_frames(frames, interval, ALIGN), inside)
         now = log_intensity(intensity, rules)
-        if tl.load(intervals.policy + segment) == _FORGET:
+        if read_share(intervals, segment) == 1:
             level = before
         is_on = now > level
         threshold = tl.where(is_on, threshold_on, threshold_off)

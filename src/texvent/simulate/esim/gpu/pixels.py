@@ -12,8 +12,8 @@ from texvent.errors import ConfigError
 from texvent.simulate.esim.gpu import crossings_triton, rules
 from texvent.simulate.esim.simulator import EsimConfig, log_intensity
 from texvent.simulate.gpu.device import EXTRA, LAUNCH
-from texvent.simulate.gpu.intervals import Int64Array, Span
-from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, Records, Tensor
+from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
+from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
     LaunchSize,
     make_records,
@@ -80,12 +80,12 @@ class EsimPixels(GpuPixels[EsimConfig]):
         """Nothing is drawn per interval; [B, T]."""
         return np.zeros_like(span.start_us)
 
-    def policy(self, span: Span) -> Int64Array:
+    def shares(self, span: Span) -> Float64Array:
         """References begin at the first frame and are never forgotten; [B, T]."""
-        policy = np.full_like(span.start_us, KEEP)
+        shares = np.zeros(span.start_us.shape)
         if span.is_new:
-            policy[:, 0] = FORGET
-        return policy
+            shares[:, 0] = 1.0
+        return shares
 
     def _scan(self, call: Call) -> tuple[Any, Any, Any]:
         return crossings_triton.scan_ramp, self._rules, self._state

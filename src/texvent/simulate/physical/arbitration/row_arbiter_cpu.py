@@ -10,12 +10,6 @@ from texvent.simulate.physical.arbitration.row_arbiter import LOST, WAITS, Int64
 NONE = -1
 
 
-def warm_up() -> None:
-    """Compile, or load what was compiled before."""
-    one = np.zeros(1, np.int64)
-    serve_rows(one, one, (1, 1), RowRules(0, 0), 0, 1)
-
-
 @jit
 def serve_rows(
     pixel: Int64Array,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,15 +11,8 @@ import numpy as np
 from texvent._require import require
 from texvent.errors import ConfigError
 from texvent.simulate.gpu.device import EXTRA, LAUNCH
-from texvent.simulate.gpu.intervals import Int64Array, Span
-from texvent.simulate.gpu.kernel_types import (
-    FORGET,
-    KEEP,
-    LEAK,
-    Call,
-    Records,
-    Tensor,
-)
+from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
+from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
     LaunchSize,
     make_records,
@@ -27,6 +21,7 @@ from texvent.simulate.gpu.launch import (
 )
 from texvent.simulate.gpu.pixels import GpuPixels
 from texvent.simulate.random.draws import frame_keys
+from texvent.simulate.texvent.brightness_cache import CacheSchedule
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.gpu import rules, scan_triton
 
@@ -63,7 +58,9 @@ class TexventPixels(GpuPixels[TexventConfig]):
         super().__init__(
             config, seeds, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH
         )
-        self._pairs_seen = np.zeros((len(seeds), 1), np.int64)
+        self._schedules = [
+            CacheSchedule(config.cache, config.residual_decay_hz) for _ in range(len(seeds))
+        ]
 
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""
@@ -89,25 +86,20 @@ class TexventPixels(GpuPixels[TexventConfig]):
         ]
         return np.stack(keys).view(np.int64)
 
-    def policy(self, span: Span) -> Int64Array:
-        """What references do before every interval, [B, T]; see `BrightnessCache`."""
-        config, pair_starts = self.config, span.from_source
-        policy = np.where(pair_starts & (config.cache == "leaky"), LEAK, KEEP)
-        if config.cache == "none":
-            forgets = np.ones_like(pair_starts)
-        elif config.cache == "local":
-            forgets = pair_starts.copy()
-        else:
-            pairs = self._pairs_seen + np.cumsum(pair_starts, axis=1)
-            every = config.cache_reset_pairs
-            forgets = pair_starts & (every > 0) & ((pairs - 1) % max(every, 1) == 0)
+    def shares(self, span: Span) -> Float64Array:
+        """See `GpuPixels` and `CacheSchedule`."""
+        shares = np.empty(span.start_us.shape)
+        self._passed = copy.deepcopy(self._schedules)
+        for clip, schedule in enumerate(self._passed):
+            starts = zip(span.start_us[clip].tolist(), span.from_source[clip].tolist(), strict=True)
+            shares[clip] = [schedule.pass_frame(t, is_source=source) for t, source in starts]
         if span.is_new:
-            forgets[:, 0] = True
-        return np.where(forgets, FORGET, policy)
+            shares[:, 0] = 1.0
+        return shares
 
     def advance(self, span: Span) -> None:
-        """Count the pairs of source frames."""
-        self._pairs_seen += span.from_source.sum(axis=1, keepdims=True)
+        """Take over the schedules that `shares` moved along."""
+        self._schedules = self._passed
 
     def _scan(self, call: Call) -> tuple[Any, Any, Any]:
         if not self._tracks_intensity:

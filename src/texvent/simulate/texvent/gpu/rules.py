@@ -12,8 +12,9 @@ from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.gpu.kernel_types import Tensor
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.pixel_state import needs_levels
 
-BALANCE, THRESHOLD, UP, DOWN, LEAK_SHARE, SCALE = range(6)
+BALANCE, THRESHOLD, UP, DOWN, SCALE = range(5)
 """Where each number lies in `TexventRules.numbers`."""
 TIMESTAMP_RULES = {"eq7": 0, "random": 1, "linear": 2, "hyperbolic": 3, "even": 4, "end": 5}
 """How the kernels are told the rule for times."""
@@ -25,7 +26,7 @@ class TexventRules(NamedTuple):
     """The options of the model, on the device."""
 
     numbers: Tensor
-    """[6] float64, because Triton rounds a plain number to float32."""
+    """[5] float64, because Triton rounds a plain number to float32."""
     levels: Tensor
     """[256] int32: for a reference byte, the byte from which on it fires (low half), and the byte
     up to which it fires (high half, −1 for none)."""
@@ -39,12 +40,11 @@ class TexventRules(NamedTuple):
 
 def list_numbers(config: TexventConfig) -> NDArray[np.float64]:
     """The values of `TexventRules.numbers`."""
-    numbers = np.empty(6)
+    numbers = np.empty(5)
     numbers[BALANCE] = config.balance
     numbers[THRESHOLD] = config.contrast_threshold
     factors = trigger_factors(config.contrast_threshold, config.contrast_threshold)
     numbers[UP], numbers[DOWN] = factors
-    numbers[LEAK_SHARE] = config.cache_leak
     numbers[SCALE] = config.timestamp_scale
     return numbers
 
@@ -69,4 +69,4 @@ def byte_trigger_levels(brightness: NDArray[np.float64], threshold: float) -> ND
 
 def tracks_intensity(config: Any) -> bool:
     """Whether a reference is always the intensity of an earlier frame, so that levels decide."""
-    return config.reset == "current" and config.cache != "leaky" and not config.multi_event
+    return not needs_levels(config) and not config.multi_event

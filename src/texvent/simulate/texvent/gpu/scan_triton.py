@@ -10,7 +10,6 @@ from __future__ import annotations
 import triton
 import triton.language as tl
 
-from texvent.simulate.gpu import kernel_types
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
     find_cell,
@@ -22,19 +21,17 @@ from texvent.simulate.gpu.blocks_triton import (
     read_before,
     read_now,
     read_order,
+    read_share,
     skip_frames,
     write_events,
 )
 from texvent.simulate.gpu.draws_triton import draw_word, to_uniform
 from texvent.simulate.texvent.gpu import rules
 
-_FORGET = tl.constexpr(kernel_types.FORGET)
-_LEAK = tl.constexpr(kernel_types.LEAK)
 _BALANCE = tl.constexpr(rules.BALANCE)
 _THRESHOLD = tl.constexpr(rules.THRESHOLD)
 _UP = tl.constexpr(rules.UP)
 _DOWN = tl.constexpr(rules.DOWN)
-_LEAK_SHARE = tl.constexpr(rules.LEAK_SHARE)
 _SCALE = tl.constexpr(rules.SCALE)
 _EQ7 = tl.constexpr(rules.TIMESTAMP_RULES["eq7"])
 _RANDOM = tl.constexpr(rules.TIMESTAMP_RULES["random"])
@@ -84,7 +81,7 @@ def scan_levels(
         following = pixels + skip_frames(frames, interval + 1, ALIGN)
         ahead = read(following, inside & (interval + 1 < frames.intervals))
         segment = clip * frames.intervals + interval
-        if tl.load(intervals.policy + segment) == _FORGET:
+        if read_share(intervals, segment) == 1:
             level = before
             low, high = _move_levels(before, inside, low, high, rules)
         fired = (now <= low) | (now >= high)
@@ -169,11 +166,11 @@ def scan_brightness(
         segment = clip * frames.intervals + interval
         last = read(pixels + skip_frames(frames, interval, ALIGN), inside)
         now = brightness_of(last, rules)
-        policy = tl.load(intervals.policy + segment)
-        if policy == _FORGET:
+        share = read_share(intervals, segment)
+        if share == 1:
             level = before
-        if policy == _LEAK:
-            level += tl.load(rules.numbers + _LEAK_SHARE) * (before - level)
+        elif share > 0:
+            level += share * (before - level)
         size = tl.abs(now - level)
         fired = inside & (size >= threshold)
         number = tl.where(fired, count_events(size, threshold, rules), 0)

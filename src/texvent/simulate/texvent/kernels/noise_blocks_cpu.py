@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
 from texvent.simulate.packets.sorting_cpu import sort_almost_sorted, sort_keys
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform, draw_word
@@ -32,11 +31,6 @@ def place_noise(noise: NoiseBlock, pixels: int) -> NoisePlaces:
     with allow_wrap_around():
         places = _place_noise(noise.key, noise.cumulative, noise.on_fraction, pixels)
     return NoisePlaces(*places)
-
-
-def warm_up() -> None:
-    """Compile, or load what was compiled before."""
-    place_noise(NoiseBlock(np.uint64(0), read_only(np.ones(1)), 0.5), 1)
 
 
 @jit

@@ -9,7 +9,7 @@ type of the frames (uint8, uint16 or float32 luma; once frames of two types have
 which holds all three exactly). That is the whole state, because Eq. 5's cached reference is always
 the intensity of an earlier frame: where a pixel fires, R becomes the frame's intensity there; where
 the cache forgets (`local` after a source frame, `none` after every frame), R becomes the frame.
-Only `reset="step"` and `cache="leaky"` move references between intensities. They keep two arrays
+Only `reset="step"` and the residual decay move references between intensities. They keep two arrays
 instead: `level`, the reference brightness itself, float64, exact; and `reference`, float32, the
 balanced intensity exp(level), for the scan alone, rounded any way, within a relative 10⁻⁷.
 

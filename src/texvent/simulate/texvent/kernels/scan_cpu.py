@@ -125,16 +125,6 @@ def _take_logs(
     np.log(balanced[: pixel.size], out=brightness[: pixel.size])
 
 
-def warm_up(dtype: str) -> None:
-    """Compile for one type of frames, or load what was compiled before."""
-    frame, number, byte = np.ones(1, dtype), np.float32(1.0), np.uint8(1)
-    table = np.zeros(0 if frame.dtype.kind == "f" else np.iinfo(dtype).max + 1)
-    memory = Memory(frame, frame.copy(), frame[:0].copy(), np.empty(0), table)
-    levels = ScanLevels(number, number, number, number, byte)
-    rule = FireRule(1.0, 1.0, False, False, True, False)
-    find_fired(read_only(frame), memory, levels, rule)
-
-
 def _make_room(memory: Memory) -> _Work:
     pixels, lines = memory.reference.size, memory.previous.size
     start, stop, reference = (np.empty(lines) for _ in range(3))

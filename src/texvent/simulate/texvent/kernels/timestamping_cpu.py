@@ -95,16 +95,6 @@ def _stamp_bands(
     return _order(signal, noise, rule, span, bits)
 
 
-def warm_up() -> None:
-    """Compile, or load what was compiled before."""
-    index, real = np.zeros(1, np.int64), np.ones(1)
-    fired = Fired(index, real, real, real, real)
-    noise = NoisePlaces(index, real, np.zeros(1, np.uint8))
-    timing = Timing("eq7", 1.0, 1.0, multi_event=False, noise_at_rest=True)
-    for bands in ([fired], [fired, fired]):
-        timestamp_events(bands, noise, timing, FrameInterval(0, 1, np.uint64(0)), (2, 1))
-
-
 @jit
 def _stamp_events(
     fired: Fired, noise: NoisePlaces, rule: _Rule, span: FrameInterval, bits: int
