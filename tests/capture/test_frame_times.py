@@ -31,7 +31,7 @@ def test_names_follow_the_times_and_may_hold_spaces(tmp_path):
     [
         ("0\n2\n1\n", InputError, "time 2 .* is not after time 1"),
         ("0\n0\n", InputError, "strictly increase"),
-        ("1\n2\n", InputError, r"--timestamps-unit"),
+        ("1\n2\n", InputError, "another unit: `timestamps_unit`"),
         ("0\nabc\n", FileFormatError, "line 2 begins with 'abc'"),
         ("0\nnan\n", FileFormatError, "line 2 begins with 'nan'"),
         ("0 a.png\n1\n", FileFormatError, "1 of 2 lines name a file"),

@@ -202,7 +202,9 @@ def test_a_camera_over_a_linear_image(tmp_path):
     events = texvent.simulate(folder / "000.exr", camera="pan", duration=0.1, noise="none")
     coded = encode_srgb(spot(16))
     same = texvent.simulate(coded, camera="pan", duration=0.1, noise="none")
-    assert len(events) == len(same) > 0
+    shared = set(zip(events.x, events.y, events.t, strict=True))
+    shared &= set(zip(same.x, same.y, same.t, strict=True))
+    assert len(shared) >= 0.999 * max(len(events), len(same)) > 0  # but for float32 rounding
 
 
 @pytest.mark.parametrize(

@@ -74,7 +74,8 @@ def test_noise_of_a_gap_that_memory_cannot_hold_is_refused_before_it_is_drawn():
     with pytest.raises(InputError, match=r"about 1.1e\+09 events .* memory holds 1e\+07; give"):
         texvent.simulate(frames, noise_rate_hz=0.1, noise_scale=1.0, **month)
     frames[1] = 200
-    assert len(texvent.simulate(frames, noise="none", **month)) == 64 * 64
+    per_pixel = int(np.log((20 + 200) / (20 + 10)) / 0.2)
+    assert len(texvent.simulate(frames, noise="none", **month)) == 64 * 64 * per_pixel
 
 
 def test_a_large_sensor_is_refused_before_a_frame_is_read():

@@ -78,7 +78,7 @@ def test_advice_names_options_that_exist():
     ("words", "said"),
     [
         (["none.mp4"], "none.mp4"),
-        (["{clip}", "--target-rate", "1000"], "target_rate decides the event rate"),
+        (["{clip}", "--target-rate", "1000"], "--target-rate decides the event rate"),
         (["{clip}", "-o", "out.h5"], "-o"),
         (["{clip}", "--sensor", "0x0"], "0x0"),
     ],

@@ -28,6 +28,7 @@ SPECIFICATION = """\
 name = "tiny"
 splits = {train = 0.5, test = 0.5}
 options = {duration = 0.1, sensor = "32x24"}
+filters = {min_events = 0}
 [[sources]]
 prompts = ["a red car drives left", "a dog runs"]
 [variants.paper]

@@ -20,7 +20,7 @@ from texvent.dataset.generation.engines.protocol import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.records import FAILED, FILTERED, MADE, read_record
-from texvent.dataset.generation.sample import FilteredError, simulate_sample
+from texvent.dataset.generation.sample import simulate_sample
 from texvent.dataset.generation.status import read_status
 from texvent.dataset.generation.tar_shard import read_members
 from texvent.dataset.specification.reading import specification_from
@@ -143,8 +143,9 @@ def test_as_many_events_as_are_allowed_are_kept() -> None:
     simulation = text_to_events("a red car drives left", settings)
     count = len(simulation.packets.collect())
     assert len(simulate_sample(simulation, Filters(max_events=count)).events) == count
-    with pytest.raises(FilteredError, match="more than"):
-        simulate_sample(simulation, Filters(max_events=count - 1))
+    assert simulate_sample(simulation, Filters(max_events=count)).left_out is None
+    over = simulate_sample(simulation, Filters(max_events=count - 1))
+    assert over.left_out == f"more than {count - 1:,} events"
 
 
 def test_only_what_is_missing_is_made(whole: Path, tmp_path: Path) -> None:
