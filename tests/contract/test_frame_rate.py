@@ -16,6 +16,7 @@ import pytest
 import texvent
 from texvent._registry import SIMULATORS
 from texvent.options.fields import option_names
+from texvent.run.presets import frame_bound_presets
 
 RATES = (30, 60, 240, 960)
 SECONDS = 0.8
@@ -72,6 +73,10 @@ def times_by_pixel(events: texvent.EventStream, band: int) -> dict[Any, list[int
         if y // ROWS == band:
             found[y, x, p].append(t)
     return found
+
+
+def test_the_help_marks_these_presets_and_no_other():
+    assert frame_bound_presets() == BY_DEFINITION
 
 
 @pytest.mark.parametrize(("simulator", "preset"), CASES)

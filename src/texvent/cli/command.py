@@ -14,7 +14,7 @@ from texvent.cli.wording import name_flags
 from texvent.config import RunConfig
 from texvent.errors import ConfigError
 from texvent.options.fields import former_names, option_names
-from texvent.run.presets import presets_by_simulator
+from texvent.run.presets import preset_help
 from texvent.run.settings import DECIDING, Command, Settings, apply_options, base_settings
 
 
@@ -67,7 +67,7 @@ def resolve_command(
         groups,
         prog=prog or f"texvent {command}",
         description=description,
-        names=dict if prog else lambda: {"preset": presets_by_simulator()},
+        names=dict if prog else lambda: {"preset": preset_help()},
     )
     own, output = _take(subject, values), _take(output, values)
     shown = {

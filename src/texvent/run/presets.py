@@ -12,6 +12,25 @@ def presets_by_simulator() -> dict[str, tuple[str, ...]]:
     return {name: tuple(SIMULATORS.load(name).presets) for name in SIMULATORS.builtin}
 
 
+def frame_bound_presets() -> set[tuple[str, str]]:
+    """(simulator, preset) whose published definition makes events depend on the frame rate."""
+    return {
+        (name, preset)
+        for name in SIMULATORS.builtin
+        for preset in getattr(SIMULATORS.load(name), "frame_bound_presets", ())
+    }
+
+
+def preset_help() -> dict[str, tuple[str, ...]]:
+    """Rows of `--help`: simulator → presets, `*` behind those that depend on the frame rate."""
+    bound = frame_bound_presets()
+    rows = {
+        name: tuple(one + "*" * ((name, one) in bound) for one in presets)
+        for name, presets in presets_by_simulator().items()
+    }
+    return rows | {"*": ("by definition, its events depend on the frame rate",)}
+
+
 def find_preset(simulator: str | None, preset: str | None) -> tuple[str, str]:
     """The simulator and the preset of a run.
 

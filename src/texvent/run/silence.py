@@ -65,7 +65,7 @@ class SignalTally:
     def doubt(self, kept: str = "all") -> str | None:
         """What the user has hardly meant, with the reason and the option that helps; else None.
 
-        Options are written as keywords: `cache="leaky"`.
+        Options are written as keywords: `cache='global'`.
 
         Args:
             kept: which events the run keeps: "all", "signal" or "noise".

@@ -26,7 +26,9 @@ class Simulator(Protocol):
     before otherwise. It may declare `gains_from_frames` as True: then a pair in which
     things move fast gets more frames than Eq. 4 asks for (`interpolate.count_policy`). It may
     declare `slow_change`, a text or None: why slow change may fire nothing, and the options that
-    help, which `run.silence` says of a run that has lost its signal.
+    help, which `run.silence` says of a run that has lost its signal. It may declare
+    `frame_bound_presets`: those whose published definition ties events to the source frames, so
+    that the same motion gives other events at another frame rate.
     """
 
     config_type: ClassVar[type]

@@ -52,6 +52,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 60
     presets: ClassVar[Mapping[str, SenpiConfig]] = PRESETS
+    frame_bound_presets: ClassVar[frozenset[str]] = frozenset(PRESETS)
 
     @property
     def contrast_threshold(self) -> float:

@@ -57,6 +57,7 @@ class TexventSimulator(SteppingSimulator):
             timestamp_rule="eq7",
         ),
     }
+    frame_bound_presets: ClassVar[frozenset[str]] = frozenset({"paper"})
 
     def __init__(
         self,

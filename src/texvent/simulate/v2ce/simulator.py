@@ -40,6 +40,7 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
 
     config_type: ClassVar[type] = V2ceConfig
     presets: ClassVar[Mapping[str, V2ceConfig]] = {"default": V2ceConfig()}
+    frame_bound_presets: ClassVar[frozenset[str]] = frozenset(presets)
     default_interpolate: ClassVar[str] = "none"
     """The network was made for the frames of the video itself."""
 

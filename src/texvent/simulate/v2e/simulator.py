@@ -64,6 +64,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
     bytes_per_pixel: ClassVar[int] = 190
     gains_from_frames: ClassVar[bool] = True
     presets: ClassVar[Mapping[str, V2eConfig]] = PRESETS
+    frame_bound_presets: ClassVar[frozenset[str]] = frozenset({"noisy"})
 
     @property
     def contrast_threshold(self) -> float:
