@@ -56,6 +56,7 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     short = (folder / "nt" / "captions.jsonl").read_text().splitlines()[:3]
     (folder / "nt" / "three.jsonl").write_text("\n".join(short))
     specification = (folder / "nt" / "specification.toml").read_text()
+    specification = f"filters = {{min_events = 0}}\n{specification}"
     specification = specification.replace("captions.jsonl", "three.jsonl")
     specification = specification.replace('"640x480" ', '"32x24"\nduration = 0.1')
     (folder / "nt" / "three.toml").write_text(specification)

@@ -100,7 +100,9 @@ def assert_equal_but_beside_the_threshold(found, expected):
 def test_noise_of_several_blocks_is_that_of_the_cpu(noise, device):
     clip = np.random.default_rng(2).integers(60, 100, (1, 3, 72, 80)).astype(np.uint8)
     times_us = np.array([[0, 900, 2500]])
-    config = TexventConfig(noise=noise, noise_rate_hz=8.0, contrast_threshold=0.35)
+    config = TexventConfig(
+        noise=noise, noise_rate_hz=8.0, noise_intensity=80.0, contrast_threshold=0.35
+    )
     flags = [True] * 3
     found = on_gpu(torch, GpuSimulator(config), clip, times_us, flags, device=device, chunks=(3,))[
         0
@@ -119,7 +121,9 @@ def test_floats_differ_from_the_cpu_at_most_within_rounding_of_the_threshold(dev
     # Every float32 around the intensity that lies exactly on the threshold.
     around = (np.float32(130.0).view(np.int32) + steps).view(np.float32).reshape(20, 24)
     clip = np.stack([np.full((20, 24), reference), around])[None]
-    config = TexventConfig(noise="none", contrast_threshold=float(tie), timestamp_rule="end")
+    config = TexventConfig(
+        noise="none", balance=balance, contrast_threshold=float(tie), timestamp_rule="end"
+    )
     found = on_gpu(torch, GpuSimulator(config), clip, np.array([[0, 9]]), [True] * 2, device=device)
     expected = on_cpu(TexventSimulator(config, backend="reference"), clip[0], [0, 9], [True] * 2)
     pixels = [set((one.y.astype(int) * 24 + one.x).tolist()) for one in (found[0], expected)]

@@ -88,18 +88,14 @@ class TexventPixels(GpuPixels[TexventConfig]):
 
     def shares(self, span: Span) -> Float64Array:
         """See `GpuPixels` and `CacheSchedule`."""
-        shares = np.empty(span.start_us.shape)
-        self._passed = copy.deepcopy(self._schedules)
-        for clip, schedule in enumerate(self._passed):
-            starts = zip(span.start_us[clip].tolist(), span.from_source[clip].tolist(), strict=True)
-            shares[clip] = [schedule.pass_frame(t, is_source=source) for t, source in starts]
+        shares = _pass_frames(copy.deepcopy(self._schedules), span)
         if span.is_new:
             shares[:, 0] = 1.0
         return shares
 
     def advance(self, span: Span) -> None:
-        """Take over the schedules that `shares` moved along."""
-        self._schedules = self._passed
+        """Move the schedules on, once the events of the frames are there."""
+        _pass_frames(self._schedules, span)
 
     def _scan(self, call: Call) -> tuple[Any, Any, Any]:
         if not self._tracks_intensity:
@@ -134,3 +130,12 @@ class TexventPixels(GpuPixels[TexventConfig]):
             BLOCK=_BLOCK,
             **LAUNCH,
         )
+
+
+def _pass_frames(schedules: Sequence[CacheSchedule], span: Span) -> Float64Array:
+    """The share of every interval, [B, T]; the schedules of the clips move on."""
+    shares = np.empty(span.start_us.shape)
+    for clip, schedule in enumerate(schedules):
+        starts = zip(span.start_us[clip].tolist(), span.from_source[clip].tolist(), strict=True)
+        shares[clip] = [schedule.pass_frame(t, is_source=source) for t, source in starts]
+    return shares

@@ -33,6 +33,8 @@ _THRESHOLD = tl.constexpr(rules.THRESHOLD)
 _UP = tl.constexpr(rules.UP)
 _DOWN = tl.constexpr(rules.DOWN)
 _SCALE = tl.constexpr(rules.SCALE)
+_LARGEST = tl.constexpr(1e3)
+"""Change of brightness that no two allowed intensities differ by, log units."""
 _EQ7 = tl.constexpr(rules.TIMESTAMP_RULES["eq7"])
 _RANDOM = tl.constexpr(rules.TIMESTAMP_RULES["random"])
 _LINEAR = tl.constexpr(rules.TIMESTAMP_RULES["linear"])
@@ -212,7 +214,8 @@ def brightness_of(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
 def count_events(size: tl.tensor, threshold: tl.tensor, rules: tl.tuple) -> tl.tensor:
     """How many events a change of `size` ≥ δ makes, int32."""
     if rules.multi_event:
-        number = tl.floor(size / threshold).to(tl.int32)
+        # Of intensities that are refused after the pass, the size may be NaN or infinite.
+        number = tl.floor(tl.where(size < _LARGEST, size, 0.0) / threshold).to(tl.int32)
     else:
         number = tl.full(size.shape, 1, tl.int32)
     return number
