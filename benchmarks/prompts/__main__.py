@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from benchmarks.prompts import coverage, public, score, sheet, structure, views
+from benchmarks.prompts import public, score, sheet
 from texvent.errors import TexventError
 
 
@@ -37,10 +37,6 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("--coco", type=Path, required=True, help="captions_val2017.json")
     one.add_argument("-o", "--out", type=Path, required=True, help="folder")
     one.set_defaults(run=public.run)
-    one = commands.add_parser("views", help="how often what prompts name is not in view")
-    one.add_argument("prompts", type=Path, help=".csv with columns id, prompt, and perhaps style")
-    one.add_argument("--json", type=Path, help="write what became of each object and word here")
-    one.set_defaults(run=views.run)
     one = commands.add_parser("mosaic", help="all prompts of a sheet as one small image")
     one.add_argument("folder", type=Path, help="what sheet has made")
     one.add_argument("-o", "--out", type=Path, required=True, help=".jpg")
@@ -49,14 +45,6 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("grades", type=Path, help=".csv; columns: " + ", ".join(score.COLUMNS))
     one.add_argument("--json", type=Path, help="write the figures here")
     one.set_defaults(run=score.run)
-    one = commands.add_parser("coverage", help="names of COCO and ImageNet")
-    one.add_argument("--names", type=Path, action="append", help="a list of one's own")
-    one.add_argument("--json", type=Path, help="write the figures here")
-    one.set_defaults(run=coverage.run)
-    one = commands.add_parser("structure", help="what is read, against annotated sentences")
-    one.add_argument("gold", type=Path, help=".json: see benchmarks/prompts/structure.py")
-    one.add_argument("--json", type=Path, help="write the figures, and every fault, here")
-    one.set_defaults(run=structure.run)
     return parser
 
 

@@ -1,22 +1,19 @@
-"""The prompt benchmark: strips that go on, sums of grades, coverage of names, structure."""
+"""The prompt benchmark: strips that go on, sums of grades."""
 
 from __future__ import annotations
 
 import csv
 import json
 import sys
-from pathlib import Path
 
 import cv2
 import pytest
-from benchmarks.prompts import coverage, judging, known, score, structure
+from benchmarks.prompts import score
 from benchmarks.prompts.__main__ import main
-from benchmarks.prompts.gold import GoldAction, read_gold
 from benchmarks.prompts.rates import Share
 
 from texvent.errors import InputError
 
-GOLD = Path(__file__).with_name("prompts_gold.json")
 GRADES = """id,style,nouns_asked,nouns_shown,motion,silently_wrong,fully_right,fully_reported,stand_in,grade,remark
 a,short,2,2,yes,no,yes,no,no,5,
 b,short,3,1,partly,yes,no,no,no,2,no dog
@@ -67,98 +64,6 @@ def test_a_sheet_with_a_fault_is_refused(tmp_path, old, new, said):
     (tmp_path / "g.csv").write_text(GRADES.replace(old, new))
     with pytest.raises(InputError, match=said):
         score.read_grades(tmp_path / "g.csv")
-
-
-def test_names_are_judged_by_their_report():
-    assert coverage.judge("car").kind == "shown"
-    assert coverage.judge("zorble").kind == "not understood"
-    assert coverage.judge("zorble car").kind == "partly"
-    lists = {title: coverage.read_names(path) for title, path in coverage.LISTS.items()}
-    assert [len(names) for names in lists.values()] == [80, 100]
-
-
-def test_annotated_sentences_are_compared():
-    findings = structure.compare(read_gold(GOLD))
-    counts = findings.counts
-    assert counts["things"]["silent"] == 0
-    assert counts["things"]["reported"] == 2  # wug, qwerty
-    assert counts["counts"] == {"right": 4}
-    assert counts["attributes"] == {"right": 2}
-    assert counts["excluded"] == {"right": 1}
-    assert findings.objects == findings.asked_for
-
-
-def test_a_verb_of_another_subject_is_silent():
-    words = {"verb": "roll", "subject": "man"}
-    entry = {"id": "x", "prompt": "A man stands and a ball rolls.", "actions": [words],
-             "things": [{"noun": "man"}, {"noun": "ball"}]}  # fmt: skip
-    findings = structure.compare([read_gold_entry(entry)])
-    assert findings.counts["actions of their subject"] == {"silent": 1}
-    assert findings.silent[0]["what"] == "man roll"
-
-
-def judge(prompt, **said):
-    """(kind, what) → state of everything that an annotated sentence asks."""
-    sentence = read_gold_entry({"id": "x", "prompt": prompt, **said})
-    return {(kind, what): state for kind, what, state in judging.Reading.of(sentence).judge()}
-
-
-def test_a_verb_that_is_shown_by_another_is_substituted():
-    action = {"verb": "wiggle", "subject": "cat"}
-    states = judge("a cat wiggles", things=[{"noun": "cat"}], actions=[action])
-    assert states["actions of their subject", "cat wiggle"] == "substituted"
-
-
-def test_a_ground_counts_as_one_but_a_wrong_number_is_silent():
-    things = [{"noun": "dog", "count": 2}, {"noun": "lawn", "count": 1}]
-    states = judge("a dog runs on a lawn", things=things)
-    assert states["counts", "1 lawn"] == "right"
-    assert states["counts", "2 dog"] == "silent"
-
-
-def test_what_a_person_adds_is_not_asked():
-    things = [{"noun": "racket", "count": 1, "implied": True}, {"noun": "ball", "count": 1}]
-    action = {"verb": "play", "subject": "person"}
-    assert judge("a person stands", things=things, actions=[action]) == {}
-
-
-def test_a_refused_sentence_reports_all_of_it():
-    states = judge("ein Hund läuft über die Wiese", things=[{"noun": "dog", "count": 1}])
-    assert set(states.values()) == {"reported"}
-
-
-def test_a_camera_that_travels_is_right_and_one_that_stands_is_silent():
-    said = {"camera": ["ego-motion"], "actions": [{"verb": "drive", "subject": "camera"}]}
-    assert set(judge("driving through a tunnel", **said).values()) == {"right"}
-    assert judge("a car drives", camera=["ego-motion"])["camera", "ego-motion"] == "silent"
-
-
-def test_a_relation_is_not_excused_by_a_lost_word_beside_it():
-    states = judge("a red ball on a wuggish table", relations=[("ball", "under", "table")])
-    assert states["relations", "ball under table"] == "reported"  # "wuggish" for "under"
-    states = judge("a red ball on a wuggish table", relations=[("table", "on", "ball")])
-    assert states["relations", "table on ball"] == "silent"
-
-
-def read_gold_entry(entry):
-    from benchmarks.prompts import gold
-
-    return gold._sentence(entry)
-
-
-def test_a_verb_stands_for_the_kind_of_motion_that_one_clause_gives():
-    assert "drive" in {kind + "e" for kind in known.action_kinds(GoldAction("drive", "car"))}
-    assert known.action_kinds(GoldAction("zorble", "car")) == {"zorbl"}
-
-
-def test_views_count_what_is_named_by_what_is_seen_of_it(tmp_path, monkeypatch, capsys):
-    (tmp_path / "p.csv").write_text("id,prompt\na1,a red ball bounces\na2,qwerty zxcv\n")
-    assert run(monkeypatch, "views", tmp_path / "p.csv", "--json", tmp_path / "v.json") == 0
-    assert "| objects seen | 100 %" in capsys.readouterr().out
-    ball, refused = json.loads((tmp_path / "v.json").read_text())
-    assert ball["objects"] == {"seen": ["ball"]}
-    assert ball["words"]["shown"] == ["red", "ball", "bounces"]
-    assert "nothing in the prompt was understood" in refused["error"]
 
 
 def test_strips_are_drawn_and_the_same_command_goes_on(tmp_path, monkeypatch, capsys):

@@ -1,7 +1,7 @@
 """Nouns whose models strangers do not recognise, and what the models look like.
 
-From a study in which every model was drawn alone and named without its word
-(`benchmarks/prompts/models.csv`). The report lists them as substituted: "glassblower → person".
+From a study in which every model was drawn alone and named without its word.
+The report lists them as substituted: "glassblower → person".
 """
 
 from __future__ import annotations
