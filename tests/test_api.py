@@ -168,17 +168,3 @@ def test_mistakes_are_one_short_line(events, mistake, said):
     assert said in message
     assert len(message) < 300
     assert "\n" not in message
-
-
-def test_values_say_what_they_are_in_one_line(events, tmp_path):
-    frames = texvent.video(PROMPT, **SMALL)
-    first = next(iter(frames))
-    assert repr(first) == "Frame(48x36 float32 RGB, t 0 µs)"
-    assert repr(texvent.Frame(np.zeros((3, 3), np.uint8), 7, False)) == (
-        "Frame(3x3 uint8 grey, t 7 µs, intermediate)"
-    )
-    assert repr(texvent.Video(np.zeros((5, 3, 4), np.uint8), range(5))) == "Video(5 frames, 4x3)"
-    assert repr(frames) == "ProceduralVideo(5 frames, 48x36, 24 fps)"
-    assert repr(texvent.open(events.save(tmp_path / "a.h5"))) == (
-        "EventPackets(48x36, read when iterated)"
-    )

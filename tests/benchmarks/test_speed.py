@@ -176,23 +176,6 @@ def test_what_is_measured_follows_the_schema(document):
     jsonschema.validate(document, SCHEMA)
 
 
-@pytest.mark.parametrize(
-    "damage",
-    [
-        lambda one: one.pop("peers"),
-        lambda one: one["peers"][0].pop("ratio_to_fastest_peer"),
-        lambda one: one["kernels"][0].update(floor_ms=-1.0),
-        lambda one: one["peers"][0]["peers"][0].pop("ms_per_pair"),
-        lambda one: one["gpu"].pop("note"),
-    ],
-)
-def test_the_schema_refuses_what_is_incomplete(document, damage):
-    broken = json.loads(json.dumps(document))
-    damage(broken)
-    with pytest.raises(jsonschema.ValidationError):
-        jsonschema.validate(broken, SCHEMA)
-
-
 def test_stages_and_kernels_are_plausible(document):
     none, flow = document["pipeline"]
     assert none["stages_ms"]["flow"]["median"] == 0

@@ -136,25 +136,6 @@ def test_a_second_pull_does_nothing_and_damage_is_repaired_without_a_download(tm
     assert (path / "pictures" / "a.png").read_bytes() == b"first"
 
 
-def test_progress_reaches_the_size_of_the_archive(tmp_path, register):
-    from rich.console import Console
-
-    from texvent.data.download_bar import DownloadBar
-
-    data_set, index = toy()
-    register(data_set)
-    screen = io.StringIO()
-    bars = []
-
-    def show(total):
-        bars.append(DownloadBar(total, Console(file=screen, force_terminal=True)))
-        return bars[0]
-
-    pull("toy", folder=tmp_path, client=index, progress=show)
-    assert len(bars) == 1
-    assert "download" in screen.getvalue()
-
-
 def test_an_archive_with_another_digest_is_refused_and_not_unpacked(tmp_path, register):
     data_set, _ = toy()
     register(data_set)

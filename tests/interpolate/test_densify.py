@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
-from texvent.errors import InputError
 from texvent.interpolate.densify import densify
 from texvent.pairs.scene_change import SceneChange
 from texvent.video import Frame, Video
@@ -185,26 +184,6 @@ def test_jumps_are_smeared_only_if_asked(flashing):
     frames = run(flashing, options, on_scene_change=lambda *change: seen.append(change))
     assert seen == []
     assert len(frames) > 7
-
-
-def test_bad_streams_are_refused_at_the_frame_that_is_bad():
-    class Stream(Video):
-        """A stream that does not keep its promises."""
-
-        def __iter__(self):
-            return iter(bad)
-
-    base = field([1, 2], [0, 10])
-    video = Stream(base.pixels, base.times_us)
-    good = np.zeros((4, 4))
-    for second, message in (
-        (Frame(good, 0), "strictly increase"),
-        (Frame(np.zeros((4, 5)), 9), "is 5x4, the frames before it are 4x4"),
-        (Frame(np.full((4, 4), np.nan), 9), "NaN, infinite or negative"),
-    ):
-        bad = [Frame(good, 0), second]
-        with pytest.raises(InputError, match=message):
-            run(video)
 
 
 def test_at_most_two_source_frames_are_held():

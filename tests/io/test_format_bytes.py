@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import struct
 import zipfile
 from pathlib import Path
@@ -269,29 +268,3 @@ def test_a_folder_of_esim_itself_needs_the_size(tmp_path: Path) -> None:
     events = load(folder, size=(8, 8))
     assert events.t.tolist() == [1, 2, 11, 12]
     assert events.p.tolist() == [0, 1, 0, 1]
-
-
-def test_evreal_s_wrong_arrays_are_refused(tmp_path: Path) -> None:
-    folder = save(tmp_path / "evreal", one(1, 1, 1, 1, DVS), format="evreal")
-    sound = {path.name: path.read_bytes() for path in folder.iterdir()}
-    for name, array, message in (
-        ("events_ts.npy", np.array([np.nan]), "not seconds"),
-        ("events_ts.npy", np.array([1.0, 2.0]), "shapes"),
-        ("events_xy.npy", np.array([[1.5, 2.0]]), "fractions"),
-        ("events_xy.npy", np.array([[np.inf, 2.0]]), "no pixels"),
-        ("events_p.npy", np.array(["a"]), "polarities are"),
-    ):
-        np.save(folder / name, array)
-        with pytest.raises(FileFormatError, match=message):
-            load(folder)
-        (folder / name).write_bytes(sound[name])
-    for text, message in (
-        ({"sensor_resolution": [1]}, "sensor_resolution"),
-        ({"sensor_resolution": [1.5, 2]}, "sensor_resolution"),
-    ):
-        (folder / "metadata.json").write_text(json.dumps(text))
-        with pytest.raises(FileFormatError, match=message):
-            load(folder)
-    (folder / "events_p.npy").unlink()
-    with pytest.raises(FileFormatError, match=r"has no events_p\.npy"):
-        load(folder, format="evreal")

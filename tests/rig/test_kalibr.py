@@ -193,23 +193,3 @@ def test_what_is_wrong_is_named(tmp_path: Path, old: str, new: str, words: str) 
     assert old in KALIBR
     with pytest.raises(ConfigError, match=words):
         read_rig(write(tmp_path, KALIBR.replace(old, new, 1)), SIZE)
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("cam0: {}\ncam1: {}", "does not say where it is"),
-        ("cam0: {baseline: 0.1}", "the first has none"),
-        ("cam0: {sensor: davis999}", "no sensor 'davis999'"),
-        ("cam0: {sensor: evk4, resolution: [64, 48]}", "but sensor evk4 has 1280x720"),
-        ("cam0: 3", "must hold values by name"),
-        ("cam0: {distortion_model: equidistant}", "needs intrinsics"),
-        ("cam0: {distortion_coeffs: [0.1, 0, 0, 0]}", "without distortion_model"),
-        ("cam0: {field_of_view: 190}", r"must be 1\.\.170"),
-        ("imu0: {}", "describes 0 cameras"),
-        ("cam0: {}\nimu0: {}", "has no accelerometer_noise_density"),
-    ],
-)
-def test_files_that_say_too_little_are_named(tmp_path: Path, text: str, words: str) -> None:
-    with pytest.raises(ConfigError, match=words):
-        read_rig(write(tmp_path, text), SIZE)

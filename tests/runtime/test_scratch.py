@@ -7,14 +7,6 @@ import numpy as np
 from texvent.runtime.scratch import take_scratch
 
 
-def test_the_same_memory_is_handed_out_again():
-    first = take_scratch("test again", 100, np.uint64)
-    assert first.shape == (100,)
-    assert first.dtype == np.uint64
-    assert np.shares_memory(first, take_scratch("test again", 40, np.uint64))
-    assert not np.shares_memory(first, take_scratch("test other", 40, np.uint64))
-
-
 def test_it_grows_to_what_is_asked_for():
     take_scratch("test growth", 10, np.int64)
     assert take_scratch("test growth", 1000, np.int64).shape == (1000,)

@@ -44,21 +44,6 @@ def test_link_definitions_at_the_end_are_no_notes() -> None:
     assert cut_notes(LOG, "0.1.0") == "- First.\n"
 
 
-@pytest.mark.parametrize(
-    ("log", "version"),
-    [
-        (LOG, "0.3.0"),
-        (LOG, "0.2"),
-        ("", "0.1.0"),
-        ("## [0.1.0]\n\n## [0.0.1]\n- Text.\n", "0.1.0"),
-        (LOG + LOG, "0.2.0"),
-    ],
-)
-def test_a_version_without_one_section_with_a_text_is_refused(log: str, version: str) -> None:
-    with pytest.raises(ValueError, match=f"must have one section for {version}, with a text"):
-        cut_notes(log, version)
-
-
 def test_a_tag_is_v_and_the_version() -> None:
     assert checked_version("v0.2.0", SOURCE) == "0.2.0"
     for tag in ("0.2.0", "v0.2", "v0.3.0", "v0.2.0rc1", ""):

@@ -1,7 +1,6 @@
 """The whole benchmark on ten made-up figures: trained, resumed, shown, refused."""
 
 import sys
-import zipfile
 
 import numpy as np
 import pytest
@@ -14,7 +13,7 @@ from texvent.bench.digits.report.page import page_files
 from texvent.bench.digits.report.results import read_report
 from texvent.bench.digits.report.tables import summary_text
 from texvent.bench.digits.run import run_digits
-from texvent.bench.digits.simulation import open_run, simulate_digits
+from texvent.bench.digits.simulation import simulate_digits
 from texvent.bench.document import read_document, write_document
 from texvent.cli.app import main
 from texvent.errors import FileFormatError, MissingDependencyError
@@ -142,24 +141,6 @@ def test_counts_fall_with_the_threshold(data):
     ]
     assert counts == sorted(counts, reverse=True)
     assert counts[0] > 3 * counts[-1]
-
-
-def test_recordings_of_the_other_polarity_or_of_other_digits_are_refused(data, tmp_path):
-    folder = tmp_path / "flipped"
-    folder.mkdir()
-    with zipfile.ZipFile(data[1]) as archive:
-        archive.extractall(folder)
-    plan = tiny_plan((data[0], folder), tmp_path)
-    for path in folder.glob("6*.bin"):
-        content = np.frombuffer(path.read_bytes(), np.uint8).reshape(-1, 5).copy()
-        content[:, 2] ^= 128
-        path.write_bytes(content.tobytes())
-    with pytest.raises(FileFormatError, match="as published have 1 where it falls"):
-        open_run(plan)
-    labels = (folder / "labels.csv").read_text().replace("60001,0", "60001,5")
-    (folder / "labels.csv").write_text(labels)
-    with pytest.raises(FileFormatError, match="have other labels than the images"):
-        open_run(plan)
 
 
 def test_torch_is_asked_for_before_any_work(data, tmp_path, monkeypatch):

@@ -166,30 +166,6 @@ def test_factor_and_upsampler_decide_which_video_is_found(make, model, upsampler
     assert len(paths) == 4
 
 
-def test_wrong_upsamplers_are_refused_before_anything_is_loaded(make, model, tmp_path, monkeypatch):
-    def forbidden(*arguments):
-        raise AssertionError("loaded")
-
-    monkeypatch.setattr(model_run, "load_pipeline", forbidden)
-    with pytest.raises(InputError, match="there is no temporal_upsampler in"):
-        make(folder=tmp_path / "none")
-    spatial = save_upsampler(
-        tmp_path / "spatial",
-        spatial_upsample=True,
-        temporal_upsample=False,
-        use_rational_resampler=False,
-    )
-    with pytest.raises(InputError, match="enlarges frames; refine needs one that adds frames"):
-        make(folder=spatial)
-    with pytest.raises(InputError, match="holds the class AutoencoderKLLTX2Video; a temporal"):
-        make(folder=model / "vae")
-    cut = save_upsampler(tmp_path / "cut")
-    (weights,) = cut.glob("*.safetensors")
-    weights.write_bytes(weights.read_bytes()[:-4])
-    with pytest.raises(FileFormatError, match="is damaged: it has"):
-        make(folder=cut)
-
-
 def test_an_upsampler_of_other_latents_is_refused_before_denoising(make, tmp_path):
     foreign = save_upsampler(tmp_path / "foreign", in_channels=8)
     with pytest.raises(InputError, match="for latents of 8 channels, those of the model have 4"):

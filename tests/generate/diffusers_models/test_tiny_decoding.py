@@ -85,24 +85,6 @@ class Quiet:
         raise AssertionError(line)
 
 
-@pytest.mark.parametrize(
-    ("name", "file", "layout", "message"),
-    [
-        ("wan", "taew2_1", COGVIDEOX, "takes latents of 4 channels, this model makes 16"),
-        ("wan", "taehv", WAN, "made for other latents: .* AutoencoderKLWan, .* taew2_1 or taew2_2"),
-        ("cogvideox", "taehv1_5", COGVIDEOX, "its tiny one is called taecvx"),
-        ("ltx", "taeltx_2", WAN, "its own decoder is AutoencoderKLLTXVideo"),
-        ("cosmos25", "taew2_1", WAN, "its guardrail must see the frames"),
-    ],
-)
-def test_a_decoder_of_other_latents_is_refused_before_the_model_is_loaded(
-    name, file, layout, message, models, tmp_path
-):
-    path = save_tiny_decoder(tmp_path / f"{file}.safetensors", layout)
-    with pytest.raises(InputError, match=message):
-        build(models(name), decoder=path).generate(PROMPT, progress=Quiet())
-
-
 def test_a_decoder_of_other_sizes_is_refused_before_denoising(models, tmp_path):
     wide = dataclasses.replace(WAN, patch=2)
     path = save_tiny_decoder(tmp_path / "mine.safetensors", wide)

@@ -85,22 +85,6 @@ def test_events_know_both_prompts(server, tmp_path, monkeypatch):
     assert batch.metadata["source"]["prompt"] == LONG
 
 
-@pytest.mark.parametrize(
-    ("answer", "why"),
-    [
-        ((401, "who are you?"), "answers 401: who are you?; set TEXVENT_CHAT_KEY"),
-        ((500, "broken"), "answers 500: broken"),
-        ((200, "<html>"), "does not speak the OpenAI chat protocol"),
-        ((200, "{}"), "does not speak the OpenAI chat protocol"),
-        ((200, says("  ")), "answers nothing"),
-    ],
-)
-def test_what_a_server_does_wrong_is_one_clear_error(server, answer, why):
-    server.answer = answer
-    with pytest.raises(TexventError, match=why.replace("?", r"\?")):
-        upsample_prompt("red car", UpsampleConfig(upsample=server.address))
-
-
 def test_a_server_or_model_that_is_not_there_is_named(server, tmp_path):
     with pytest.raises(TexventError, match="cannot be reached"):
         upsample_prompt("red car", UpsampleConfig(upsample="http://127.0.0.1:1/v1"))

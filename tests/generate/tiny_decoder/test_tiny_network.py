@@ -137,30 +137,6 @@ def test_frames_are_decoded_when_they_are_asked_for(tmp_path, monkeypatch):
     assert len(list(frames)) == 16
 
 
-def test_files_of_other_networks_and_damaged_ones_are_refused(tmp_path):
-    path = save_tiny_decoder(tmp_path / "any.safetensors", BASE)
-    whole = path.read_bytes()
-    path.write_bytes(whole[:-10])
-    with pytest.raises(FileFormatError, match=r"any\.safetensors is damaged: it has \d+ bytes"):
-        read_tiny_decoder(path)
-    path.write_bytes(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
-    with pytest.raises(FileFormatError, match=r"any\.safetensors is a git-lfs pointer"):
-        read_tiny_decoder(path)
-    (tmp_path / "short.pth").write_bytes(whole[:50])
-    with pytest.raises(FileFormatError, match=r"short\.pth cannot be read as network weights"):
-        read_tiny_decoder(tmp_path / "short.pth")
-    torch.save({"decoder.5.weight": torch.zeros(2)}, tmp_path / "other.pth")
-    with pytest.raises(FileFormatError, match="holds no tiny video decoder; published"):
-        read_tiny_decoder(tmp_path / "other.pth")
-    tensors = {name: torch.from_numpy(one) for name, one in random_tensors(BASE).items()}
-    torch.save({**tensors, "decoder.8.weight": torch.zeros(6, 8, 1, 1)}, tmp_path / "bent.pth")
-    with pytest.raises(FileFormatError, match=r"has decoder\.8\.weight of shape \[6, 8, 1, 1\]"):
-        read_tiny_decoder(tmp_path / "bent.pth")
-    torch.save({**tensors, "decoder.22.bias": torch.full((3,), torch.nan)}, tmp_path / "nan.pth")
-    with pytest.raises(FileFormatError, match=r"decoder\.22\.bias holds values that are NaN"):
-        read_tiny_decoder(tmp_path / "nan.pth")
-
-
 def test_code_in_a_pickle_is_not_run(tmp_path):
     class Harmful:
         def __reduce__(self):

@@ -121,23 +121,6 @@ def test_no_events_give_empty_axes(kind):
     ax.figure.canvas.draw()
 
 
-@pytest.mark.parametrize(
-    ("kind", "options", "says"),
-    [
-        ("frames", {}, "unknown kind of plot 'frames'.*frame"),
-        ("rate", {"bins": 3}, "plot rate has no option 'bins'.*bin_us"),
-        ("rate", {"bin_us": 0}, "bin_us"),
-        ("isi", {"bins": 0}, "bins"),
-        ("cloud", {"max_events": 0}, "max_events"),
-        ("frame", {"palette": "blue"}, "palette"),
-    ],
-    ids=["kind", "option", "bin_us", "bins", "max_events", "palette"],
-)
-def test_what_no_plot_has_is_named(kind, options, says):
-    with pytest.raises(ConfigError, match=says):
-        EVENTS.plot(kind, **options)
-
-
 def test_a_cloud_needs_3d_axes_and_only_a_cloud(pyplot):
     with pytest.raises(ConfigError, match=r"plot cloud cannot be drawn.*projection"):
         EVENTS.plot("cloud", ax=pyplot.figure().add_subplot())
