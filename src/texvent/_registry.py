@@ -38,7 +38,7 @@ def suggest(name: object, allowed: tuple[str, ...], *, longest: int = LONGEST_LI
 
     Of a list of more than `longest` characters, only the closest match or the first names are said.
     """
-    text = name if isinstance(name, str) and len(name) <= LONGEST_NAME else ""
+    text = name.lower() if isinstance(name, str) and len(name) <= LONGEST_NAME else ""
     close = difflib.get_close_matches(text, allowed, n=1)
     if not close and len(text) >= SHORTEST_START:
         close = [one for one in allowed if one.startswith(text)][:1]

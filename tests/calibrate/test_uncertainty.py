@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from texvent.calibrate.estimates import Estimate, Kept
 from texvent.calibrate.recording import TimeSpan
-from texvent.calibrate.uncertainty import FARTHEST, cut_blocks, vertex
+from texvent.calibrate.uncertainty import FARTHEST, cut_blocks, vertex, widen
 
 
 @given(place=st.floats(-1.0, 1.0), height=st.floats(0, 10), bend=st.floats(0.01, 100))
@@ -20,6 +20,11 @@ def test_the_vertex_of_any_parabola_is_found(place, height, bend):
 def test_without_a_minimum_the_vertex_is_far_away():
     assert vertex(np.array([3.0, 2.0, 1.0])) == FARTHEST
     assert vertex(np.array([1.0, 2.0, 1.5])) == -FARTHEST
+
+
+def test_ends_are_widened_by_what_other_options_may_shift():
+    own, others = np.array([[-0.3, -0.5], [0.6, 0.5]]), np.array([[0.16, 0.0], [0.64, 0.0]])
+    np.testing.assert_allclose(widen(own, others), [[-0.5, -0.5], [1.0, 0.5]])
 
 
 @given(start=st.integers(0, 10**15), length=st.integers(1, 10**7))

@@ -32,7 +32,7 @@ def test_a_preset_of_the_default_simulator_is_its_own():
         ),
         (
             {"preset": "davis346"},
-            "preset 'davis346' is one of several simulators; "
+            "several simulators have a preset 'davis346'; "
             "give simulator='physical' or simulator='voltmeter'",
         ),
         ({"preset": "evk5"}, "no simulator has a preset 'evk5'; .*did you mean 'evk4'"),

@@ -15,20 +15,16 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 
 from tests.latents.tiny_autoencoder import write_autoencoder  # noqa: E402
 
-from texvent._registry import TASKS  # noqa: E402
 from texvent._version import full_version  # noqa: E402
-from texvent.train.run import train_from_file  # noqa: E402
-from texvent.train.schedule import Hardware  # noqa: E402
 
 from .sequences.windowed_specification import TEXT, write_specification  # noqa: E402
 from .written_samples import write_bars  # noqa: E402
 
 pytestmark = pytest.mark.torch
-CPU = Hardware(device="cpu")
-torch.set_num_threads(1)  # as the child has
-# The child takes its version from this process: a commit on the tree, made while the tests run,
-# is no other version of texvent.
-KILLED = """
+# Every training is a process of its own, as a user's is: libraries that other tests loaded, and
+# what they set, could change a last bit. It takes its version from this process: a commit on the
+# tree, made while the tests run, is no other version of texvent.
+TRAINING = """
 import os, signal, sys
 from pathlib import Path
 import torch
@@ -46,8 +42,9 @@ class Kill(NoProgress):
             os.kill(os.getpid(), signal.SIGKILL)
 
 if __name__ == "__main__":
-    task, path, folder = sys.argv[2:]
-    train_from_file(TASKS.load(task), Path(path), Path(folder), Hardware(device="cpu"), Kill())
+    task, path, folder, end = sys.argv[2:]
+    watcher = Kill() if end == "killed" else NoProgress()
+    train_from_file(TASKS.load(task), Path(path), Path(folder), Hardware(device="cpu"), watcher)
 """
 CLIPS = 'specification = "tiny.toml", variant = "paper", cache = "cache"'
 WINDOWS = f"data = {{{CLIPS}, slice_us = 20_000, length = 3"
@@ -80,13 +77,16 @@ def test_a_killed_training_ends_as_one_that_was_not(task: str, tmp_path: Path) -
     path = tmp_path / "training.toml"
     path.write_text(SCHEDULE + TRAININGS[task])
     one, other = tmp_path / "whole", tmp_path / "killed"
-    train_from_file(TASKS.load(task), path, one, CPU)
 
-    words = [sys.executable, "-c", KILLED, full_version(), task, str(path), str(other)]
-    assert subprocess.run(words, timeout=600).returncode == -signal.SIGKILL
+    def train(folder: Path, end: str) -> int:
+        words = [sys.executable, "-c", TRAINING, full_version(), task, str(path), str(folder), end]
+        return subprocess.run(words, timeout=600, check=False).returncode
+
+    assert train(one, "done") == 0
+    assert train(other, "killed") == -signal.SIGKILL
     before = stored(other)
     assert before["epochs"] == "1"
-    train_from_file(TASKS.load(task), path, other, CPU)
+    assert train(other, "done") == 0
     whole, killed = stored(one), stored(other)
     # What was done before is not done again.
     assert killed.pop("seconds")[:1] == before.pop("seconds")

@@ -201,7 +201,7 @@ def _thresholds(
         return np.array([(on + off) / 2, on - off])
 
     own = bootstrap(estimate, (len(blocks),)) - estimate(np.ones(len(blocks)))
-    shifts = np.sign([[-1], [1]]) * np.sqrt(own**2 + others)
+    shifts = widen(own, others)
     return [
         Estimate(name, value, value * math.exp(low), value * math.exp(high), unit)
         for name, unit, value, (low, high) in zip(
@@ -212,6 +212,11 @@ def _thresholds(
             strict=True,
         )
     ]
+
+
+def widen(own: Float64Array, others: Float64Array) -> Float64Array:
+    """Ends of intervals below and above, [2, k], with independent squared shifts added."""
+    return np.sign([[-1], [1]]) * np.sqrt(own**2 + others)
 
 
 def _counts(events: EventStream) -> tuple[int, int]:

@@ -8,13 +8,24 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from texvent.cli.trial_pairs import MOST_PAIRS, MOST_SECONDS, Clock, Scratch, Trial, read_pairs
+import numpy as np
+
+from texvent.cli.trial_pairs import (
+    MOST_PAIRS,
+    MOST_SECONDS,
+    Clock,
+    Pair,
+    Scratch,
+    Trial,
+    read_pairs,
+)
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles
 from texvent.runtime.memory import peak_bytes
 from texvent.runtime.threads import count_threads
+from texvent.simulate.build import build_simulator
 from texvent.video import MovingStream
 from texvent.view.page.sample import SAMPLE_EVENTS
 
@@ -51,10 +62,19 @@ class Estimate:
     peak_bytes: int | None
     """Highest resident memory, which does not grow with the clip; None where the system does not
     tell it."""
+    net_events: float = 0.0
+    """Events per pair that the change between the pairs tried makes at least; a single pair of slow
+    motion may fire none."""
 
     def events(self, pairs: int) -> Range:
         """Events of a clip of that many pairs of frames, were all like those tried."""
-        return Range.of([one.events for one in self.trials], times=pairs)
+        found = Range.of([one.events for one in self.trials], times=pairs)
+        return Range(*(max(one, pairs * self.net_events) for one in found))
+
+    @property
+    def is_slow(self) -> bool:
+        """Whether most events need several pairs to add up."""
+        return self.net_events > 2 * Range.of([one.events for one in self.trials], times=1).mean
 
     def seconds(self, pairs: int) -> Range:
         """Time, s: between stages that share all cores and stages one after the other."""
@@ -70,11 +90,11 @@ class Estimate:
         return self.trials[1:] or self.trials
 
     def sizes(self, pairs: int) -> dict[str, float]:
-        """Bytes by extension, none where no pair was done.
+        """Bytes by extension, none where no pair was done or its files would hold hardly an event.
 
         An image does not grow, and a page holds a sample of the events.
         """
-        if not any(one.sizes for one in self.trials):
+        if self.is_slow or not any(one.sizes for one in self.trials):
             return {}
         mean = max(self.events(1).mean, 1e-9)
         grown = {".png": 1.0, ".html": min(pairs, SAMPLE_EVENTS / mean)}
@@ -109,7 +129,9 @@ def estimate_run(simulation: Simulation, files: RunFiles) -> Estimate:
     ):
         clock = Clock(compiled)
         scratch = Scratch(simulation, files, Path(folder), compiled, clock)
+        net = NetChange(simulation)
         for pair in read_pairs(video, total, compiled, clock):
+            net.see(pair)
             trials.append(scratch.later(pair) if trials else scratch.first(pair))
             if len(trials) == 1:
                 fixed_s = max(_process_seconds() - compiled() - trials[0].seconds, 0.0)
@@ -120,7 +142,41 @@ def estimate_run(simulation: Simulation, files: RunFiles) -> Estimate:
         seconds_fixed=fixed_s,
         sizes_fixed=scratch.sizes_fixed,
         peak_bytes=None if peak is None else peak + BLOCKS_BYTES,
+        net_events=net.events_per_pair,
     )
+
+
+class NetChange:
+    """Events that the change of brightness between the pairs tried makes at least.
+
+    Every crossing of a threshold counts, however slowly it came about; change that goes back counts
+    nothing, and nor does any of a model that forgets between pairs.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        """Take threshold and balance of the run's model."""
+        model = build_simulator(simulation.settings.run, simulation.settings.simulate)
+        self._forgets = getattr(model, "slow_change", None) is not None
+        self._threshold, self._balance = model.contrast_threshold, model.balance
+        self._last: tuple[int, Any] | None = None
+        self._events, self._span_us, self._interval_us = 0.0, 0, 0
+
+    def see(self, pair: Pair) -> None:
+        """Compare with the pair before."""
+        now = np.log(np.maximum(pair.first.luma + self._balance, 1e-3))
+        if self._last is not None:
+            t_us, before = self._last
+            self._events += float(np.floor(np.abs(now - before) / self._threshold).sum())
+            self._span_us += pair.first.t_us - t_us
+        self._last = pair.first.t_us, now
+        self._interval_us = pair.second.t_us - pair.first.t_us
+
+    @property
+    def events_per_pair(self) -> float:
+        """At the rate between the pairs seen."""
+        if self._forgets or self._span_us <= 0:
+            return 0.0
+        return self._events * self._interval_us / self._span_us
 
 
 def _process_seconds() -> float:
@@ -164,6 +220,8 @@ def _shown(found: Range) -> str:
 
 def _sureness(estimate: Estimate) -> str:
     """What makes the numbers rough, besides what the pairs differ by."""
+    if estimate.is_slow:
+        return "; slow change adds up between them"
     if len(estimate.trials) >= min(MOST_PAIRS, estimate.pairs_total or MOST_PAIRS):
         return ""
     part = "" if estimate.trials[0].sizes else "less than "

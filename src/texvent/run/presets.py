@@ -58,7 +58,7 @@ def find_preset(simulator: str | None, preset: str | None) -> tuple[str, str]:
     if owners:
         whose = f"simulator {shown(chosen)} has no preset {shown(preset)}"
         if simulator is None:
-            whose = f"preset {shown(preset)} is one of several simulators"
+            whose = f"several simulators have a preset {shown(preset)}"
         named = " or ".join(f"simulator='{name}'" for name in owners)
         whole = f" preset='{preset}'" if len(owners) == 1 else ""
         raise ConfigError(f"{whose}; give {named}{whole}")

@@ -21,6 +21,8 @@ SEVERAL = 2.0
 """A pixel that ranges over so many thresholds has fired in any model that remembers."""
 LOST_BELOW = 0.1
 """Signal events for each such pixel, below which the signal counts as lost."""
+STILL_LEVELS = 2.0
+"""Change that a codec makes of a video at rest, of 255."""
 NOISY_ABOVE = 0.95
 """Share of noise from which a run is nearly all noise."""
 HELD_BACK = (
@@ -95,6 +97,12 @@ class SignalTally:
 
     def _stillness(self, ranges: NDArray[Any], threshold: float) -> str:
         """How little changes; and a threshold below the largest change, if there is any."""
+        most_levels = float((self._high - self._low).max(initial=0.0))
+        if most_levels <= STILL_LEVELS:
+            return (
+                f"the video stands still, no pixel changes by more than {most_levels:.0f} of 255 "
+                "levels; see `texvent check VIDEO`"
+            )
         share = float(np.mean(ranges >= threshold))
         what = "nothing changed" if share == 0 else f"{share:.2%} of the pixels changed"
         advice, most = "check the video", float(ranges.max())

@@ -327,11 +327,11 @@ class WebPage:
             folder = str(self._workspace.new_folder(page[0]))
             return SimulateJob(folder=folder, options=options, limits=self._limits, **source)
 
-        self._jobs.stop(page)
         try:
             if source.get("video") == "":
                 raise ConfigError("there is no video yet; drop one, or choose a file")
             options = _options(*common, **more)
+            self._jobs.stop(page)
             self._jobs.start(page, job)
         except TexventError as error:
             return self._values(Answer(kind="failed", text=str(error)))
@@ -382,9 +382,9 @@ def _presets(simulator: str) -> list[str]:
 def _hint() -> str:
     simulator = RunConfig.simulator
     return (
-        f"Which one? **{simulator}** with **{_presets(simulator)[0]}** is the most accurate by "
-        "measurement; the others are there to compare. A preset named after a camera has its "
-        "constants. Without a sensor a video keeps its size, and a prompt is drawn at "
+        f"Which one? **{simulator}** with **{_presets(simulator)[0]}** is fast and close to the "
+        "best by measurement; the others are there to compare. A preset named after a camera has "
+        "its constants. Without a sensor a video keeps its size, and a prompt is drawn at "
         f"{parse_sensor(DEFAULT_SENSOR)}."
     )
 

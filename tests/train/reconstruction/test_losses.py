@@ -10,6 +10,7 @@ from ...metrics.lpips.lpips_files import narrow_weights
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
+from texvent.train.reconstruction.config import ReconstructionLoss  # noqa: E402
 from texvent.train.reconstruction.image_losses import (  # noqa: E402
     dissimilarity,
     inconsistency,
@@ -17,6 +18,7 @@ from texvent.train.reconstruction.image_losses import (  # noqa: E402
     ssim,
 )
 from texvent.train.reconstruction.lpips import LpipsLoss  # noqa: E402
+from texvent.train.reconstruction.sequence_loss import SequenceLoss  # noqa: E402
 
 pytestmark = pytest.mark.torch
 
@@ -141,6 +143,16 @@ def test_consistency_takes_places_between_pixels_and_ignores_unknown_flow():
     loss.sum().backward()
     assert loss.item() == 0
     assert not later.grad.any()
+
+
+def test_the_consistency_of_a_window_is_with_the_one_before_along_its_own_flow():
+    scene = torch.from_numpy(images(1, 20, 24)).double()
+    moving = torch.stack([scene[..., :, 4:], scene[..., :, :20]], dim=1)
+    flow = torch.zeros(1, 2, 2, 20, 20, dtype=torch.float64)
+    flow[:, 1, 0] = 4
+    options = ReconstructionLoss(lpips=0, l1=1.0, consistency=1.0, consistency_from=1)
+    assert SequenceLoss(options, None)(moving, moving, flow).item() < 1e-9
+    assert SequenceLoss(options, None)(moving, moving, flow.flip(1)).item() > 0.1
 
 
 def test_images_that_move_with_the_flow_are_consistent():

@@ -133,12 +133,12 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
             size_text(stage.bytes * stage.samples),
             f"{stage.seconds:.2f}",
             time_text(stage.seconds * stage.samples / processes),
-            f"{100 * stage.seconds_error / stage.seconds:.0f} %" if stage.seconds else "",
+            f"{100 * stage.seconds_error / stage.seconds:.0f} %" if stage.tried > 1 else "?",
         )
     with result_console() as console:
         console.print(table)
     total = sum(stage.bytes * stage.samples for stage in stages)
-    write_out(f"in all   {size_text(total)}, from a trial of {stages[0].tried} samples each:\n")
+    write_out(f"in all   {size_text(total)}, from a trial with {stages[0].tried} of each:\n")
     of_events = (stage for stage in stages if stage.name != VIDEOS)
     tried = Statistics.of(record for stage in of_events for record in stage.records)
     write_out("".join(f"{line}\n" for line in summary_lines(tried)))

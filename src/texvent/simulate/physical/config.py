@@ -50,8 +50,7 @@ class PhysicalConfig:
     thresholds, as in a sensor that was on before, for frames without grain (random), or just reset
     (zero); leak then begins to fire after 1 / leak_rate_hz."""
     residual_decay_hz: float = 0.0
-    """Rate at which a pixel forgets change that has not fired yet, per second; 0 is never, 2.5
-    does what a cache leak of 0.1 per frame does at 24 frames per second."""
+    """Rate at which a pixel forgets change that has not fired yet, per second; 0 is never."""
     cutoff_hz: float = 250.0
     """Bandwidth of the photoreceptor at white; proportionally less at lower intensity. 0 is
     unlimited."""

@@ -106,8 +106,8 @@ class TexventSimulator(SteppingSimulator):
         """Why slow change may fire nothing, and the options that help."""
         if self._forgets:
             return (
-                f"cache='{self.config.cache}' forgets what it saw within one pair of frames, so "
-                "slow change never adds up; give cache='global', or leave out preset='paper'"
+                f"cache='{self.config.cache}' forgets earlier frames, so slow change never adds "
+                "up; give cache='global'"
             )
         if self.config.residual_decay_hz > 1:
             return "references decay faster than the video changes; lower residual_decay_hz"
