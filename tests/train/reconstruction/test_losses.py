@@ -152,7 +152,7 @@ def test_the_consistency_of_a_window_is_with_the_one_before_along_its_own_flow()
     flow[:, 1, 0] = 4
     options = ReconstructionLoss(lpips=0, l1=1.0, consistency=1.0, consistency_from=1)
     assert SequenceLoss(options, None)(moving, moving, flow).item() < 1e-9
-    assert SequenceLoss(options, None)(moving, moving, flow.flip(1)).item() > 0.1
+    assert SequenceLoss(options, None)(moving, moving, flow.flip(1)).item() > 0.01
 
 
 def test_images_that_move_with_the_flow_are_consistent():
