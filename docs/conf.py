@@ -118,7 +118,7 @@ CHILDREN = {
         f"simulators/{name}"
         for name in ("texvent", "esim", "v2e", "physical", "cameras", "voltmeter", "senpi", "v2ce")
     ],
-    "benchmark": ["results/fidelity", "results/fidelity-full"],
+    "benchmark": ["results/fidelity"],
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
     "digits": ["results/digits", "results/digits-all"],
     "datasets": [
