@@ -28,7 +28,9 @@ def preset_help() -> dict[str, tuple[str, ...]]:
         name: tuple(one + "*" * ((name, one) in bound) for one in presets)
         for name, presets in presets_by_simulator().items()
     }
-    return rows | {"*": ("by definition, its events depend on the frame rate",)}
+    *_, last = (name for name, presets in rows.items() if any("*" in one for one in presets))
+    rows[last] += ("where * depends on the frame rate, by definition",)
+    return rows
 
 
 def find_preset(simulator: str | None, preset: str | None) -> tuple[str, str]:
