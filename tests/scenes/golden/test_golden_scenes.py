@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-
 from tests.scenes.golden.golden import (
     CHANNELS,
     describe,
