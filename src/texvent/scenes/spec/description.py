@@ -6,23 +6,13 @@ Motions, moves and light have the same fields in both; `vars` copies them.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from texvent.scenes import description as staged
 from texvent.scenes.colours import PALETTES, find_colour
 from texvent.scenes.description import NamedColour, SceneDescription
-from texvent.scenes.spec.scene import (
-    Camera,
-    CameraMove,
-    Effect,
-    Light,
-    Motion,
-    Picture,
-    Place,
-    Relation,
-    Scene,
-    SceneObject,
-    object_ids,
-)
+from texvent.scenes.spec.data import scene_from_data
+from texvent.scenes.spec.scene import Scene, SceneObject, number_nouns, object_ids
 
 
 def to_description(scene: Scene) -> SceneDescription:
@@ -41,7 +31,7 @@ def to_description(scene: Scene) -> SceneDescription:
             staged.Effect(
                 one.kind,
                 None if one.source is None else index[one.source],
-                _named_colour(one.colour, "effect"),
+                _colour(one.colour, "effect"),
                 one.start_s,
             )
             for one in scene.effects
@@ -52,11 +42,11 @@ def to_description(scene: Scene) -> SceneDescription:
             camera.framing,
             None if camera.target is None else index[camera.target],
         ),
-        light=staged.Illumination(**{**vars(light), "tint": _named_colour(light.tint, "light")}),
+        light=staged.Illumination(**{**vars(light), "tint": _colour(light.tint, "light")}),
         surroundings=staged.Surroundings(
             place.pop("name"),
-            _named_colour(place.pop("colour"), "surface"),
-            _named_colour(place.pop("sky"), "surface"),
+            _colour(place.pop("colour"), "surface"),
+            _colour(place.pop("sky"), "surface"),
             **place,
         ),
         is_timelapse=scene.is_timelapse,
@@ -68,56 +58,55 @@ def to_description(scene: Scene) -> SceneDescription:
 def from_description(description: SceneDescription) -> Scene:
     """The scene of a description; the report of its words is left out.
 
-    Relations stand at their subjects, so that their order across subjects is lost.
+    Relations stand at their subjects: those of a description are in the order of these.
+
+    Raises:
+        ConfigError: a value is out of range, or relations go round in a circle.
     """
-    shot, around = description.shot, dict(vars(description.surroundings))
-    ids = object_ids(
-        Scene(objects=tuple(SceneObject(noun=one.noun) for one in description.objects))
-    )
-    light = {**vars(description.light), "tint": _name(description.light.tint)}
-    return Scene(
-        prompt=description.prompt,
-        objects=tuple(
-            _scene_object(one, [each for each in description.relations if each.subject == n], ids)
-            for n, one in enumerate(description.objects)
-        ),
-        effects=tuple(
-            Effect(
-                kind=one.kind,
-                source=None if one.source is None else ids[one.source],
-                colour=_name(one.colour),
-                start_s=one.start_s,
-            )
-            for one in description.effects
-        ),
-        camera=Camera(
-            moves=tuple(CameraMove(**vars(one)) for one in shot.moves),
-            target=None if shot.target is None else ids[shot.target],
-            is_grey=description.is_grey,
-            **{"view": shot.view, "framing": shot.framing},
-        ),
-        light=Light(**light),
-        place=Place(
-            name=around.pop("place"),
-            colour=_name(around.pop("colour")),
-            sky=_name(around.pop("sky")),
-            **around,
-        ),
-        absent=description.absent,
-        is_timelapse=description.is_timelapse,
+    shot, place = description.shot, dict(vars(description.surroundings))
+    ids = number_nouns([one.noun for one in description.objects])
+    return scene_from_data(
+        {
+            "prompt": description.prompt,
+            "objects": [_object_data(description, n, ids) for n in range(len(ids))],
+            "effects": [
+                {
+                    **vars(one),
+                    "source": None if one.source is None else ids[one.source],
+                    "colour": _name(one.colour),
+                }
+                for one in description.effects
+            ],
+            "camera": {
+                "moves": [vars(one) for one in shot.moves],
+                "view": shot.view,
+                "framing": shot.framing,
+                "target": None if shot.target is None else ids[shot.target],
+                "is_grey": description.is_grey,
+            },
+            "light": {**vars(description.light), "tint": _name(description.light.tint)},
+            "place": {
+                "name": place.pop("place"),
+                "colour": _name(place.pop("colour")),
+                "sky": _name(place.pop("sky")),
+                **place,
+            },
+            "absent": description.absent,
+            "is_timelapse": description.is_timelapse,
+        }
     )
 
 
 def _staged_object(one: SceneObject) -> staged.SceneObject:
-    first, *then = [staged.ObjectMotion(**vars(motion)) for motion in one.motions] or [None]
+    motions = [staged.ObjectMotion(**vars(motion)) for motion in one.motions]
     return staged.SceneObject(
         one.noun,
         one.count,
-        _named_colour(one.colour, "surface"),
+        _colour(one.colour, "surface"),
         one.size,
-        first,
+        motions[0] if motions else None,
         one.placement,
-        tuple(filter(None, then)),
+        tuple(motions[1:]),
         one.material,
         None if one.picture is None else staged.Picture(**vars(one.picture)),
         one.blink_hz,
@@ -125,32 +114,33 @@ def _staged_object(one: SceneObject) -> staged.SceneObject:
     )
 
 
-def _scene_object(
-    one: staged.SceneObject, relations: Sequence[staged.Relation], ids: Sequence[str]
-) -> SceneObject:
-    """An object with the relations of which it is the subject."""
-    motions = (one.motion, *one.then) if one.motion is not None else ()
-    words = {"material": one.material, "placement": one.side}
-    return SceneObject(
-        noun=one.noun,
-        count=one.count,
-        colour=_name(one.colour),
-        size=one.scale,
-        motions=tuple(Motion(**vars(motion)) for motion in motions),
-        relations=tuple(_relation(relation, ids) for relation in relations),
-        picture=None if one.picture is None else Picture(**vars(one.picture)),
-        blink_hz=one.blink_hz,
-        is_lit=one.is_lit,
-        **words,
-    )
+def _object_data(description: SceneDescription, number: int, ids: Sequence[str]) -> dict[str, Any]:
+    """Plain values of an object, with the relations of which it is the subject."""
+    one = description.objects[number]
+    relations = [relation for relation in description.relations if relation.subject == number]
+    return {
+        "noun": one.noun,
+        "count": one.count,
+        "colour": _name(one.colour),
+        "size": one.scale,
+        "material": one.material,
+        "placement": one.side,
+        "motions": [vars(motion) for motion in (one.motion, *one.then) if motion is not None],
+        "relations": [
+            {
+                "kind": relation.kind,
+                "to": [ids[target] for target in relation.targets],
+                "way": relation.way or None,
+            }
+            for relation in relations
+        ],
+        "picture": None if one.picture is None else vars(one.picture),
+        "blink_hz": one.blink_hz,
+        "is_lit": one.is_lit,
+    }
 
 
-def _relation(one: staged.Relation, ids: Sequence[str]) -> Relation:
-    words = {"kind": one.kind, "way": one.way or None}
-    return Relation(to=tuple(ids[target] for target in one.targets), **words)
-
-
-def _named_colour(name: str | None, palette: str) -> NamedColour | None:
+def _colour(name: str | None, palette: str) -> NamedColour | None:
     return None if name is None else NamedColour(name, find_colour(name, PALETTES[palette]))
 
 

@@ -2,7 +2,7 @@
 
     Scene(
         objects=(
-            SceneObject(noun="car", colour="red", motions=(Motion(kind="drive", direction="left"),)),
+            SceneObject(noun="car", motions=(Motion(kind="drive", direction="left"),)),
             SceneObject(noun="tree", count=2),
         ),
         light=Light(kind="dusk"),
@@ -15,6 +15,7 @@ the text under it is its description.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, Literal, TypeAlias
 
@@ -120,7 +121,7 @@ class SceneObject:
     noun: Annotated[str, Word("noun")]
     """Model: a noun of `texvent scenes list`, or of a folder of your own models."""
     id: str = ""
-    """Name for relations; left out: the noun, from its second object on with a number ("tree 2")."""
+    """Name for relations; left out: the noun, and a number from its second object on ("tree 2")."""
     count: Count = 1
     """Number of copies."""
     colour: Surface | None = None
@@ -277,10 +278,18 @@ def object_ids(scene: Scene) -> tuple[str, ...]:
         >>> object_ids(Scene(objects=(tree, SceneObject(noun="car", id="taxi"), tree)))
         ('tree', 'taxi', 'tree 2')
     """
-    seen: dict[str, int] = {}
-    ids = []
-    for one in scene.objects:
-        seen[one.noun] = seen.get(one.noun, 0) + 1
-        number = seen[one.noun]
-        ids.append(one.id or (one.noun if number == 1 else f"{one.noun} {number}"))
-    return tuple(ids)
+    names = number_nouns([one.noun for one in scene.objects])
+    return tuple(one.id or name for one, name in zip(scene.objects, names, strict=True))
+
+
+def number_nouns(nouns: Sequence[str]) -> tuple[str, ...]:
+    """Ids of objects without one of their own.
+
+    Example:
+        >>> number_nouns(["tree", "car", "tree"])
+        ('tree', 'car', 'tree 2')
+    """
+    counts = [nouns[: n + 1].count(noun) for n, noun in enumerate(nouns)]
+    return tuple(
+        noun if count == 1 else f"{noun} {count}" for noun, count in zip(nouns, counts, strict=True)
+    )
