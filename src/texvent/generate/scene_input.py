@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.scenes.report import Substitution
-from texvent.scenes.spec.data import checked_scene
+from texvent.scenes.spec.data import checked_scene, scene_from_data, scene_to_data
 from texvent.scenes.spec.limits import Vocabulary
 from texvent.scenes.spec.scene import Scene
 
@@ -91,6 +91,57 @@ def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
         "place": PLACES,
         "effect": EFFECTS,
     }
+
+
+def describe_subject(subject: Subject) -> dict[str, Any]:
+    """A prompt or a scene in the metadata of its video: enough to make it again."""
+    if isinstance(subject, Scene):
+        return {"prompt": subject.prompt or None, SCENE_KEY: scene_to_data(subject)}
+    return {"prompt": subject}
+
+
+def prompt_of(subject: Subject) -> str | None:
+    """The sentence that is stored with the events of a subject; None: a scene without one."""
+    return subject.prompt or None if isinstance(subject, Scene) else subject
+
+
+def check_takes(subject: Subject, generator_class: type, name: str) -> None:
+    """Refuse a scene for a generator that takes sentences only.
+
+    Raises:
+        ConfigError: with the generator's name.
+    """
+    if isinstance(subject, Scene) and not getattr(generator_class, "takes_scenes", False):
+        raise ConfigError(
+            f"generator {shown(name)} takes a prompt, not a scene; leave --generator out, or give "
+            "a sentence"
+        )
+
+
+def stored_subject(metadata: Mapping[str, Any]) -> Subject | None:
+    """The prompt or the scene that `describe_subject` wrote; None where there is neither.
+
+    Raises:
+        ConfigError: the scene is wrong.
+    """
+    if SCENE_KEY in metadata:
+        return scene_from_data(metadata[SCENE_KEY])
+    prompt = metadata.get("prompt")
+    return prompt if isinstance(prompt, str) else None
+
+
+def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description of a prompt, with the report of its words, or of a scene.
+
+    Raises:
+        InputError: the prompt is empty or not understood, or a picture cannot be shown.
+        ConfigError: a field of the scene is wrong, or a word of it is not shown.
+    """
+    from texvent.scenes.language.parser import parse_prompt
+
+    if isinstance(subject, Scene):
+        return describe_scene(subject, nouns)
+    return parse_prompt(subject, nouns)
 
 
 def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
