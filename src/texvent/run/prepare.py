@@ -15,7 +15,7 @@ from texvent.calibrate.rate import reach_target_rate
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.generate.scene_input import Subject, check_takes, prompt_of
+from texvent.generate.scene_input import Subject, check_takes, prompt_of, read
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.memory import check_memory
 from texvent.run.provenance import describe_weights
@@ -125,6 +125,30 @@ def make_video(
     return text_to_video(_detailed(prompt, upsample, progress), settings, progress=progress)
 
 
+def make_scene(
+    prompt: Subject,
+    settings: Settings,
+    *,
+    upsample: UpsampleConfig | None = None,
+    progress: Progress | None = None,
+) -> Scene:
+    """The scene of a prompt; arguments and errors as `prepare_prompt`.
+
+    Warns:
+        TexventWarning: some of its words are not shown as they say.
+    """
+    name = settings.generator or "procedural"
+    check_takes(Scene(), GENERATORS.load(name), name)
+    detailed = _detailed(prompt, upsample, progress)
+    if isinstance(detailed, Scene):
+        return detailed
+    reading = read(detailed, assets=getattr(settings.source, "assets", None))
+    report = PromptReport(substituted=reading.substituted, not_understood=reading.not_understood)
+    for fault in report.faults():
+        warn(f"prompt words {fault}")
+    return reading.scene
+
+
 def prepare_source(
     source: Any,
     settings: Settings,
@@ -214,7 +238,7 @@ def _detailed(
     if upsample is None or upsample.upsample is None:
         return prompt
     if isinstance(prompt, Scene):
-        raise ConfigError("--upsample makes a sentence detailed, and a scene is given; leave it out")
+        raise ConfigError("--upsample makes a sentence detailed, not a scene; leave it out")
     from texvent.generate.prompts.upsample import upsample_prompt  # brings requests
 
     detailed = upsample_prompt(prompt, upsample)

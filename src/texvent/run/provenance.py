@@ -16,7 +16,7 @@ from texvent.scenes.report import REPORT_KEY
 def describe_run(
     settings: Settings, *, prompt: str | None, source: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Prompt and its report, scene, source, models, seed, options, version and weight files of a run.
+    """Prompt or scene, report, source, models, seed, options, version and weight files of a run.
 
     Args:
         settings: all options.

@@ -7,6 +7,7 @@ import inspect
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 from texvent.options.fields import option_help
+from texvent.scenes.colours import PALETTES
 from texvent.scenes.spec.data import field_types, inner_type, required_fields
 from texvent.scenes.spec.limits import Vocabulary
 from texvent.scenes.spec.scene import Scene
@@ -22,13 +23,12 @@ def json_schema(words: Vocabulary) -> dict[str, Any]:
         words: kind → the words that editors offer. Others pass the schema: a folder of models
             brings nouns of its own, and colours may be codes.
     """
+    named = {**words, **{f"{name} colour": colours for name, colours in PALETTES.items()}}
     return {
         "$schema": DIALECT,
         "title": "Scene of texvent",
         **_of_type(Scene),
-        "$defs": {
-            kind: {"type": "string", "examples": list(known)} for kind, known in words.items()
-        },
+        "$defs": {kind: {"type": "string", "examples": list(one)} for kind, one in named.items()},
     }
 
 
