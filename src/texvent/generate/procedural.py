@@ -25,7 +25,6 @@ from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, understand
 from texvent.options.values import plain
 from texvent.scenes.report import REPORT_KEY
-from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SENSORS, SensorSize
 from texvent.transfer import Transfer, encode_srgb, linear_levels
 from texvent.video import (
@@ -344,7 +343,7 @@ class ProceduralGenerator:
             return replace(scene, has_highlights=self.config.hdr, is_grey=described.is_grey)
 
         files = list_files(description, self._nouns)
-        if isinstance(prompt, Scene):  # says what it shows: there is no word to look for
+        if not isinstance(prompt, str):  # of a scene there are no words to look for
             return stage(description, USUAL), description.report(), files
         best = film(description, stage, self.size, duration_s)
         return best.scene, self._accepted(best.report), files
