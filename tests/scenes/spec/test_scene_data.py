@@ -207,3 +207,12 @@ def test_a_written_scene_is_read_again(tmp_path):
     assert (tmp_path / "car.toml").read_text() == (
         '[[objects]]\nnoun = "car"\nmotions = [{ kind = "drive" }]\n'
     )
+
+
+def test_the_file_of_the_page_is_a_scene():
+    page = (Path(__file__).parents[3] / "docs" / "scene-files.md").read_text()
+    text = page.partition("```toml\n")[2].partition("```")[0]
+    scene = scene_from_data(tomllib.loads(text), WORDS)
+    assert {one.noun for one in describe_scene(scene, list_nouns()).objects} == {
+        "car", "tree", "street lamp",
+    }  # fmt: skip
