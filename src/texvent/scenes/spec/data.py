@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import types
 import typing
 from collections.abc import Iterator, Mapping
@@ -21,6 +22,11 @@ PLACING = frozenset(
      "between"}
 )  # fmt: skip
 """Relations that say where their subject stands: a circle of them places nothing."""
+
+SPACED = ("left of", "right of", "front", "behind", "beside")
+"""Relations with a distance."""
+STEEPEST = 0.08
+"""Least metres to the side per metre up or down between a camera and the point it looks at."""
 
 
 def scene_to_data(scene: Scene) -> dict[str, Any]:
@@ -101,8 +107,15 @@ def _build(hint: Any, value: Any, where: str, words: Vocabulary) -> Any:
     if get_origin(hint) is tuple:
         if not isinstance(value, (list, tuple)):
             raise ConfigError(f"{where} is {shown(value)}; it must be a list")
-        item = get_args(hint)[0]
-        return tuple(_build(item, one, f"{where}[{n}]", words) for n, one in enumerate(value))
+        items = get_args(hint)
+        if items[-1] is Ellipsis:
+            items = items[:1] * len(value)
+        if len(items) != len(value):
+            raise ConfigError(f"{where} is {shown(value)}; it must have {len(items)} numbers")
+        return tuple(
+            _build(item, one, f"{where}[{n}]", words)
+            for n, (item, one) in enumerate(zip(items, value, strict=True))
+        )
     if dataclasses.is_dataclass(hint):
         return _build_table(hint, value, where, words)
     return convert(value, hint, where)
@@ -150,6 +163,7 @@ def _check_objects(scene: Scene) -> None:
                     f"objects[{n}].relations[{m}].to is {shown(ids[n])}, which is the object itself"
                 )
     _check_circles(scene, ids)
+    _check_metres(scene)
 
 
 def _references(scene: Scene) -> Iterator[tuple[str, str]]:
@@ -182,3 +196,30 @@ def _check_circles(scene: Scene, ids: tuple[str, ...]) -> None:
             f"objects[{ids.index(circle[-1])}].relations go round in a circle "
             f"({few([*map(shown, reversed(circle))])}); leave one of them out"
         ) from None
+
+
+def _check_metres(scene: Scene) -> None:
+    """Refuse distances and poses of the camera that would have no effect."""
+    for n, one in enumerate(scene.objects):
+        for m, relation in enumerate(one.relations):
+            if relation.distance_m is not None and relation.kind not in SPACED:
+                raise ConfigError(
+                    f"objects[{n}].relations[{m}].distance_m is given, but "
+                    f"{shown(relation.kind)} has no distance; {', '.join(SPACED)} have one"
+                )
+    position, goal = scene.camera.position_m, scene.camera.look_at_m
+    if (position is None) != (goal is None):
+        raise ConfigError("camera.position_m and camera.look_at_m are given together, or neither")
+    if position is None or goal is None:
+        return
+    flat = math.dist(position[:2], goal[:2])
+    if flat <= STEEPEST * abs(position[2] - goal[2]):
+        raise ConfigError(
+            f"camera.look_at_m is {shown(goal)}, straight above or below camera.position_m; move "
+            "one of them aside"
+        )
+    if scene.camera.target is not None or any(one.kind == "travel" for one in scene.camera.moves):
+        raise ConfigError(
+            "camera.position_m is given with a target or with travel, which choose the position; "
+            "leave one of them out"
+        )

@@ -23,7 +23,9 @@ def to_description(scene: Scene) -> SceneDescription:
         scene.prompt,
         objects=tuple(map(_staged_object, scene.objects)),
         relations=tuple(
-            staged.Relation(one.kind, number, tuple(index[id] for id in one.to), one.way or "")
+            staged.Relation(
+                one.kind, number, tuple(index[id] for id in one.to), one.way or "", one.distance_m
+            )
             for number, subject in enumerate(scene.objects)
             for one in subject.relations
         ),
@@ -41,6 +43,9 @@ def to_description(scene: Scene) -> SceneDescription:
             camera.view,
             camera.framing,
             None if camera.target is None else index[camera.target],
+            camera.position_m,
+            camera.look_at_m,
+            camera.field_of_view_deg,
         ),
         light=staged.Illumination(**{**vars(light), "tint": _colour(light.tint, "light")}),
         surroundings=staged.Surroundings(
@@ -83,6 +88,9 @@ def from_description(description: SceneDescription) -> Scene:
                 "framing": shot.framing,
                 "target": None if shot.target is None else ids[shot.target],
                 "is_grey": description.is_grey,
+                "position_m": shot.position_m,
+                "look_at_m": shot.look_at_m,
+                "field_of_view_deg": shot.field_of_view_deg,
             },
             "light": {**vars(description.light), "tint": _name(description.light.tint)},
             "place": {
@@ -111,6 +119,9 @@ def _staged_object(one: SceneObject) -> staged.SceneObject:
         None if one.picture is None else staged.Picture(**vars(one.picture)),
         one.blink_hz,
         one.is_lit,
+        one.position_m,
+        one.height_m,
+        one.heading_deg,
     )
 
 
@@ -131,12 +142,16 @@ def _object_data(description: SceneDescription, number: int, ids: Sequence[str])
                 "kind": relation.kind,
                 "to": [ids[target] for target in relation.targets],
                 "way": relation.way or None,
+                "distance_m": relation.distance_m,
             }
             for relation in relations
         ],
         "picture": None if one.picture is None else vars(one.picture),
         "blink_hz": one.blink_hz,
         "is_lit": one.is_lit,
+        "position_m": one.position_m,
+        "height_m": one.height_m,
+        "heading_deg": one.heading_deg,
     }
 
 

@@ -28,6 +28,8 @@ Count: TypeAlias = Annotated[int, Between(1, MAX_BODIES)]
 Seconds: TypeAlias = Annotated[float, Between(0.0, 86_400.0)]
 Hertz: TypeAlias = Annotated[float, Between(0.001, 100_000.0)]
 MetresPerSecond: TypeAlias = Annotated[float, Between(0.0, 1000.0)]
+Metres: TypeAlias = Annotated[float, Between(0.0, 10_000.0)]
+Coordinate: TypeAlias = Annotated[float, Between(-10_000.0, 10_000.0)]
 Pace: TypeAlias = Annotated[float, Between(0.0, 100.0)]
 Surface: TypeAlias = Annotated[str, Colour("surface")]
 
@@ -101,6 +103,9 @@ class Relation:
     """Ids of the other objects; its own id stands for the copies of a group among each other."""
     way: Way | None = None
     """Direction of the relation: "into" a box, "off" a table."""
+    distance_m: Metres | None = None
+    """Distance on the ground from middle to middle, m, of "left of", "right of", "front", "behind"
+    and "beside"."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,6 +148,13 @@ class SceneObject:
     """Frequency of its own lamp, on and off, Hz."""
     is_lit: bool | None = None
     """Whether its lamps are on; left out: headlights at night, candles always."""
+    position_m: tuple[Coordinate, Coordinate] | None = None
+    """Position of the (first) copy on the ground at time 0, m: x to the right, y away from the
+    default camera."""
+    height_m: Metres | None = None
+    """Height of its lowest point above the ground, m."""
+    heading_deg: Annotated[float, Between(-360.0, 360.0)] | None = None
+    """Heading, degrees anticlockwise seen from above: 0 = right (x), 90 = away (y)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,6 +203,12 @@ class Camera:
     """Id of the object that the camera looks at or follows; left out: the first one."""
     is_grey: bool = False
     """Whether the image is black and white."""
+    position_m: tuple[Coordinate, Coordinate, Metres] | None = None
+    """Position x, y, z, m, given with `look_at_m`; moves go through it at mid clip."""
+    look_at_m: tuple[Coordinate, Coordinate, Coordinate] | None = None
+    """Point on the optical axis, m."""
+    field_of_view_deg: Annotated[float, Between(1.0, 150.0)] | None = None
+    """Horizontal field of view of the lens, degrees."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -39,7 +39,13 @@ def _of_type(hint: Any) -> dict[str, Any]:
         plain, limit = arguments
         return {**_of_type(plain), **limit.schema()}
     if get_origin(hint) is tuple:
-        return {"type": "array", "items": _of_type(arguments[0])}
+        items = {"type": "array", "items": _of_type(arguments[0])}
+        size = (
+            {}
+            if arguments[-1] is Ellipsis
+            else dict.fromkeys(("minItems", "maxItems"), len(arguments))
+        )
+        return {**items, **size}
     if get_origin(hint) is Literal:
         return {"enum": list(arguments)}
     if dataclasses.is_dataclass(hint):

@@ -23,7 +23,7 @@ from texvent.scenes.staging.camera.following import (
     stay_together,
 )
 from texvent.scenes.staging.camera.framed_points import INSTANTS, list_related, list_views
-from texvent.scenes.staging.camera.framing import Framing, fit
+from texvent.scenes.staging.camera.framing import Framing, fit, pose, seen_through
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.laid_table import ELEVATION_RAD, is_on_table, list_laid
 from texvent.scenes.staging.camera.main_actor import choose_main
@@ -90,6 +90,9 @@ def place_camera(
     """
     if travel is not None:
         return _travel(description, travel, actors, place, duration_s)
+    shot = description.shot
+    if shot.position_m is not None:
+        return _stand_at(description, actors, place, duration_s)
     if not actors:
         return _look_around(description, place, duration_s)
     main = choose_main(description, actors)
@@ -98,12 +101,10 @@ def place_camera(
     framed = [one for one in actors if not is_added(description, one.object_index)]
     path = _frame(description, framed, main, moves, place, how)
     path = retake(path, take, actors)
-    path = _keep_in_view(path, main, actors, aspect)
-    if is_room(place):
-        near = [a for a in actors if description.objects[a.object_index].side != "far"]
-        points = corners_over(near or actors, np.linspace(0.0, duration_s, INSTANTS))
-        path = replace(path, room_m=_size_room(path, points))
-    return path
+    if shot.field_of_view_deg is not None:
+        framing = seen_through(path.framing, shot.field_of_view_deg, is_fixed=False)
+        path = replace(path, framing=framing)
+    return _in_room(_keep_in_view(path, main, actors, aspect), description, actors, place)
 
 
 def _frame(
@@ -322,9 +323,24 @@ def _look_around(description: SceneDescription, place: str, duration_s: float) -
         empty = Framing(np.array([0.0, 0.6, 1.1]), 0.0, 0.12, 3.4, 0.9)
     moves = _plan_moves(description, None, duration_s)
     path = CameraPath(empty, moves, duration_s, has_floor=place not in ("sky", "space"))
-    if is_room(place):
-        path = replace(path, room_m=_size_room(path, np.zeros((1, 3))))
-    return path
+    return _in_room(path, description, (), place)
+
+
+def _stand_at(
+    description: SceneDescription, actors: Sequence[Actor], place: str, duration_s: float
+) -> CameraPath:
+    """The camera where metres say; its moves go through that pose at mid clip."""
+    shot = description.shot
+    framing = pose(shot.position_m or (), shot.look_at_m or ())
+    if shot.field_of_view_deg is not None:
+        framing = seen_through(framing, shot.field_of_view_deg, is_fixed=True)
+    main = choose_main(description, actors) if actors else None
+    moves = tuple(move for move in shot.moves if move.kind != "static")
+    path = CameraPath(
+        framing, moves, duration_s, None if main is None else main.trajectory, has_floor=False,
+        subject_corners=None if main is None else main.corners,
+    )  # fmt: skip
+    return _in_room(path, description, actors, place)
 
 
 def _travel(
@@ -364,6 +380,18 @@ def _plan_moves(
     if main.is_mover and travel > TRACKING_LENGTHS * span:
         return (CameraMove("follow", "side"),)
     return ()
+
+
+def _in_room(
+    path: CameraPath, description: SceneDescription, actors: Sequence[Actor], place: str
+) -> CameraPath:
+    """The path; indoors in a room that holds the camera and what it looks at."""
+    if not is_room(place):
+        return path
+    near = [a for a in actors if description.objects[a.object_index].side != "far"]
+    times = np.linspace(0.0, path.duration_s, INSTANTS)
+    points = corners_over(near or actors, times) if actors else np.zeros((1, 3))
+    return replace(path, room_m=_size_room(path, points))
 
 
 def _size_room(path: CameraPath, points: Float64Array) -> float:
