@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import jsonschema
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -23,8 +24,10 @@ from texvent.scenes.spec.data import field_types, inner_type, scene_from_data, s
 from texvent.scenes.spec.description import from_description, to_description
 from texvent.scenes.spec.files import load_scene, save_scene, scene_text
 from texvent.scenes.spec.limits import Between, Colour, Word
-from texvent.scenes.spec.scene import Motion, Relation, Scene, SceneObject
+from texvent.scenes.spec.scene import Camera, Motion, Relation, Scene, SceneObject
 from texvent.scenes.spec.schema import json_schema
+from texvent.scenes.staging.compose import compose_scene
+from texvent.sensor import SensorSize
 
 WORDS = list_words(list_nouns())
 SCHEMA = jsonschema.Draft202012Validator(json_schema(WORDS))
@@ -64,7 +67,7 @@ def strategy(hint: Any) -> st.SearchStrategy[Any]:
             return st.sampled_from(sorted(PALETTES[palette])) | st.just("#0a80ff")
 
 
-IDS = ("id", "to", "source", "target")
+IDS = ("id", "to", "source", "target", "distance_m", "position_m", "look_at_m")
 
 
 @st.composite
@@ -113,7 +116,8 @@ def test_a_file_by_hand_gives_every_field():
     scene = load_scene(EVERY_FIELD)
     given = {(type(part), name) for part in values(scene) for name in vars(part)
              if getattr(part, name) != default(part, name)}  # fmt: skip
-    assert given == {(type(part), name) for part in values(scene) for name in vars(part)}
+    fields = {(type(part), name) for part in values(scene) for name in vars(part)}
+    assert fields - given == {(Camera, "position_m"), (Camera, "look_at_m")}  # not with a target
     SCHEMA.validate(tomllib.loads(EVERY_FIELD.read_text()))
     described = describe_scene(scene, list_nouns())
     assert described.objects[0].motion == to_description(scene).objects[0].motion
@@ -169,6 +173,16 @@ WRONG = [
     ({"objects": [{**CAR, "relations": [{"kind": "on", "to": ["van"]}]},
                   {"noun": "van", "relations": ON_CAR}]},
      "objects[0].relations go round in a circle ('car', 'van', 'car'); "),
+    ({"objects": [{**CAR, "position_m": [1]}]},
+     "objects[0].position_m is [1]; it must have 2 numbers"),
+    ({"objects": [{**CAR, "height_m": -1}]}, "objects[0].height_m is -1; it must be 0..10000"),
+    ({"objects": [CAR, {"noun": "van", "relations": [{**ON_CAR[0], "distance_m": 2}]}]},
+     "objects[1].relations[0].distance_m is given, but 'on' has no distance; "),
+    ({"camera": {"position_m": [0, 0, 1]}}, "camera.position_m and camera.look_at_m are given to"),
+    ({"camera": {"position_m": [0, 0, 1], "look_at_m": [0, 0, 0]}},
+     "camera.look_at_m is (0.0, 0.0, 0.0), straight above or below camera.position_m; "),
+    ({"camera": {"position_m": [0, 0, 1], "look_at_m": [0, 5, 1], "moves": [{"kind": "travel"}]}},
+     "camera.position_m is given with a target or with travel"),
     ({"effects": [{"kind": "smoke", "source": "car"}]}, "effects[0].source is 'car', which is no "),
     ({"camera": {"moves": [{"kind": "pann"}]}}, "camera.moves[0].kind is 'pann'; "),
     ({"light": {"flicker_hz": -1}}, "light.flicker_hz is -1; it must be 0.001..100000"),
@@ -188,6 +202,48 @@ def test_copies_of_an_object_may_meet_each_other():
     meeting = [{"kind": "collide", "to": ["car"]}]
     scene = scene_from_data({"objects": [{**CAR, "count": 2, "relations": meeting}]})
     assert to_description(scene).relations[0].targets == (0,)
+
+
+@pytest.mark.parametrize("kind", ["stand", "drive", "turn", "bounce", "enter", "zigzag"])
+def test_objects_and_camera_stand_where_metres_say(kind):
+    scene = scene_from_data(
+        {
+            "objects": [
+                {**CAR, "motions": [{"kind": kind}], "position_m": [-3, 2], "heading_deg": 30},
+                {"noun": "cup", "relations": [{"kind": "left of", "to": ["car"], "distance_m": 4}]},
+                {"noun": "tree", "position_m": [4, 6]},
+                {"noun": "drone", "position_m": [0, 0], "height_m": 3},
+            ],
+            "camera": {"position_m": [0, -12, 3], "look_at_m": [0, 0, 1], "field_of_view_deg": 60},
+        },
+        WORDS,
+    )
+    nouns, size = list_nouns(), SensorSize(64, 48)
+    staged = compose_scene(describe_scene(scene, nouns), seed=3, size=size, duration_s=1.0)
+    at_start = {one.noun.name: one.trajectory.at(0.0) for one in staged.actors}
+    places = {name: state.position for name, state in at_start.items()}
+    np.testing.assert_allclose(places["car"][:2], (-3.0, 2.0), atol=1e-9)
+    assert math.degrees(at_start["car"].yaw) == pytest.approx(30.0)
+    np.testing.assert_allclose(places["tree"][:2], (4.0, 6.0), atol=1e-9)
+    if kind == "stand":
+        np.testing.assert_allclose(places["cup"], (-7.0, 2.0, 0.0), atol=1e-9)
+    drone = next(one for one in staged.actors if one.noun.name == "drone")
+    assert drone.corners(0.0)[:, 2].min() == pytest.approx(3.0, abs=0.2)  # it hovers
+    camera = staged.camera(0.5)
+    np.testing.assert_allclose(camera.position, (0.0, -12.0, 3.0), atol=1e-9)
+    np.testing.assert_allclose(camera.rotation[2], np.array((0, 12, -2)) / math.hypot(12, 2))
+    assert camera.focal == pytest.approx(0.5 / math.tan(math.radians(30.0)))
+
+
+def test_a_lens_alone_keeps_the_subject_as_large():
+    def camera_of(data: dict[str, Any]) -> Any:
+        scene = describe_scene(scene_from_data({"objects": [CAR], **data}), list_nouns())
+        size = SensorSize(64, 48)
+        return compose_scene(scene, seed=3, size=size, duration_s=1.0).camera(0.5)
+
+    usual, tele = camera_of({}), camera_of({"camera": {"field_of_view_deg": 20}})
+    assert tele.focal == pytest.approx(0.5 / math.tan(math.radians(10.0)))
+    assert np.linalg.norm(tele.position) > 2.0 * np.linalg.norm(usual.position)
 
 
 def test_a_picture_lies_beside_its_file(tmp_path):

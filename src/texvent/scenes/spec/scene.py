@@ -154,7 +154,8 @@ class SceneObject:
     height_m: Metres | None = None
     """Height of its lowest point above the ground, m."""
     heading_deg: Annotated[float, Between(-360.0, 360.0)] | None = None
-    """Heading, degrees anticlockwise seen from above: 0 = right (x), 90 = away (y)."""
+    """Heading, degrees anticlockwise seen from above: 0 = right (x), 90 = away (y); it takes the
+    place of a motion's direction."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -48,14 +48,16 @@ def pose(position: Sequence[float], target: Sequence[float]) -> Framing:
     return Framing(np.array(target, dtype=np.float64), azimuth, elevation, distance, USUAL_FOCAL)
 
 
-def seen_through(framing: Framing, field_of_view_deg: float, *, is_fixed: bool) -> Framing:
-    """The framing with another horizontal field of view.
+def seen_through(framing: Framing, field_of_view_deg: float | None, *, is_fixed: bool) -> Framing:
+    """The framing with another horizontal field of view; None leaves it as it is.
 
     Args:
         framing: the camera's position and lens.
         field_of_view_deg: 1 to 150.
         is_fixed: whether the camera stays; else what it looks at keeps its size in the image.
     """
+    if field_of_view_deg is None:
+        return framing
     focal = 0.5 / math.tan(math.radians(0.5 * field_of_view_deg))
     distance = framing.distance_m * (1.0 if is_fixed else focal / framing.focal)
     return replace(framing, focal=focal, distance_m=distance)

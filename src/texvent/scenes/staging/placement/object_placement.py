@@ -40,6 +40,7 @@ from texvent.scenes.staging.placement.object_groups import (
     place_copies,
     rests,
     slow_overtaken,
+    unturn,
 )
 from texvent.scenes.staging.placement.spatial_relations import (
     INVERSE,
@@ -364,7 +365,7 @@ class ObjectPlacer:
                                    seeded(self._seed, "lead", group.carrier.index,
                                           group.carrier.noun.name))  # fmt: skip
             offset = np.array(home) - group.carrier.centre
-            turned = _unturn(offset, group.carrier.plan.yaw)
+            turned = unturn(offset, group.carrier.plan.yaw)
             activity = group.plan.gesture or "sit"
             if group.carried_on is not None:
                 on = OnPart(carrier, group.carrier.models[0], group.carried_on, turned, activity)
@@ -394,9 +395,3 @@ def _gripping(path: Trajectory, group: ObjectGroup) -> Trajectory:
 def _tuple(group: ObjectGroup) -> Vector:
     x, y, z = group.centre
     return (float(x), float(y), float(z))
-
-
-def _unturn(offset: Float64Array, yaw: float) -> Vector:
-    cosine, sine = math.cos(yaw), math.sin(yaw)
-    x, y, z = offset
-    return (float(x * cosine + y * sine), float(y * cosine - x * sine), float(z))

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import STANDING, SceneObject
+from texvent.scenes.description import STANDING, Relation, SceneObject
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.faced import hang_on, hangs
