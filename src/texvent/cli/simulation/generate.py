@@ -30,11 +30,10 @@ from texvent.scenes.spec.files import is_scene_file, load_scene, save_scene
 from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 
-DESCRIPTION = """Turn a sentence, or a scene file, into the events that an event camera would
-record. The embedded generator renders simple 3-D shapes; `texvent generators` lists learned models.
+DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
+generator renders simple 3-D shapes; `texvent generators` lists learned models.
 
   texvent generate "a red car drives left past two trees at dusk" -o out.h5
-  texvent generate scene.toml -o out.h5
   texvent generate "a dog runs" --generator wan-1.3b --simulator v2e --seed 3"""
 VIDEO_EXTENSION = ".avi"
 
@@ -53,8 +52,7 @@ class PromptOptions(UpsampleConfig):
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show, in plain English, quoted; or a scene file (.toml, .json): docs/scene-files.md.
-    """
+    """What to show: a quoted sentence, or a scene file. See docs/scene-files.md."""
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator: see texvent generators, ./folder or hub:org/name. A folder holds a
     saved diffusers pipeline; hub: names a repository of the model hub."""
