@@ -48,7 +48,7 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
         assets: a folder of models of your own.
 
     Raises:
-        InputError: the prompt is empty, or nothing in it is understood.
+        InputError: the prompt is no text or empty, or nothing in it is understood.
 
     Example:
         >>> reading = read("a red car drives left")
@@ -59,6 +59,8 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     from texvent.scenes.language.parser import parse_prompt
     from texvent.scenes.spec.description import from_description
 
+    if not isinstance(prompt, str):
+        raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
     description = parse_prompt(prompt, list_nouns(assets))
     report = description.report()
     return Reading(

@@ -12,7 +12,7 @@ from graphlib import CycleError, TopologicalSorter
 from typing import Annotated, Any, get_args, get_origin
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError, few, shown
+from texvent.errors import MAX_WORD, ConfigError, few, shown
 from texvent.options.values import convert
 from texvent.scenes.spec.limits import Vocabulary
 from texvent.scenes.spec.scene import MAX_BODIES, Scene, object_ids
@@ -154,7 +154,7 @@ def _check_objects(scene: Scene) -> None:
             )
     for where, id in _references(scene):
         if id not in ids:
-            known = suggest(id, ids) if ids else "there are none"
+            known = suggest(id, tuple(one[:MAX_WORD] for one in ids)) if ids else "there are none"
             raise ConfigError(f"{where} is {shown(id)}, which is no object's id; {known}")
     for n, one in enumerate(scene.objects):
         for m, relation in enumerate(one.relations):
