@@ -20,7 +20,13 @@ from tests.scenes.golden.golden import describe, read_lines
 from texvent.errors import ConfigError
 from texvent.generate.scene_input import describe_scene, list_nouns, list_words
 from texvent.scenes.colours import PALETTES
-from texvent.scenes.spec.data import field_types, inner_type, scene_from_data, scene_to_data
+from texvent.scenes.spec.data import (
+    checked_scene,
+    field_types,
+    inner_type,
+    scene_from_data,
+    scene_to_data,
+)
 from texvent.scenes.spec.description import from_description, to_description
 from texvent.scenes.spec.files import load_scene, save_scene, scene_text
 from texvent.scenes.spec.limits import Between, Colour, Word
@@ -196,6 +202,12 @@ def test_a_wrong_field_is_named(data, message):
     with pytest.raises(ConfigError) as caught:
         scene_from_data(data, WORDS)
     assert str(caught.value).startswith(message)
+
+
+def test_positions_may_be_arrays():
+    car = SceneObject(noun="car", position_m=np.array([1.0, 2.0]), size=np.float32(0.5))
+    checked = checked_scene(Scene(objects=(car,)), WORDS)
+    assert checked.objects[0] == SceneObject(noun="car", position_m=(1.0, 2.0), size=0.5)
 
 
 def test_copies_of_an_object_may_meet_each_other():

@@ -81,9 +81,11 @@ def required_fields(owner: type) -> list[str]:
 
 def _plain(value: Any) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        named = {one.name: getattr(value, one.name) for one in dataclasses.fields(value)}
-        usual = {one.name: _default(one) for one in dataclasses.fields(value)}
-        return {name: _plain(one) for name, one in named.items() if one != usual[name]}
+        named = {one.name: _plain(getattr(value, one.name)) for one in dataclasses.fields(value)}
+        usual = {one.name: _plain(_default(one)) for one in dataclasses.fields(value)}
+        return {name: one for name, one in named.items() if one != usual[name]}
+    if hasattr(value, "tolist"):  # NumPy's arrays and numbers
+        value = value.tolist()
     return [_plain(one) for one in value] if isinstance(value, (list, tuple)) else value
 
 
