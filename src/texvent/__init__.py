@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     )
     from texvent.event_packets import EventPackets
     from texvent.events import EventStream
+    from texvent.generate.scene_input import read
     from texvent.listings import (
         formats,
         generators,
@@ -62,6 +63,7 @@ _HOMES = {
     ),
     "event_packets": ("EventPackets",),
     "events": ("EventStream",),
+    "generate.scene_input": ("read",),
     "listings": (
         "formats",
         "generators",
@@ -112,6 +114,7 @@ __all__ = [
     "open",
     "pixel_models",
     "presets",
+    "read",
     "representations",
     "rig",
     "save_truth",

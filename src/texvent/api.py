@@ -27,6 +27,7 @@ from texvent.run.settings import Settings, resolve
 from texvent.run.silence import SignalTally
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
+from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SizeLike
 from texvent.truth.parts import check_generator
 from texvent.video import FrameStream
@@ -42,7 +43,7 @@ __all__ = ["compare", "generate", "load", "open", "simulate", "video"]
 
 @overload
 def generate(
-    prompt: str,
+    prompt: str | Scene,
     *,
     as_packets: Literal[False] = False,
     config: str | Path | None = None,
@@ -52,7 +53,7 @@ def generate(
 ) -> EventStream: ...
 @overload
 def generate(
-    prompt: str,
+    prompt: str | Scene,
     *,
     as_packets: Literal[True],
     config: str | Path | None = None,
@@ -62,7 +63,7 @@ def generate(
 ) -> EventPackets: ...
 @overload
 def generate(
-    prompt: str,
+    prompt: str | Scene,
     *,
     as_packets: bool,
     config: str | Path | None = None,
@@ -72,7 +73,7 @@ def generate(
 ) -> EventStream | EventPackets: ...
 @naming_options(GenerateOptions)
 def generate(
-    prompt: str,
+    prompt: str | Scene,
     *,
     as_packets: bool = False,
     config: str | Path | None = None,
@@ -80,10 +81,11 @@ def generate(
     truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[GenerateOptions],
 ) -> EventStream | EventPackets:
-    """Events of the scene that a prompt describes.
+    """Events of the scene that a prompt describes, or of a scene.
 
     Args:
-        prompt: what to show, such as "a red car drives left past two trees at dusk".
+        prompt: what to show, such as "a red car drives left past two trees at dusk"; or a
+            `texvent.scenes.Scene`.
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
         progress: a bar (True), none (False), or a function that takes steps done, steps in all or
@@ -101,7 +103,7 @@ def generate(
 
     Raises:
         InputError: the prompt is empty, or the embedded generator understands nothing in it.
-        ConfigError: an unknown option, or a value out of range.
+        ConfigError: an unknown option or a value out of range, also in a scene.
 
     Example:
         >>> events = generate("a red ball bounces", sensor="48x36", duration=0.2, seed=3)
@@ -219,7 +221,7 @@ def simulate(
 
 @naming_options(GenerateOptions)
 def video(
-    prompt: str,
+    prompt: str | Scene,
     *,
     config: str | Path | None = None,
     progress: ProgressOption = None,
@@ -228,7 +230,7 @@ def video(
     """The frames alone of the scene that a prompt describes.
 
     Args:
-        prompt: what to show.
+        prompt: what to show: a sentence or a scene.
         config: a TOML or YAML file with options.
         progress: as `generate`.
         **options: as `generate`; those of the simulator have no effect.

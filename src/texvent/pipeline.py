@@ -20,6 +20,7 @@ from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig, RunConfig
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
+from texvent.generate.scene_input import Subject, check_takes, prompt_of
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
 from texvent.run.light import suit_light
@@ -33,12 +34,12 @@ from texvent.video import Frame, FrameStream
 
 
 def text_to_events(
-    prompt: str, settings: Settings, *, progress: Progress | None = None
+    prompt: Subject, settings: Settings, *, progress: Progress | None = None
 ) -> Simulation:
     """Events for a text prompt (Eq. 2); none is computed before the result is iterated.
 
     Args:
-        prompt: what to show.
+        prompt: what to show: a sentence, or a scene of the embedded generator.
         settings: all options.
         progress: receives the progress of a slow generator: a learned model makes its video here.
 
@@ -46,15 +47,16 @@ def text_to_events(
         InputError: the prompt is empty, or the model cannot be had.
     """
     return video_to_events(
-        text_to_video(prompt, settings, progress=progress), settings, prompt=prompt
+        text_to_video(prompt, settings, progress=progress), settings, prompt=prompt_of(prompt)
     )
 
 
 def text_to_video(
-    prompt: str, settings: Settings, *, progress: Progress | None = None
+    prompt: Subject, settings: Settings, *, progress: Progress | None = None
 ) -> FrameStream:
     """The video for a text prompt (Eq. 3), fitted to the sensor; see `text_to_events`."""
     generator_class = GENERATORS.load(settings.generator or "procedural")
+    check_takes(prompt, generator_class, str(settings.generator))
     generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
     return fit_to_sensor(generator.generate(prompt, progress=progress), settings)
 

@@ -36,6 +36,7 @@ PUBLIC = {
     "open",
     "pixel_models",
     "presets",
+    "read",
     "representations",
     "rig",
     "save_truth",

@@ -20,11 +20,14 @@ from texvent.capture.open import open_frames
 from texvent.cli.event_files.time_option import parse_time_range
 from texvent.config import CaptureConfig
 from texvent.errors import TexventError
+from texvent.generate.scene_input import describe_scene, list_nouns
 from texvent.io.files import load
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
 from texvent.options.parts import make_part
 from texvent.run.settings import resolve
 from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.spec.data import scene_from_data
+from texvent.scenes.spec.files import load_scene, scene_text
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.transform.undistort import read_calibration
@@ -68,12 +71,27 @@ TEXTS: dict[str, tuple[str, Any]] = {
 }
 
 
+SCENE = {
+    "objects": [
+        {"noun": "car", "colour": "red", "position_m": [1, 2], "motions": [{"kind": "drive"}]},
+        {"noun": "tree", "count": 2, "relations": [{"kind": "behind", "to": ["car"]}]},
+        {"noun": "tv", "picture": {"kind": "checkerboard", "value": "9x6"}},
+    ],
+    "camera": {"position_m": [0, -9, 2], "look_at_m": [0, 0, 1]},
+    "light": {"kind": "dusk", "flicker_hz": 100.0},
+}
+
+
 def text_readers() -> list[Reader]:
     """One per kind of text."""
     return [
         *(
             Reader(f"config {ending}", partial(_make_config, ending), _read_config, 2)
             for ending in (".toml", ".yaml")
+        ),
+        *(
+            Reader(f"scene {ending}", partial(_make_scene, ending), _read_scene, 2)
+            for ending in (".toml", ".json")
         ),
         Reader("sensor file", _make_sensor_file, _read_sensor_file, 2),
         *(
@@ -143,6 +161,14 @@ def _make_config(ending: str, folder: Path) -> Path:
 
 def _read_config(path: Path) -> str:
     return repr(resolve("simulate", {}, config=path).as_tables())[:1000]
+
+
+def _make_scene(ending: str, folder: Path) -> Path:
+    return _make_text(f"scene{ending}", scene_text(scene_from_data(SCENE), ending), folder)
+
+
+def _read_scene(path: Path) -> str:
+    return repr(describe_scene(load_scene(path), list_nouns()))[:1000]
 
 
 def _make_sensor_file(folder: Path) -> Path:

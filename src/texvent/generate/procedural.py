@@ -22,6 +22,7 @@ from texvent._version import __version__
 from texvent.brightness import luma_bt601
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
+from texvent.generate.scene_input import Subject, describe_subject, list_nouns, understand
 from texvent.options.values import plain
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
@@ -250,6 +251,7 @@ class ProceduralGenerator:
     config_type: ClassVar[type] = ProceduralConfig
     default_interpolate: ClassVar[str] = "motion"
     has_ground_truth: ClassVar[bool] = True
+    takes_scenes: ClassVar[bool] = True
 
     def __init__(
         self, config: ProceduralConfig, *, seed: int = 0, size: SensorSize | None = None
@@ -258,19 +260,22 @@ class ProceduralGenerator:
         self.seed = seed
         self.size = size if size is not None else DEFAULT_SIZE
 
-    def generate(self, prompt: str, *, progress: Progress | None = None) -> ProceduralVideo:
+    def generate(self, prompt: Subject, *, progress: Progress | None = None) -> ProceduralVideo:
         """The video for `prompt`.
 
         Args:
-            prompt: English sentences, such as "a red car drives left past two trees at dusk".
+            prompt: English sentences, such as "a red car drives left past two trees at dusk"; or
+                a scene.
             progress: unused: frames are rendered on demand.
 
         Returns:
             A stream of float RGB frames. Its metadata hold the report of the prompt's words, a
-            `texvent.scenes.report.PromptReport` as JSON, under "prompt_report".
+            `texvent.scenes.report.PromptReport` as JSON, under "prompt_report"; and a scene that
+            was given, as plain values, under "scene".
 
         Raises:
             InputError: the prompt is empty, nothing in it is understood, or `strict` refuses it.
+            ConfigError: a field of the scene is wrong, or a word of it is not shown.
 
         Warns:
             TexventWarning: some of its words are not shown as they say.
@@ -282,7 +287,7 @@ class ProceduralGenerator:
         metadata = {
             "generator": "procedural",
             "version": __version__,
-            "prompt": prompt,
+            **describe_subject(prompt),
             "seed": self.seed,
             "options": plain(self.config),
             REPORT_KEY: report.to_json(),
@@ -303,7 +308,7 @@ class ProceduralGenerator:
             is_grey=scene.is_grey,
         )
 
-    def report(self, prompt: str, *, is_staged: bool = True) -> PromptReport:
+    def report(self, prompt: Subject, *, is_staged: bool = True) -> PromptReport:
         """What would be shown of a prompt.
 
         Args:
@@ -315,20 +320,18 @@ class ProceduralGenerator:
         Raises:
             InputError: as `generate`.
         """
-        from texvent.scenes.language.parser import parse_prompt
-
         if is_staged:
             return self._stage(prompt)[1]
-        return self._accepted(parse_prompt(prompt, self._nouns).report())
+        return self._accepted(understand(prompt, self._nouns).report())
 
-    def _stage(self, prompt: str) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
+    def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
         from texvent.generate.takes import film
         from texvent.scenes.assets import list_files
-        from texvent.scenes.language.parser import parse_prompt
         from texvent.scenes.staging.compose import compose_scene
+        from texvent.scenes.staging.take import USUAL
 
-        description = parse_prompt(prompt, self._nouns)
+        description = understand(prompt, self._nouns)
         self._accepted(description.report())  # before the scene is built
         nouns, duration_s = self._shown_nouns(description), self.config.duration
 
@@ -339,18 +342,16 @@ class ProceduralGenerator:
             )  # fmt: skip
             return replace(scene, has_highlights=self.config.hdr, is_grey=described.is_grey)
 
+        files = list_files(description, self._nouns)
+        if not isinstance(prompt, str):  # of a scene there are no words to look for
+            return stage(description, USUAL), description.report(), files
         best = film(description, stage, self.size, duration_s)
-        report = self._accepted(best.report)
-        return best.scene, report, list_files(description, self._nouns)
+        return best.scene, self._accepted(best.report), files
 
     @cached_property
     def _nouns(self) -> Mapping[str, Noun]:
         """What prompts can name."""
-        from texvent.scenes.assets import merge_nouns, read_folder
-        from texvent.scenes.models.nouns import NOUNS
-
-        folder = self.config.assets
-        return NOUNS if folder is None else merge_nouns(read_folder(folder))
+        return list_nouns(self.config.assets)
 
     def _shown_nouns(self, description: SceneDescription) -> Mapping[str, Noun]:
         """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""

@@ -13,14 +13,16 @@ from typing import Any
 from texvent._registry import GENERATORS, INTERPOLATORS
 from texvent.calibrate.rate import reach_target_rate
 from texvent.config import InterpolateConfig
-from texvent.errors import InputError, shown, warn
+from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.generate.scene_input import Subject, check_takes, prompt_of, read
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.memory import check_memory
 from texvent.run.provenance import describe_weights
 from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
 from texvent.scenes.report import PromptReport
+from texvent.scenes.spec.scene import Scene
 from texvent.simulate.build import build_simulator
 from texvent.video import FrameStream
 
@@ -57,7 +59,7 @@ def warn_of_unread_weights(config: InterpolateConfig) -> None:
 
 
 def prepare_prompt(
-    prompt: str,
+    prompt: Subject,
     settings: Settings,
     *,
     upsample: UpsampleConfig | None = None,
@@ -66,7 +68,8 @@ def prepare_prompt(
     """The run of a prompt; a learned model makes its video here.
 
     Args:
-        prompt: what to show; stored with the events as it is given here.
+        prompt: what to show: a sentence, or a scene of the embedded generator; stored with the
+            events as it is given here.
         settings: all options.
         upsample: the chat model that makes the prompt detailed first, if any.
         progress: told how the model and the search for the target rate get on.
@@ -78,12 +81,13 @@ def prepare_prompt(
     check_run(settings)
     warn_of_unread_weights(settings.interpolate)
     detailed = _detailed(prompt, upsample, progress)
-    simulation = replace(text_to_events(detailed, settings, progress=progress), prompt=prompt)
+    simulation = text_to_events(detailed, settings, progress=progress)
+    simulation = replace(simulation, prompt=prompt_of(prompt))
     return reach_target_rate(simulation, progress=progress)
 
 
 def report_prompt(
-    prompt: str, settings: Settings, *, is_staged: bool = True
+    prompt: Subject, settings: Settings, *, is_staged: bool = True
 ) -> PromptReport | None:
     """What would be shown of a prompt, without making its video.
 
@@ -99,6 +103,7 @@ def report_prompt(
         InputError: the generator refuses the prompt.
     """
     generator_class = GENERATORS.load(settings.generator or "procedural")
+    check_takes(prompt, generator_class, str(settings.generator))
     generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
     report: Callable[..., PromptReport] | None = getattr(generator, "report", None)
     return None if report is None else report(prompt, is_staged=is_staged)
@@ -110,7 +115,7 @@ def is_strict(settings: Settings) -> bool:
 
 
 def make_video(
-    prompt: str,
+    prompt: Subject,
     settings: Settings,
     *,
     upsample: UpsampleConfig | None = None,
@@ -118,6 +123,30 @@ def make_video(
 ) -> FrameStream:
     """The video of a prompt, fitted to the sensor; arguments and errors as `prepare_prompt`."""
     return text_to_video(_detailed(prompt, upsample, progress), settings, progress=progress)
+
+
+def make_scene(
+    prompt: Subject,
+    settings: Settings,
+    *,
+    upsample: UpsampleConfig | None = None,
+    progress: Progress | None = None,
+) -> Scene:
+    """The scene of a prompt; arguments and errors as `prepare_prompt`.
+
+    Warns:
+        TexventWarning: some of its words are not shown as they say.
+    """
+    name = settings.generator or "procedural"
+    check_takes(Scene(), GENERATORS.load(name), name)
+    detailed = _detailed(prompt, upsample, progress)
+    if isinstance(detailed, Scene):
+        return detailed
+    reading = read(detailed, assets=getattr(settings.source, "assets", None))
+    report = PromptReport(substituted=reading.substituted, not_understood=reading.not_understood)
+    for fault in report.faults():
+        warn(f"prompt words {fault}")
+    return reading.scene
 
 
 def prepare_source(
@@ -197,14 +226,19 @@ def _stored_video(source: Any) -> FrameStream | None:
     return replace(video, metadata={**video.metadata, "source": str(source)})
 
 
-def _detailed(prompt: str, upsample: UpsampleConfig | None, progress: Progress | None) -> str:
+def _detailed(
+    prompt: Subject, upsample: UpsampleConfig | None, progress: Progress | None
+) -> Subject:
     """The prompt that the generator gets."""
-    if not isinstance(prompt, str):
+    if not isinstance(prompt, str | Scene):
         raise InputError(
-            f"the prompt is a {type(prompt).__name__}; give a text, such as 'a red car drives left'"
+            f"the prompt is a {type(prompt).__name__}; give a text, such as 'a red car drives "
+            "left', or a texvent.scenes.Scene"
         )
     if upsample is None or upsample.upsample is None:
         return prompt
+    if isinstance(prompt, Scene):
+        raise ConfigError("--upsample makes a sentence detailed, not a scene; leave it out")
     from texvent.generate.prompts.upsample import upsample_prompt  # brings requests
 
     detailed = upsample_prompt(prompt, upsample)

@@ -7,6 +7,7 @@ from typing import Any
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent._version import full_version
+from texvent.generate.scene_input import SCENE_KEY
 from texvent.run.settings import Settings
 from texvent.run.source_file import describe_source
 from texvent.scenes.report import REPORT_KEY
@@ -15,7 +16,7 @@ from texvent.scenes.report import REPORT_KEY
 def describe_run(
     settings: Settings, *, prompt: str | None, source: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Prompt and its report, source, models, seed, options, version and weight files of a run.
+    """Prompt or scene, report, source, models, seed, options, version and weight files of a run.
 
     Args:
         settings: all options.
@@ -24,10 +25,10 @@ def describe_run(
     """
     run = settings.run
     facts = describe_source(source)
-    report = facts.pop(REPORT_KEY, None)
+    made_of = {key: facts.pop(key) for key in (SCENE_KEY, REPORT_KEY) if key in facts}
     return {
         "prompt": prompt,
-        **({} if report is None else {REPORT_KEY: report}),
+        **made_of,
         "source": facts,
         "generator": settings.generator,
         "simulator": run.simulator,

@@ -12,6 +12,7 @@ from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.errors import MAX_SHOWN, InputError, shown
 from texvent.generate.protocol import renders_instants
+from texvent.generate.scene_input import SCENE_KEY, Subject, stored_subject
 from texvent.pipeline import Simulation, fit_to_sensor, text_to_video
 from texvent.run.prepare import prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import Settings, flatten_tables, resolve
@@ -33,8 +34,8 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
         such a generator, was made by another version, or was edited since (cropped, moved in
         time), so that the video would not fit. A part in time fits.
     """
-    name, prompt, tables = (metadata.get(key) for key in ("generator", "prompt", "settings"))
-    if not (isinstance(name, str) and isinstance(prompt, str) and isinstance(tables, Mapping)):
+    name, tables = metadata.get("generator"), metadata.get("settings")
+    if not (isinstance(name, str) and isinstance(tables, Mapping)):
         return None
     if metadata.get("texvent_version") != full_version() or _is_changed(metadata):
         return None
@@ -52,7 +53,8 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
         check_files(facts.get("files") if isinstance(facts, Mapping) else None)
         seed = _video_seed(facts, settings)
         generator = generator_class(settings.source, seed=seed, size=settings.size)
-        video = generator.generate(prompt)
+        subject = stored_subject(metadata)
+        video = None if subject is None else generator.generate(subject)
     except InputError:
         # Any program can write metadata: a prompt that is no scene does not make events invalid.
         return None
@@ -85,12 +87,16 @@ def prepare_replay(
     tables, facts, folder = metadata.get("settings"), metadata.get("source"), path.parent
     if not (isinstance(tables, Mapping) and isinstance(facts, Mapping)):
         raise InputError("the file does not say how it was made, so it cannot be made again")
-    _refuse_other_recordings(metadata, tables, facts, path)
+    _refuse_other_recordings(metadata, path)
     options, prompt = flatten_tables(tables, folder), metadata.get("prompt")
     prompt = prompt if isinstance(prompt, str) else None
     if "generate" in tables:
         settings = resolve("generate", options)
-        return _prepare_generated(facts, settings, prompt=prompt, source=source)
+        if source is not None:
+            video = fit_to_sensor(_stored_video(source, facts), settings)
+            return prepare_video(video, settings, prompt=prompt)
+        subject = stored_subject(metadata if SCENE_KEY in metadata else {"prompt": prompt, **facts})
+        return replace(_generate_again(subject, facts, settings), prompt=prompt)
     settings = resolve("simulate", options)
     _refuse_fields_of_memory(facts, settings)
     shaken = facts.get("camera_seed")
@@ -102,9 +108,7 @@ def prepare_replay(
     )
 
 
-def _refuse_other_recordings(
-    metadata: Mapping[str, Any], tables: Mapping[str, Any], facts: Mapping[str, Any], path: Path
-) -> None:
+def _refuse_other_recordings(metadata: Mapping[str, Any], path: Path) -> None:
     """Refuse files that hold something else than their run makes."""
     if "rig" in metadata:
         raise InputError(
@@ -115,35 +119,32 @@ def _refuse_other_recordings(
         raise InputError(
             f"the file was {'edited' if _is_changed(metadata) else 'cut in time'} after its run "
             "(see texvent info), so its run makes another one: "
-            f"{_command(tables, facts, path)}"
+            f"{_command(metadata, path)}"
         )
     if metadata.get("complete") is False:
         raise InputError(
             "the file is a part: its run was stopped; this makes it whole: "
-            f"{_command(tables, facts, path)}"
+            f"{_command(metadata, path)}"
         )
 
 
-def _prepare_generated(
-    facts: Mapping[str, Any], settings: Settings, *, prompt: str | None, source: Path | None
+def _generate_again(
+    subject: Subject | None, facts: Mapping[str, Any], settings: Settings
 ) -> Simulation:
-    """The run of a prompt: from its stored video where that is given, else generated again."""
-    if source is not None:
-        video = fit_to_sensor(_stored_video(source, facts), settings)
-        return prepare_video(video, settings, prompt=prompt)
+    """The run of a prompt or a scene, whose video is generated again."""
     if facts.get("stored") is not None:
         raise InputError(
             f"its video was stored, in {facts['stored']} of its data set; take it out of that tar "
             "and name it with --source"
         )
+    if subject is None:
+        raise InputError("the file names neither a prompt nor a scene, so it cannot be made again")
     check_files(facts.get("files"))
-    detailed, seed = str(facts.get("prompt", prompt)), _video_seed(facts, settings)
+    seed = _video_seed(facts, settings)
     if seed == settings.run.seed:
-        simulation = prepare_prompt(detailed, settings)
-    else:
-        of_video = replace(settings, run=replace(settings.run, seed=seed))
-        simulation = prepare_video(text_to_video(detailed, of_video), settings)
-    return replace(simulation, prompt=prompt)
+        return prepare_prompt(subject, settings)
+    of_video = replace(settings, run=replace(settings.run, seed=seed))
+    return prepare_video(text_to_video(subject, of_video), settings)
 
 
 def _refuse_fields_of_memory(facts: Mapping[str, Any], settings: Settings) -> None:
@@ -172,12 +173,14 @@ def _video_seed(facts: Any, settings: Settings) -> int:
     return seed if isinstance(seed, int) else settings.run.seed
 
 
-def _command(tables: Mapping[str, Any], facts: Mapping[str, Any], path: Path) -> str:
+def _command(metadata: Mapping[str, Any], path: Path) -> str:
     """The command line that makes the whole run again, into a new file."""
     command, key, word = "simulate", "source", "SOURCE"
-    if "generate" in tables:
+    if "generate" in metadata["settings"]:
         command, key, word = "generate", "prompt", "PROMPT"
-    given = facts.get(key)
+    given = metadata["source"].get(key)
+    if SCENE_KEY in metadata:
+        given, word = None, "SCENE.toml"
     if isinstance(given, str) and len(given) <= MAX_SHOWN:
         word = shlex.quote(given)
     name = str(path) if len(str(path)) <= MAX_SHOWN else f"FILE{path.suffix}"

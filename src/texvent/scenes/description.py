@@ -112,6 +112,12 @@ class SceneObject:
     """Frequency at which its own light blinks, Hz; None = as it usually does."""
     is_lit: bool | None = None
     """Whether its lamps are on; None = as usual: headlights at night, a candle always."""
+    position_m: tuple[float, float] | None = None
+    """x and y on the ground where its first copy is at time 0, m; None = not stated."""
+    height_m: float | None = None
+    """Of its lowest point above the ground, m; None = as usual."""
+    heading_deg: float | None = None
+    """Where it faces and goes, anticlockwise from x (right); None = not stated."""
 
 
 @dataclass(frozen=True)
@@ -150,6 +156,9 @@ class Relation:
     way: str = ""
     """What its preposition says besides: "into", "onto", "out of", "off", "against", "across",
     "along", "opposite", "at", "up", "down" (a slope) or "not on"; "" = nothing."""
+    distance_m: float | None = None
+    """From middle to middle on the ground, m, of "left of", "right of", "front", "behind" and
+    "beside"; None = not stated."""
 
 
 @dataclass(frozen=True)
@@ -190,6 +199,12 @@ class Shot:
     """"close" or "wide"; None = all objects fit."""
     target: int | None = None
     """Index of the object the camera follows or looks at; None = the first one."""
+    position_m: tuple[float, float, float] | None = None
+    """Where the camera is, at mid clip if it moves, m; None = where it shows the objects."""
+    look_at_m: tuple[float, float, float] | None = None
+    """The point that it looks at from there, m."""
+    field_of_view_deg: float | None = None
+    """Horizontal; None = as usual."""
 
     @property
     def is_moving(self) -> bool:
@@ -307,6 +322,15 @@ class SceneDescription:
     """What the words that are shown, or substituted, stand for."""
     notes: tuple[str, ...] = ()
     """What the parser decided or left out, as sentences."""
+
+    @property
+    def is_metric(self) -> bool:
+        """Whether anything stands where metres say: nothing is then moved or enlarged."""
+        return (
+            self.shot.position_m is not None
+            or any(one.distance_m is not None for one in self.relations)
+            or any((one.position_m, one.height_m) != (None, None) for one in self.objects)
+        )
 
     def summary(self) -> list[str]:
         """What will be shown, line by line, for a person to check.

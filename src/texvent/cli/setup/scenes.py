@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,14 +15,18 @@ from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_options
 from texvent.errors import ConfigError, InputError, shown
+from texvent.generate.scene_input import list_nouns, list_words
 from texvent.io.atomic import atomic_file, check_output
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.spec.schema import json_schema
 from texvent.sensor import SensorSize
 
-ACTIONS = ("list", "show")
+ACTIONS = ("list", "show", "--schema")
 LIST_HELP = """List what prompts of the embedded generator can name: nouns by family, with
 their other names; models of a folder of your own come first."""
 SHOW_HELP = """Draw one noun as a PNG image: four views around it, or one with --views 1."""
+SCHEMA_HELP = """Print the JSON Schema of scene files (docs/scene-files.md), by which editors
+complete and check them."""
 SIZE = SensorSize(320, 240)
 _TURN_S = 2.0
 """A spinning object turns once in this time."""
@@ -62,7 +67,8 @@ def run(arguments: Sequence[str]) -> int:
     if not arguments or arguments[0] in ("-h", "--help"):
         write_out(
             "usage: texvent scenes list [--assets FOLDER]\n"
-            "       texvent scenes show NOUN -o FILE.png [OPTIONS]\n\n"
+            "       texvent scenes show NOUN -o FILE.png [OPTIONS]\n"
+            "       texvent scenes --schema [--assets FOLDER]\n\n"
             "What prompts of the embedded generator can name, and what it looks like.\n"
         )
         return 0 if arguments else 2
@@ -77,7 +83,17 @@ def run(arguments: Sequence[str]) -> int:
             rest, {"input": ShowOptions()}, prog="texvent scenes show", description=SHOW_HELP
         )
         return _show(ShowOptions(**values))
+    if action == "--schema":
+        values = parse_options(
+            rest, {"input": ListOptions()}, prog="texvent scenes --schema", description=SCHEMA_HELP
+        )
+        return _write_schema(**values)
     raise ConfigError(f"unknown action 'scenes {action}'; {suggest(action, ACTIONS)}")
+
+
+def _write_schema(assets: Path | None) -> int:
+    write_out(f"{json.dumps(json_schema(list_words(list_nouns(assets))), indent=2)}\n")
+    return 0
 
 
 def _list(assets: Path | None) -> int:
@@ -96,7 +112,7 @@ def _families(assets: Path | None) -> Iterator[tuple[str, Noun]]:
     from texvent.scenes.assets.nouns import assets_of
     from texvent.scenes.models.nouns import FAMILIES
 
-    nouns = _nouns(assets)
+    nouns = list_nouns(assets)
     for noun in nouns.values():
         if assets_of(noun):
             yield "assets", noun
@@ -107,20 +123,13 @@ def _families(assets: Path | None) -> Iterator[tuple[str, Noun]]:
                 yield family, noun
 
 
-def _nouns(assets: Path | None) -> Mapping[str, Noun]:
-    from texvent.scenes.assets import merge_nouns, read_folder
-    from texvent.scenes.models.nouns import NOUNS
-
-    return NOUNS if assets is None else merge_nouns(read_folder(assets))
-
-
 def _show(options: ShowOptions) -> int:
     if options.output.suffix.lower() != ".png":
         raise ConfigError(f"output is {options.output}; its name must end in .png")
     if not 1 <= options.views <= 12:
         raise ConfigError(f"views is {options.views}; it must be 1 to 12")
     check_output(options.output, overwrite=options.overwrite)
-    nouns = _nouns(options.assets)
+    nouns = list_nouns(options.assets)
     noun = _find(options.noun, nouns)
     image = _draw(noun, nouns, options)
     with atomic_file(options.output, overwrite=options.overwrite) as part:

@@ -18,13 +18,15 @@ from texvent.cli.simulation.preview import check_preview, write_preview
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.generate.scene_input import Subject
 from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
 from texvent.options.fields import option_names
-from texvent.run.prepare import check_run, make_video, prepare_prompt
+from texvent.run.prepare import check_run, make_scene, make_video, prepare_prompt
 from texvent.run.settings import Settings, default_settings
 from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.scenes.spec.files import is_scene_file, load_scene, save_scene
 from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 
@@ -40,8 +42,8 @@ VIDEO_EXTENSION = ".avi"
 class PromptOptions(UpsampleConfig):
     """What to show."""
 
-    input_texts: ClassVar[tuple[str, ...]] = ("generator",)
-    outputs: ClassVar[tuple[str, ...]] = ("out", "preview")
+    input_texts: ClassVar[tuple[str, ...]] = ("generator", "prompt")
+    outputs: ClassVar[tuple[str, ...]] = ("out", "preview", "write_scene")
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "generator", "duration", "sensor", "simulator", "preset",
@@ -50,7 +52,7 @@ class PromptOptions(UpsampleConfig):
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show, in plain English, quoted."""
+    """What to show: a quoted sentence, or a scene file. See docs/scene-files.md."""
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator: see texvent generators, ./folder or hub:org/name. A folder holds a
     saved diffusers pipeline; hub: names a repository of the model hub."""
@@ -59,6 +61,8 @@ class PromptOptions(UpsampleConfig):
     preview: Path | None = None
     """Stills of the scene (.png) instead of events. Says what is shown, and stops; with --dry-run
     the estimate follows."""
+    write_scene: Path | None = None
+    """Write the scene of the prompt as a file (.toml, .json) instead of events, and stop."""
     from_video: Path | None = None
     """Take this video for the prompt's instead of generating one; all further options are then
     those of texvent simulate, which does the same: texvent simulate VIDEO --prompt TEXT."""
@@ -85,33 +89,41 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
+    prompt = load_scene(own.prompt) if is_scene_file(own.prompt) else own.prompt
+    if own.write_scene is not None:
+        return _write_scene(prompt, own, settings, output)
     if own.video_only:
-        return _write_video(own, settings, output)
+        return _write_video(prompt, own, settings, output)
     if own.preview is not None:
         generator_class = GENERATORS.load(str(settings.generator))
         check_preview(own.preview, generator_class, overwrite=output.overwrite)
         if output.out and not output.dry_run:
             warn("--preview stops before the events, so -o has no effect; run again without it")
         write_preview(
-            own.prompt, settings, own.preview, upsample=own, overwrite=output.overwrite,
+            prompt, settings, own.preview, upsample=own, overwrite=output.overwrite,
             is_quiet=output.quiet,
         )  # fmt: skip
         if not output.dry_run:
             return 0
     check_run(settings)
-    files = output.files(own.prompt)
+    files = output.files(_name(own.prompt))
     if files.truth:
         check_generator(own.generator)
     warn_low_fps(own.generator)
-    if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
+    if output.dry_run and (plan := _plan(prompt, settings)) is not None:
         write_out(f"{plan}\n")
         return 0
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        simulation = prepare_prompt(own.prompt, settings, upsample=own, progress=progress)
+        simulation = prepare_prompt(prompt, settings, upsample=own, progress=progress)
     return execute(simulation, output, files)
 
 
-def _plan(prompt: str, settings: Settings) -> str | None:
+def _name(prompt: str) -> str:
+    """What files are named after: the words of a prompt, or the name of a scene file."""
+    return Path(prompt).stem if is_scene_file(prompt) else prompt
+
+
+def _plan(prompt: Subject, settings: Settings) -> str | None:
     """What a learned generator would have to do first; None if the video is at hand."""
     part = GENERATORS.load(str(settings.generator))
     generator = part(settings.source, seed=settings.run.seed, size=settings.size)
@@ -151,11 +163,26 @@ def _refuse_generation(arguments: Sequence[str]) -> None:
             )
 
 
-def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) -> int:
+def _write_scene(
+    prompt: Subject, own: PromptOptions, settings: Settings, output: OutputOptions
+) -> int:
+    """Write the scene of a prompt and print its path."""
+    path = own.write_scene or Path()
+    with ConsoleProgress(is_quiet=output.quiet) as progress:
+        scene = make_scene(prompt, settings, upsample=own, progress=progress)
+    save_scene(path, scene, overwrite=output.overwrite)
+    if not output.quiet:
+        write_out(f"{path}\n")
+    return 0
+
+
+def _write_video(
+    prompt: Subject, own: PromptOptions, settings: Settings, output: OutputOptions
+) -> int:
     """Write the video of a prompt and print its path."""
     from texvent.generate.videos.stored_video import write_stream  # brings PyAV
 
-    named = default_event_file(own.prompt).with_suffix(VIDEO_EXTENSION)
+    named = default_event_file(_name(own.prompt)).with_suffix(VIDEO_EXTENSION)
     path, *more = output.out or (named,)
     if more or output.format:
         raise ConfigError("--video-only writes one video; give one -o, and no --format")
@@ -167,7 +194,7 @@ def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) 
     truth = _truth_of_video(path, own, output)
     warn_low_fps(own.generator)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        video = make_video(own.prompt, settings, upsample=own, progress=progress)
+        video = make_video(prompt, settings, upsample=own, progress=progress)
         write_stream(video, path, overwrite=output.overwrite)
         if truth is not None:
             from texvent.truth.saving import save_truth  # brings the ray caster

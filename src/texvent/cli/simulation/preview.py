@@ -10,6 +10,7 @@ from texvent.cli.run import describe_scene
 from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralGenerator, ProceduralVideo
 from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.generate.scene_input import Subject
 from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import make_video
 from texvent.run.settings import Settings
@@ -41,7 +42,7 @@ _ABOUT_HALF = 0.43
 
 
 def write_preview(
-    prompt: str, settings: Settings, path: Path, *, upsample: UpsampleConfig, overwrite: bool,
+    prompt: Subject, settings: Settings, path: Path, *, upsample: UpsampleConfig, overwrite: bool,
     is_quiet: bool,
 ) -> None:  # fmt: skip
     """Write the scene at its beginning, about its middle and its end; say what is shown.

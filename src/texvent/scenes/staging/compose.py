@@ -181,8 +181,7 @@ def compose_scene(
         InputError: the duration is not a positive number.
     """
     said, missing = prepare(description, nouns, duration_s)
-    set_out = set_on_table(enlarge_small(said, nouns), nouns)
-    description = dish_up(enlarge_again(set_out, take.larger), nouns)
+    description = said if said.is_metric else _set_out(said, nouns, take)
     place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
     travel = plan_travel(description, place, duration_s)
@@ -218,6 +217,12 @@ def compose_scene(
         tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
         notes=tuple(one for one in description.notes if one not in said.notes),
     )  # fmt: skip
+
+
+def _set_out(said: SceneDescription, nouns: Mapping[str, Noun], take: Take) -> SceneDescription:
+    """The description with small things enlarged, on tables and plates."""
+    set_out = set_on_table(enlarge_small(said, nouns), nouns)
+    return dish_up(enlarge_again(set_out, take.larger), nouns)
 
 
 def _place_scenery(
@@ -270,6 +275,9 @@ def _set_camera(
             travel=travel, take=take,
         )  # fmt: skip
 
+    if description.is_metric:
+        actors = with_headroom(description, placer.place_all())
+        return actors, film(actors)
     actors = stand(placer.place_all())
     if travel is None and list_at_wall(description, place):
         return stand_before_wall(

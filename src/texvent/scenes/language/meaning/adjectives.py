@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from texvent.scenes.colours import COLOURS, GREY_LEVELS, shade_colour
 from texvent.scenes.description import NamedColour, ObjectMotion, Picture
 from texvent.scenes.language.meaning.capabilities import can_do
 from texvent.scenes.language.meaning.draft import PartialObject
@@ -18,8 +19,6 @@ from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.machine_acts import COLLAPSE
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.pictures.checking import can_show, check_picture
-
-_GREY_LEVELS = {"light": "silver", "pale": "silver", "dark": "black"}
 
 
 @dataclass
@@ -159,9 +158,9 @@ def read_attributes(modifiers: Sequence[Word]) -> Attributes:
             setattr(found, _FIELDS[role], (word.meaning.value, word))
         else:
             _read_other(found, word)
-    level = _GREY_LEVELS.get(shade.text) if shade is not None else None
+    level = GREY_LEVELS.get(shade.text) if shade is not None else None
     if shade is not None and level is not None:
-        rgb = vocabulary_objects.COLOURS[level]
+        rgb = COLOURS[level]
         found.colours.append((NamedColour(shade.text, rgb), [shade]))
     return found
 
@@ -206,8 +205,8 @@ def _read_rate(found: Attributes, word: Word) -> None:
 
 
 def _name_colour(word: Word, shade: Word | None) -> tuple[NamedColour, list[Word]]:
-    rgb = vocabulary_objects.COLOURS[word.text]
+    rgb = COLOURS[word.text]
     if shade is None:
         return NamedColour(word.text, rgb), [word]
-    rgb = vocabulary_objects.shade_colour(rgb, shade.text)
+    rgb = shade_colour(rgb, shade.text)
     return NamedColour(f"{shade.text} {word.text}", rgb), [shade, word]

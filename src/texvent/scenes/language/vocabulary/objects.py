@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from texvent.scenes.scene import Colour
+from texvent.scenes.colours import COLOURS as COLOURS
+from texvent.scenes.colours import SHADES as SHADES
 
 MAX_COUNT = 24
 """Most copies of one object; a larger count is shown as this many, and said."""
@@ -49,87 +50,6 @@ SIZES: dict[float, tuple[str, ...]] = {
     2.2: ("giant", "enormous"),
     2.4: ("gigantic",),
 }  # fmt: skip
-
-
-def decode_hex(code: str) -> Colour:
-    """Linear-light RGB of an sRGB code such as "ff8000" (IEC 61966-2-1).
-
-    Example:
-        >>> decode_hex("ffffff")
-        (1.0, 1.0, 1.0)
-    """
-    red, green, blue = (_linearise(int(code[i : i + 2], 16) / 255.0) for i in (0, 2, 4))
-    return (red, green, blue)
-
-
-def _linearise(value: float) -> float:
-    return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)
-
-
-COLOURS: dict[str, Colour] = {
-    name: decode_hex(code)
-    for name, code in {
-        "red": "c8201c",
-        "orange": "e8791b",
-        "yellow": "efc81f",
-        "green": "2e8b3a",
-        "blue": "2352c4",
-        "purple": "7434a8",
-        "violet": "7a3fc0",
-        "pink": "ee7fae",
-        "brown": "7a4b26",
-        "black": "17171a",
-        "white": "f2f2ee",
-        "grey": "84868a",
-        "gray": "84868a",
-        "silver": "b9bdc3",
-        "silvery": "b9bdc3",
-        "gold": "d3a32c",
-        "golden": "d3a32c",
-        "cyan": "24b8c9",
-        "turquoise": "2fc0b0",
-        "teal": "1d7f80",
-        "magenta": "c9278f",
-        "beige": "d8c8a2",
-        "tan": "c29c69",
-        "cream": "efe6c8",
-        "maroon": "6e1a22",
-        "crimson": "b3142f",
-        "navy": "1b2a5c",
-        "olive": "70732b",
-        "lime": "8ecb2d",
-        "khaki": "b5a66b",
-        "ivory": "f1ecd9",
-        "scarlet": "d62718",
-        "bronze": "a9713a",
-        "copper": "b8693a",
-        "indigo": "3a3a9a",
-        "ochre": "b9822e",
-    }.items()
-}
-
-SHADES: dict[str, tuple[float, float]] = {
-    "light": (1.0, 0.45),
-    "pale": (1.0, 0.55),
-    "bright": (1.25, 0.0),
-    "dark": (0.35, 0.0),
-    "deep": (0.55, 0.0),
-    "vivid": (1.2, 0.0),
-}
-"""Word → (factor on linear RGB, share of white mixed in)."""
-
-
-def shade_colour(rgb: Colour, shade: str) -> Colour:
-    """The colour made lighter or darker as the word says; stays in 0..1.
-
-    Example:
-        >>> shade_colour((0.5, 0.0, 0.0), "dark")
-        (0.175, 0.0, 0.0)
-    """
-    factor, white = SHADES[shade]
-    red, green, blue = (min(1.0, (c * factor) * (1.0 - white) + white) for c in rgb)
-    return (red, green, blue)
-
 
 MATERIALS: dict[str, tuple[str, ...]] = {
     "wood": ("wooden", "wood", "oak", "pine wood"),

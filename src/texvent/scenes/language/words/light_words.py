@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from texvent.scenes.colours import TINTS
 from texvent.scenes.description import Illumination, NamedColour
 from texvent.scenes.language.vocabulary import light as vocabulary
-from texvent.scenes.language.vocabulary.objects import COLOURS
 from texvent.scenes.language.words.english import Pos
 from texvent.scenes.language.words.lexicon import Meaning, Role
 from texvent.scenes.language.words.word import Word, mark_used
@@ -38,7 +38,6 @@ def _list_qualities() -> Iterator[tuple[str, Quality]]:
 
 
 _QUALITIES = dict(_list_qualities())
-_TINTS_RGB = {"warm": (1.0, 0.75, 0.45), "golden": (1.0, 0.7, 0.3), "cold": (0.6, 0.8, 1.0)}
 _WARM = frozenset({"warm", "golden", "orange", "yellow", "red"})
 _COLD = frozenset({"cold", "blue", "cyan", "turquoise", "teal", "indigo"})
 """Tints that go together: "cold blue light"."""
@@ -92,7 +91,7 @@ class _Reader:
         tint = self._said.get("tint")
         return Illumination(
             kind=self._said.get("kind"),
-            tint=None if tint is None else NamedColour(tint, _TINTS_RGB.get(tint) or COLOURS[tint]),
+            tint=None if tint is None else NamedColour(tint, TINTS[tint]),
             hardness=self._said.get("hardness"),
             brightness=self._said.get("brightness"),
             direction=self._said.get("direction"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -192,6 +192,15 @@ class CameraPath:
                 right += shake * (math.sin(1.1 * wave) + 0.6 * math.sin(2.7 * wave + 1.0))
                 up += shake * (math.sin(1.4 * wave + 2.0) + 0.5 * math.sin(3.3 * wave))
         return right, up
+
+    def in_room(self, points: Float64Array, times: Float64Array) -> CameraPath:
+        """The path in a room that holds the camera at all times, s, and points [n, 3], m."""
+        places = np.array([self.at(float(time)).position for time in times])
+        reach = float(np.max(np.abs(places[:, :2])))
+        spread = float(np.max(np.abs(points[:, :2])))
+        height = float(np.max(points[:, 2])) / 0.6
+        above = (float(np.max(places[:, 2])) + 0.35) / 0.6
+        return replace(self, room_m=max(reach + 0.6, spread + 0.8, height + 0.5, above, 3.5))
 
     def _keep_inside(self, position: Float64Array) -> Float64Array:
         position = np.asarray(position, dtype=np.float64)

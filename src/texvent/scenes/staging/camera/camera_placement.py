@@ -23,7 +23,7 @@ from texvent.scenes.staging.camera.following import (
     stay_together,
 )
 from texvent.scenes.staging.camera.framed_points import INSTANTS, list_related, list_views
-from texvent.scenes.staging.camera.framing import Framing, fit
+from texvent.scenes.staging.camera.framing import Framing, fit, pose, seen_through
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.laid_table import ELEVATION_RAD, is_on_table, list_laid
 from texvent.scenes.staging.camera.main_actor import choose_main
@@ -89,21 +89,29 @@ def place_camera(
         take: how far it is from where it usually stands.
     """
     if travel is not None:
-        return _travel(description, travel, actors, place, duration_s)
-    if not actors:
-        return _look_around(description, place, duration_s)
+        path = _travel(description, travel, actors, place, duration_s)
+    elif description.shot.position_m is not None:
+        path = _stand_at(description, actors, place, duration_s)
+    elif not actors:
+        path = _look_around(description, place, duration_s)
+    else:
+        return _watch(description, actors, place, _How(seed, aspect, duration_s, take))
+    angle_deg = description.shot.field_of_view_deg
+    return replace(path, framing=seen_through(path.framing, angle_deg, is_fixed=True))
+
+
+def _watch(
+    description: SceneDescription, actors: Sequence[Actor], place: str, how: _How
+) -> CameraPath:
+    """The camera that shows the objects."""
     main = choose_main(description, actors)
-    moves = _plan_moves(description, main, duration_s)
-    how = _How(seed, aspect, duration_s, take)
+    moves = _plan_moves(description, main, how.duration_s)
     framed = [one for one in actors if not is_added(description, one.object_index)]
     path = _frame(description, framed, main, moves, place, how)
-    path = retake(path, take, actors)
-    path = _keep_in_view(path, main, actors, aspect)
-    if is_room(place):
-        near = [a for a in actors if description.objects[a.object_index].side != "far"]
-        points = corners_over(near or actors, np.linspace(0.0, duration_s, INSTANTS))
-        path = replace(path, room_m=_size_room(path, points))
-    return path
+    path = retake(path, how.take, actors)
+    angle_deg = description.shot.field_of_view_deg
+    path = replace(path, framing=seen_through(path.framing, angle_deg, is_fixed=False))
+    return _in_room(_keep_in_view(path, main, actors, how.aspect), description, actors, place)
 
 
 def _frame(
@@ -322,9 +330,22 @@ def _look_around(description: SceneDescription, place: str, duration_s: float) -
         empty = Framing(np.array([0.0, 0.6, 1.1]), 0.0, 0.12, 3.4, 0.9)
     moves = _plan_moves(description, None, duration_s)
     path = CameraPath(empty, moves, duration_s, has_floor=place not in ("sky", "space"))
-    if is_room(place):
-        path = replace(path, room_m=_size_room(path, np.zeros((1, 3))))
-    return path
+    return _in_room(path, description, (), place)
+
+
+def _stand_at(
+    description: SceneDescription, actors: Sequence[Actor], place: str, duration_s: float
+) -> CameraPath:
+    """The camera where metres say; its moves go through that pose at mid clip."""
+    shot = description.shot
+    main = choose_main(description, actors) if actors else None
+    path = CameraPath(
+        pose(shot.position_m or (), shot.look_at_m or ()),
+        _plan_moves(description, None, duration_s), duration_s,
+        None if main is None else main.trajectory, has_floor=False,
+        subject_corners=None if main is None else main.corners,
+    )  # fmt: skip
+    return _in_room(path, description, actors, place)
 
 
 def _travel(
@@ -366,12 +387,13 @@ def _plan_moves(
     return ()
 
 
-def _size_room(path: CameraPath, points: Float64Array) -> float:
-    """Half the side of a room that holds the camera and everything it looks at, m."""
+def _in_room(
+    path: CameraPath, description: SceneDescription, actors: Sequence[Actor], place: str
+) -> CameraPath:
+    """The path; indoors in a room that holds the camera and what it looks at."""
+    if not is_room(place):
+        return path
+    near = [a for a in actors if description.objects[a.object_index].side != "far"]
     times = np.linspace(0.0, path.duration_s, INSTANTS)
-    places = np.array([path.at(float(time)).position for time in times])
-    reach = float(np.max(np.abs(places[:, :2])))
-    spread = float(np.max(np.abs(points[:, :2])))
-    height = float(np.max(points[:, 2])) / 0.6
-    above = (float(np.max(places[:, 2])) + 0.35) / 0.6
-    return max(reach + 0.6, spread + 0.8, height + 0.5, above, 3.5)
+    points = corners_over(near or actors, times) if actors else np.zeros((1, 3))
+    return path.in_room(points, times)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from texvent.scenes.scene import Camera, Float64Array
 
+USUAL_FOCAL = 1.1
+"""Focal length over image width."""
 NEAREST_M = 0.04
 """Least distance from the camera to what it looks at, m."""
 
@@ -37,6 +40,29 @@ class Framing:
         return np.asarray(self.target + self.distance_m * self.offset)
 
 
+def pose(position: Sequence[float], target: Sequence[float]) -> Framing:
+    """The framing of a camera at a point, m, that looks at another one."""
+    away = np.subtract(position, target)
+    distance = float(np.linalg.norm(away))
+    azimuth, elevation = math.atan2(away[0], -away[1]), math.asin(away[2] / distance)
+    return Framing(np.array(target, dtype=np.float64), azimuth, elevation, distance, USUAL_FOCAL)
+
+
+def seen_through(framing: Framing, field_of_view_deg: float | None, *, is_fixed: bool) -> Framing:
+    """The framing with another horizontal field of view; None leaves it as it is.
+
+    Args:
+        framing: the camera's position and lens.
+        field_of_view_deg: 1 to 150.
+        is_fixed: whether the camera stays; else what it looks at keeps its size in the image.
+    """
+    if field_of_view_deg is None:
+        return framing
+    focal = 0.5 / math.tan(math.radians(0.5 * field_of_view_deg))
+    distance = framing.distance_m * (1.0 if is_fixed else focal / framing.focal)
+    return replace(framing, focal=focal, distance_m=distance)
+
+
 def direction(azimuth: float, elevation: float) -> Float64Array:
     """[3] unit vector; azimuth 0 and elevation 0 point south (towards the default viewer)."""
     flat = math.cos(elevation)
@@ -56,7 +82,7 @@ def look_at(position: Float64Array, target: Float64Array, focal: float) -> Camer
 
 def fit(
     points: Float64Array, *, azimuth: float, elevation: float, aspect: float, fill: float,
-    lift: float = 0.0, focal: float = 1.1,
+    lift: float = 0.0, focal: float = USUAL_FOCAL,
 ) -> Framing:  # fmt: skip
     """The nearest station from which all points appear.
 

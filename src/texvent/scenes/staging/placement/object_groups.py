@@ -266,3 +266,10 @@ def _vertical(centre: Float64Array, group: ObjectGroup) -> tuple[float, float]:
     height = 2.0 * float(group.half[2])
     low = float(centre[2]) - (0.5 * height if is_centred(group.noun) else 0.0)
     return low, low + height
+
+
+def unturn(offset: Float64Array, yaw: float) -> Vector:
+    """An offset in the world as a body of that heading sees it, m."""
+    cosine, sine = math.cos(yaw), math.sin(yaw)
+    x, y, z = offset
+    return (float(x * cosine + y * sine), float(y * cosine - x * sine), float(z))

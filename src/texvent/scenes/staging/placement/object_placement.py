@@ -40,11 +40,13 @@ from texvent.scenes.staging.placement.object_groups import (
     place_copies,
     rests,
     slow_overtaken,
+    unturn,
 )
 from texvent.scenes.staging.placement.spatial_relations import (
     INVERSE,
     Goal,
     orbit,
+    place_at_distance,
     place_by_subject,
     place_on_targets,
     side_offset,
@@ -110,7 +112,9 @@ class ObjectPlacer:
             if relation.kind in AMID
             for target in relation.targets
         }
-        for index in range(len(self._description.objects)):
+        objects = self._description.objects
+        # What stands where metres say is there first: others make way.
+        for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
             if index not in scenic:
                 self._place(index, frozenset())
         return self._perform()
@@ -154,6 +158,8 @@ class ObjectPlacer:
             path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
             plan = replace(plan, path=path, yaw=path.yaw)
         plan = replace(plan, yaw=still_yaw(self._description, noun, models[0], plan.yaw))
+        if scene_object.heading_deg is not None:
+            plan = plan.turned(math.radians(scene_object.heading_deg))
         offsets = place_copies(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
         group = ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
@@ -175,7 +181,16 @@ class ObjectPlacer:
         group.centre = self._find_free_position(group, goal)
         if self._travel is not None and goal.slide.any():
             push_aside(group, self._travel)
+        if group.scene_object.position_m is not None:
+            self._start_at(group, group.scene_object.position_m)
         self.groups[index] = group
+
+    def _start_at(self, group: ObjectGroup, place: tuple[float, float]) -> None:
+        """Move a group so that its first copy starts at a place on the ground, m."""
+        x, y, z = group.centre + np.array(group.offsets[0])
+        rng = seeded(self._seed, "lead", group.index, group.noun.name)
+        start = self._choose(group, group.models[0], (x, y, z), 0, rng).at(0.0).position
+        group.centre[:2] += np.subtract(place, start[:2])
 
     def _align(self, group: ObjectGroup, related: list[Relation]) -> None:
         """Give a follower or companion the heading and speed of its partner.
@@ -217,11 +232,13 @@ class ObjectPlacer:
                 target = self.groups[relation.targets[0]]
                 if is_added(self._description, group.index):
                     return Goal(set_before(group, target, height), np.zeros(3))
-                return place_by_subject(group, INVERSE[relation.kind], target, height)
+                goal = place_by_subject(group, INVERSE[relation.kind], target, height)
+                return place_at_distance(goal, relation, target, 1.0)
         for relation in self._description.relations:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
-                return _place_for(group, relation, subject, height)
+                goal = _place_for(group, relation, subject, height)
+                return place_at_distance(goal, relation, subject, -1.0)
         if self._along is not None:
             is_goal = self._description.shot.target == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
@@ -261,7 +278,9 @@ class ObjectPlacer:
 
     def _height(self, group: ObjectGroup) -> float:
         """Height of the group's origin, m."""
-        kind = group.plan.motion.kind
+        kind, said_m = group.plan.motion.kind, group.scene_object.height_m
+        if said_m is not None:
+            return said_m - lowest_point(group.models[0])
         is_resting = rests(group.noun, kind) and group.noun.name not in self._level_m
         lifts = kind in ("rise", "sink") and self._level_m.get("air", 0.0) > 0.0
         if (is_resting or lifts) and is_centred(group.noun) and group.noun.habitat == "air":
@@ -346,7 +365,7 @@ class ObjectPlacer:
                                    seeded(self._seed, "lead", group.carrier.index,
                                           group.carrier.noun.name))  # fmt: skip
             offset = np.array(home) - group.carrier.centre
-            turned = _unturn(offset, group.carrier.plan.yaw)
+            turned = unturn(offset, group.carrier.plan.yaw)
             activity = group.plan.gesture or "sit"
             if group.carried_on is not None:
                 on = OnPart(carrier, group.carrier.models[0], group.carried_on, turned, activity)
@@ -376,9 +395,3 @@ def _gripping(path: Trajectory, group: ObjectGroup) -> Trajectory:
 def _tuple(group: ObjectGroup) -> Vector:
     x, y, z = group.centre
     return (float(x), float(y), float(z))
-
-
-def _unturn(offset: Float64Array, yaw: float) -> Vector:
-    cosine, sine = math.cos(yaw), math.sin(yaw)
-    x, y, z = offset
-    return (float(x * cosine + y * sine), float(y * cosine - x * sine), float(z))

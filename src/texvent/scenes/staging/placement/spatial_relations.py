@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import STANDING, SceneObject
+from texvent.scenes.description import STANDING, Relation, SceneObject
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.faced import hang_on, hangs
@@ -348,3 +348,23 @@ def orbit(group: ObjectGroup, around: ObjectGroup, number: int, duration_s: floa
     activity = "run" if group.plan.motion.kind == "run" else "move"
     lean = 0.3 if group.noun.habitat == "air" and model.length > model.height else 0.0
     return Circle((float(x), float(y), height), radius, rate, phase, activity, lean)
+
+
+_SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
+          "front": (0.0, -1.0), "beside": (1.0, 0.0)}  # fmt: skip
+"""Relation with a distance → where its subject is, seen from the target, on the ground."""
+
+
+def place_at_distance(goal: Goal, relation: Relation, other: ObjectGroup, sign: float) -> Goal:
+    """The goal at the distance of the relation, if it has one.
+
+    Args:
+        goal: where the group would be without it.
+        relation: between the group and another one.
+        other: that one, which is placed already.
+        sign: 1 for the goal of the relation's subject, -1 for that of a target.
+    """
+    if relation.distance_m is None:
+        return goal
+    place = other.centre[:2] + sign * relation.distance_m * np.array(_SIDES[relation.kind])
+    return Goal(np.array([*place, goal.position[2]]), _FIXED)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -79,6 +79,11 @@ class MotionPlan:
         """Whether it goes from one place to another along a straight line."""
         is_straight = self.motion.direction not in ("circle", "eight", "to and fro", "up and down")
         return self.path is None and self.motion.kind in PATH_KINDS and is_straight
+
+    def turned(self, yaw: float) -> MotionPlan:
+        """The same plan with another heading, radians from x towards y."""
+        path = None if self.path is None else replace(self.path, yaw=yaw)
+        return replace(self, yaw=yaw, path=path)
 
     @property
     def travel_m(self) -> float:

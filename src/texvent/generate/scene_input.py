@@ -1,0 +1,185 @@
+"""What the embedded generator is given: a sentence, which is read, or a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from texvent.errors import ConfigError, InputError, shown
+from texvent.scenes.report import Substitution
+from texvent.scenes.spec.data import checked_scene, scene_from_data, scene_to_data
+from texvent.scenes.spec.limits import Vocabulary
+from texvent.scenes.spec.scene import Scene
+
+if TYPE_CHECKING:
+    from texvent.scenes.description import SceneDescription
+    from texvent.scenes.models.protocol import Noun
+
+SCENE_KEY = "scene"
+"""Name of a scene's plain values in the metadata of videos and events."""
+Subject: TypeAlias = str | Scene
+"""A prompt, or the scene itself."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """The scene that a sentence describes, and what became of its words."""
+
+    scene: Scene
+    shown: tuple[str, ...]
+    """Words that the scene shows."""
+    substituted: tuple[Substitution, ...]
+    """Words that are shown as something else."""
+    not_understood: tuple[str, ...]
+    """Words without effect on the scene."""
+
+
+def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
+    """The scene that a sentence describes.
+
+    Nothing is drawn: what a scene hides or has no room for is not found here. The events of a
+    sentence may differ from those of its scene, because the generator then looks for a camera
+    position that shows more of its words.
+
+    Args:
+        prompt: an English sentence, such as "a red car drives left past two trees at dusk".
+        assets: a folder of models of your own.
+
+    Raises:
+        InputError: the prompt is no text or empty, or nothing in it is understood.
+
+    Example:
+        >>> reading = read("a red car drives left")
+        >>> reading.scene.objects[0].colour, reading.not_understood
+        ('red', ())
+    """
+    # Imported here and below: the vocabulary and all models are only needed to make a scene.
+    from texvent.scenes.language.parser import parse_prompt
+    from texvent.scenes.spec.description import from_description
+
+    if not isinstance(prompt, str):
+        raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
+    description = parse_prompt(prompt, list_nouns(assets))
+    report = description.report()
+    return Reading(
+        scene=from_description(description),
+        shown=report.shown,
+        substituted=report.substituted,
+        not_understood=report.not_understood,
+    )
+
+
+def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
+    """The nouns that scenes can show, with models of a folder."""
+    from texvent.scenes.assets import merge_nouns, read_folder
+    from texvent.scenes.models.nouns import NOUNS
+
+    return NOUNS if assets is None else merge_nouns(read_folder(Path(assets)))
+
+
+def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
+    """The words of scenes, by kind: nouns, motions and activities, places, effects."""
+    from texvent.scenes.models.effects import EFFECTS
+    from texvent.scenes.models.motions import MOTIONS
+    from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
+    from texvent.scenes.staging.surroundings.places import PLACES
+
+    usual = {kind for noun in nouns.values() for kind in (noun.motion, *noun.acts)}
+    return {
+        "noun": nouns,
+        "motion": sorted({*MOTIONS, *ACTIVITIES, *HAND_GESTURES, *usual}),
+        "place": PLACES,
+        "effect": EFFECTS,
+    }
+
+
+def describe_subject(subject: Subject) -> dict[str, Any]:
+    """A prompt or a scene in the metadata of its video: enough to make it again."""
+    if isinstance(subject, Scene):
+        return {"prompt": subject.prompt or None, SCENE_KEY: scene_to_data(subject)}
+    return {"prompt": subject}
+
+
+def prompt_of(subject: Subject) -> str | None:
+    """The sentence that is stored with the events of a subject; None: a scene without one."""
+    return subject.prompt or None if isinstance(subject, Scene) else subject
+
+
+def check_takes(subject: Subject, generator_class: type, name: str) -> None:
+    """Refuse a scene for a generator that takes sentences only.
+
+    Raises:
+        ConfigError: with the generator's name.
+    """
+    if isinstance(subject, Scene) and not getattr(generator_class, "takes_scenes", False):
+        raise ConfigError(
+            f"generator {shown(name)} takes a prompt, not a scene; leave --generator out, or give "
+            "a sentence"
+        )
+
+
+def stored_subject(metadata: Mapping[str, Any]) -> Subject | None:
+    """The prompt or the scene that `describe_subject` wrote; None where there is neither.
+
+    Raises:
+        ConfigError: the scene is wrong.
+    """
+    if SCENE_KEY in metadata:
+        return scene_from_data(metadata[SCENE_KEY])
+    prompt = metadata.get("prompt")
+    return prompt if isinstance(prompt, str) else None
+
+
+def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description of a prompt, with the report of its words, or of a scene.
+
+    Raises:
+        InputError: the prompt is empty or not understood, or a picture cannot be shown.
+        ConfigError: a field of the scene is wrong, or a word of it is not shown.
+    """
+    from texvent.scenes.language.parser import parse_prompt
+
+    if isinstance(subject, Scene):
+        return describe_scene(subject, nouns)
+    return parse_prompt(subject, nouns)
+
+
+def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """The description of a scene, checked, with what the scene leaves open decided.
+
+    Raises:
+        ConfigError: a field is wrong, or a word is not shown.
+        InputError: a picture cannot be shown.
+    """
+    from texvent.scenes.description import STANDING
+    from texvent.scenes.language.defaults import complete_description
+    from texvent.scenes.spec.description import to_description
+
+    scene = checked_scene(scene, list_words(nouns))
+    _check_pictures(scene)
+    said = to_description(scene)
+    found = complete_description(said, nouns)
+    # A sentence may say "stand" of what sits or runs, and name a place for its surroundings.
+    objects = tuple(
+        one if told.motion != STANDING else replace(one, motion=told.motion)
+        for one, told in zip(found.objects, said.objects, strict=True)
+    )
+    place = scene.place.name or found.surroundings.place
+    return replace(found, objects=objects, surroundings=replace(found.surroundings, place=place))
+
+
+def _check_pictures(scene: Scene) -> None:
+    from texvent.scenes.pictures import can_show, check_picture
+    from texvent.scenes.spec.description import to_description
+
+    for n, one in enumerate(to_description(scene).objects):
+        if one.picture is None:
+            continue
+        if not can_show(one.noun):
+            raise ConfigError(f"objects[{n}].picture is given, but a {one.noun} shows none")
+        try:
+            check_picture(one.picture)
+        except InputError as error:
+            raise ConfigError(f"objects[{n}].picture: {error}") from error

@@ -1,0 +1,1 @@
+"""The scene as a value, in files and in Python."""

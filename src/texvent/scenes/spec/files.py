@@ -1,0 +1,109 @@
+"""Scene files: scenes as TOML or JSON."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
+from texvent.runtime.file_names import usable_path
+from texvent.scenes.spec.data import scene_from_data, scene_to_data
+from texvent.scenes.spec.scene import Scene
+from texvent.scenes.spec.toml_text import toml_text
+
+ENDINGS = (".toml", ".json")
+"""Endings of the names of scene files."""
+
+
+def load_scene(path: str | Path) -> Scene:
+    """The scene of a file.
+
+    Paths of pictures are relative to the file's folder; the scene has absolute ones.
+
+    Args:
+        path: a .toml or .json file, as `save_scene` writes it or as written by hand.
+
+    Raises:
+        InputError: the file cannot be read.
+        FileFormatError: it is no valid TOML or JSON.
+        ConfigError: a field is wrong; the message names the file and the path of the field.
+    """
+    path = usable_path(path)
+    document = _parse(path, _read(path))
+    try:
+        scene = scene_from_data(document)
+    except ConfigError as error:
+        raise ConfigError(f"{path}: {error}") from None
+    return _with_pictures_of(path.parent.resolve(), scene)
+
+
+def save_scene(path: str | Path, scene: Scene, *, overwrite: bool = False) -> None:
+    """Write a scene to a file; `load_scene` reads an equal one.
+
+    Args:
+        path: ends in .toml or .json.
+        scene: what to write; fields at their defaults are left out.
+        overwrite: whether an existing file may be replaced.
+
+    Raises:
+        ConfigError: the name has another ending, or the scene holds a wrong field.
+        OutputError: the file exists, or cannot be written.
+    """
+    from texvent.io.atomic import atomic_file  # beside scenes, which else need no writer
+
+    path = usable_path(path)
+    text = scene_text(scene_from_data(scene_to_data(scene)), path.suffix)
+    with atomic_file(path, overwrite=overwrite) as part:
+        part.write_text(text, encoding="utf-8")
+
+
+def scene_text(scene: Scene, ending: str) -> str:
+    """A scene as the text of a file whose name ends so: ".toml" or ".json".
+
+    Raises:
+        ConfigError: it is another ending.
+    """
+    data = scene_to_data(scene)
+    if ending.lower() not in ENDINGS:
+        raise ConfigError(f"scene files end in {' or '.join(ENDINGS)}, not in {shown(ending)}")
+    if ending.lower() == ".json":
+        return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+    return toml_text(data)
+
+
+def is_scene_file(text: str) -> bool:
+    """Whether a prompt is the name of a scene file: one word with the ending of one."""
+    return Path(text).suffix.lower() in ENDINGS and not set(text) & set("\n\r")
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(f"cannot read scene file {path}: {reason}; check its name") from error
+    except UnicodeDecodeError as error:
+        raise FileFormatError(f"scene file {path} is not UTF-8 text: {one_line(error)}") from error
+
+
+def _parse(path: Path, text: str) -> Any:
+    if path.suffix.lower() not in ENDINGS:
+        raise ConfigError(f"{path} is no scene file; its name must end in {' or '.join(ENDINGS)}")
+    try:
+        return json.loads(text) if path.suffix.lower() == ".json" else tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError(f"scene file {path} is not valid: {one_line(error)}") from error
+
+
+def _with_pictures_of(folder: Path, scene: Scene) -> Scene:
+    """The scene with absolute paths of the pictures that lie in a folder."""
+    objects = tuple(
+        replace(one, picture=replace(one.picture, value=str(folder / one.picture.value)))
+        if one.picture is not None and one.picture.kind == "file"
+        else one
+        for one in scene.objects
+    )
+    return replace(scene, objects=objects)

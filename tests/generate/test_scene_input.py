@@ -1,0 +1,120 @@
+"""Scenes at the doors: Python, the command line, and the metadata of events."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+from texvent.errors import ConfigError, InputError
+from texvent.run.replay import render_again
+from texvent.scenes import Camera, CameraMove, Motion, Place, Scene, SceneObject, load_scene
+
+OPTIONS = {"sensor": "48x36", "duration": 0.2, "seed": 3}
+FLAGS = ["--sensor", "48x36", "--duration", "0.2", "--seed", "3", "--events-only", "-q"]
+SENTENCE = "a red car drives left past two trees at dusk"
+
+
+def test_the_scene_of_a_sentence_gives_its_events():
+    reading = texvent.read(SENTENCE)
+    assert reading.shown == ("red", "car", "drives", "left", "past", "two", "trees", "dusk")
+    assert reading.substituted == reading.not_understood == ()
+    events, of_sentence = (texvent.generate(one, **OPTIONS) for one in (reading.scene, SENTENCE))
+    assert events == of_sentence
+    assert events.metadata["prompt"] == SENTENCE
+    assert texvent.video(reading.scene, **OPTIONS).class_names == {1: "car", 2: "tree", 3: "tree"}
+
+
+def test_what_a_scene_leaves_open_is_decided_and_what_it_says_stays():
+    car = SceneObject(noun="car")
+    moving = texvent.video(Scene(objects=(car,)), **OPTIONS).metadata["prompt_report"]
+    assert moving["scene"][:2] == ["1 car, drives", "place: road"]
+    still = Scene(
+        objects=(SceneObject(noun="man", motions=(Motion(kind="stand"),)),),
+        place=Place(name="plain"),
+        camera=Camera(moves=(CameraMove(kind="pan", direction="left"),)),
+    )
+    lines = texvent.video(still, **OPTIONS).metadata["prompt_report"]["scene"]
+    assert lines == ["1 man, stands still", "place: plain", "light: day", "camera: pan left"]
+
+
+def test_events_of_a_scene_are_made_again_from_their_file(tmp_path, capsys):
+    path = tmp_path / "car.h5"
+    scene = texvent.read("a ball bounces").scene
+    texvent.generate(scene, **OPTIONS).save(path)
+    metadata = texvent.open(path).metadata
+    assert metadata["scene"]["objects"][0]["noun"] == "ball"
+    again = render_again(metadata)
+    np.testing.assert_array_equal(again.at(0).pixels, texvent.video(scene, **OPTIONS).at(0).pixels)
+    assert main(["replay", str(path), "-o", str(tmp_path / "again.h5")]) == 0
+    assert "the same bytes" in capsys.readouterr().out
+
+
+def test_the_command_line_writes_a_scene_and_takes_it(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["generate", f"{SENTENCE} under a wug", "--write-scene", "car.toml"]) == 0
+    said = capsys.readouterr()
+    assert said.out == "car.toml\n"
+    assert "not understood: " in said.err
+    assert "wug" in said.err
+    assert load_scene("car.toml").objects[0].colour == "red"
+    assert main(["generate", "car.toml", *FLAGS]) == 0
+    assert texvent.open("car.h5").metadata["scene"]["objects"][0]["noun"] == "car"
+    assert main(["generate", "a cat", "--write-scene", "car.toml"]) == 3
+    assert main(["generate", "a cat", "--write-scene", "car.toml", "--overwrite"]) == 0
+    assert main(["generate", "car.toml", "--write-scene", "cat.json"]) == 0
+    assert load_scene("cat.json") == load_scene("car.toml")
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, "cannot read scene file scene.toml: No such file or directory"),
+        ("objects = [", "scene file scene.toml is not valid: "),
+        ('[[objects]]\nnoun = "car"\ncuont = 2', "scene.toml: objects[0] has no field 'cuont'"),
+        ('[[objects]]\nnoun = "cra"', "objects[0].noun is 'cra'; did you mean 'crab'?"),
+        ('[[objects]]\nnoun = "car"\nsize = nan', "scene.toml: objects[0].size is nan"),
+        ('[[objects]]\nnoun = "dog"\npicture = {kind = "text", value = "A"}',
+         "objects[0].picture is given, but a dog shows none"),
+    ],
+)  # fmt: skip
+def test_wrong_files_are_one_line(content, message, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    if content is not None:
+        (tmp_path / "scene.toml").write_text(content)
+    assert main(["generate", "scene.toml", *FLAGS]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"error: {message}")
+
+
+def test_scenes_of_programs_are_checked_too():
+    with pytest.raises(ConfigError, match="objects is"):
+        texvent.generate(Scene(objects=SceneObject(noun="car")), **OPTIONS)
+    with pytest.raises(ConfigError, match=r"objects\[0\]\.count is 0"):
+        texvent.generate(Scene(objects=(SceneObject(noun="car", count=0),)), **OPTIONS)
+    with pytest.raises(ConfigError, match="takes a prompt, not a scene"):
+        texvent.generate(Scene(), generator="wan-1.3b")
+    with pytest.raises(InputError, match="the prompt is a int"):
+        texvent.generate(3, **OPTIONS)
+
+
+def test_the_schema_is_printed(capsys):
+    assert main(["scenes", "--schema"]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    assert "car" in schema["$defs"]["noun"]["examples"]
+
+
+def test_reading_a_scene_file_loads_no_numba(tmp_path):
+    path = tmp_path / "car.toml"
+    path.write_text('[[objects]]\nnoun = "car"\ncolour = "red"')
+    code = (
+        "import sys; from texvent.scenes import Scene, load_scene; "
+        f"assert load_scene({str(path)!r}).objects; print(*sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not {"numba", "torch", "h5py", "cv2"} & set(done.stdout.split())

@@ -1,0 +1,49 @@
+"""Sentences mean what they meant, and some of them look as they looked."""
+
+import tomllib
+
+import numpy as np
+import pytest
+from tests.scenes.golden.golden import (
+    CHANNELS,
+    describe,
+    film,
+    plain,
+    read_descriptions,
+    read_films,
+    read_lines,
+)
+
+from texvent.generate.scene_input import list_nouns, list_words
+from texvent.scenes.spec.data import scene_from_data
+from texvent.scenes.spec.description import from_description, to_description
+from texvent.scenes.spec.files import scene_text
+
+WITHIN = dict(zip(CHANNELS, (1.0, 1.0, 1.0, 0.1, 0.01, 0.2, 0.2), strict=True))
+"""What a block's mean may differ by between processors: a pixel of 576 may fall to a neighbour."""
+FILMS, WORDS = read_films(), list_words(list_nouns())
+
+
+def test_sentences_mean_what_they_meant():
+    stored = read_descriptions()
+    assert list(stored) == read_lines("sentences.txt")
+    others = [one for one in stored if plain(describe(one)) != stored[one]]
+    assert not others, f"{len(others)} of {len(stored)}, such as {others[:5]}"
+
+
+def test_scenes_say_all_that_sentences_say():
+    for description in map(describe, read_lines("sentences.txt")):
+        scene = from_description(description)
+        assert to_description(scene) == description
+        assert scene_from_data(tomllib.loads(scene_text(scene, ".toml")), WORDS) == scene
+
+
+@pytest.mark.parametrize("sentence", FILMS)
+def test_pictures_and_truth_are_as_they_were(sentence):
+    means, _ = film(sentence)
+    worst = np.abs(means - FILMS[sentence][0]).max(axis=(0, 1, 2))
+    assert {name for name, one in zip(CHANNELS, worst, strict=True) if one > WITHIN[name]} == set()
+
+
+def test_all_sentences_that_are_to_be_filmed_are():
+    assert list(FILMS) == read_lines("filmed.txt")

@@ -1,0 +1,286 @@
+"""Scenes as values: what they say survives files and staging, and wrong fields are named."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args, get_origin
+
+import jsonschema
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.scenes.golden.golden import describe, read_lines
+
+from texvent.errors import ConfigError
+from texvent.generate.scene_input import describe_scene, list_nouns, list_words
+from texvent.scenes.colours import PALETTES
+from texvent.scenes.spec.data import (
+    checked_scene,
+    field_types,
+    inner_type,
+    scene_from_data,
+    scene_to_data,
+)
+from texvent.scenes.spec.description import from_description, to_description
+from texvent.scenes.spec.files import load_scene, save_scene, scene_text
+from texvent.scenes.spec.limits import Between, Colour, Word
+from texvent.scenes.spec.scene import Camera, Motion, Relation, Scene, SceneObject
+from texvent.scenes.spec.schema import json_schema
+from texvent.scenes.staging.compose import compose_scene
+from texvent.sensor import SensorSize
+
+WORDS = list_words(list_nouns())
+SCHEMA = jsonschema.Draft202012Validator(json_schema(WORDS))
+EVERY_FIELD = Path(__file__).parent / "every_field.toml"
+
+
+def test_what_a_sentence_decided_stays_as_it_is():
+    for sentence in read_lines("filmed.txt"):
+        description = describe(sentence)
+        decided = describe_scene(from_description(description), list_nouns())
+        assert dataclasses.replace(decided, notes=()) == description
+
+
+def strategy(hint: Any) -> st.SearchStrategy[Any]:
+    """Values of a field's type; ids stay as usual, `drawn_scenes` names them."""
+    if inner_type(hint) is not hint:
+        return st.none() | strategy(inner_type(hint))
+    origin, arguments = get_origin(hint), get_args(hint)
+    if origin is Literal:
+        return st.sampled_from(arguments)
+    if origin is tuple:
+        return st.lists(strategy(arguments[0]), max_size=3).map(tuple)
+    if dataclasses.is_dataclass(hint):
+        named = {name: one for name, one in field_types(hint).items() if name not in IDS}
+        needed = {"to": st.just(())} if hint is Relation else {}
+        return st.builds(hint, **needed, **{name: strategy(one) for name, one in named.items()})
+    if origin is not Annotated:
+        return {str: st.text(st.characters(exclude_categories=["Cs"])), bool: st.booleans()}[hint]
+    match arguments[1]:
+        case Between(low, high) if arguments[0] is int:
+            return st.integers(int(low), min(int(high), 5))
+        case Between(low, high):
+            return st.floats(low, high)
+        case Word(kind):
+            return st.sampled_from(sorted(WORDS[kind]))
+        case Colour(palette):
+            return st.sampled_from(sorted(PALETTES[palette])) | st.just("#0a80ff")
+
+
+IDS = ("id", "to", "source", "target", "distance_m", "position_m", "look_at_m")
+
+
+@st.composite
+def drawn_scenes(draw: st.DrawFn) -> Scene:
+    """Scenes of all fields, whose relations point at objects that come later."""
+    scene = draw(strategy(Scene))
+    ids = [f'{number} "ü' for number in range(len(scene.objects))]
+    objects = tuple(
+        dataclasses.replace(
+            one,
+            id=ids[n],
+            relations=tuple(
+                dataclasses.replace(each, to=tuple(ids[n + 1 :]))
+                for each in one.relations
+                if n + 1 < len(ids)
+            ),
+        )
+        for n, one in enumerate(scene.objects)
+    )
+    target = draw(st.sampled_from([None, *ids]))
+    effects = tuple(dataclasses.replace(one, source=target) for one in scene.effects)
+    camera = dataclasses.replace(scene.camera, target=target)
+    return dataclasses.replace(scene, objects=objects, effects=effects, camera=camera)
+
+
+@given(scene=drawn_scenes())
+def test_any_scene_survives_files_and_the_schema(scene):
+    data = scene_to_data(scene)
+    assert scene_from_data(tomllib.loads(scene_text(scene, ".toml")), WORDS) == scene
+    assert scene_from_data(json.loads(scene_text(scene, ".json")), WORDS) == scene
+    assert from_description(to_description(scene)).light == scene.light
+    SCHEMA.validate(data)
+
+
+def values(part: Any) -> Iterator[Any]:
+    """All dataclasses inside a scene, and itself."""
+    yield part
+    for name in field_types(type(part)):
+        value = getattr(part, name)
+        for one in value if isinstance(value, tuple) else (value,):
+            if dataclasses.is_dataclass(one):
+                yield from values(one)
+
+
+def test_a_file_by_hand_gives_every_field():
+    scene = load_scene(EVERY_FIELD)
+    given = {(type(part), name) for part in values(scene) for name in vars(part)
+             if getattr(part, name) != default(part, name)}  # fmt: skip
+    fields = {(type(part), name) for part in values(scene) for name in vars(part)}
+    assert fields - given == {(Camera, "position_m"), (Camera, "look_at_m")}  # not with a target
+    SCHEMA.validate(tomllib.loads(EVERY_FIELD.read_text()))
+    described = describe_scene(scene, list_nouns())
+    assert described.objects[0].motion == to_description(scene).objects[0].motion
+    assert described.surroundings.place == "road"
+
+
+def default(part: Any, name: str) -> Any:
+    """What a field is when it is left out; a value that no field has where it must be given."""
+    field = {one.name: one for one in dataclasses.fields(part)}[name]
+    has_factory = field.default_factory is not dataclasses.MISSING
+    return field.default_factory() if has_factory else field.default
+
+
+def test_schema_is_valid_and_refuses_what_the_reader_refuses():
+    jsonschema.Draft202012Validator.check_schema(SCHEMA.schema)
+    for wrong in ({"objects": [{}]}, {"objects": [{"noun": "car", "siz": 1}]}, {"light": 3},
+                  {"objects": [{"noun": "car", "count": 0}]}):  # fmt: skip
+        assert not SCHEMA.is_valid(wrong)
+    text = SCHEMA.schema["properties"]["objects"]["items"]["properties"]["blink_hz"]
+    assert text["description"].endswith("Hz.")
+    assert text["minimum"] > 0
+
+
+CAR, ON_CAR = {"noun": "car"}, [{"kind": "on", "to": ["car"]}]
+WRONG = [
+    (3, "scene is 3; it must be a table of fields"),
+    ({"object": []}, "scene has no field 'object'; "),
+    ({"objects": CAR}, "objects is {'noun': 'car'}; it must be a list"),
+    ({"objects": [{}]}, "objects[0] has no noun, which it must have"),
+    ({"objects": [CAR, {"noun": "cra"}]}, "objects[1].noun is 'cra'; did you mean 'crab'?"),
+    ({"objects": [{**CAR, "siz": 2}]}, "objects[0] has no field 'siz'; "),
+    ({"objects": [{**CAR, "count": 0}]}, "objects[0].count is 0; it must be 1..60"),
+    ({"objects": [{**CAR, "count": 10_000}]}, "objects[0].count is 10000; it must be 1..60"),
+    ({"objects": [CAR] * 10_000}, "objects have 10,000 copies in all; a scene shows 60 at most"),
+    ({"objects": [{**CAR, "count": "3"}]}, "objects[0].count is '3'; it must be a whole number"),
+    ({"objects": [{**CAR, "size": math.nan}]}, "objects[0].size is nan; it must be 0.01..100"),
+    ({"objects": [{**CAR, "blink_hz": math.inf}]}, "objects[0].blink_hz is inf; "),
+    ({"objects": [{**CAR, "blink_hz": "9 Hz"}]}, "objects[0].blink_hz is '9 Hz'; "),
+    ({"objects": [{**CAR, "colour": "rde"}]}, "objects[0].colour is 'rde'; did you mean 'red'?"),
+    ({"objects": [{**CAR, "colour": "#12"}]}, "objects[0].colour is '#12'; "),
+    ({"objects": [{**CAR, "motions": [{"kind": "drvie"}]}]},
+     "objects[0].motions[0].kind is 'drvie'; did you mean 'drive'?"),
+    ({"objects": [CAR, {**CAR, "id": "car"}]},
+     "objects[1].id is 'car', which is that of objects[0]; "),
+    ({"objects": [{**CAR, "relations": [{"kind": "on", "to": ["cart"]}]}]},
+     "objects[0].relations[0].to[0] is 'cart', which is no object's id; allowed: car; "),
+    ({"objects": [{**CAR, "relations": [{"kind": "on", "to": "car"}]}]},
+     "objects[0].relations[0].to is 'car'; it must be a list"),
+    ({"objects": [{**CAR, "relations": [{"kind": "on", "to": []}]}]},
+     "objects[0].relations[0].to is empty; "),
+    ({"objects": [{**CAR, "relations": ON_CAR}]},
+     "objects[0].relations[0].to is 'car', which is the object itself"),
+    ({"objects": [{**CAR, "relations": [{"kind": "on", "to": ["van"]}]},
+                  {"noun": "van", "relations": ON_CAR}]},
+     "objects[0].relations go round in a circle ('car', 'van', 'car'); "),
+    ({"objects": [{**CAR, "position_m": [1]}]},
+     "objects[0].position_m is [1]; it must have 2 numbers"),
+    ({"objects": [{**CAR, "height_m": -1}]}, "objects[0].height_m is -1; it must be 0..10000"),
+    ({"objects": [CAR, {"noun": "van", "relations": [{**ON_CAR[0], "distance_m": 2}]}]},
+     "objects[1].relations[0].distance_m is given, but 'on' has no distance; "),
+    ({"camera": {"position_m": [0, 0, 1]}}, "camera.position_m and camera.look_at_m are given to"),
+    ({"camera": {"position_m": [0, 0, 1], "look_at_m": [0, 0, 0]}},
+     "camera.look_at_m is (0.0, 0.0, 0.0), straight above or below camera.position_m; "),
+    ({"camera": {"position_m": [0, 0, 1], "look_at_m": [0, 5, 1], "moves": [{"kind": "travel"}]}},
+     "camera.position_m is given with a target or with travel"),
+    ({"effects": [{"kind": "smoke", "source": "car"}]}, "effects[0].source is 'car', which is no "),
+    ({"camera": {"moves": [{"kind": "pann"}]}}, "camera.moves[0].kind is 'pann'; "),
+    ({"light": {"flicker_hz": -1}}, "light.flicker_hz is -1; it must be 0.001..100000"),
+    ({"place": {"name": "raod"}}, "place.name is 'raod'; did you mean 'road'?"),
+    ({"absent": ["hous"]}, "absent[0] is 'hous'; did you mean 'house'?"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("data", "message"), WRONG, ids=[message for _, message in WRONG])
+def test_a_wrong_field_is_named(data, message):
+    with pytest.raises(ConfigError) as caught:
+        scene_from_data(data, WORDS)
+    assert str(caught.value).startswith(message)
+
+
+def test_positions_may_be_arrays():
+    car = SceneObject(noun="car", position_m=np.array([1.0, 2.0]), size=np.float32(0.5))
+    checked = checked_scene(Scene(objects=(car,)), WORDS)
+    assert checked.objects[0] == SceneObject(noun="car", position_m=(1.0, 2.0), size=0.5)
+
+
+def test_copies_of_an_object_may_meet_each_other():
+    meeting = [{"kind": "collide", "to": ["car"]}]
+    scene = scene_from_data({"objects": [{**CAR, "count": 2, "relations": meeting}]})
+    assert to_description(scene).relations[0].targets == (0,)
+
+
+@pytest.mark.parametrize("kind", ["stand", "drive", "turn", "bounce", "enter", "zigzag"])
+def test_objects_and_camera_stand_where_metres_say(kind):
+    scene = scene_from_data(
+        {
+            "objects": [
+                {**CAR, "motions": [{"kind": kind}], "position_m": [-3, 2], "heading_deg": 30},
+                {"noun": "cup", "relations": [{"kind": "left of", "to": ["car"], "distance_m": 4}]},
+                {"noun": "tree", "position_m": [4, 6]},
+                {"noun": "drone", "position_m": [0, 0], "height_m": 3},
+            ],
+            "camera": {"position_m": [0, -12, 3], "look_at_m": [0, 0, 1], "field_of_view_deg": 60},
+        },
+        WORDS,
+    )
+    nouns, size = list_nouns(), SensorSize(64, 48)
+    staged = compose_scene(describe_scene(scene, nouns), seed=3, size=size, duration_s=1.0)
+    at_start = {one.noun.name: one.trajectory.at(0.0) for one in staged.actors}
+    places = {name: state.position for name, state in at_start.items()}
+    np.testing.assert_allclose(places["car"][:2], (-3.0, 2.0), atol=1e-9)
+    assert math.degrees(at_start["car"].yaw) == pytest.approx(30.0)
+    np.testing.assert_allclose(places["tree"][:2], (4.0, 6.0), atol=1e-9)
+    if kind == "stand":
+        np.testing.assert_allclose(places["cup"], (-7.0, 2.0, 0.0), atol=1e-9)
+    drone = next(one for one in staged.actors if one.noun.name == "drone")
+    assert drone.corners(0.0)[:, 2].min() == pytest.approx(3.0, abs=0.2)  # it hovers
+    camera = staged.camera(0.5)
+    np.testing.assert_allclose(camera.position, (0.0, -12.0, 3.0), atol=1e-9)
+    np.testing.assert_allclose(camera.rotation[2], np.array((0, 12, -2)) / math.hypot(12, 2))
+    assert camera.focal == pytest.approx(0.5 / math.tan(math.radians(30.0)))
+
+
+def test_a_lens_alone_keeps_the_subject_as_large():
+    def camera_of(data: dict[str, Any]) -> Any:
+        scene = describe_scene(scene_from_data({"objects": [CAR], **data}), list_nouns())
+        size = SensorSize(64, 48)
+        return compose_scene(scene, seed=3, size=size, duration_s=1.0).camera(0.5)
+
+    usual, tele = camera_of({}), camera_of({"camera": {"field_of_view_deg": 20}})
+    assert tele.focal == pytest.approx(0.5 / math.tan(math.radians(10.0)))
+    assert np.linalg.norm(tele.position) > 2.0 * np.linalg.norm(usual.position)
+
+
+def test_a_picture_lies_beside_its_file(tmp_path):
+    screen = {"noun": "tv", "picture": {"kind": "file", "value": "shown.png"}}
+    (tmp_path / "scene.json").write_text(json.dumps({"objects": [screen]}))
+    scene = load_scene(tmp_path / "scene.json")
+    assert scene.objects[0].picture.value == str(tmp_path.resolve() / "shown.png")
+    with pytest.raises(ConfigError, match=r"objects\[0\].picture: the picture .* does not exist"):
+        describe_scene(scene, list_nouns())
+
+
+def test_a_written_scene_is_read_again(tmp_path):
+    scene = Scene(objects=(SceneObject(noun="car", motions=(Motion(kind="drive"),)),))
+    for name in ("car.toml", "car.json"):
+        save_scene(tmp_path / name, scene)
+        assert load_scene(tmp_path / name) == scene
+    assert (tmp_path / "car.toml").read_text() == (
+        '[[objects]]\nnoun = "car"\nmotions = [{ kind = "drive" }]\n'
+    )
+
+
+def test_the_file_of_the_page_is_a_scene():
+    page = (Path(__file__).parents[3] / "docs" / "scene-files.md").read_text()
+    text = page.partition("```toml\n")[2].partition("```")[0]
+    scene = scene_from_data(tomllib.loads(text), WORDS)
+    assert {one.noun for one in describe_scene(scene, list_nouns()).objects} == {
+        "car", "tree", "street lamp",
+    }  # fmt: skip
