@@ -280,7 +280,7 @@ def test_a_prompt_that_is_missing_is_asked_for(folder, capsys):
 
 
 def test_empty_texts_are_refused_first(folder, capsys):
-    assert "PROMPT must not be empty (What to show, in plain English" in fails(
+    assert "PROMPT must not be empty (What to show: a quoted sentence" in fails(
         capsys, "generate", " "
     )
     assert "SOURCE must not be empty (Video" in fails(capsys, "simulate", "")

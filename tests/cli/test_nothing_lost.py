@@ -204,4 +204,4 @@ def test_a_video_that_ends_in_damage_keeps_what_came_before_if_that_was_asked_fo
 def test_no_events_are_a_warning(folder, capsys):
     np.save("grey.npy", np.full((5, 48, 64), 90, np.uint8))
     assert run("simulate", "grey.npy", "--fps", 30, "-o", "grey.h5", *SMALL) == 0
-    assert "warning  no events: nothing changed" in capsys.readouterr().err
+    assert "warning  no events: the video stands still" in capsys.readouterr().err

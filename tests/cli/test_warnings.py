@@ -87,8 +87,8 @@ def test_strict_refuses_what_is_not_shown_as_it_says(capsys):
 def test_a_run_without_events_warns(capsys):
     still_video("still.avi")
     words = ["simulate", "still.avi", "-o", "a.h5", "--noise", "none", "--events-only", "-q"]
-    assert "(0.2); check the video" in warnings_of(capsys, *words)[0]
-    with pytest.warns(texvent.TexventWarning, match="no events: nothing changed"):
+    assert "no events: the video stands still" in warnings_of(capsys, *words)[0]
+    with pytest.warns(texvent.TexventWarning, match="see `texvent check VIDEO`"):
         assert len(texvent.simulate("still.avi", noise="none")) == 0
 
 

@@ -88,7 +88,7 @@ def test_without_noise_every_event_is_signal_and_a_scene_at_rest_is_silent(model
     assert len(moving) > 100
     assert (moving.label == SIGNAL).all()
     still = np.full((13, 8, 9), DARK, np.float32)
-    with pytest.warns(texvent.TexventWarning, match="no events: nothing changed"):
+    with pytest.warns(texvent.TexventWarning, match="no events: the video stands still"):
         at_rest = texvent.simulate(still, fps=24, simulator=model, **CLEAN[model])
     assert len(at_rest) == 0
 

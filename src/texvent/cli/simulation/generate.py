@@ -21,6 +21,7 @@ from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.scene_input import Subject
 from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
+from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, make_scene, make_video, prepare_prompt
 from texvent.run.settings import Settings, default_settings
@@ -42,7 +43,7 @@ VIDEO_EXTENSION = ".avi"
 class PromptOptions(UpsampleConfig):
     """What to show."""
 
-    input_texts: ClassVar[tuple[str, ...]] = ("generator", "prompt")
+    input_texts: ClassVar[tuple[str, ...]] = ("generator",)
     outputs: ClassVar[tuple[str, ...]] = ("out", "preview", "write_scene")
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     main_options: ClassVar[tuple[str, ...]] = (
@@ -89,7 +90,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
-    prompt = load_scene(own.prompt) if is_scene_file(own.prompt) else own.prompt
+    prompt = _read_prompt(own.prompt)
     if own.write_scene is not None:
         return _write_scene(prompt, own, settings, output)
     if own.video_only:
@@ -116,6 +117,14 @@ def run(arguments: Sequence[str]) -> int:
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         simulation = prepare_prompt(prompt, settings, upsample=own, progress=progress)
     return execute(simulation, output, files)
+
+
+def _read_prompt(prompt: str) -> Subject:
+    """The prompt, or the scene of a file, which no output may replace."""
+    if not is_scene_file(prompt):
+        return prompt
+    protect_inputs([prompt])
+    return load_scene(prompt)
 
 
 def _name(prompt: str) -> str:
