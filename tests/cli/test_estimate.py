@@ -131,3 +131,20 @@ def test_a_dry_run_refuses_no_existing_file_as_it_replaces_none(capsys):
     assert "note     the run needs --overwrite: there is already out.h5" in capsys.readouterr().err
     assert Path("out.h5").read_text(encoding="utf-8") == "mine"
     assert main(words) == 3
+
+
+def test_slow_motion_adds_up_between_the_pairs_tried(capsys):
+    x, t = np.arange(96), np.arange(61)[:, None] / 240
+    rows = np.rint(128 + 80 * np.sin(2 * np.pi * (x - 40 * t) / 30)).astype(np.uint8)
+    np.save("slow.npy", np.repeat(rows[:, None], 24, axis=1))
+    words = ["simulate", "slow.npy", "--fps", "240", "--noise", "none", "--interpolate", "none"]
+    assert main([*words, "-o", "a.h5", "--dry-run"]) == 0
+    said = capsys.readouterr().out
+    assert "slow change adds up" in said
+    assert main([*words, "-o", "a.h5", "--events-only", "-q"]) == 0
+    estimated = re.search(r"about ([\d,]+) events", said)
+    assert estimated is not None
+    done = len(texvent.load("a.h5"))
+    assert done / 2 <= float(estimated[1].replace(",", "")) <= done * FACTOR
+    assert main([*words, "--preset", "paper", "-o", "b.h5", "--dry-run"]) == 0
+    assert "about 0 events" in capsys.readouterr().out  # which forgets, and makes none

@@ -37,6 +37,7 @@ def test_a_preset_of_the_default_simulator_is_its_own():
         ),
         ({"preset": "evk5"}, "no simulator has a preset 'evk5'; .*did you mean 'evk4'"),
         ({"preset": "clena", "simulator": "physical"}, "'clena'; .*did you mean 'clean'"),
+        ({"preset": "EVK4"}, "did you mean 'evk4'"),
         ({"preset": 3}, "no simulator has a preset 3"),
     ],
 )

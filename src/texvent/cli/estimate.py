@@ -34,7 +34,7 @@ BLOCKS_BYTES = 48 * 2**20
 
 
 class Range(NamedTuple):
-    """The least and the most of what is estimated, and what lies between."""
+    """Lower bound, mean and upper bound of an estimate."""
 
     least: float
     mean: float

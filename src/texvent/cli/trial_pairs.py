@@ -229,7 +229,7 @@ def _sizes(files: RunFiles) -> dict[str, int]:
 
 
 def _size(path: Path) -> int:
-    """Bytes of a file with what lies beside it, or of a folder."""
+    """Bytes of a file and its sidecar, or of a folder."""
     beside = path.with_name(f"{path.name}.json")
     found = path.rglob("*") if path.is_dir() else (path, beside)
     return sum(one.stat().st_size for one in found if one.is_file())

@@ -113,7 +113,7 @@ class ObjectPlacer:
             for target in relation.targets
         }
         objects = self._description.objects
-        # What stands where metres say is there first: others make way.
+        # Objects with positions in metres are placed first; others make way.
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
             if index not in scenic:
                 self._place(index, frozenset())
