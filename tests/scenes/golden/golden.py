@@ -1,16 +1,17 @@
 """Frozen scenes: what sentences mean to the embedded generator, and what some of them look like.
 
-    python -m tests.scenes.golden.golden           # writes both files anew; CHANGELOG.md says why
-    python -m tests.scenes.golden.golden compare   # names each scene that differs, to the last bit
+    python -m tests.scenes.golden.golden scenes    # writes the scenes anew; CHANGELOG.md says why
+    python -m tests.scenes.golden.golden films     # writes the pictures anew, from the scenes
+    python -m tests.scenes.golden.golden compare   # names each one that differs, to the last bit
 
 `sentences.txt` holds the sentences of docs, configs (templates filled in), benchmarks and tests,
-under the file that they come from. `descriptions.json.gz` holds what each of them means, without
-the report of its words; `filmed.npz` holds the pictures and the truth of those in `filmed.txt`.
+under the file that they come from. `scenes.json.gz` holds the scene of each of them, as plain
+values; `filmed.npz` holds the pictures and the truth of those in `filmed.txt`, made from these
+scenes: a change of reading changes no picture.
 """
 
 from __future__ import annotations
 
-import dataclasses
 import gzip
 import hashlib
 import json
@@ -22,15 +23,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.description import SceneDescription
 from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.spec.data import scene_from_data, scene_to_data
+from texvent.scenes.spec.description import from_description, to_description
 from texvent.sensor import SensorSize
 
 FOLDER = Path(__file__).parent
-DESCRIPTIONS = FOLDER / "descriptions.json.gz"
+SCENES = FOLDER / "scenes.json.gz"
 FILMED = FOLDER / "filmed.npz"
-REPORT = ("shown", "substituted", "not_understood", "claims", "notes")
-"""Fields of a description that say what became of words; no scene depends on them for long."""
 SIZE, SEED, DURATION_S = SensorSize(96, 72), 5, 1.0
 INSTANTS_S = (0.0, 0.45, 0.9)
 STEP_S = 0.05
@@ -48,35 +48,34 @@ def read_lines(name: str) -> list[str]:
 
 
 @cache
-def describe(sentence: str) -> SceneDescription:
-    """What a sentence means, without the report of its words."""
-    return dataclasses.replace(parse_prompt(sentence), **dict.fromkeys(REPORT, ()))
+def read_scene(sentence: str) -> dict[str, Any]:
+    """The scene of a sentence, as plain values, with all that the sentence leaves open decided."""
+    # Through JSON, as the stored ones: tuples become lists.
+    scene: dict[str, Any] = json.loads(
+        json.dumps(scene_to_data(from_description(parse_prompt(sentence))))
+    )
+    return scene
 
 
-def plain(value: Any) -> Any:
-    """A description as JSON holds it: what is not as usual, by name."""
-    if dataclasses.is_dataclass(value):
-        usual = {one.name: one.default for one in dataclasses.fields(value)}
-        found = {name: getattr(value, name) for name in usual}
-        return {name: plain(one) for name, one in found.items() if one not in (usual[name], ())}
-    if isinstance(value, tuple):
-        return [plain(one) for one in value]
-    return round(value, 9) if isinstance(value, float) else value
-
-
-def read_descriptions() -> dict[str, Any]:
-    """Sentence → what it meant, as `plain` gives it."""
-    found: dict[str, Any] = json.loads(gzip.decompress(DESCRIPTIONS.read_bytes()))
+@cache
+def stored_scenes() -> dict[str, Any]:
+    """Sentence → its frozen scene, as `read_scene` gave it."""
+    found: dict[str, Any] = json.loads(gzip.decompress(SCENES.read_bytes()))
     return found
 
 
 def film(sentence: str) -> tuple[NDArray[np.float32], str]:
-    """Means over blocks, [instants, rows, columns, `CHANNELS`], and a digest of every pixel."""
+    """Pictures and truth of a frozen scene.
+
+    Returns:
+        Means over blocks, [instants, rows, columns, `CHANNELS`], and a digest of every pixel.
+    """
     from texvent.scenes.raycast.ground_truth import ground_truth
     from texvent.scenes.raycast.render import render
     from texvent.scenes.staging.compose import compose_scene
 
-    scene = compose_scene(describe(sentence), seed=SEED, size=SIZE, duration_s=DURATION_S)
+    description = to_description(scene_from_data(stored_scenes()[sentence]))
+    scene = compose_scene(description, seed=SEED, size=SIZE, duration_s=DURATION_S)
     means, digest = [], hashlib.sha256()
     for time_s in INSTANTS_S:
         truth = ground_truth(scene, time_s, time_s + STEP_S, SIZE)
@@ -92,18 +91,22 @@ def film(sentence: str) -> tuple[NDArray[np.float32], str]:
     return np.array(means, dtype=np.float32), digest.hexdigest()[:24]
 
 
-def read_films() -> dict[str, tuple[NDArray[np.float32], str]]:
+def stored_films() -> dict[str, tuple[NDArray[np.float32], str]]:
     """Sentence → what `film` gave."""
     with np.load(FILMED) as stored:
         rows = zip(stored["sentences"], stored["means"], stored["digests"], strict=True)
         return {str(sentence): (means, str(digest)) for sentence, means, digest in rows}
 
 
-def write() -> None:
-    """Write both files anew."""
-    meanings = {sentence: plain(describe(sentence)) for sentence in read_lines("sentences.txt")}
-    text = json.dumps(meanings, separators=(",", ":"))
-    DESCRIPTIONS.write_bytes(gzip.compress(text.encode(), mtime=0))
+def write_scenes() -> None:
+    """Write the scenes anew."""
+    scenes = {sentence: read_scene(sentence) for sentence in read_lines("sentences.txt")}
+    text = json.dumps(scenes, separators=(",", ":"))
+    SCENES.write_bytes(gzip.compress(text.encode(), mtime=0))
+
+
+def write_films() -> None:
+    """Write the pictures anew."""
     filmed = read_lines("filmed.txt")
     films = [film(sentence) for sentence in filmed]
     np.savez_compressed(
@@ -115,13 +118,14 @@ def write() -> None:
 
 
 def compare() -> int:
-    """Name each sentence whose description or picture is not the stored one; returns how many."""
-    stored, films = read_descriptions(), read_films()
-    other = [one for one in stored if plain(describe(one)) != stored[one]]
+    """Name each sentence whose scene or picture is not the stored one; returns how many."""
+    stored, films = stored_scenes(), stored_films()
+    other = [one for one in stored if read_scene(one) != stored[one]]
     other += [f"{one} (picture)" for one in films if film(one)[1] != films[one][1]]
     sys.stdout.write("".join(f"{one}\n" for one in other))
     return len(other)
 
 
 if __name__ == "__main__":
-    sys.exit(compare() > 0) if sys.argv[1:] == ["compare"] else write()
+    actions = {"scenes": write_scenes, "films": write_films, "compare": compare}
+    sys.exit(actions[sys.argv[1]]())

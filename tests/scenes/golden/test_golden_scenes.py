@@ -6,35 +6,32 @@ import numpy as np
 import pytest
 from tests.scenes.golden.golden import (
     CHANNELS,
-    describe,
     film,
-    plain,
-    read_descriptions,
-    read_films,
     read_lines,
+    read_scene,
+    stored_films,
+    stored_scenes,
 )
 
 from texvent.generate.scene_input import list_nouns, list_words
 from texvent.scenes.spec.data import scene_from_data
-from texvent.scenes.spec.description import from_description, to_description
 from texvent.scenes.spec.files import scene_text
 
 WITHIN = dict(zip(CHANNELS, (1.0, 1.0, 1.0, 0.1, 0.01, 0.2, 0.2), strict=True))
 """What a block's mean may differ by between processors: a pixel of 576 may fall to a neighbour."""
-FILMS, WORDS = read_films(), list_words(list_nouns())
+FILMS, WORDS = stored_films(), list_words(list_nouns())
 
 
 def test_sentences_mean_what_they_meant():
-    stored = read_descriptions()
+    stored = stored_scenes()
     assert list(stored) == read_lines("sentences.txt")
-    others = [one for one in stored if plain(describe(one)) != stored[one]]
+    others = [one for one in stored if read_scene(one) != stored[one]]
     assert not others, f"{len(others)} of {len(stored)}, such as {others[:5]}"
 
 
-def test_scenes_say_all_that_sentences_say():
-    for description in map(describe, read_lines("sentences.txt")):
-        scene = from_description(description)
-        assert to_description(scene) == description
+def test_files_say_all_that_sentences_say():
+    for data in stored_scenes().values():
+        scene = scene_from_data(data, WORDS)
         assert scene_from_data(tomllib.loads(scene_text(scene, ".toml")), WORDS) == scene
 
 
