@@ -1,0 +1,44 @@
+"""Traits of nouns, as data: which nouns can be sat on, have headlights, stand at walls.
+
+The files of `data/traits/` hold a table for each trait: a list of nouns, or a value for each of
+them.
+
+    seat = ["chair", "sofa"]
+
+    ["seat height"]
+    chair = 0.46
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+
+@cache
+def _read() -> Mapping[str, Any]:
+    """Trait → its nouns, or its nouns with their values."""
+    folder = files("texvent.scenes.models") / "data" / "traits"
+    found: dict[str, Any] = {}
+    for file in sorted(folder.iterdir(), key=lambda one: one.name):
+        if file.name.endswith(".toml"):
+            found.update(tomllib.loads(file.read_text(encoding="utf-8")))
+    return found
+
+
+@cache
+def nouns_with(trait: str) -> frozenset[str]:
+    """Nouns that have a trait.
+
+    Raises:
+        KeyError: no file has the trait.
+    """
+    return frozenset(_read()[trait])
+
+
+def trait_value(trait: str, noun: str) -> Any:
+    """A noun's value of a trait that is a table; None where it has none."""
+    return _read()[trait].get(noun)
