@@ -281,8 +281,8 @@ class ProceduralGenerator:
         """
         del progress
         scene, report, files = self._stage(prompt)
-        for fault in report.faults(MOST_WORDS, rest=ALL_WORDS):
-            warn(f"prompt: {fault}")
+        for fault in report.warnings(MOST_WORDS, rest=ALL_WORDS):
+            warn(fault)
         metadata = {
             "generator": "procedural",
             "version": __version__,

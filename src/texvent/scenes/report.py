@@ -80,18 +80,28 @@ class PromptReport:
             most: words that a line names; None: all.
             rest: said at the end of a line that names fewer: where all of them are.
         """
-        kinds = {
-            "shown as something else": [str(one) for one in self.substituted],
-            "not understood": self.not_understood,
-            "not shown": self.not_shown,
-            "out of view": self.out_of_view,
-            "too small": self.too_small,
-        }
         return [
             f"{kind}: {', '.join(words) if most is None else few(words, most)}"
             f"{rest if most is not None and len(words) > most else ''}"
-            for kind, words in kinds.items()
+            for kind, words in self.kinds().items()
             if words
+        ]
+
+    def kinds(self) -> dict[str, list[str]]:
+        """Kind of fault → its words or objects."""
+        return {
+            "shown as something else": [str(one) for one in self.substituted],
+            "not understood": list(self.not_understood),
+            "not shown": list(self.not_shown),
+            "out of view": list(self.out_of_view),
+            "too small": list(self.too_small),
+        }
+
+    def warnings(self, most: int | None = None, *, rest: str = "") -> list[str]:
+        """The faults as sentences by themselves; arguments as of `faults`."""
+        return [
+            f"{'' if line.startswith(_OF_OBJECTS) else 'prompt words '}{line}"
+            for line in self.faults(most, rest=rest)
         ]
 
     def lines(self) -> list[str]:
@@ -162,14 +172,7 @@ class ReportTally:
             self.refused += 1
             return
         self.faithful += report.is_faithful
-        kinds = {
-            "not understood": report.not_understood,
-            "not shown": report.not_shown,
-            "shown as something else": map(str, report.substituted),
-            "out of view": report.out_of_view,
-            "too small": report.too_small,
-        }
-        for kind, words in kinds.items():
+        for kind, words in report.kinds().items():
             self._count(kind, (word.partition(" (")[0] for word in words))
 
     def _count(self, kind: str, words: Iterable[str]) -> None:
