@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from texvent.scenes.scene import Colour, Ground, Texture
 
-Where = Literal["around", "wall", "under", "both sides", "across", "water", "far"]
+Where = Literal["around", "wall", "under", "both sides", "across", "water", "far", "route"]
 """Where scenery stands."""
 _SCALES: Mapping[str, tuple[float, float]] = {
     "wall": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0), "across": (1.0, 1.0),
@@ -128,3 +128,8 @@ PLACES: Mapping[str, Place] = MappingProxyType(_read())
 def place_names() -> Mapping[str, tuple[str, ...]]:
     """Place → words for it, in the singular."""
     return {name: place.names for name, place in PLACES.items()}
+
+
+def is_room(place: str) -> bool:
+    """Whether a place has walls and a ceiling."""
+    return PLACES[place].is_room

@@ -33,7 +33,7 @@ from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
 from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles, level_out
 from texvent.scenes.staging.placement.tables.tabletop import is_added
-from texvent.scenes.staging.surroundings.places import is_room
+from texvent.scenes.models.places import is_room
 from texvent.scenes.staging.take import USUAL, Take
 
 SKY_LIFT = 0.2
