@@ -319,9 +319,7 @@ def _scatter_all(
     surroundings = description.surroundings
     place = surroundings.place or "grass"
     rules = [
-        rule
-        for rule in PLACES[place].scenery
-        if rule.is_structure or not surroundings.is_empty
+        rule for rule in PLACES[place].scenery if rule.is_structure or not surroundings.is_empty
     ]
     for backdrop in surroundings.backdrops:
         rules.extend(PLACES[backdrop].scenery)
@@ -341,8 +339,6 @@ def _set_up(
     """Scenery in view, and along the route of a camera that travels."""
     if view.travel is None:
         return scatter(rules, view, actors, nouns, rng=rng, taken=taken)
-    lined = line_route(
-        rules, view.travel, actors, nouns, rng=rng, road_half_m=view.road_half_width
-    )
+    lined = line_route(rules, view.travel, actors, nouns, rng=rng, road_half_m=view.road_half_width)
     far = [rule for rule in rules if is_placed_by_view(rule)]
     return lined + scatter(far, view, actors, nouns, rng=rng, taken=taken)

@@ -12,7 +12,6 @@ from texvent.scenes.models.materials import mix
 from texvent.scenes.models.places import Place
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Ground
 
-
 _WHITE: Colour = (1.0, 1.0, 1.0)
 _SOFT_SUN, _SOFT_SIDE_SUN = 0.45, 0.8
 """Share of direct light that is left where light is soft, and where it is said where it comes from;
@@ -126,6 +125,7 @@ def usual_lighting(place: Place, kind: str) -> Lighting:
         return LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
     chosen = LIGHTINGS[kind]
     return replace(chosen, lamps=0.3 * chosen.lamps) if place.ground is Ground.SNOW else chosen
+
 
 def choose_lighting(place: Place, light: Illumination) -> Lighting:
     """The lighting of a place at that time of day, as its words say but for its direction."""
