@@ -12,7 +12,7 @@ from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.placement.fitting import extent
-from texvent.scenes.staging.surroundings.places import is_room
+from texvent.scenes.models.places import is_room
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
 _FAMILIES = (
