@@ -24,7 +24,6 @@ from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitiv
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
-from texvent.scenes.staging.camera.main_actor import choose_main
 from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
@@ -35,7 +34,6 @@ from texvent.scenes.staging.particles.choose import (
 )
 from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
 from texvent.scenes.staging.placement.fitting import enlarge_small
-from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.placement.tables.plating import dish_up
@@ -178,7 +176,8 @@ def compose_scene(
     )  # fmt: skip
     lamps = plan_lamps(
         description, actors, place=PLACES[place],
-        strength=choose_lighting(PLACES[place], description.light).lamps, instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
+        strength=choose_lighting(PLACES[place], description.light).lamps,
+        instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
     particles = stage_effects(
         description, Setting(actors, camera_path.framing, place, duration_s, seed)
@@ -248,15 +247,7 @@ def _set_camera(
         return stand_before_wall(
             description, placer.groups, lambda one: stand(placer.move(one)), film, place
         )
-    path = film(actors)
-    if actors and PLACES[place].ground is not Ground.NONE:
-        subject = None if travel else choose_main(description, actors).object_index
-        shifts = find_shifts(
-            description, actors, path, subject=subject, aspect=aspect, duration_s=duration_s
-        )
-        if shifts:
-            actors = stand(placer.move(shifts))
-    return actors, path
+    return actors, film(actors)
 
 
 def _name_shapes(
