@@ -24,7 +24,6 @@ from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitiv
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
-from texvent.scenes.staging.camera.main_actor import choose_main
 from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
@@ -34,12 +33,8 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
-from texvent.scenes.staging.placement.fitting import enlarge_small
-from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
-from texvent.scenes.staging.placement.tables.plating import dish_up
-from texvent.scenes.staging.placement.tables.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
@@ -154,8 +149,7 @@ def compose_scene(
     Raises:
         InputError: the duration is not a positive number.
     """
-    said, missing = prepare(description, nouns, duration_s)
-    description = said if said.is_metric else _set_out(said, nouns)
+    description, missing = prepare(description, nouns, duration_s)
     place = description.surroundings.place or "grass"
     levels = choose_levels(PLACES[place], description, nouns)
     travel = plan_travel(description, place, duration_s)
@@ -170,7 +164,7 @@ def compose_scene(
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
-    names, object_of = _name_bodies(actors, surrounding, len(said.objects))
+    names, object_of = _name_bodies(actors, surrounding, len(description.objects))
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
         description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
@@ -187,11 +181,6 @@ def compose_scene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
     )  # fmt: skip
-
-
-def _set_out(said: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """The description with small things enlarged, on tables and plates."""
-    return dish_up(set_on_table(enlarge_small(said, nouns), nouns), nouns)
 
 
 def _place_scenery(
@@ -248,15 +237,7 @@ def _set_camera(
         return stand_before_wall(
             description, placer.groups, lambda one: stand(placer.move(one)), film, place
         )
-    path = film(actors)
-    if actors and PLACES[place].ground is not Ground.NONE:
-        subject = None if travel else choose_main(description, actors).object_index
-        shifts = find_shifts(
-            description, actors, path, subject=subject, aspect=aspect, duration_s=duration_s
-        )
-        if shifts:
-            actors = stand(placer.move(shifts))
-    return actors, path
+    return actors, film(actors)
 
 
 def _name_shapes(
