@@ -72,8 +72,9 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
     """Whether a person sits there: on a seat, unless the scene has them stand, lie or jump."""
     kind = group.plan.motion.kind
-    is_seat = target.noun.name in nouns_with("seat") and kind in (*DONE_SEATED, "stand", "move")
-    return is_seat or kind in ("sit", "drive", "sail", *TO_AND_FROM_SEATS)
+    may_sit = kind in DONE_SEATED or group.scene_object.motion is None
+    is_seated = kind in ("sit", "drive", "sail", *TO_AND_FROM_SEATS)
+    return is_seated or (may_sit and target.noun.name in nouns_with("seat"))
 
 
 def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:

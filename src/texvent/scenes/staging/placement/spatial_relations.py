@@ -102,7 +102,7 @@ def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: flo
 def _place_under(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     """At the spot next to its middle, on the camera's side, over which there is room for it."""
     target, base = targets[0], _on_ground(targets[0], height)
-    size = max(group.models[0].length, group.models[0].width)
+    size = min(group.models[0].length, group.models[0].width)
     reach = np.linspace(0.0, 0.5 * max(target.models[0].length, target.models[0].width), 9)
     for step in reach:
         spot = np.array([0.3 * step, -step])
@@ -170,9 +170,13 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         return _hide_before(group, subject, height)
     if kind == "through" and subject.plan.is_path:
         return _lead_through(group, subject, height)
+    gap = GAP_M * min(subject.size_m, group.size_m)
+    near = subject.half_at_rest()
+    x, y, _ = subject.half + group.half + gap
     if kind == "behind":
-        _hurry_past(subject, float(group.half_at_rest()[0]))
-    x, y, _ = subject.half + group.half + GAP_M * min(subject.size_m, group.size_m)
+        near = _half_below(group, subject.models[0].height)
+        y = float(subject.half[1] + near[1]) + gap
+        _hurry_past(subject, float(near[0]))
     yaw, here = subject.plan.yaw, _on_ground(subject, height)
     along = (math.cos(yaw), math.sin(yaw))
     goes = subject.plan.is_path or subject.plan.path is not None
@@ -193,8 +197,8 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "with": abreast if goes else (x, level, _ALONG_X),
         "left of": (x, 0.0 if goes else level, _ALONG_X),
         "right of": (-x, 0.0 if goes else level, -_ALONG_X),
-        "behind": (-_look_past(subject, group, y), -y, -_AWAY),
-        "front": (_look_past(group, subject, y), y, _AWAY),
+        "behind": (-_look_past(subject, near, y), -y, -_AWAY),
+        "front": (_look_past(group, near, y), y, _AWAY),
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
@@ -231,13 +235,27 @@ def _hurry_past(group: ObjectGroup, half_m: float) -> None:
         group.go(speed_m_s=max(speed, plan.speed_m_s))
 
 
-def _look_past(rear: ObjectGroup, front: ObjectGroup, apart_m: float) -> float:
+def _half_below(group: ObjectGroup, height_m: float) -> Float64Array:
+    """[3] half extents of what of a group is lower than that: a tree's trunk."""
+    boxes = [bounds([part]) for part in group.models[0].parts(Pose(0.0, 0.0, 0.0, "stand"))]
+    boxes = [box for box in boxes if box[0][2] < height_m] or boxes
+    size = max(float(np.abs(corner[:2]).max()) for box in boxes for corner in box)
+    share = min(2.0 * size / max(group.models[0].length, group.models[0].width), 1.0)
+    return group.half_at_rest() * [share, share, 1.0]
+
+
+def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
     """Metres to the right at which what stands behind is seen past the edge of what is before it.
 
     0 where enough of it is seen above and beside. Otherwise its middle is at the edge as the
     camera sees it: further to the right the further it stands behind.
+
+    Args:
+        rear: what stands behind.
+        near: [3] half extents of what is before it, m.
+        apart_m: from the middle of one to that of the other.
     """
-    back, near = rear.half_at_rest(), front.half_at_rest()
+    back = rear.half_at_rest()
     covered = min(1.0, near[0] / back[0]) * min(1.0, near[2] / back[2])
     if covered <= _COVERED:
         return 0.0
