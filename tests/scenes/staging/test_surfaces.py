@@ -63,7 +63,7 @@ def test_all_scenery_has_a_model() -> None:
 )
 def test_a_place_holds_what_it_is_known_by(prompt: str, mark: str) -> None:
     scene = compose_scene(parse_prompt(prompt), seed=0, size=SIZE, duration_s=1.0)
-    assert mark in scene.still_nouns
+    assert mark in scene.scenery
 
 
 @pytest.mark.parametrize("place", [place for place in PLACES if is_room(place)])
