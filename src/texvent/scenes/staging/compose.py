@@ -172,7 +172,8 @@ def compose_scene(
     )  # fmt: skip
     lamps = plan_lamps(
         description, actors, place=PLACES[place],
-        strength=choose_lighting(PLACES[place], description.light).lamps, instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
+        strength=choose_lighting(PLACES[place], description.light).lamps,
+        instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
     particles = stage_effects(
         description, Setting(actors, camera_path.framing, place, duration_s, seed)

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, corners_over
-from texvent.scenes.models.traits import nouns_with
 
 KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
