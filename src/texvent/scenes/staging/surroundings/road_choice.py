@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.holding import is_person
+from texvent.scenes.staging.acts.acts import is_person
 from texvent.scenes.staging.placement.lanes import FEWEST, find_lanes
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M

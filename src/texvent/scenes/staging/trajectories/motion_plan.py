@@ -129,9 +129,7 @@ def plan_motion(
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
 
 
-def _choose_yaw(
-    motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss: float
-) -> float:
+def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss: float) -> float:
     motion, default = motions[0], YAWS["left" if toss < 0.5 else "right"]
     later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
     direction = motion.direction or next(later, None) or ""
@@ -165,7 +163,7 @@ def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
     return noun.habitat == "fixed" and is_wide and motion.kind == "slide"
 
 
-_STAYING = frozenset({"stand", "sit", "lie"}) | frozenset(ANIMAL_ACTS)
+_STAYING = frozenset({"stand", "sit", "lie", "hang"}) | frozenset(ANIMAL_ACTS)
 
 
 def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
@@ -219,7 +217,11 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
-    front, side, is_person = -0.5 * math.pi, math.pi if toss < 0.5 else 0.0, noun.name in PERSON_NOUNS
+    front, side, is_person = (
+        -0.5 * math.pi,
+        math.pi if toss < 0.5 else 0.0,
+        noun.name in PERSON_NOUNS,
+    )
     if motion.kind == "sway" and noun.habitat != "fixed" and not is_person:
         return front + math.copysign(0.6, tilt)
     if is_person and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:
