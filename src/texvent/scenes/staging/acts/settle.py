@@ -18,7 +18,7 @@ from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.staging.actors import seeded
-from texvent.scenes.staging.acts.acts import ACTS, SINGLE
+from texvent.scenes.staging.acts.acts import ACTS, SINGLE, hides_riders
 
 _IDLE = frozenset({"stand", "sit", "sail", "drive"})
 _ACT_OF_ACTIVITY = {
@@ -85,7 +85,7 @@ def _mounted(
         return relation
     is_mount = trait_value("ridden", target) is not None and relation.kind == "on"
     is_carrier = trait_value("seats", target) is not None or target in nouns_with("paddled")
-    is_closed = target in nouns_with("hides its riders") and relation.kind == "in"
+    is_closed = relation.kind == "in" and hides_riders(nouns[target])
     is_idle = (person.motion or STANDING).kind in _IDLE
     if is_mount or (is_idle and (is_carrier or is_closed)):
         return replace(relation, kind="ride")
