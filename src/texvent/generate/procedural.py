@@ -22,7 +22,7 @@ from texvent._version import __version__
 from texvent.brightness import luma_bt601
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
-from texvent.generate.scene_input import Subject, describe_subject, list_nouns, understand
+from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
@@ -322,7 +322,7 @@ class ProceduralGenerator:
         """
         if is_staged:
             return self._stage(prompt)[1]
-        return self._accepted(understand(prompt, self._nouns).report())
+        return self._accepted(understand(prompt, nouns_of(prompt, self._nouns)).report())
 
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
@@ -331,9 +331,10 @@ class ProceduralGenerator:
         from texvent.scenes.staging.compose import compose_scene
         from texvent.scenes.staging.take import USUAL
 
-        description = understand(prompt, self._nouns)
+        named = nouns_of(prompt, self._nouns)
+        description = understand(prompt, named)
         self._accepted(description.report())  # before the scene is built
-        nouns, duration_s = self._shown_nouns(description), self.config.duration
+        nouns, duration_s = _shown_nouns(description, named), self.config.duration
 
         def stage(described: SceneDescription, take: Take) -> ComposedScene:
             scene = compose_scene(
@@ -342,7 +343,7 @@ class ProceduralGenerator:
             )  # fmt: skip
             return replace(scene, has_highlights=self.config.hdr, is_grey=described.is_grey)
 
-        files = list_files(description, self._nouns)
+        files = list_files(description, named)
         if not isinstance(prompt, str):  # of a scene there are no words to look for
             return stage(description, USUAL), description.report(), files
         best = film(description, stage, self.size, duration_s)
@@ -353,15 +354,16 @@ class ProceduralGenerator:
         """What prompts can name."""
         return list_nouns(self.config.assets)
 
-    def _shown_nouns(self, description: SceneDescription) -> Mapping[str, Noun]:
-        """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""
-        from texvent.scenes.models.nouns import NOUNS
-
-        return {**NOUNS, **{one.noun: self._nouns[one.noun] for one in description.objects}}
-
     def _accepted(self, report: PromptReport) -> PromptReport:
         """The report, unless `strict` refuses the prompt."""
         refusal = report.refusal() if self.config.strict else None
         if refusal is not None:
             raise InputError(refusal)
         return report
+
+
+def _shown_nouns(description: SceneDescription, named: Mapping[str, Noun]) -> Mapping[str, Noun]:
+    """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""
+    from texvent.scenes.models.nouns import NOUNS
+
+    return {**NOUNS, **{one.noun: named[one.noun] for one in description.objects}}

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.description import AMID, SceneDescription
+from texvent.scenes.description import AMID, SceneDescription, SceneLamp
 from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
@@ -47,6 +47,7 @@ from texvent.scenes.staging.surroundings.crosswalks import lay_crosswalks
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.light.said_light import choose_lighting
+from texvent.scenes.staging.surroundings.light.scene_lamps import fastest_hz, scene_lamp_rows
 from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road_choice import find_beside, find_road
 from texvent.scenes.staging.surroundings.scenery.along_route import is_placed_by_view, line_route
@@ -94,6 +95,8 @@ class ComposedScene:
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
     is_grey: bool = False  # filmed in black and white
+    scene_lamps: tuple[SceneLamp, ...] = ()
+    """Lamps at positions that the scene gives."""
     notes: tuple[str, ...] = ()
     """What is added that the prompt does not say, as sentences."""
 
@@ -125,7 +128,11 @@ class ComposedScene:
         """Surroundings and light at that instant."""
         effects = self.particles.effects
         lamps = np.concatenate(
-            [self.lamps.rows(time_s), *(effect.lamps(time_s) for effect in effects)]
+            [
+                scene_lamp_rows(self.scene_lamps, time_s),  # first: four at most cast shadows
+                self.lamps.rows(time_s),
+                *(effect.lamps(time_s) for effect in effects),
+            ]
         )
         lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
         puffs = [np.zeros((0, PUFF_COLUMNS)), *self.lamps.puffs(time_s)]
@@ -146,7 +153,11 @@ class ComposedScene:
     @property
     def flicker_hz(self) -> float | None:
         """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
-        rates = (self.animated_environment.fastest_hz, self.lamps.blink_hz)
+        rates = (
+            self.animated_environment.fastest_hz,
+            self.lamps.blink_hz,
+            fastest_hz(self.scene_lamps),
+        )
         return max((rate for rate in rates if rate is not None), default=None)
 
     @property
@@ -215,6 +226,7 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
+        scene_lamps=description.light.lamps,
         notes=tuple(one for one in description.notes if one not in said.notes),
     )  # fmt: skip
 
