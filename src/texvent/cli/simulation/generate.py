@@ -15,19 +15,19 @@ from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import execute, print_settings, run_source
 from texvent.cli.simulation.preview import check_preview, write_preview
+from texvent.cli.subject import read_subject, subject_name
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.scene_input import Subject
 from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
-from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, make_scene, make_video, prepare_prompt
 from texvent.run.settings import Settings, default_settings
 from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.scenes.spec.files import is_scene_file, load_scene, save_scene
+from texvent.scenes.spec.files import save_scene
 from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 
@@ -53,7 +53,7 @@ class PromptOptions(UpsampleConfig):
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show: a quoted sentence, or a scene file. See docs/scene-files.md."""
+    """What to show: a quoted sentence, or a scene file. See docs/scenes.md."""
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator: see texvent generators, ./folder or hub:org/name. A folder holds a
     saved diffusers pipeline; hub: names a repository of the model hub."""
@@ -90,7 +90,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
-    prompt = _read_prompt(own.prompt)
+    prompt = read_subject(own.prompt)
     if own.write_scene is not None:
         return _write_scene(prompt, own, settings, output)
     if own.video_only:
@@ -107,7 +107,7 @@ def run(arguments: Sequence[str]) -> int:
         if not output.dry_run:
             return 0
     check_run(settings)
-    files = output.files(_name(own.prompt))
+    files = output.files(subject_name(own.prompt))
     if files.truth:
         check_generator(own.generator)
     warn_low_fps(own.generator)
@@ -117,19 +117,6 @@ def run(arguments: Sequence[str]) -> int:
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         simulation = prepare_prompt(prompt, settings, upsample=own, progress=progress)
     return execute(simulation, output, files)
-
-
-def _read_prompt(prompt: str) -> Subject:
-    """The prompt, or the scene of a file, which no output may replace."""
-    if not is_scene_file(prompt):
-        return prompt
-    protect_inputs([prompt])
-    return load_scene(prompt)
-
-
-def _name(prompt: str) -> str:
-    """What files are named after: the words of a prompt, or the name of a scene file."""
-    return Path(prompt).stem if is_scene_file(prompt) else prompt
 
 
 def _plan(prompt: Subject, settings: Settings) -> str | None:
@@ -191,7 +178,7 @@ def _write_video(
     """Write the video of a prompt and print its path."""
     from texvent.generate.videos.stored_video import write_stream  # brings PyAV
 
-    named = default_event_file(_name(own.prompt)).with_suffix(VIDEO_EXTENSION)
+    named = default_event_file(subject_name(own.prompt)).with_suffix(VIDEO_EXTENSION)
     path, *more = output.out or (named,)
     if more or output.format:
         raise ConfigError("--video-only writes one video; give one -o, and no --format")
