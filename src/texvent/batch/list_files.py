@@ -159,13 +159,15 @@ def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntr
         raise FileFormatError(f"{where} has a scene and a prompt or video; leave one of them out")
     if prompt is None and scene is None and video is None:
         raise FileFormatError(f"{where} has no {_COLUMNS}")
-    known = {
+    known: dict[str, Any] = {
         "name": _name(where, next((entry[one] for one in NAME_COLUMNS if entry.get(one)), None)),
         "seed": _seed(where, entry.get("seed")),
         "label": _label(where, entry),
     }
-    if scene is not None or (video is None and is_scene_file(prompt.strip())):
-        return scene_entry(where, path.parent / (scene or prompt.strip()), **known)
+    if scene is None and video is None and prompt is not None and is_scene_file(prompt.strip()):
+        scene = prompt.strip()
+    if scene is not None:
+        return scene_entry(where, path.parent / scene, **known)
     return ListEntry(
         where,
         prompt.strip() if prompt else None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
@@ -19,7 +19,7 @@ from texvent.cli.subject import read_subject, subject_name
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.generate.scene_input import Subject
+from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
 from texvent.options.fields import option_names
@@ -27,7 +27,8 @@ from texvent.run.prepare import check_run, make_scene, make_video, prepare_promp
 from texvent.run.settings import Settings, default_settings
 from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.scenes.spec.files import save_scene
+from texvent.scenes.spec.files import is_scene_file, save_scene
+from texvent.scenes.spec.scene import Scene
 from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 
@@ -64,6 +65,13 @@ class PromptOptions(UpsampleConfig):
     the estimate follows."""
     write_scene: Path | None = None
     """Write the scene of the prompt as a file (.toml, .json) instead of events, and stop."""
+    reader: Literal["words", "llm"] = "words"
+    """What makes a scene of the prompt: the embedded reader's words, or a language model behind
+    --llm-url. See docs/scenes.md."""
+    llm_url: str | None = None
+    """OpenAI-compatible server of the language model, such as http://localhost:8080/v1."""
+    llm_model: str | None = None
+    """Name of the model on that server."""
     from_video: Path | None = None
     """Take this video for the prompt's instead of generating one; all further options are then
     those of texvent simulate, which does the same: texvent simulate VIDEO --prompt TEXT."""
@@ -90,7 +98,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
-    prompt = read_subject(own.prompt)
+    prompt = _written(own, settings) if own.reader == "llm" else read_subject(own.prompt)
     if own.write_scene is not None:
         return _write_scene(prompt, own, settings, output)
     if own.video_only:
@@ -117,6 +125,27 @@ def run(arguments: Sequence[str]) -> int:
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         simulation = prepare_prompt(prompt, settings, upsample=own, progress=progress)
     return execute(simulation, output, files)
+
+
+def _written(own: PromptOptions, settings: Settings) -> Scene:
+    """The scene that a language model writes for the prompt.
+
+    Warns:
+        TexventWarning: words of the prompt that nothing stands for, and what the model added.
+    """
+    from texvent.scenes.llm.endpoint import Endpoint  # an extra that most runs do not need
+    from texvent.scenes.llm.writer import write_scene
+
+    if own.llm_url is None or is_scene_file(own.prompt):
+        raise ConfigError("--reader llm takes a sentence, and --llm-url with the model's server")
+    name = str(settings.generator)
+    check_takes(Scene(), GENERATORS.load(name), name)
+    scene, report = write_scene(
+        own.prompt, Endpoint(url=own.llm_url, model=own.llm_model or Endpoint.model)
+    )
+    for line in (*report.faults(), *report.notes):
+        warn(f"prompt {line}")
+    return scene
 
 
 def _plan(prompt: Subject, settings: Settings) -> str | None:

@@ -29,7 +29,7 @@ class Item:
     """A prompt, a scene or a video, of which `repeats` videos and all variants are made."""
 
     key: str
-    """What makes it this item, wherever it stands: a digest of its prompt, scene or video and label."""
+    """What makes it this item, wherever it stands: a digest of what it shows and its label."""
     prompt: str | None = None
     video: str | None = None
     """Path of the video; None: it is generated."""
