@@ -88,7 +88,8 @@ def _post(endpoint: Endpoint, question: Mapping[str, Any]) -> str:
             return str(reply.read().decode("utf-8", errors="replace"))
     except urllib.error.HTTPError as error:
         hint = f"; set {KEY_VARIABLE} to its key" if error.code in (401, 403) else ""
-        said = " ".join(error.read(400).decode("utf-8", errors="replace").split())
+        with error:
+            said = " ".join(error.read(400).decode("utf-8", errors="replace").split())
         raise TexventError(
             f"the model server {address} answers {error.code}: {said}{hint}"
         ) from error

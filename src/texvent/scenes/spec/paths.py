@@ -36,7 +36,7 @@ def get_field(scene: Scene, path: str) -> Any:
             value, done = value[step], f"{done}[{step}]"
             continue
         owner: Any = type(value)
-        names = tuple(field_types(owner)) if dataclasses.is_dataclass(owner) else ()
+        names = tuple(field_types(owner)) if dataclasses.is_dataclass(value) else ()
         if step not in names:
             of = done or "scene"
             left = suggest(step, names) if names else f"{of} has no fields or is left out"
