@@ -279,7 +279,7 @@ def test_a_written_scene_is_read_again(tmp_path):
 
 
 def test_the_file_of_the_page_is_a_scene():
-    page = (Path(__file__).parents[3] / "docs" / "scene-files.md").read_text()
+    page = (Path(__file__).parents[3] / "docs" / "scenes.md").read_text()
     text = page.partition("```toml\n")[2].partition("```")[0]
     scene = scene_from_data(tomllib.loads(text), WORDS)
     assert {one.noun for one in describe_scene(scene, list_nouns()).objects} == {
