@@ -241,7 +241,7 @@ def _find_place(
                 continue
         else:
             item = _stand_around(rule, model, camera, view, rng)
-        if _is_free(item, rule, view, bodies, items):
+        if is_free(item, rule, view, bodies, items):
             return item
     return None
 
@@ -304,7 +304,7 @@ def _draw_reach(
     return flat * (1.0 + float(rng.uniform(near, far)))
 
 
-def _is_free(
+def is_free(
     item: SceneryItem,
     rule: Scenery,
     view: ViewClearance,
