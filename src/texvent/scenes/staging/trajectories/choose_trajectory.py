@@ -33,7 +33,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Facing,
     Rolling,
     Shuttle,
-    Slipping,
     Stationary,
     Straight,
     Trajectory,
@@ -151,8 +150,8 @@ def _drift(plan: MotionPlan, home: Vector) -> Trajectory:
     speed, duration_s = 1.2 * plan.speed_m_s, plan.duration_s
     path = bend_path(plan.yaw, speed, _DRIFT_TURN_RAD / (duration_s * speed), duration_s)
     x, y, _ = path.start
-    path = replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=home[2])
-    return Slipping(path, _SLIP_RAD)
+    start = (x + home[0], y + home[1], home[2])
+    return replace(path, start=start, floor_m=home[2], slip_rad=_SLIP_RAD)
 
 
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
