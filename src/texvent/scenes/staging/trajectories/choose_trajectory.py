@@ -76,7 +76,9 @@ def choose_trajectory(
     if clear_m > 0.0:
         return _leap(plan, model, home, clear_m)
     if plan.path is not None:
-        path = _shift_path(plan.path, model, home)
+        path: Trajectory = _shift_path(plan.path, model, home)
+        if plan.radius_m:
+            path = Rolling(path, plan.radius_m, plan.radius_m)
         return Facing(path) if plan.is_facing else path
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
