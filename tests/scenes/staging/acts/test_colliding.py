@@ -55,7 +55,7 @@ def test_bodies_that_collide_touch_at_one_instant(
 
 
 def test_a_front_is_turned_to_what_comes_and_an_arrow_stays_in_it() -> None:
-    arrow, target = stage(SceneObject("arrow"), SceneObject("door"), target=1)
+    arrow, target = stage(SceneObject("arrow"), SceneObject("wall"), target=1)
     contact_s = contact_time(DURATION_S, 0.5)
     assert apart((arrow, target), 0.0) > arrow.model.length
     assert apart((arrow, target), contact_s + 0.1) == 0.0
