@@ -8,7 +8,7 @@ from texvent.scenes.models.machine_acts import HANG
 from texvent.scenes.models.materials import DARK, WHITE, Material
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import Point, box, moved, rod, shift
-from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
+from texvent.scenes.models.wrapped_model import WrappedModel
 
 _CORD_M, _LEAST_M = 0.40, 0.75
 """Length of the cord, and height of what hangs above the floor at least, m."""

@@ -10,7 +10,7 @@ from texvent.scenes.models.articulated_model import STANDING_POSES
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import Point, box, moved, turn_x, turn_y
-from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
+from texvent.scenes.models.wrapped_model import WrappedModel
 
 HOLLOW = frozenset({"box"})
 """Nouns of closed boxes in which something can be."""

@@ -14,7 +14,7 @@ import numpy as np
 from texvent.scenes.models.articulated_model import STANDING_POSES
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import Affine, moved
-from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
+from texvent.scenes.models.wrapped_model import WrappedModel
 
 Box = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
 

@@ -15,7 +15,7 @@ from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import Affine, Point, box, compose, shift, turn_y, turn_z
 from texvent.scenes.models.wrapped.hanging import hanging
 from texvent.scenes.models.wrapped.pulsing import pulsing
-from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
+from texvent.scenes.models.wrapped_model import WrappedModel
 
 OPENING: Mapping[str, str] = MappingProxyType(
     {

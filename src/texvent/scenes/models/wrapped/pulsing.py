@@ -10,7 +10,7 @@ import numpy as np
 from texvent.scenes.models.machine_acts import PULSE
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import compose
-from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
+from texvent.scenes.models.wrapped_model import WrappedModel
 
 _SWELLS = 0.14
 """How much larger it is at a beat, as a share of its size."""

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from texvent.scenes.models.articulated_model import STANDING_POSES
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import bounds, moved, shift
-from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
+from texvent.scenes.models.wrapped_model import WrappedModel
 
 OWN_DISH: Mapping[str, int] = MappingProxyType(
     {"noodles": 5, "salad": 6, "soup": 6, "pancake": 2, "steak": 2, "meal": 11}
