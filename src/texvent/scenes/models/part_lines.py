@@ -67,11 +67,18 @@ def read_parts(text: str) -> tuple[tuple[Placed, ...], list[Wheel]]:
                     wheels.append(_wheel(shape, _count(values, 5)))
                 else:
                     drawn += _read_one(shape, surface, values, more)
+            _check(drawn)
         except (ValueError, IndexError, KeyError, ZeroDivisionError) as error:
             raise ValueError(f"parts, {line!r}: {error}") from None
         for turn in turns:
             parts += [replace(one, to_body=compose(turn, one.to_body)) for one in drawn]
     return tuple(parts), wheels
+
+
+def _check(parts: Sequence[Placed]) -> None:
+    """Refuse shapes without a volume."""
+    if any(np.linalg.det(one.to_body[:, :3]) <= 0.0 for one in parts):
+        raise ValueError("its sizes must be positive")
 
 
 def _whole_lines(text: str) -> list[str]:
@@ -92,6 +99,8 @@ _Words = tuple[str, str, list[str]]
 def _split(line: str) -> _Words:
     """Shape, surface and the rest; a surface may be written in brackets."""
     shape, *rest = line.split()
+    if len(rest) < 2:
+        raise ValueError("a line is a shape, a surface and numbers")
     if shape not in _AXES:
         raise ValueError(f"unknown shape {shape!r}; there are {', '.join(_AXES)}")
     if shape.endswith("wheel"):
