@@ -11,29 +11,13 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from texvent.scenes.models import solids
-from texvent.scenes.models.animals import (
-    breeds,
-    coloured_birds,
-    crawlers,
-    flying_birds,
-    more_quadrupeds,
-    night_animals,
-    other_bodies,
-    quadrupeds,
-    rare_quadrupeds,
-    sea_life,
-    small_animals,
-    walking_birds,
-)
+from texvent.scenes.models.bodies.nouns import BODY_FAMILIES
 from texvent.scenes.models.objects import (
     buildings,
     furniture,
     household,
-    nature,
     patterns,
-    plants,
     street,
-    tales,
     toys,
 )
 from texvent.scenes.models.objects.home import (
@@ -49,7 +33,6 @@ from texvent.scenes.models.objects.home import (
 from texvent.scenes.models.objects.kitchen import appliances, dishes, food, helpings, tableware
 from texvent.scenes.models.objects.outdoors import (
     estates,
-    flowing,
     landmarks,
     street_furniture,
     structures,
@@ -70,7 +53,6 @@ from texvent.scenes.models.objects.work import (
     tools,
 )
 from texvent.scenes.models.people import hand, person, wearables
-from texvent.scenes.models.people.creatures import nouns as creatures
 from texvent.scenes.models.people.roles import clothes
 from texvent.scenes.models.people.roles import nouns as roles
 from texvent.scenes.models.protocol import Noun
@@ -97,19 +79,6 @@ _MODULES = (
     hand,
     wearables,
     clothes,
-    quadrupeds,
-    more_quadrupeds,
-    breeds,
-    rare_quadrupeds,
-    other_bodies,
-    night_animals,
-    crawlers,
-    walking_birds,
-    flying_birds,
-    sea_life,
-    small_animals,
-    plants,
-    nature,
     buildings,
     street,
     toys,
@@ -130,7 +99,6 @@ _MODULES = (
     robots,
     toppling,
     escalator,
-    flowing,
     street_furniture,
     structures,
     wild,
@@ -142,7 +110,6 @@ _MODULES = (
     rare_vehicles,
     trucks_and_carriages,
     ships_and_planes,
-    coloured_birds,
     vegetation,
     experiments,
     targets,
@@ -153,16 +120,15 @@ _MODULES = (
     belongings,
     equipment,
     landmarks,
-    tales,
     halls,
     enclosures,
     interiors,
     estates,
     helpings,
-    creatures,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}
+    | BODY_FAMILIES
 )
 """Nouns by family, such as "vehicles cars"."""
 
