@@ -5,16 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
-from texvent.scenes.models.animals.acts import STANDING, Stance, act_stance, by_trunk, lowered
-from texvent.scenes.models.animals.four_legged.build import Build, Coat
-from texvent.scenes.models.animals.four_legged.head import NOSE, draw_head
+from texvent.scenes.models.animals.acts import STANDING, Stance, act_stance, lowered
+from texvent.scenes.models.animals.quadruped.build import (
+    Build,
+    Coat,
+    paint_coat,
+    placed_marks,
+    read_build,
+)
+from texvent.scenes.models.animals.quadruped.head import NOSE, draw_head
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
 from texvent.scenes.models.materials import (
-    BLACK,
     Material,
     fur,
 )
@@ -24,26 +30,32 @@ from texvent.scenes.models.shapes import (
     Point,
     ball,
     blade,
-    compose,
     limb,
     moved,
     part_way,
     rod,
     shift,
-    turn_x,
     turn_y,
 )
 from texvent.scenes.models.variation import fraction
+from texvent.scenes.scene import Colour
 
 
-def draw_animal(
-    build: Build, coat: Coat, *, scale: float, seed: int, extras: Sequence[ModelPart] = ()
+def build_quadruped(
+    table: Mapping[str, Any],
+    is_centred: bool,
+    *,
+    colour: Colour | None,
+    scale: float,
+    seed: int,
 ) -> ArticulatedModel:
-    """Make a figure that walks.
+    """Make a four-legged animal from its table; `colour` is its coat.
 
-    "run" takes longer bounds, "sit" lowers the hind quarters, "lie" the whole trunk. `extras` are
-    parts that go with the trunk, at its usual size.
+    "run" takes longer bounds, "sit" lowers the hind quarters, "lie" the whole trunk.
     """
+    build, coat = read_build(table), paint_coat(table, colour=colour, seed=seed)
+    middle = (0.0, 0.0, build.shoulder - 0.5 * build.body_size[2])
+    marks = placed_marks(coat.marks, middle, build.body_size)
     stride = build.stride if build.stride > 0.0 else 1.5 * build.shoulder
     walk = Gait(stride, 0.62, 0.10 * build.shoulder)
     run = Gait(1.6 * stride, 0.36, 0.22 * build.shoulder)
@@ -58,10 +70,7 @@ def draw_animal(
         rise = amount * _bob(build, turn, runs)
         sits, lies = lowered(pose.activity, pose.time_s)
         stance = act_stance(pose.activity, pose.time_s)
-        if build.trunk > 0.0:
-            stance = by_trunk(stance)
-        sits = max(sits, stance.seat)
-        rise += lies * (build.body[2] - build.shoulder + 0.02 * build.shoulder)
+        rise += lies * (build.body_size[2] - build.shoulder + 0.02 * build.shoulder)
         rise -= sits * _sit_drop(build)
         beat = amount * math.sin(turn)
         wag = math.sin(2.0 * math.pi * (0.9 * pose.time_s + start))
@@ -71,14 +80,13 @@ def draw_animal(
             *_neck_and_head(build, coat, (beat, wag), stance, _DROOP * lies + _level(build) * sits),
         ]
         before_tail = len(parts)
-        parts += [*_tail(build, coat, tail, _tail_lift(build, stance, sits, lies)), *extras]
+        parts += [*_tail(build, coat, tail, _tail_lift(build, stance, sits, lies)), *marks]
         body = _tip(build, stance, sits)
         parts = moved(moved(parts, body), shift(z=rise))
         if sits > 0.0:
             parts[before_tail:] = _above_ground(parts[before_tail:])
         for index in range(4):
             x, z = foot_path(gait, distance, _offset(index, runs), amount)
-            z += (stance.paws[index] if index < 2 else 0.0) * 0.5 * build.shoulder
             parts += _leg(build, coat, index, ((x, z), rise, sits), body)
         return parts
 
@@ -100,12 +108,14 @@ def draw_animal(
         middle = articulate(pose)[at].to_body[:, 3]
         return np.column_stack([np.eye(3), middle + np.array([ahead, 0.0, 0.0])])
 
-    return ArticulatedModel([], scale=scale, articulate=articulate, anchor=anchor)
+    return ArticulatedModel(
+        [], scale=scale * table.get("size", 1.0), articulate=articulate, anchor=anchor
+    )
 
 
 def _level(build: Build) -> float:
     """How far who sits lets its head down; a body near the ground has no way to."""
-    return _LEVEL * min(1.0, 2.0 * build.shoulder / build.body[0])
+    return _LEVEL * min(1.0, 2.0 * build.shoulder / build.body_size[0])
 
 
 def _tail_lift(build: Build, stance: Stance, sits: float, lies: float) -> float:
@@ -124,27 +134,33 @@ def _above_ground(parts: Sequence[ModelPart]) -> list[ModelPart]:
 
 
 def _tip(build: Build, stance: Stance, sits: float) -> Affine:
-    """[3, 4] turn of the trunk: up about the hind feet, down about the hips for a low head.
-
-    Who sits has its chest up.
-    """
-    length, _, height = build.body
+    """[3, 4] turn of the trunk: down about the hips for a low head; who sits has its chest up."""
+    length, _, height = build.body_size
     hips = (-0.30 * length, 0.0, build.shoulder - 0.5 * height)
-    low = max(stance.head_down, 0.0) * (1.0 - sits)
-    pitch = stance.pitch - _bow(build) * low + _seated_pitch(build) * sits
-    return compose(turn_y(-pitch, hips), turn_x(stance.roll, hips))
+    low = _lowered_head(build, stance) * (1.0 - sits)
+    return turn_y(_bow(build) * low - _seated_pitch(build) * sits, hips)
+
+
+def _lowered_head(build: Build, stance: Stance) -> float:
+    """How low the head is, 0 to 1: what has a trunk lets down that instead."""
+    return 0.1 * stance.head_down if build.trunk > 0.0 else stance.head_down
+
+
+def _curled_trunk(stance: Stance) -> float:
+    """How far a trunk is curled towards the mouth, 0 to 0.4."""
+    return 0.38 * min(max(0.5 + 7.0 * (stance.head_down - 0.93), 0.0), 1.0)
 
 
 def _bow(build: Build) -> float:
     """How far the trunk bows for the mouth to reach the ground, rad."""
     left = _lowest_nose(build) - 0.04 * build.shoulder - 0.12 * build.head[0]
-    return min(max(left / max(0.66 * build.body[0], 1e-6), 0.0), 0.34)
+    return min(max(left / max(0.66 * build.body_size[0], 1e-6), 0.0), 0.34)
 
 
 def _lowest_nose(build: Build) -> float:
     """Height of the nose with neck and head as low as they go, m."""
-    height = build.body[2]
-    long = (build.neck + 0.2 * height) * math.sin(_LOWEST)
+    height = build.body_size[2]
+    long = (build.neck[0] + 0.2 * height) * math.sin(_LOWEST)
     return build.shoulder - 0.36 * height + long - 0.9 * (build.head[1] + 0.35 * build.head[0])
 
 
@@ -168,13 +184,13 @@ def _on_skull(skull: Affine, place: Point) -> Affine:
 
 def _sit_drop(build: Build) -> float:
     """How far the hips come down, m: until the rump is on the ground."""
-    _, _, height = build.body
+    _, _, height = build.body_size
     return max(build.shoulder - 0.5 * height - 0.48 * build.waist * height, 0.0)
 
 
 def _seated_pitch(build: Build) -> float:
     """How far the trunk of who sits is turned up, rad: until the fore legs are straight."""
-    length, _, height = build.body
+    length, _, height = build.body_size
     leg = build.shoulder - 0.52 * height
     low = build.shoulder - 0.5 * height - _sit_drop(build)
     return math.asin(min(max((0.97 * leg - low) / (0.60 * length), 0.12), 0.60))
@@ -195,7 +211,7 @@ def _offset(index: int, runs: bool) -> float:
 
 
 def _torso(build: Build, coat: Coat) -> list[ModelPart]:
-    length, width, height = build.body
+    length, width, height = build.body_size
     z = build.shoulder - 0.5 * height
     tall, wide, slim = 0.5 * height, 0.5 * width, build.waist
     chest: Point = (0.24 * length, 0.0, z)
@@ -212,16 +228,6 @@ def _torso(build: Build, coat: Coat) -> list[ModelPart]:
             for y in (0.26, -0.26):
                 puff = (x * length, y * width, z + 0.16 * height)
                 parts.append(ball(coat.trunk, puff, (0.46 * length, 0.62 * width, 0.74 * height)))
-    if build.patches:
-        dark = Material(BLACK)
-        for x, y, up, long, tall in (
-            (0.26, 0.30, 0.06, 0.34, 0.70), (0.10, 0.30, 0.24, 0.26, 0.42),
-            (-0.22, 0.30, 0.16, 0.30, 0.52), (-0.32, 0.26, -0.06, 0.20, 0.50),
-            (0.05, -0.30, 0.14, 0.34, 0.56), (0.20, -0.28, -0.06, 0.22, 0.50),
-            (-0.30, -0.28, 0.04, 0.30, 0.66),
-        ):  # fmt: skip
-            spot = (x * length, y * width, z + up * height)
-            parts.append(ball(dark, spot, (long * length, 0.46 * width, tall * height)))
     return parts
 
 
@@ -238,35 +244,35 @@ def _neck_and_head(
 ) -> list[ModelPart]:
     """Of `swings` the first moves the neck, the second ears and trunk; `droop` lowers the head."""
     beat, wag = swings
-    down = stance.head_down + droop
-    length, width, height = build.body
+    down = _lowered_head(build, stance) + droop
+    length, width, height = build.body_size
     base: Point = (0.36 * length, 0.0, build.shoulder - 0.36 * height)
-    rise = build.rise + 0.05 * beat
-    rise += down * (build.rise - _LOWEST) * -1.0 if down > 0.0 else -0.45 * down
+    rise = build.neck[1] + 0.05 * beat
+    rise -= down * (build.neck[1] - _LOWEST)
     top: Point = (
-        base[0] + (build.neck + 0.2 * height) * math.cos(rise),
+        base[0] + (build.neck[0] + 0.2 * height) * math.cos(rise),
         0.0,
-        base[2] + (build.neck + 0.2 * height) * math.sin(rise),
+        base[2] + (build.neck[0] + 0.2 * height) * math.sin(rise),
     )
-    thick = 0.26 * height if build.neck < 1.2 * height else 0.20 * height
+    thick = 0.26 * height if build.neck[0] < 1.2 * height else 0.20 * height
     parts = [
         limb(
             coat.trunk,
             base,
             top,
-            1.25 * thick if build.neck < 1.2 else thick,
+            1.25 * thick if build.neck[0] < 1.2 else thick,
             side_radius=0.34 * width,
         ),
         limb(coat.limbs, part_way(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
     ]
-    head = draw_head(build, coat, top, wag, stance)
-    nod = 0.75 * down if down > 0.0 else 0.6 * down
-    head = moved(head, turn_y(nod, top)) if down else head
+    curled = _curled_trunk(stance) if stance.head_down else 0.0
+    head = draw_head(build, coat, top, wag, stance, curled)
+    head = moved(head, turn_y(0.75 * down, top)) if down else head
     return [*parts, *head, *_mane(build, coat, base, top)]
 
 
 def _mane(build: Build, coat: Coat, base: Point, top: Point) -> list[ModelPart]:
-    skull, height = build.head[0], build.body[2]
+    skull, height = build.head[0], build.body_size[2]
     if build.mane == "ridge":
         up = 0.16 * height
         start = (base[0] - 0.10 * height, 0.0, base[2] + 0.42 * height)
@@ -284,7 +290,7 @@ def _mane(build: Build, coat: Coat, base: Point, top: Point) -> list[ModelPart]:
 
 def _tail(build: Build, coat: Coat, wag: float, lift: float) -> list[ModelPart]:
     """`lift` turns it up, rad, so that wagging is seen from the side."""
-    length, _, height = build.body
+    length, _, height = build.body_size
     long, rise = build.tail[0], build.tail[1] + lift
     root: Point = (-0.46 * length, 0.0, build.shoulder - 0.28 * height)
     side = 0.25 * wag
@@ -300,7 +306,7 @@ def _tail(build: Build, coat: Coat, wag: float, lift: float) -> list[ModelPart]:
         max(middle[2] + 0.5 * long * math.sin(bent), 0.05 * build.shoulder),
     )
     thick = (0.14 if build.bushy_tail else 0.075) * (long if build.bushy_tail else height)
-    material = coat.tail or (coat.dark if build.mane == "ridge" else coat.limbs)
+    material = coat.dark if build.mane == "ridge" else coat.tail
     return [
         limb(material, root, middle, 0.8 * thick),
         limb(coat.dark if build.mane else material, middle, tip, thick),
@@ -317,7 +323,7 @@ def _leg(
     """Upper leg, lower leg and hoof or paw; hind legs bend backwards at the hock."""
     (x, lift), rise, sit = step
     is_fore, side = index < 2, 1.0 if index % 2 == 0 else -1.0
-    length, width, height = build.body
+    length, width, height = build.body_size
     root_x = (0.30 if is_fore else -0.32) * length
     thick = 0.052 * build.shoulder**0.9 * build.thick
     y = side * (0.5 * width - 0.9 * thick)
@@ -338,7 +344,7 @@ def _leg(
         towards = (1.0, 0.0, 1.0)
     knee = bend(top, ankle, half, half, towards)
     toe = (ankle[0] + 1.1 * thick, y, ankle[2])
-    legs = coat.legs or coat.limbs
+    legs = coat.legs
     return [
         limb(legs, top, knee, (1.2 + (0.4 if is_fore else 0.7) / build.thick) * thick),
         limb(legs, knee, ankle, 0.95 * thick),
