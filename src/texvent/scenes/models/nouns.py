@@ -70,9 +70,6 @@ from texvent.scenes.models.objects.work import (
     tools,
 )
 from texvent.scenes.models.people import hand, person, wearables
-from texvent.scenes.models.people.creatures import nouns as creatures
-from texvent.scenes.models.people.roles import clothes
-from texvent.scenes.models.people.roles import nouns as roles
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.vehicles import (
     aircraft,
@@ -93,10 +90,8 @@ _MODULES = (
     boats,
     construction,
     person,
-    roles,
     hand,
     wearables,
-    clothes,
     quadrupeds,
     more_quadrupeds,
     breeds,
@@ -159,7 +154,6 @@ _MODULES = (
     interiors,
     estates,
     helpings,
-    creatures,
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}

@@ -71,7 +71,7 @@ def read_surface(text: str, hues: Mapping[str, Colour]) -> Material:
         return _toned(shared[base], factors)
     colour, second = read_colour(first, hues), None
     texture, values = Texture.WORN, {"scale": 1.0, "glow": 0.0}
-    for word, following in zip(rest, [*rest[1:], ""], strict=True):
+    for word, following in zip(rest, [*rest, ""][1:], strict=True):
         if word in values:
             values[word] = float(following)
         elif word in _TEXTURES:

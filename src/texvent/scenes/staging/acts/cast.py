@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.props import Prop
 from texvent.scenes.staging.actors import Actor
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.scenes.description import Relation
 from texvent.scenes.models.anchors import locate
-from texvent.scenes.models.people.acts.pairs import GIVEN_S, PAIR_GAPS
+from texvent.scenes.models.people.activities import PAIR_GAPS
 from texvent.scenes.models.people.timing import ease
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.attached import HeldAt
@@ -23,6 +23,7 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Vector,
 )
 
+GIVEN_S = 1.0
 _SWAY_M = {"wrestle": 0.12, "tug of war": 0.16, "box": 0.06}
 """How far two push or pull each other to and fro, m."""
 _SWAY_HZ = 0.45

@@ -12,7 +12,7 @@ import numpy as np
 from texvent.scenes.description import Relation
 from texvent.scenes.models.objects.toys import KITE_TURN_RAD
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.roles.dressing import DRESSED
+from texvent.scenes.models.people.outfit import CLOTHES
 from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import Affine
 from texvent.scenes.models.support_surface import top_heights
@@ -108,7 +108,7 @@ WORN: Mapping[str, Wear] = MappingProxyType(
     }
 )
 """Noun → where it is worn; of a pair of feet or hands, one on each."""
-GARMENTS = DRESSED
+GARMENTS = frozenset(CLOTHES)
 """What the body's own clothes show."""
 IN_ITS_COLOUR = frozenset({"shirt", "jacket", "coat", "dress", "robe", "sweater", "hoodie",
                            "wetsuit", "suit", "pyjamas"})  # fmt: skip

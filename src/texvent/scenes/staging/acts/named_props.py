@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from texvent.scenes.description import SceneDescription, SceneObject
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import STEEL, WOOD, Material
-from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.staging.acts.cast import Cast
 

@@ -15,7 +15,6 @@ from texvent.scenes.description import (
 )
 from texvent.scenes.models.animals.four_legged.clothing import has_fitting_head
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.creatures.names import OF_UPRIGHT
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.wrapped.opening import OPENS
@@ -121,7 +120,7 @@ def _in_colour_of(
     An animal's is its coat.
     """
     noun = nouns[wearer.noun]
-    is_animal = wearer.noun in OF_UPRIGHT or has_fitting_head(noun)
+    is_animal = has_fitting_head(noun)
     is_drawn = garment.noun in IN_ITS_COLOUR and noun.motion != "drive" and not is_animal
     return replace(wearer, colour=garment.colour or wearer.colour) if is_drawn else wearer
 

@@ -7,16 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.activities import ACTIVITIES
 from texvent.scenes.models.people.person import RUN_UP
-from texvent.scenes.models.people.props import (
-    BAT,
-    BAT_REACH,
-    CLUB,
-    CLUB_REACH,
-    RACKET,
-    RACKET_REACH,
-)
+from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.attached import (
@@ -133,8 +126,6 @@ class Swing:
     """How something is struck."""
 
     activity: str
-    prop: Prop
-    reach_m: float
     side: float
     """Where the ball flies: 0 = ahead of the body, 1 = to its left."""
     is_teed: bool = False
@@ -142,9 +133,9 @@ class Swing:
 
 
 _SWINGS = {
-    "racket": Swing("swing racket", Prop("right hand", RACKET), RACKET_REACH, 0.0),
-    "bat": Swing("swing bat", Prop("right hand", BAT), BAT_REACH, 1.0),
-    "club": Swing("swing club", Prop("right hand", CLUB), CLUB_REACH, 1.0, is_teed=True),
+    "racket": Swing("swing racket", 0.0),
+    "bat": Swing("swing bat", 1.0),
+    "club": Swing("swing club", 1.0, is_teed=True),
 }
 _SWING_OF_TOOL = {
     "tennis racket": "racket", "badminton racket": "racket", "ping-pong paddle": "racket",
@@ -168,10 +159,10 @@ def hit(
     # Who swings to the left turns so that the ball still flies where the body was to face.
     yaw = home.yaw - 0.5 * math.pi * swing.side
     path = Performed(Stationary(home.position, yaw), swing.activity, contact_s=contact_s)
-    props = () if tool is not None else (swing.prop,)
+    props = () if tool is not None else PROPS[swing.activity]
     subject = replace(subject, trajectory=path, lead_m=0.0, is_mover=True, props=props)
     axes = subject.anchor("right hand", contact_s)
-    spot = axes[:, 3] + swing.reach_m * axes[:, 2]
+    spot = axes[:, 3] + ACTIVITIES[swing.activity].reach_m * axes[:, 2]
     heading, rest = heading_of(home.yaw), home.position[2] + _pivot(thing)
     spot = spot + (0.5 * thing.model.length + 0.02) * heading
     spot[2] = rest if swing.is_teed else max(float(spot[2]), rest)

@@ -9,10 +9,9 @@ from texvent.scenes.description import STANDING, SceneDescription
 from texvent.scenes.models.animals.four_legged.clothing import TRUNK_CLOTHES, clothe
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS
-from texvent.scenes.models.people.acts.prop_shapes import Prop
-from texvent.scenes.models.people.props import list_props
-from texvent.scenes.models.people.roles.dressing import DRESSED, dress
-from texvent.scenes.models.people.roles.held import HOLDS
+from texvent.scenes.models.people.outfit import CLOTHES
+from texvent.scenes.models.people.person import dress
+from texvent.scenes.models.people.props import HOLDS, Prop, list_props
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
@@ -41,7 +40,7 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
         if one.kind == "wear" and one.subject == index
         for target in one.targets
         for colour in (objects[target].colour,)
-        if objects[target].noun in (TRUNK_CLOTHES if is_animal else DRESSED)
+        if objects[target].noun in (TRUNK_CLOTHES if is_animal else CLOTHES)
     ]
     if is_animal and worn:
         return clothe(noun, worn)
@@ -61,11 +60,9 @@ _OTHERS = {"person": "woman", "elderly person": "elderly woman"}
 
 
 def choose_props(
-    description: SceneDescription, group: ObjectGroup, *, is_first: bool = True
+    description: SceneDescription, group: ObjectGroup
 ) -> tuple[Prop, ...]:
     """What a person's activities need and the prompt does not show as an object.
-
-    Of several who play before a television the first one has it.
 
     Who climbs works where they are: no table stands before them.
     """
@@ -76,7 +73,6 @@ def choose_props(
     kinds = dict.fromkeys(motion.kind for motion in said)
     size = float(getattr(group.models[0], "scale", 1.0))
     props = [prop for kind in kinds for prop in list_props(kind, size)]
-    props = [prop for prop in props if is_first or not prop.is_shared]
     if "climb" in kinds:
         props = [prop for prop in props if prop.anchor != "ground"]
     props += usual_holds(description, group, props)

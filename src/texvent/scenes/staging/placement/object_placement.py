@@ -335,7 +335,7 @@ class ObjectPlacer:
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     hang_rope(trajectory, model),
-                    choose_props(self._description, group, is_first=number == 0),
+                    choose_props(self._description, group),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
                     waist_m=find_waist(group, model),

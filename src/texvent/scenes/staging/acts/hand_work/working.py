@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.people.props import hand_tool, table
 from texvent.scenes.models.people.work.bench import (
     TABLE_M,
