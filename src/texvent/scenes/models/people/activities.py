@@ -1,6 +1,6 @@
 """Names of what people and hands can do, with the English phrases that mean them.
 
-The rows of `data/activities.toml` and `data/hand_gestures.toml`, without the motion.
+The rows of `data/activities.toml` and of `data/hand_gestures.toml`, without the motion.
 """
 
 from __future__ import annotations
@@ -48,7 +48,9 @@ def _read(name: str) -> Mapping[str, Activity]:
     known = {one.name for one in fields(Activity)}
     return MappingProxyType(
         {
-            activity: Activity(**{key: _frozen(value) for key, value in row.items() if key in known})
+            activity: Activity(
+                **{key: _frozen(value) for key, value in row.items() if key in known}
+            )
             for activity, row in read_table(name).items()
         }
     )

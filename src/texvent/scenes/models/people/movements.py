@@ -1,4 +1,4 @@
-"""Movements of people: postures over time, from the tracks of `data/activities.toml`."""
+"""Movements of people: postures over time, from the tracks of `data/movements.toml`."""
 
 from __future__ import annotations
 
@@ -12,11 +12,6 @@ from texvent.scenes.models.people.tables import read_table
 from texvent.scenes.models.people.track import Track, Values, read_track
 from texvent.scenes.models.shapes import Point
 
-MOTION_KEYS = frozenset(
-    {"hips", "lean", "tilt", "turn", "nod", "look", "heading", "tool", "left", "right", "arms",
-     "left_leg", "right_leg", "legs", "keys"}
-)  # fmt: skip
-"""Keys of an activity that say how it moves."""
 _ELBOWS: Mapping[str, Point] = {"down": DOWN, "out": OUT}
 
 
@@ -44,8 +39,7 @@ def find_posture(activity: str, time_s: float, act_s: float | None = None) -> Po
 
 @cache
 def _find_track(activity: str) -> Track | None:
-    row = {key: value for key, value in read_table("activities")[activity].items()
-           if key in MOTION_KEYS}  # fmt: skip
+    row = read_table("movements").get(activity)
     return read_track(_with_elbows(row)) if row else None
 
 

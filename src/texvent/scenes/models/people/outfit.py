@@ -98,8 +98,10 @@ def put_on(kind: PersonKind, worn: Iterable[tuple[str, Colour | None]]) -> Perso
         colour = said or _frozen(row.get("usual"))
         kind = replace(kind, **{key: value for key, value in row.items() if key in _FIELDS})
         if colour is not None:
-            kind = replace(kind, **{field: (colour,) if field == "shirts" else colour
-                                    for field in row["painted"]})  # fmt: skip
+            painted: dict[str, Any] = {
+                field: (colour,) if field == "shirts" else colour for field in row["painted"]
+            }
+            kind = replace(kind, **painted)
     return kind
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cache
 
 from texvent.scenes.models.materials import Material
@@ -25,9 +24,8 @@ def draw_parts(table: str, group: str, name: str, paint: Material | None = None)
         name: of the entry.
         paint: surface of its parts that are of "paint".
     """
-    surfaces = _surfaces(table)
     return [
-        part(one.shape, paint if paint and one.surface == PAINT else surfaces[one.surface],
+        part(one.shape, paint if paint and one.surface == PAINT else _surface(table, one.surface),
              one.to_body)
         for one in _placed(table, group, name)
     ]  # fmt: skip
@@ -39,16 +37,6 @@ def _placed(table: str, group: str, name: str) -> tuple[Placed, ...]:
 
 
 @cache
-def _surfaces(table: str) -> Mapping[str, Material]:
-    return _Surfaces(read_table(table)["surfaces"])
-
-
-class _Surfaces(dict[str, Material]):
-    """Surfaces by name, or by their colour "(r g b)"."""
-
-    def __init__(self, named: Mapping[str, str]) -> None:
-        super().__init__({name: read_surface(text, {}) for name, text in named.items()})
-
-    def __missing__(self, text: str) -> Material:
-        self[text] = read_surface(text, {})
-        return self[text]
+def _surface(table: str, name: str) -> Material:
+    """A surface of the table by its name, or by its colour "(r g b)"."""
+    return read_surface(read_table(table)["surfaces"].get(name, name), {})

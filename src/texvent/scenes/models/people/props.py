@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from types import MappingProxyType
 from typing import Any
@@ -107,10 +108,12 @@ _MOVING: Mapping[str, Draw] = MappingProxyType(
 
 
 def _read_prop(row: Mapping[str, Any]) -> Prop:
-    shape = row["shape"]
-    parts = () if shape in _MOVING else tuple(draw_parts("props", "shapes", shape))
-    nouns = tuple(row.get("nouns", ()))
-    return Prop(row["at"], _MOVING.get(shape, lambda _: parts), nouns, row.get("is_own", False))
+    draw = _MOVING.get(row["shape"], partial(_draw_still, row["shape"]))
+    return Prop(row["at"], draw, tuple(row.get("nouns", ())), row.get("is_own", False))
+
+
+def _draw_still(shape: str, _: float) -> Sequence[ModelPart]:
+    return draw_parts("props", "shapes", shape)
 
 
 PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(

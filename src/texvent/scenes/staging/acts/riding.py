@@ -9,8 +9,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.people.posture import BOARD_STANCE
+from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.support_surface import find_support, top_heights
 from texvent.scenes.staging.actors import Actor

@@ -14,8 +14,7 @@ from texvent.scenes.models.people.activities import (
     SEATS,
     TO_AND_FROM_SEATS,
 )
-from texvent.scenes.models.people.posture import SEAT
-from texvent.scenes.models.people.posture import ANKLE
+from texvent.scenes.models.people.posture import ANKLE, SEAT
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.support_surface import Support, find_support, top_heights

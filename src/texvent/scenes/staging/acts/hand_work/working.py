@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.people.props import Prop
-from texvent.scenes.models.people.props import hand_tool, table
+from texvent.scenes.models.people.props import Prop, hand_tool, table
 from texvent.scenes.models.people.work.bench import (
     TABLE_M,
     Bench,

@@ -10,8 +10,8 @@ import numpy as np
 
 from texvent.scenes.models.objects.furniture import NOUNS as FURNITURE
 from texvent.scenes.models.people.activities import DONE_SEATED, SEATED
-from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.people.posture import SEAT
+from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import moved
 from texvent.scenes.scene import Float64Array
