@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,7 +43,7 @@ _AXES = {
     **dict.fromkeys(_RODS, "xyzxyz--"),
     **dict.fromkeys(_SPANNED, "xyzxyzxyzxyz"),
     "bar": "xyzyz--", "disc": "xyz--", "frame": "xyz----", "ring": "xyz------", "lathe": "xyz",
-    "chain": "-" + 40 * "xyz", "wheel": "xyz--", "thin-wheel": "xyz--", "spoked-wheel": "xyz--",
+    "bits": "xyz---", "chain": "-" + 40 * "xyz", "wheel": "xyz--", "thin-wheel": "xyz--", "spoked-wheel": "xyz--",
 }  # fmt: skip
 """Shape → the axis that each number of a line is along, "-" for lengths."""
 _ROUNDED = 0.6
@@ -57,19 +58,32 @@ def read_parts(text: str) -> tuple[tuple[Placed, ...], list[Wheel]]:
     """
     parts: list[Placed] = []
     wheels: list[Wheel] = []
-    for number, full in enumerate(text.splitlines()):
-        line = full.split("#", 1)[0] if full.lstrip().startswith("#") else full
-        if not line.strip():
-            continue
+    for line in _whole_lines(text):
+        drawn: list[Placed] = []
         try:
-            for shape, surface, values, more in _written_out(_split(line)):
+            words, turns = _take_turns(_split(line))
+            for shape, surface, values, more in _written_out(words):
                 if shape.endswith("wheel"):
                     wheels.append(_wheel(shape, _count(values, 5)))
                 else:
-                    parts += _read_one(shape, surface, values, more)
-        except (ValueError, IndexError, KeyError) as error:
-            raise ValueError(f"line {number} of its parts, {line.strip()!r}: {error}") from None
+                    drawn += _read_one(shape, surface, values, more)
+        except (ValueError, IndexError, KeyError, ZeroDivisionError) as error:
+            raise ValueError(f"parts, {line!r}: {error}") from None
+        for turn in turns:
+            parts += [replace(one, to_body=compose(turn, one.to_body)) for one in drawn]
     return tuple(parts), wheels
+
+
+def _whole_lines(text: str) -> list[str]:
+    """Lines without remarks; what is indented goes on with the line before."""
+    whole: list[str] = []
+    for line in text.splitlines():
+        line = line.split(" # ")[0].rstrip()
+        if line[:1].isspace() and whole:
+            whole[-1] += line
+        elif line.strip() and not line.startswith("#"):
+            whole.append(line.strip())
+    return whole
 
 
 _Words = tuple[str, str, list[str]]
@@ -86,6 +100,18 @@ def _split(line: str) -> _Words:
     if rest[0].startswith("("):
         taken = next(n for n, word in enumerate(rest, 1) if ")" in word)
     return shape, " ".join(rest[:taken]), rest[taken:]
+
+
+def _take_turns(words: _Words) -> tuple[_Words, list[Affine]]:
+    """The line without "turned", and the turns of its copies: number, axis, step and pivot."""
+    shape, surface, rest = words
+    if "turned" not in rest:
+        return words, [shift()]
+    at = rest.index("turned")
+    count, axis, *values = rest[at + 1 :]
+    step, x, y, z = map(read_number, values)
+    turns = [turn_about(axis, math.radians(n * step), (x, y, z)) for n in range(int(count))]
+    return (shape, surface, rest[:at]), turns
 
 
 def _written_out(words: _Words) -> Iterator[tuple[str, str, list[float], list[float | str]]]:
@@ -121,7 +147,7 @@ def _written_out(words: _Words) -> Iterator[tuple[str, str, list[float], list[fl
 def _value(word: str, sign: float) -> float | str:
     if word[0] == "±":
         return sign * read_number(word[1:])
-    return word if word.isalpha() else read_number(word)
+    return word if word.isalpha() or word[0] in ".#" and word.strip(".#/") == "" else read_number(word)
 
 
 def _count(values: Sequence[float], *counts: int) -> Sequence[float]:
@@ -245,8 +271,28 @@ def _lathe(surface: str, values: list[float], more: object) -> Iterator[Placed]:
         yield Placed(Shape.CYLINDER, surface, placed_upright(centre, (wide, wide, high - low)))
 
 
+def _bits(surface: str, values: list[float], more: Sequence[float | str]) -> Iterator[Placed]:
+    """Dark cells of a grid that faces +x, as boxes: its middle, width, height and depth.
+
+    Then "rows" and the rows from the top, "#" for a dark cell and "." for a bright one, with "/"
+    between them.
+    """
+    if len(more) < 2 or more[0] != "rows":
+        raise ValueError("bits end with 'rows' and rows of '#' and '.' with '/' between them")
+    x, y, z, wide, tall, deep = _count(values, 6)
+    rows = "".join(map(str, more[1:])).split("/")
+    cell, high = wide / max(map(len, rows)), tall / len(rows)
+    for number, row in enumerate(rows):
+        for run in re.finditer("#+", row):
+            middle = y - 0.5 * wide + 0.5 * cell * (run.start() + run.end())
+            centre = (x, middle, z + 0.5 * tall - high * (number + 0.5))
+            size = (deep, cell * (run.end() - run.start()), high)
+            yield Placed(Shape.BOX, surface, placed_upright(centre, size))
+
+
 _COMPOSED: dict[str, Callable[[str, list[float], list[float | str]], Iterator[Placed]]] = {
-    "bar": _bar, "disc": _disc, "frame": _frame, "chain": _chain, "ring": _ring, "lathe": _lathe,
+    "bar": _bar, "bits": _bits, "disc": _disc, "frame": _frame, "chain": _chain, "ring": _ring,
+    "lathe": _lathe,
 }  # fmt: skip
 
 
