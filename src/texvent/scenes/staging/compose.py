@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from texvent.scenes.description import AMID, SceneDescription
-from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import (
@@ -25,8 +24,6 @@ from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
 from texvent.scenes.staging.camera.main_actor import choose_main
-from texvent.scenes.staging.claims.acts import Stage
-from texvent.scenes.staging.claims.missing import list_missing
 from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
@@ -36,7 +33,7 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
-from texvent.scenes.staging.placement.fitting import enlarge_again, enlarge_small
+from texvent.scenes.staging.placement.fitting import enlarge_small
 from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
@@ -64,7 +61,6 @@ from texvent.scenes.staging.surroundings.waterside import (
     turn_to_water,
     water_line,
 )
-from texvent.scenes.staging.take import USUAL, Take
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -85,8 +81,8 @@ class ComposedScene:
     lamps: LampPlan
     class_names: dict[int, str]
     """Instance id → noun."""
-    unmet: tuple[Unmet, ...] = ()
-    """What the prompt says and the scene could not show, such as "under the table"."""
+    not_shown: tuple[str, ...] = ()
+    """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
     still_nouns: tuple[str, ...] = ()
     """Noun of each shape of `still`."""
     object_of: Mapping[int, int] = field(default_factory=dict)
@@ -94,13 +90,6 @@ class ComposedScene:
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
     is_grey: bool = False  # filmed in black and white
-    notes: tuple[str, ...] = ()
-    """What is added that the prompt does not say, as sentences."""
-
-    def list_scenery(self) -> list[str]:
-        """Noun of each shape of the scene that is scenery, "" for those of actors before it."""
-        acting = sum(len(self._place(actor, 0.0).parts) for actor in self.actors)
-        return [""] * acting + list(self.still_nouns)
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -139,11 +128,6 @@ class ComposedScene:
         )
 
     @property
-    def not_shown(self) -> tuple[str, ...]:
-        """Words for what the prompt says and the scene could not show."""
-        return tuple(dict.fromkeys(one.text for one in self.unmet))
-
-    @property
     def flicker_hz(self) -> float | None:
         """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
         rates = (self.animated_environment.fastest_hz, self.lamps.blink_hz)
@@ -164,7 +148,6 @@ def compose_scene(
     size: SensorSize,
     duration_s: float,
     nouns: Mapping[str, Noun] = NOUNS,
-    take: Take = USUAL,
 ) -> ComposedScene:
     """An animated scene from a description; the same arguments give the same scene.
 
@@ -175,22 +158,19 @@ def compose_scene(
         size: image size, pixels, for the framing.
         duration_s: length of the clip, s; moves are spread over it.
         nouns: table of models.
-        take: what is otherwise than usual.
 
     Raises:
         InputError: the duration is not a positive number.
     """
     said, missing = prepare(description, nouns, duration_s)
-    description = said if said.is_metric else _set_out(said, nouns, take)
+    description = said if said.is_metric else _set_out(said, nouns)
     place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
     travel = plan_travel(description, place, duration_s)
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors, camera_path = _set_camera(
-        description, placer, place, (seed, size, duration_s, take), travel
-    )
+    actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
     view = _describe_view(description, place, camera_path, actors, duration_s)
     actors = wade(description, actors, place, view.road, PLACES[place].road_half_width)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
@@ -202,9 +182,6 @@ def compose_scene(
         description, place=place, road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m, looking=looking,
     )  # fmt: skip
-    staged = replace(said, objects=description.objects)
-    stage = Stage(staged, actors, camera_path, animated_environment.at(0.0), place, duration_s)
-    missing += list_missing(said, description, surrounding, stage)
     lamps = plan_lamps(
         description, actors, strength=choose_lighting(place, description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
@@ -215,14 +192,12 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
-        notes=tuple(one for one in description.notes if one not in said.notes),
     )  # fmt: skip
 
 
-def _set_out(said: SceneDescription, nouns: Mapping[str, Noun], take: Take) -> SceneDescription:
+def _set_out(said: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """The description with small things enlarged, on tables and plates."""
-    set_out = set_on_table(enlarge_small(said, nouns), nouns)
-    return dish_up(enlarge_again(set_out, take.larger), nouns)
+    return dish_up(set_on_table(enlarge_small(said, nouns), nouns), nouns)
 
 
 def _place_scenery(
@@ -250,14 +225,14 @@ def _set_camera(
     description: SceneDescription,
     placer: ObjectPlacer,
     place: str,
-    how: tuple[int, SensorSize, float, Take],
+    how: tuple[int, SensorSize, float],
     travel: TravelPlan | None,
 ) -> tuple[list[Actor], CameraPath]:
     """The camera, and the actors, placed so that it shows them.
 
-    `how` are the seed, the image's size, the length of the clip, s, and the take.
+    `how` are the seed, the image's size and the length of the clip, s.
     """
-    seed, size, duration_s, take = how
+    seed, size, duration_s = how
     aspect = size.height / size.width
     has_lanes = travel is None and PLACES[place].ground in STRIPS and place not in WATERSIDE
 
@@ -272,7 +247,7 @@ def _set_camera(
     def film(cast: Sequence[Actor]) -> CameraPath:
         return place_camera(
             description, cast, place, seed=seed, aspect=aspect, duration_s=duration_s,
-            travel=travel, take=take,
+            travel=travel,
         )  # fmt: skip
 
     if description.is_metric:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
@@ -31,11 +29,10 @@ def keep_in_cage(group: ObjectGroup, cage: ObjectGroup) -> float:
     box, body = cage.models[0], group.models[0]
     kind = group.plan.motion.kind
     inside = _INSIDE * min(box.length, box.width)
-    floor, ceiling = _FLOOR * box.height, _CEILING * box.height
+    floor = _FLOOR * box.height
     lift = 0.5 * body.height if is_centred(group.noun) else 0.0
     if kind in PATH_KINDS | {"hover", "orbit"}:
         group.pool_m = max(0.5 * (inside - body.length), 0.1 * inside)
         group.offsets = [(0.0, 0.0, 0.0) for _ in group.offsets]
-    group.plan = replace(group.plan, headroom_m=max(ceiling - floor - body.height, 0.02))
     is_up = kind in ("fly", "hover")
     return _AIR * box.height + lift - 0.5 * body.height if is_up else floor + lift

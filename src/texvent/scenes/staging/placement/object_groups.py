@@ -15,7 +15,6 @@ from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.trajectories.manoeuvres import sample_places
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import MOST_HASTE
-from texvent.scenes.staging.trajectories.stunts import EIGHT
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GAP_M = 0.25
@@ -173,9 +172,6 @@ def half_extents_over_clip(
     travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
     if plan.motion.direction == "circle":
         travel = np.array([1.3, 1.3, 0.0]) * max(model.length, model.width)
-    elif plan.motion.direction == "eight":
-        eight = np.array([cosine + 0.5 * sine, sine + 0.5 * cosine, 0.0])
-        travel = EIGHT * max(model.length, model.width) * eight
     return np.asarray(half + spread + travel)
 
 

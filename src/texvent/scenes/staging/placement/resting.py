@@ -18,10 +18,10 @@ from texvent.scenes.models.people.posture import ANKLE, SEAT
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.support_surface import Support, find_support, top_heights
+from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.models.wrapped.hollow import HollowModel
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.acts.riding import CLOSED, LOADS, SEATS_OF
 from texvent.scenes.staging.placement.cages import CAGES, keep_in_cage
 from texvent.scenes.staging.placement.contents import pack
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
@@ -42,7 +42,7 @@ _ALIVE_SHARE = 0.75
 """The same of an animal, whose ears and antlers reach above its head."""
 _PROFILE = -0.35
 """Heading of a seat on which a person sits down: the way down is seen from the side, rad."""
-_HIDING = CLOSED | {"house", "building"}
+_HIDING = nouns_with("hides its riders") | {"house", "building"}
 """What hides who is in it."""
 
 
@@ -181,7 +181,7 @@ def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
     kind = group.plan.motion.kind
     if kind == "run in place":
         return False
-    if kind == "stand" and (target.noun.name in SEATS_OF or target.noun.motion == "sail"):
+    if kind == "stand" and (trait_value("seats", target.noun.name) or target.noun.motion == "sail"):
         return False
     is_seat = target.noun.name in SEATS and kind in DONE_SEATED
     sits = kind in TO_AND_FROM_SEATS or kind in ("sit", "drive", "sail")
@@ -210,12 +210,14 @@ def _moving_part(target: ObjectGroup, place: tuple[float, float]) -> int | None:
 def _find_surface(target: ObjectGroup, *, is_person: bool = False) -> Support:
     """The supporting surface; of a vehicle where it carries things or people, or its roof."""
     model = target.models[0]
-    if target.noun.name in LOADS and not is_person:
+    loads = trait_value("carries at", target.noun.name)
+    if loads is not None and not is_person:
         scale = float(getattr(model, "scale", 1.0))
-        x, y, z = (scale * value for value in LOADS[target.noun.name])
+        x, y, z = (scale * value for value in loads)
         return Support(z, (x, y), (x, y))
-    if target.noun.name in SEATS_OF and (is_person or target.noun.name not in CLOSED):
-        x, y, _ = SEATS_OF[target.noun.name].places[0]
+    seats = trait_value("seats", target.noun.name)
+    if seats is not None:
+        x, y, _ = seats[0]
         height = top_heights(
             model.parts(Pose(0.0, 0.0, 0.0, "stand")), np.array([x]), np.array([y])
         )

@@ -8,14 +8,12 @@ from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.holding import is_person
+from texvent.scenes.staging.acts.acts import is_person
 from texvent.scenes.staging.placement.lanes import FEWEST, find_lanes
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 
-BESIDE_ROAD = "beside road"
-"""Value of a claim that things are beside the road."""
 _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
 
@@ -58,8 +56,6 @@ def find_road(
 
 def find_beside(description: SceneDescription, place: str, actors: Sequence[Actor] = ()) -> str:
     """Who is beside the road: on the pavement of a city, or as the prompt says."""
-    if any(one.value == BESIDE_ROAD for one in description.claims):
-        return "all"
     if place != "city":
         return ""
     if any(one.side == "lane" for one in description.objects):

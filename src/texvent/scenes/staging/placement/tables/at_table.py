@@ -132,7 +132,7 @@ def draw_chair(scale: float) -> Prop:
     parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
     axes = np.column_stack([np.eye(3), np.array([-_BACK_M * scale, 0.0, -_lift(scale)])])
     placed = moved(parts, axes)
-    return Prop("ground", lambda _: placed, furniture="chair")
+    return Prop("ground", lambda _: placed)
 
 
 def turned_to(place: Vector, yaw: float, goal: Float64Array) -> bool:

@@ -10,7 +10,7 @@ from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.staging.acts.holding import WORN
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.staging.placement.fitting import extent
 from texvent.scenes.staging.surroundings.places import is_room
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
@@ -34,7 +34,7 @@ _ON_DESKS = _AT_DESK | _APPLIANCES
 _NOT_ON_TABLES = frozenset({
     "campfire", "torch", "soap bubble", "paper plane", "water balloon", "feather", "toy train",
     "rubber duck", "paper boat", "dart", "ice skate", "roller skate", "poster", "sign", "rope",
-    "chain", *WORN,
+    "chain", *nouns_with("worn"),
 })  # fmt: skip
 _SPORT = frozenset({"gym", "sports hall", "stadium", "ice rink", "swimming pool", "court"})
 """Places in which no table is added."""
@@ -216,8 +216,7 @@ def _has_way(one: SceneObject) -> bool:
 
 def is_added(description: SceneDescription, index: int) -> bool:
     """Whether it is a table that the prompt does not name, under things that it names."""
-    is_named = any(index in one.things for one in description.claims)
-    return description.objects[index].noun in TABLES and not is_named
+    return description.objects[index].noun in TABLES
 
 
 def _find_table(objects: Sequence[SceneObject]) -> int | None:
