@@ -9,7 +9,7 @@ from texvent.scenes.models.part_lines import Placed, read_parts
 from texvent.scenes.models.people.tables import read_table
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import part
-from texvent.scenes.models.surfaces import read_surface
+from texvent.scenes.models.surfaces import read_surface, shared_surfaces
 
 PAINT = "paint"
 """The surface that stands for the wearer's choice."""
@@ -38,5 +38,8 @@ def _placed(table: str, group: str, name: str) -> tuple[Placed, ...]:
 
 @cache
 def _surface(table: str, name: str) -> Material:
-    """A surface of the table by its name, or by its colour "(r g b)"."""
-    return read_surface(read_table(table)["surfaces"].get(name, name), {})
+    """A surface of the table or of all nouns by its name, or by its colour "(r g b)"."""
+    own = read_table(table)["surfaces"]
+    if name in own or name not in shared_surfaces():
+        return read_surface(own.get(name, name), {})
+    return shared_surfaces()[name]
