@@ -11,7 +11,6 @@ from types import MappingProxyType
 from typing import Any
 
 from texvent.scenes.models.people.tables import read_table
-from texvent.scenes.models.traits import nouns_with
 
 
 @dataclass(frozen=True)
@@ -28,10 +27,6 @@ class Activity:
     """Whether the body goes from place to place."""
     is_sideways: bool = False
     """Whether it is best seen from the side."""
-    is_still: bool = False
-    """Whether the body keeps still apart from breathing."""
-    is_close: bool = False
-    """Whether it is done at the head, so that the image may end at the waist."""
     is_done_seated: bool = False
     """Whether it is done just as well sitting: the hips do not move."""
     moves_as: str = ""
@@ -75,8 +70,6 @@ PAIR_GAPS: Mapping[str, float] = MappingProxyType(
     {name: one.pair_gap_m for name, one in ACTIVITIES.items() if one.pair_gap_m is not None}
 )
 """Activity → distance of two adults who do it before each other, m."""
-SEATS = nouns_with("seat")
-"""Nouns on which a person sits, unless the scene says otherwise."""
 TO_AND_FROM_SEATS = frozenset({"sit down", "stand up"})
 """Activities that begin or end on a seat, or on the ground where there is none."""
 ON_GROUND: Mapping[str, str] = MappingProxyType(
