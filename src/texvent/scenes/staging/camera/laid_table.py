@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.staging.placement.tables.tabletop import TABLES
+from texvent.scenes.models.traits import nouns_with
 
 ELEVATION_RAD = 0.5
 """Of a camera that looks at things on a table: plates are seen from above,
 bottles from the side."""
 FILL = 0.7
 """Share of the image that they fill, before the table top."""
-_TOPS = frozenset(TABLES)
+_TOPS = nouns_with("table")
 _LIES = frozenset({"on", "in"})
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, corners_over
-from texvent.scenes.staging.placement.tables.tabletop import TABLES
+from texvent.scenes.models.traits import nouns_with
 
 KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
@@ -64,7 +64,7 @@ def goes_along(one: Actor, other: Actor, times: Float64Array) -> bool:
 
 def piece_beside(actor: Actor, partner: Actor, times: Float64Array) -> Float64Array:
     """[n, 3] the whole of an object at rest, or of a much larger one a piece by its partner, m."""
-    is_table = actor.noun.name in TABLES and _is_above(partner, actor, times)
+    is_table = actor.noun.name in nouns_with("table") and _is_above(partner, actor, times)
     if actor.size_m <= (_LARGER_TABLE if is_table else _MUCH_LARGER) * partner.size_m:
         return corners_over([actor], times)
     reach = min(_PIECE * actor.size_m, _REACH * partner.size_m)

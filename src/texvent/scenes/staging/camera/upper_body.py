@@ -10,7 +10,7 @@ import numpy as np
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.anchors import has_places, locate
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.shapes import bounds, compose, moved
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, corners_over

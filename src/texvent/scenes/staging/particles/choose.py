@@ -27,7 +27,7 @@ from texvent.scenes.staging.particles.flakes import FLAKES, Falling
 from texvent.scenes.staging.particles.jets import BLOWN, BREATHED, JETS, WATER, Dripping, Jet
 from texvent.scenes.staging.particles.light_shows import Lasers, Lightning, StageLights
 from texvent.scenes.staging.particles.motion import Source
-from texvent.scenes.staging.particles.pouring import make_streams, pour_into
+from texvent.scenes.staging.particles.pouring import pour_into
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.particles.window_drops import WindowDrops
 from texvent.scenes.staging.surroundings.weather import WEATHERS
@@ -158,10 +158,6 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
             kinds += [(effect.kind, effect.source)] * len(made)
             if actor is not None and EFFECTS[effect.kind].ends_source:
                 ends[actor.instance] = _start(effect, actor, setting)
-    rng = seeded(setting.seed, "poured")
-    streams = make_streams(setting.actors, description.prompt, rng)
-    effects.extend(streams)
-    kinds += [("pour", None)] * len(streams)
     return Staged(tuple(effects), ends, tuple(kinds))
 
 
