@@ -111,9 +111,7 @@ def _place_under(group: ObjectGroup, targets: Sequence[ObjectGroup], height: flo
     return Goal(_shift(base, target.half[0] + group.half[0] + _CLEAR_M, 0.0), _ALONG_X)
 
 
-def _is_sheltered(
-    target: ObjectGroup, spot: Float64Array, radius_m: float, tall_m: float
-) -> bool:
+def _is_sheltered(target: ObjectGroup, spot: Float64Array, radius_m: float, tall_m: float) -> bool:
     """Whether parts of a target are over a spot beside its middle, and none is in the way there."""
     cosine, sine = math.cos(target.plan.yaw), math.sin(target.plan.yaw)
     x, y = spot @ np.array([[cosine, -sine], [sine, cosine]])
