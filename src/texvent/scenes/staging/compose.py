@@ -47,7 +47,7 @@ from texvent.scenes.staging.surroundings.scenery import (
     scatter,
     under_snow,
 )
-from texvent.scenes.staging.surroundings.water import turn_to_water, wade, water_line
+from texvent.scenes.staging.surroundings.water import wade, water_line
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -218,7 +218,7 @@ def _set_camera(
     has_lanes = travel is None and PLACES[place].has_road
 
     def stand(placed: list[Actor]) -> list[Actor]:
-        placed = turn_to_water(with_headroom(description, placed), PLACES[place])
+        placed = with_headroom(description, placed)
         return queue_in_lanes(placed, 0.5 * PLACES[place].road_m) if has_lanes else placed
 
     def film(cast: Sequence[Actor]) -> CameraPath:

@@ -118,18 +118,23 @@ class LitActor:
 
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""
-        parts, number = [], 0
-        for part in placed.parts:
+        parts = list(placed.parts)
+        for index, number, lamp in self.lamps_of(placed):
+            part, level = parts[index], self.switch.level(lamp, time_s, number)
+            if self.switch.is_on(lamp):
+                parts[index] = replace(part, emission=part.emission * lamp.boost * level)
+            elif self.switch.is_lit is not None:
+                parts[index] = replace(part, emission=0.0)
+        return replace(placed, parts=parts)
+
+    def lamps_of(self, placed: PlacedModel) -> list[tuple[int, int, Lamp]]:
+        """Its lamps: index of the part, number among the lamps, and kind."""
+        found: list[tuple[int, int, Lamp]] = []
+        for index, part in enumerate(placed.parts):
             lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
             if lamp is not None:
-                level = self.switch.level(lamp, time_s, number)
-                if self.switch.is_on(lamp):
-                    part = replace(part, emission=part.emission * lamp.boost * level)
-                elif self.switch.is_lit is not None:
-                    part = replace(part, emission=0.0)
-                number += 1
-            parts.append(part)
-        return replace(placed, parts=parts)
+                found.append((index, len(found), lamp))
+        return found
 
     def rows(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
         """Its lamps at that instant, as in `Environment.lamps`: always as many."""
@@ -150,19 +155,15 @@ class LitActor:
     ) -> list[tuple[Lamp, Float64Array, float]]:
         """Its lamps that are on: kind, numbers, and light as a share of the usual."""
         rows: list[tuple[Lamp, Float64Array, float]] = []
-        number, done = 0, set[Lamp]()
-        for part, brightest in zip(placed.parts, self.brightest, strict=True):
-            lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
-            if lamp is None or lamp in done:
-                continue
-            if lamp.is_single:
-                done.add(lamp)
-            level = self.switch.level(lamp, time_s, number) * part.emission / max(brightest, 1e-9)
-            if self.switch.is_on(lamp):
+        for index, number, lamp in self.lamps_of(placed):
+            is_done = lamp.is_single and any(lamp == one for one, _, _ in rows)
+            if self.switch.is_on(lamp) and not is_done:
+                part = placed.parts[index]
+                level = self.switch.level(lamp, time_s, number)
+                level *= part.emission / max(self.brightest[index], 1e-9)
                 casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
                 row = lamp_row(lamp, part, placed.to_world, level, time_s, casts)
                 rows.append((lamp, row, level))
-            number += 1
         return rows
 
 
@@ -267,14 +268,13 @@ class LampPlan:
     @property
     def blink_hz(self) -> float | None:
         """Highest frequency at which a lamp goes up and down, Hz; None = all are steady."""
-        rates = []
+        rates = [0.0]
         for one in self.lit:
-            for part in one.actor.place(0.0).parts:
-                lamp = lamp_of(one.actor.noun.name, part.colour)
-                if part.emission > 0.0 and lamp is not None and one.switch.is_on(lamp):
-                    rate = max(one.switch.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
-                    rates.append(rate * (FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0))
-        return max(rates, default=0.0) or None
+            for _, _, lamp in one.lamps_of(one.actor.place(0.0)):
+                rate = max(one.switch.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
+                rate *= FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0
+                rates.append(rate if one.switch.is_on(lamp) else 0.0)
+        return max(rates) or None
 
 
 def plan_lamps(
@@ -320,13 +320,9 @@ def _lit_actor(actor: Actor, description: SceneDescription, strength: float) -> 
     """The lamps of an object; None where it has none that are on or said to be off."""
     said, brightest = description.objects[actor.object_index], _brightest(actor)
     switch = Switch(said.is_lit, said.blink_hz, strength, fraction(actor.instance, "flame"))
-    lamps = [lamp_of(actor.noun.name, part.colour) for part in actor.place(0.0).parts]
-    is_on = any(
-        lamp is not None and level > 0.0 and switch.is_on(lamp)
-        for lamp, level in zip(lamps, brightest, strict=True)
-    )
-    is_off = said.is_lit is False and any(brightest)
-    return LitActor(actor, switch, brightest, casts=False) if is_on or is_off else None
+    lit, placed = LitActor(actor, switch, brightest, casts=False), actor.place(0.0)
+    is_seen = said.is_lit is False and any(brightest)
+    return lit if is_seen or any(switch.is_on(one) for _, _, one in lit.lamps_of(placed)) else None
 
 
 def _steady_rows(one: LitActor, time_s: float) -> Float64Array:
