@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
-from texvent.scenes.models.objects.patterns import FACING
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.models.places import Place
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
@@ -148,7 +148,8 @@ def build_environment(
     if place.is_backdrop and said.sky is None:
         # The same all around, without a horizon to speak of.
         sky_top = horizon = mix(colour, second, 0.5)
-        if description.objects and all(one.noun in FACING for one in description.objects):
+        flat = nouns_with("flat pattern")
+        if description.objects and all(one.noun in flat for one in description.objects):
             ground = Ground.NONE
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
     is_white = said.has_snow and place.ground in _SNOWED_OVER
