@@ -25,7 +25,7 @@ def _read_families() -> dict[str, tuple[Noun, ...]]:
 
 
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
-    {"people": (*person.NOUNS, *hand.NOUNS)} | BODY_FAMILIES | _read_families()
+    {"people": (*person.NOUNS, *hand.NOUNS), **BODY_FAMILIES, **_read_families()}
 )
 """Nouns by family, such as "vehicles"."""
 

@@ -43,7 +43,8 @@ _AXES = {
     **dict.fromkeys(_RODS, "xyzxyz--"),
     **dict.fromkeys(_SPANNED, "xyzxyzxyzxyz"),
     "bar": "xyzyz--", "disc": "xyz--", "frame": "xyz----", "ring": "xyz------", "lathe": "xyz",
-    "bits": "xyz---", "chain": "-" + 40 * "xyz", "wheel": "xyz--", "thin-wheel": "xyz--", "spoked-wheel": "xyz--",
+    "bits": "xyz---", "chain": "-" + 40 * "xyz", "wheel": "xyz--",
+    "thin-wheel": "xyz--", "spoked-wheel": "xyz--",
 }  # fmt: skip
 """Shape → the axis that each number of a line is along, "-" for lengths."""
 _ROUNDED = 0.6
@@ -156,7 +157,7 @@ def _written_out(words: _Words) -> Iterator[tuple[str, str, list[float], list[fl
 def _value(word: str, sign: float) -> float | str:
     if word[0] == "±":
         return sign * read_number(word[1:])
-    return word if word.isalpha() or word[0] in ".#" and word.strip(".#/") == "" else read_number(word)
+    return word if word.isalpha() or not word.strip(".#/") else read_number(word)
 
 
 def _count(values: Sequence[float], *counts: int) -> Sequence[float]:
@@ -263,7 +264,9 @@ def _ring(surface: str, values: list[float], more: Sequence[float | str]) -> Ite
     for step in range(pieces + 1):
         angle = math.radians(first + (last - first) * step / pieces)
         a, b = right * math.cos(angle), up * math.sin(angle)
-        points.append({"x": (x, y + a, z + b), "y": (x + a, y, z + b), "z": (x - b, y + a, z)}[axis])
+        points.append(
+            {"x": (x, y + a, z + b), "y": (x + a, y, z + b), "z": (x - b, y + a, z)}[axis]
+        )
     yield from _limbs(surface, points, thick, thick)
 
 

@@ -19,7 +19,7 @@ _DISPLAY_GLOW = 0.9
 """Light of a display, as a multiple of the picture's."""
 _DARK: Colour = (0.01, 0.01, 0.01)
 _FACE = 1
-"""The side of the first part that shows the picture: its own +x; see `data/traits/pictures.toml`."""
+"""The side of the first part that shows the picture, +x; see `data/traits/pictures.toml`."""
 _BESIDE = 1.001
 """What reaches farther than this from the middle of a face, in half sides, is no print on it."""
 
