@@ -139,9 +139,8 @@ def compose_scene(
     """An animated scene from a description; the same arguments give the same scene.
 
     Args:
-        description: from `grammar.parse_prompt`.
-        seed: decides what the prompt leaves open; another seed gives another layout of the same
-            sentence.
+        description: the scene, with what it leaves open decided.
+        seed: decides the layout; another seed gives another one of the same scene.
         size: image size, pixels, for the framing.
         duration_s: length of the clip, s; moves are spread over it.
         nouns: table of models.
@@ -164,7 +163,9 @@ def compose_scene(
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
-    names, object_of = _name_bodies(actors, surrounding, len(description.objects))
+    nouns_of = [item.noun for item in (*items, *(item for _, item in surrounding))]
+    still_nouns = tuple(n for n, one in zip(nouns_of, placed, strict=True) for _ in one.parts)
+    names, object_of = _name_bodies(actors, surrounding)
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
         description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
@@ -172,14 +173,15 @@ def compose_scene(
     )  # fmt: skip
     lamps = plan_lamps(
         description, actors, place=PLACES[place],
-        strength=choose_lighting(PLACES[place], description.light).lamps, instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
+        strength=choose_lighting(PLACES[place], description.light).lamps,
+        instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
     particles = stage_effects(
         description, Setting(actors, camera_path.framing, place, duration_s, seed)
     )
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
+        tuple(dict.fromkeys(missing)), still_nouns, object_of,
     )  # fmt: skip
 
 
@@ -192,13 +194,11 @@ def _place_scenery(
 
 
 def _name_bodies(
-    actors: Sequence[Actor], surrounding: Sequence[tuple[int, SceneryItem]], objects: int
+    actors: Sequence[Actor], surrounding: Sequence[tuple[int, SceneryItem]]
 ) -> tuple[dict[int, str], dict[int, int]]:
-    """Instance → noun, and instance → object of the prompt, of which there are `objects`."""
+    """Instance → noun, and instance → object of the description."""
     names = {actor.instance: actor.noun.name for actor in actors}
-    object_of = {
-        actor.instance: actor.object_index for actor in actors if actor.object_index < objects
-    }
+    object_of = {actor.instance: actor.object_index for actor in actors}
     for instance, (index, item) in enumerate(surrounding, len(actors) + 1):
         names[instance], object_of[instance] = item.noun, index
     return names, object_of
@@ -238,15 +238,6 @@ def _set_camera(
             description, placer.groups, lambda one: stand(placer.move(one)), film, place
         )
     return actors, film(actors)
-
-
-def _name_shapes(
-    items: Sequence[SceneryItem],
-    surrounding: Sequence[tuple[int, SceneryItem]],
-    placed: Sequence[PlacedModel],
-) -> tuple[str, ...]:
-    nouns = [item.noun for item in (*items, *(item for _, item in surrounding))]
-    return tuple(noun for noun, model in zip(nouns, placed, strict=True) for _ in model.parts)
 
 
 def _describe_view(

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from texvent.scenes.models.people.activities import ACTIVITIES
 from texvent.scenes.models.people.person import RUN_UP
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.shapes import Affine
@@ -43,8 +44,6 @@ _LOFT = {"kick": 0.45, "throw": 0.35, "hit": 0.45}
 """Upward speed of what flies off, as a share of its speed along the ground."""
 _STOP_BEFORE_S, _SLOWING_S, _RUN_UP_M_S = 0.25, 0.5, 1.7
 """A run-up ends so long before the kick, and slows down so long before that."""
-_SWING_REACH_M = {"swing racket": 0.48, "swing bat": 0.66, "swing club": 0.80}
-"""Activity → from the right palm to where what it swings meets the ball, m."""
 
 
 def contact_time(duration_s: float, share: float = 0.45) -> float:
@@ -129,7 +128,7 @@ def hit(
         props = list_props(activity, size_of(subject.model))
         subject = replace(subject, props=tuple(props))
     axes, heading = subject.anchor("right hand", contact_s), heading_of(home.yaw)
-    spot = axes[:, 3] + _SWING_REACH_M[activity] * axes[:, 2]
+    spot = axes[:, 3] + ACTIVITIES[activity].reach_m * axes[:, 2]
     spot = spot + (0.5 * thing.model.length + 0.02) * heading
     low = home.position[2]
     lying = low + 0.5 * thing.model.height

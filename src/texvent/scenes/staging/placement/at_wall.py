@@ -111,7 +111,7 @@ def _size_room_behind(path: CameraPath, actors: Sequence[Actor]) -> float:
     """Half the side of a room, m, that holds all where what stands at y = 0 now is at its wall."""
     times = np.linspace(0.0, path.duration_s, 5)
     eyes = np.array([path.at(float(time)).position for time in times])
-    points = np.vstack([eyes + [0.0, 0.0, 0.2], corners_over(actors, times)])
+    points = np.vstack([eyes + np.array([0.0, 0.0, 0.2]), corners_over(actors, times)])
     wide, high = float(np.abs(points[:, 0]).max()), float(points[:, 2].max())
     deep = -float(points[:, 1].min())
     return max(0.5 * (deep + 0.6), wide + 0.5, (high + 0.15) / _CEILING, _LEAST_ROOM_M)
