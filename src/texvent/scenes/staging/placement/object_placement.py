@@ -38,10 +38,9 @@ from texvent.scenes.staging.placement.spatial_relations import (
     place_on_targets,
 )
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
-from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
-from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath
+from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath, bend_path
 from texvent.scenes.staging.trajectories.trajectory import Riding, Straight, Trajectory, Vector
 
 _MUCH_LARGER = 1.3
@@ -302,7 +301,7 @@ class ObjectPlacer:
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     hang_rope(trajectory, model),
-                    choose_props(self._description, group, is_first=number == 0),
+                    choose_props(self._description, group),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
                 )
