@@ -7,9 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import moved
 from texvent.scenes.scene import Float64Array, Shape
 from texvent.scenes.staging.actors import Actor
 
@@ -37,11 +35,7 @@ def part_boxes(actor: Actor, time_s: float) -> Boxes:
 
 def own_parts(actor: Actor, time_s: float) -> list[ModelPart]:
     """The parts of an actor's model and props at an instant, body coordinates."""
-    pose = actor.pose(time_s)
-    parts = [*actor.model.parts(pose)]
-    for prop in actor.props:
-        parts += moved(prop.draw(pose.time_s), locate(actor.model, prop.anchor, pose))
-    return parts
+    return actor.own_parts(actor.pose(time_s))
 
 
 def boxes_of(parts: Sequence[ModelPart], to_world: Float64Array) -> Boxes:

@@ -1,1 +1,1 @@
-"""Bodies of four-legged animals: proportions, trunk and legs, head."""
+"""Clothing of animals is gone; `clothing` goes with its last callers in staging."""
