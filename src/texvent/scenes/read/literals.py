@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from texvent.scenes.description import Picture
+from texvent.scenes.spec.scene import Picture
 
 _ENDINGS = "png|jpe?g|bmp|tiff?|webp|pgm|ppm|mp4|m4v|mov|avi|mkv|webm|gif|mpg"
 _QUOTE = "[\"“‘']([^\"”’']{1,200})[\"”’']"
@@ -36,11 +36,11 @@ def find_literals(prompt: str) -> Iterator[tuple[int, int, Picture]]:
     """
     for match in _LITERAL.finditer(prompt):
         if match["file"] is not None:
-            yield (*match.span("file"), Picture("file", match["file"]))
+            yield (*match.span("file"), Picture(kind="file", value=match["file"]))
         elif match["checks"] is not None:
-            yield (*match.span("checks"), Picture("checkerboard", match["checks"]))
+            yield (*match.span("checks"), Picture(kind="checkerboard", value=match["checks"]))
         else:
             number = next(n for n in range(3, 7) if match[n] is not None)
             begin, end = match.span(number)
             quote = number == _QUOTED
-            yield begin - quote, end + quote, Picture("text", match[number])
+            yield begin - quote, end + quote, Picture(kind="text", value=match[number])
