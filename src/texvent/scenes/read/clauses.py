@@ -32,6 +32,9 @@ class Group:
     unknown: tuple[Token, ...] = ()
     """Tokens without effect: words that are not known, or that another word stands before."""
     is_definite: bool = False
+    """Whether "the" or an owner stands before it."""
+    is_single: bool = False
+    """Whether "a" stands before it."""
     of: Group | None = None
     """Group after "of"."""
 
@@ -118,6 +121,11 @@ def is_plural(group: Group) -> bool:
         return not any(one.text.casefold() in ("one", "single", "1") for one in group.modifiers)
     noun = None if group.head is None else group.head.first("noun")
     return noun is not None and noun.value.is_plural
+
+
+def _is_bare_verb(token: Token) -> bool:
+    """Whether a token is nothing but the base form of a verb."""
+    return bool(token.senses) and all(one.form == "base" for one in token.senses)
 
 
 class _Parser:
@@ -253,7 +261,7 @@ class _Parser:
         is_to = self._token().text.casefold() == "to"
         if is_to and self._token(1).verbs("base") and draft.verb and draft.verb.is_unknown:
             self._at += 1  # "bends down to drink": the second one is known
-            draft.after.append(draft.verb)
+            draft.after.clear()
         elif draft.verb is not None or not self._is_verb(draft):
             return False
         if any(one.value.who == "auxiliary" for one in self._token().all("verb")):
@@ -366,7 +374,8 @@ class _Parser:
         is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
         if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relations"):
             return True
-        return token.has("lights", "weather") or token.is_unknown
+        is_manner = token.text.endswith("ly")
+        return token.has("lights", "weather") or (token.is_unknown and not is_manner)
 
     def _groups(self) -> list[Group]:
         """Groups with "and" between them, but for one that begins a clause."""
@@ -385,14 +394,14 @@ class _Parser:
         modifiers: list[Token] = []
         unknown: list[Token] = []
         head = None
-        is_definite = self._token().text.casefold() in ("the", "its", "his", "her", "their")
+        article = self._token().text.casefold()
         while self._token().has("articles"):
             self._at += 1
         while (token := self._token()) is not NO_TOKEN:
             if self._ends_group(token, is_empty=not modifiers and not unknown):
                 break
             self._at += 1
-            if token.is_unknown:
+            if token.is_unknown or _is_bare_verb(token):
                 unknown.append(token)
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
@@ -404,7 +413,15 @@ class _Parser:
         if head is None and not unknown and not modifiers:
             self._at += 1
             unknown.append(token)
-        return Group(head, tuple(modifiers), tuple(unknown), is_definite, self._read_of())
+        if head is not None and self._token().picture is not None:
+            if not self._token(1).has("noun"):  # "the digit 7"
+                modifiers.append(self._token())
+                self._at += 1
+        is_definite = article in ("the", "its", "his", "her", "their")
+        is_single = article in ("a", "an")
+        return Group(
+            head, tuple(modifiers), tuple(unknown), is_definite, is_single, self._read_of()
+        )
 
     def _ends_group(self, token: Token, *, is_empty: bool) -> bool:
         if token.is_sign or token.has("camera", "pronouns", "conjunctions", "relatives"):
@@ -416,6 +433,8 @@ class _Parser:
         if token.has("articles"):
             return not is_empty
         after = self._token(1)
+        if _is_bare_verb(token) and self._token(-1).has("articles", *_MODIFIERS):
+            return not after.has(*_HEADS)  # "an open field"
         is_attribute = bool(token.verbs("ing", "ed")) and (
             after.has(*_HEADS, *_MODIFIERS) or after.is_unknown
         )

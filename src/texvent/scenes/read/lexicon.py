@@ -16,6 +16,7 @@ from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.read.kept import kept
 from texvent.scenes.read.place_names import place_names
 
 PLURAL_COUNT = 3
@@ -103,7 +104,8 @@ def make_lexicon(nouns: Mapping[str, Noun]) -> Lexicon:
         if sense not in senses:
             senses.append(sense)
     for word in word_set("ambiguous", "words"):
-        found.pop((word,), None)
+        for form in (word, *list_plurals(word)):
+            found.pop((form,), None)
     plain = {phrase: tuple(senses) for phrase, senses in found.items()}
     return Lexicon(MappingProxyType(plain), max(map(len, plain)))
 
@@ -151,18 +153,23 @@ def _list_phrases() -> Iterator[tuple[str, Sense]]:
 
 
 def _list_things(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
-    for noun in nouns.values():
-        if noun.name.startswith(_UNSAID):
-            continue
+    nouns = kept("nouns", nouns)
+    said = [one for one in nouns.values() if not one.name.startswith(_UNSAID)]
+    for noun in said:
         for name in (noun.name, *noun.synonyms):
-            yield from _list_forms(name, NounSense(noun.name))
+            yield name, Sense("noun", NounSense(noun.name))
+    for noun in said:
+        for name in (noun.name, *noun.synonyms):
+            yield from _list_plurals(name, NounSense(noun.name, is_plural=True))
         for name in noun.plurals:
             yield name, Sense("noun", NounSense(noun.name, is_plural=True))
     names = {name for noun in nouns.values() for name in (noun.name, *noun.synonyms, *noun.plurals)}
     for noun_name, kinds in read_table("kinds").items():
         for kind in _split(kinds) if noun_name in nouns else ():
             if kind not in names:
-                yield from _list_forms(kind, NounSense(noun_name, is_kind=True))
+                is_mass = kind in word_set("things", "plurals")
+                yield kind, Sense("noun", NounSense(noun_name, is_mass, is_kind=True))
+                yield from _list_plurals(kind, NounSense(noun_name, True, is_kind=True))
     for place, phrases in place_names().items():
         for phrase in phrases:
             for form in (phrase, *list_plurals(phrase)):
@@ -175,11 +182,10 @@ _UNSAID = ("parked ", "flying ", "upright ")
 """Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
 
 
-def _list_forms(name: str, sense: NounSense) -> Iterator[tuple[str, Sense]]:
-    yield name, Sense("noun", sense)
+def _list_plurals(name: str, sense: NounSense) -> Iterator[tuple[str, Sense]]:
     for plural in list_plurals(name):
         if plural != name:
-            yield plural, Sense("noun", NounSense(sense.noun, True, sense.is_kind))
+            yield plural, Sense("noun", sense)
 
 
 def _list_verbs() -> Iterator[tuple[str, Sense]]:
@@ -204,9 +210,15 @@ def _list_verbs() -> Iterator[tuple[str, Sense]]:
         yield from _inflect(base, VerbSense("auxiliary"))
 
 
+_PERFORMERS = (
+    ("person", kept("activities", ACTIVITIES)),
+    ("hand", kept("hand_gestures", HAND_GESTURES)),
+)
+
+
 def _list_models() -> Iterator[tuple[str, Sense]]:
     """Words of activities, gestures, acts of animals and effects."""
-    for who, table in (("person", ACTIVITIES), ("hand", HAND_GESTURES)):
+    for who, table in _PERFORMERS:
         for name, activity in table.items():
             for phrase in activity.words:
                 yield from _inflect(phrase, VerbSense(who, name))
@@ -219,7 +231,7 @@ def _list_models() -> Iterator[tuple[str, Sense]]:
     for name, verbs in ANIMAL_ACTS.items():
         for verb in verbs:
             yield from _inflect(verb, VerbSense("animal", name))
-    for name, effect in EFFECTS.items():
+    for name, effect in kept("effects", EFFECTS).items():
         for verb in effect.verbs:
             yield from _inflect(verb, VerbSense("source", name))
         for phrase in effect.nouns:

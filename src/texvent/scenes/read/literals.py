@@ -43,4 +43,6 @@ def find_literals(prompt: str) -> Iterator[tuple[int, int, Picture]]:
             number = next(n for n in range(3, 7) if match[n] is not None)
             begin, end = match.span(number)
             quote = number == _QUOTED
+            if number <= _QUOTED + 1:  # with the word that says so: "says STOP"
+                begin = match.start() + quote
             yield begin - quote, end + quote, Picture(kind="text", value=match[number])

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from texvent.scenes.language.vocabulary.scene import PLACES
+from texvent.scenes.read.kept import kept
 
 
 def place_names() -> Mapping[str, tuple[str, ...]]:
     """Place → its names."""
-    return PLACES
+    return kept("places", PLACES)

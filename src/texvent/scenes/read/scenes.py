@@ -177,7 +177,7 @@ class _Reader:
         draft.lose(*group.unknown)
         head = group.head
         if head is not None and self._is_place(head, relation):
-            self._set_place(group)
+            self._set_place(group, relation)
             return []
         noun = None if head is None else head.first("noun")
         if head is None or (noun is None and not head.has("pose")):
@@ -211,7 +211,9 @@ class _Reader:
         pose = head.first("pose")
         if noun is not None:
             thing = Thing(noun.value.noun)
-            if noun.value.is_plural:
+            is_same = any(one.value.is_plural for one in head.all("noun"))  # "fish"
+            is_name = head.text.casefold() == noun.value.noun and not group.is_single
+            if noun.value.is_plural or (is_same and is_name):
                 thing.values["count"] = PLURAL_COUNT
             if noun.value.is_kind:
                 draft.substitute(head, noun.value.noun)
@@ -610,7 +612,7 @@ class _Reader:
         draft.show(token)
         return True
 
-    def _set_place(self, group: Group) -> None:
+    def _set_place(self, group: Group, relation: str) -> None:
         """As "on a snowy road", "a red sky"."""
         head, draft = group.head, self._draft
         assert head is not None
@@ -628,7 +630,8 @@ class _Reader:
                 self._add_backdrop(token, token.all("place")[0].value)
             elif not self._set_scene(token, []):
                 draft.lose(token)
-        if name == "sky" and any(one.has("colour", "place fields") for one in group.modifiers):
+        is_said = any(one.has("colour", "place fields") for one in group.modifiers)
+        if name == "sky" and is_said and relation not in ("in", "on", "through"):
             draft.show(head)
             return
         if head.has("crossing"):

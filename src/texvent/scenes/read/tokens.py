@@ -108,11 +108,11 @@ def _read_phrase(
     """The longest phrase at a word, and its number of words."""
     best: tuple[int, tuple[Sense, ...]] | None = None
     phrase: list[str] = []
-    is_cut = False
+    skipped: set[str] = set()
     for end in range(at, len(words)):
         word = words[end].casefold()
         if end > at and word in word_set("grammar", "articles"):
-            is_cut = True
+            skipped.add(word)
             continue
         phrase.append(_OWNER.sub("", word) if end > at or len(words) > at + 1 else word)
         if len(phrase) > lexicon.longest:
@@ -120,8 +120,9 @@ def _read_phrase(
         senses = lexicon.senses.get(tuple(phrase), ())
         if end == at and _OWNER.search(word):
             senses = ()
-        if is_cut:
-            senses = tuple(one for one in senses if one.kind not in ("noun", "place"))
+        if skipped:
+            not_cut = _UNCUT if skipped & {"a", "an"} else _UNCUT[:2]
+            senses = tuple(one for one in senses if one.kind not in not_cut)
         if len(phrase) > 1:
             senses = _without_chance(senses, words, end, before)
         if senses:
@@ -131,6 +132,10 @@ def _read_phrase(
         return _read_quantity(words, at, number, lexicon, len(before))
     length, senses = best or (1, ())
     return Token(" ".join(words[at : at + length]), len(before), senses), length
+
+
+_UNCUT = ("noun", "place", "lights")
+"""Senses of phrases that no article stands in; "in the dark", but not "in a dark"."""
 
 
 def _without_chance(
