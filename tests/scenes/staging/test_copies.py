@@ -12,7 +12,7 @@ from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.wrapped.hollow import HollowModel
 from texvent.scenes.models.wrapped.served import OWN_DISH, ServedModel
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.claims.bodies import gap, part_boxes
+from texvent.scenes.staging.body_boxes import gap, part_boxes
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 

@@ -6,7 +6,7 @@ import pytest
 
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.staging.claims.bodies import part_boxes
+from texvent.scenes.staging.body_boxes import part_boxes
 from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.levels import choose_levels
 from texvent.sensor import SensorSize

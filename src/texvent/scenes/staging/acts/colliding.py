@@ -11,7 +11,7 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.attached import FreeFlight, Switched, with_middle
 from texvent.scenes.staging.acts.striking import contact_time, heading_of, lift_of, vector
-from texvent.scenes.staging.claims.bodies import gap, part_boxes
+from texvent.scenes.staging.body_boxes import gap, part_boxes
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
     Rolling,

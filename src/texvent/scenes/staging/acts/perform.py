@@ -58,8 +58,7 @@ def settle_motions(
     Who pushes walks; what is ridden moves and its rider sits; who kicks faces left or right.
     """
     objects = list(description.objects)
-    stays = {thing for claim in description.claims if claim.word.startswith("stand")
-             for thing in claim.things}  # fmt: skip
+    stays: set[int] = set()
     relations = [_mounted(one, objects, nouns, stays) for one in each_worn(description.relations)]
     relations = [_thrown_to(relation, relations) for relation in relations]
     relations += _implied_acts(objects, relations)

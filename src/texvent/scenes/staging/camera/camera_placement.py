@@ -29,12 +29,9 @@ from texvent.scenes.staging.camera.laid_table import ELEVATION_RAD, is_on_table,
 from texvent.scenes.staging.camera.main_actor import choose_main
 from texvent.scenes.staging.camera.pieces import KEPT_TOGETHER
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
-from texvent.scenes.staging.camera.retaken import retake
 from texvent.scenes.staging.camera.upper_body import come_near_arms
 from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles, level_out
-from texvent.scenes.staging.placement.tables.tabletop import is_added
-from texvent.scenes.staging.surroundings.places import is_room
-from texvent.scenes.staging.take import USUAL, Take
+from texvent.scenes.models.places import is_room
 
 SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
@@ -62,7 +59,6 @@ class _How(NamedTuple):
     aspect: float
     """Image height over width."""
     duration_s: float
-    take: Take
 
 
 def place_camera(
@@ -74,7 +70,6 @@ def place_camera(
     aspect: float,
     duration_s: float,
     travel: TravelPlan | None = None,
-    take: Take = USUAL,
 ) -> CameraPath:
     """The camera over the clip: near enough to recognise the objects and far enough to show them.
 
@@ -86,7 +81,6 @@ def place_camera(
         aspect: image height over width.
         duration_s: length of the clip, s.
         travel: the route of a camera that travels.
-        take: how far it is from where it usually stands.
     """
     if travel is not None:
         path = _travel(description, travel, actors, place, duration_s)
@@ -95,7 +89,7 @@ def place_camera(
     elif not actors:
         path = _look_around(description, place, duration_s)
     else:
-        return _watch(description, actors, place, _How(seed, aspect, duration_s, take))
+        return _watch(description, actors, place, _How(seed, aspect, duration_s))
     angle_deg = description.shot.field_of_view_deg
     return replace(path, framing=seen_through(path.framing, angle_deg, is_fixed=True))
 
@@ -106,9 +100,7 @@ def _watch(
     """The camera that shows the objects."""
     main = choose_main(description, actors)
     moves = _plan_moves(description, main, how.duration_s)
-    framed = [one for one in actors if not is_added(description, one.object_index)]
-    path = _frame(description, framed, main, moves, place, how)
-    path = retake(path, how.take, actors)
+    path = _frame(description, actors, main, moves, place, how)
     angle_deg = description.shot.field_of_view_deg
     path = replace(path, framing=seen_through(path.framing, angle_deg, is_fixed=False))
     return _in_room(_keep_in_view(path, main, actors, how.aspect), description, actors, place)
@@ -157,7 +149,7 @@ def _fit_path(
     how: _How,
 ) -> CameraPath:
     """The widest camera with a large subject, for moves."""
-    seed, aspect, duration_s, take = how
+    seed, aspect, duration_s = how
     has_floor = place not in ("sky", "space")
     is_open = has_floor and place != "underwater" and not is_room(place)
     azimuth, elevation = choose_angles(description, main, moves, place, seed)
@@ -165,7 +157,7 @@ def _fit_path(
         elevation = ELEVATION_RAD
     elif is_on_table(description, main.object_index):
         elevation = max(elevation, ELEVATION_RAD)
-    elevation = level_out(description, elevation) + take.rise_rad
+    elevation = level_out(description, elevation)
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
 
@@ -176,7 +168,7 @@ def _fit_path(
         )  # fmt: skip
 
     def come(times: Float64Array, elevation: float) -> CameraPath:
-        views = list_views(description, actors, main, moves, times, is_whole=take.is_whole)
+        views = list_views(description, actors, main, moves, times)
         framings = [
             fit(view.points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=view.fill,
                 lift=lift)

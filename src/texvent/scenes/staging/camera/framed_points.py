@@ -66,8 +66,6 @@ def list_views(
     main: Actor,
     moves: Sequence[CameraMove],
     times: Float64Array,
-    *,
-    is_whole: bool = False,
 ) -> list[View]:
     """What the image may hold, from all there is to the subject alone.
 
@@ -77,10 +75,7 @@ def list_views(
         main: the subject.
         moves: of the camera.
         times: instants at which it must fit, s.
-        is_whole: whether all that is near must fit, whole.
     """
-    if is_whole:
-        return [_view_of_all(description, actors, times)]
     laid = list_laid(description, {one.object_index: one.noun for one in actors})
     if laid:
         on_top = [one for one in actors if one.object_index in laid]
@@ -149,15 +144,6 @@ def _close_view(
     return View(np.vstack([_bust(near, framing), *held]), 0.95)
 
 
-def _view_of_all(
-    description: SceneDescription, actors: Sequence[Actor], times: Float64Array
-) -> View:
-    """A view of all that is not far, whole."""
-    near = [one for one in actors if description.objects[one.object_index].side != "far"]
-    return View(corners_over(near or actors, times), _WHOLE_FILL)
-
-
-_WHOLE_FILL = 0.95
 _UPPER = {"close": 0.62, "medium": 0.42}
 """Framing → share of a person's height below which the image may end."""
 _BREADTH = {"close": 0.24, "medium": 0.32}

@@ -12,8 +12,8 @@ from texvent.scenes.models.objects.receptacles import SERVED_IN_VIEW
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.placement.at_wall import list_at_wall
 from texvent.scenes.staging.still_life import is_still_life
-from texvent.scenes.staging.surroundings.places import is_room
-from texvent.scenes.staging.surroundings.scenery.tables import SCENERY
+from texvent.scenes.models.places import is_room
+from texvent.scenes.models.places import PLACES
 
 FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""
@@ -70,7 +70,7 @@ def choose_angles(
         azimuth = heading - 0.5 * math.pi + 0.1 * wander
     elif follow is not None and goes_in_depth:
         azimuth = state.yaw + math.copysign(0.5, wander)
-    if not is_tied and any(rule.encloses for rule in SCENERY.get(place, ())):
+    if not is_tied and any(rule.where == "both sides" for rule in PLACES[place].scenery):
         azimuth = math.copysign(_BETWEEN_WALLS, wander)
     if list_at_wall(description, place):
         azimuth = 0.5 * wander

@@ -10,7 +10,7 @@ import numpy as np
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.scene import Float64Array, Shape
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.claims.bodies import own_parts
+from texvent.scenes.staging.body_boxes import own_parts
 
 _BAND_M = 0.14
 """Half of the width of the strip before the worker in which a spot is looked for."""

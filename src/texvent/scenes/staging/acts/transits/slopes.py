@@ -15,7 +15,7 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.transits.surfaces import rest_height
 from texvent.scenes.staging.acts.transits.tops import ROLLING, choose_yaw, with_path
-from texvent.scenes.staging.claims.bodies import own_parts
+from texvent.scenes.staging.body_boxes import own_parts
 from texvent.scenes.staging.trajectories.legs import Leg, Legs, flight_s
 from texvent.scenes.staging.trajectories.trajectory import Stationary, Vector
 

@@ -10,7 +10,7 @@ import numpy as np
 from texvent.scenes.models.support_surface import find_support, top_heights
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, lowest_point
-from texvent.scenes.staging.claims.bodies import own_parts, part_boxes
+from texvent.scenes.staging.body_boxes import own_parts, part_boxes
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _LEVEL_M, _LEVEL_SHARE = 0.04, 0.06

@@ -13,7 +13,7 @@ from texvent.scenes.models.support_surface import find_support
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.transits.surfaces import ahead_of, half_along, rest_height
 from texvent.scenes.staging.acts.transits.tops import FLYING, JUMPING, choose_yaw, with_path
-from texvent.scenes.staging.claims.bodies import part_boxes
+from texvent.scenes.staging.body_boxes import part_boxes
 from texvent.scenes.staging.trajectories.legs import Leg, Legs, flight_s
 from texvent.scenes.staging.trajectories.trajectory import BodyState, Stationary, Trajectory
 

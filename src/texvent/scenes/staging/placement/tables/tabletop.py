@@ -12,7 +12,7 @@ from texvent.scenes.models.people.props import PROPS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.placement.fitting import extent
-from texvent.scenes.staging.surroundings.places import is_room
+from texvent.scenes.models.places import is_room
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
 _FAMILIES = (
@@ -216,8 +216,7 @@ def _has_way(one: SceneObject) -> bool:
 
 def is_added(description: SceneDescription, index: int) -> bool:
     """Whether it is a table that the prompt does not name, under things that it names."""
-    is_named = any(index in one.things for one in description.claims)
-    return description.objects[index].noun in TABLES and not is_named
+    return description.objects[index].noun in TABLES
 
 
 def _find_table(objects: Sequence[SceneObject]) -> int | None:
