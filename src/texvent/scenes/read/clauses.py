@@ -19,6 +19,7 @@ _MODIFIERS = ("colour", "shade", "sizes", "materials", "counts", "lights", "weat
 _SETTINGS = ("lights", "weather", "place fields", "light fields", "place_phrases", "shots", "views",
              "framings", "film", "lamps", "effect adjective")  # fmt: skip
 """Senses of what stands alone, in any place."""
+_SHOTS = ("shots", "views", "framings", "film")
 _ADVERBS = ("directions", "paces", "placements")
 
 
@@ -136,6 +137,8 @@ class _Parser:
         self._at = 0
         self._next = _Draft()
         """What the next clause takes over from the one before."""
+        self._is_of_phrase = False
+        """Whether the group that is read stands after a preposition."""
 
     @property
     def is_done(self) -> bool:
@@ -247,7 +250,12 @@ class _Parser:
 
     def _read_setting(self, draft: _Draft) -> bool:
         token = self._token()
+        ahead = 1 if token.has("articles") and self._token(1).has(*_SHOTS) else 0
+        self._at += ahead  # "a time lapse of clouds"
+        token = self._token()
         if not token.has(*_SETTINGS) or token.has("noun"):
+            return False
+        if token.has("verb") and draft.verb is None and self._is_verb(draft):
             return False
         after = self._token(1)
         is_before = token.has(*_MODIFIERS) and after.has(*_HEADS, *_MODIFIERS)
@@ -285,7 +293,7 @@ class _Parser:
         A bare form needs several subjects, and a word that is a noun too needs one right before.
         """
         token, last = self._token(ahead), self._token(ahead - 1)
-        if last.has("articles") and ahead == 0:
+        if last.has("articles") and not last.has("relatives") and ahead == 0:
             return False
         forms = {one.form for one in token.all("verb")}
         if not forms or (forms == {"base"} and not (draft.is_plural or draft.is_camera)):
@@ -309,7 +317,9 @@ class _Parser:
             self._at += 2
         elif self._starts_group(1) and not self._token(1).has(*_ADVERBS):
             self._at += 1
+            self._is_of_phrase = True
             phrase = Phrase(token, tuple(self._groups()))
+            self._is_of_phrase = False
         elif token.has("directions") or not token.has("relations"):
             return False
         else:
@@ -375,7 +385,8 @@ class _Parser:
         if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relations"):
             return True
         is_manner = token.text.endswith("ly")
-        return token.has("lights", "weather") or (token.is_unknown and not is_manner)
+        is_light = token.has("lights", "weather") and " " not in token.text  # no "at night"
+        return is_light or (token.is_unknown and not is_manner)
 
     def _groups(self) -> list[Group]:
         """Groups with "and" between them, but for one that begins a clause."""
@@ -403,6 +414,9 @@ class _Parser:
             self._at += 1
             if token.is_unknown or _is_bare_verb(token):
                 unknown.append(token)
+            elif token.text.casefold() == "and":  # a second colour: "black and white"
+                unknown.append(self._token())
+                self._at += 1
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
             elif self._is_compound():
@@ -426,8 +440,10 @@ class _Parser:
     def _ends_group(self, token: Token, *, is_empty: bool) -> bool:
         if token.is_sign or token.has("camera", "pronouns", "conjunctions", "relatives"):
             return True
+        if token.text.casefold() == "and":
+            return not (self._token(-1).has("colour") and self._token(1).has("colour"))
         if token.is_unknown or token.has(*_HEADS, *_MODIFIERS):
-            return token.text.casefold() == "and"
+            return False
         if token.number is not None or token.picture is not None:
             return False
         if token.has("articles"):
@@ -452,7 +468,9 @@ class _Parser:
         after, third = self._token(), self._token(1)
         if after.has("noun", "place") and not after.has("verb", "relations", "directions"):
             return True
-        return after.is_unknown and (bool(third.verbs("s")) or third.text.casefold() == "is")
+        is_end = third.is_sign and self._is_of_phrase  # "in a traffic jam"
+        is_verb = bool(third.verbs("s")) or third.text.casefold() == "is"
+        return after.is_unknown and not after.text.endswith("ly") and (is_verb or is_end)
 
     def _read_of(self) -> Group | None:
         if self._token().text.casefold() != "of" or not self._starts_group(1):

@@ -23,6 +23,15 @@ class Thing:
     values: dict[str, Any] = field(default_factory=dict)
     motions: list[dict[str, Any]] = field(default_factory=list)
     relations: list[dict[str, Any]] = field(default_factory=list)
+    usual: str = ""
+    """What it does if nothing else is said."""
+
+
+    @property
+    def all_motions(self) -> list[dict[str, Any]]:
+        """Its motions, or the usual one."""
+        is_open = self.usual and not self.motions and not self.relations
+        return [{"kind": self.usual}] if is_open else self.motions
 
 
 @dataclass
@@ -73,7 +82,7 @@ class SceneDraft:
         objects = tuple(
             spec.SceneObject(
                 noun=one.noun,
-                motions=tuple(spec.Motion(**motion) for motion in one.motions),
+                motions=tuple(spec.Motion(**motion) for motion in one.all_motions),
                 relations=tuple(
                     spec.Relation(**{**each, "to": tuple(ids[target] for target in each["to"])})
                     for each in one.relations

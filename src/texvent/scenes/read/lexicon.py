@@ -15,9 +15,9 @@ from texvent.scenes.inflection import list_finite_forms, list_plurals
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
+from texvent.scenes.models.places import place_names
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.kept import kept
-from texvent.scenes.read.place_names import place_names
 
 PLURAL_COUNT = 3
 """Copies that a bare plural means: "birds fly"."""
@@ -45,6 +45,8 @@ class NounSense:
     is_plural: bool = False
     is_kind: bool = False
     """Whether the word means a kind that is shown as this noun: "terrier", a dog."""
+    usual: str = ""
+    """What who is named so does if nothing else is said: "dancer"."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +142,8 @@ def _list_phrases() -> Iterator[tuple[str, Sense]]:
         yield preposition, Sense("relations", kind, way)
     for table in ("light", "place"):
         for phrase, fields in words[table].items():
-            yield phrase, Sense(f"{table} fields", MappingProxyType(fields))
+            values = {k: tuple(v) if isinstance(v, list) else v for k, v in fields.items()}
+            yield phrase, Sense(f"{table} fields", values)
     for word in words["crossings"]["words"].split():
         yield word, Sense("crossing", True)
     for quantity, units in words["units"].items():
@@ -164,18 +167,27 @@ def _list_things(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
         for name in noun.plurals:
             yield name, Sense("noun", NounSense(noun.name, is_plural=True))
     names = {name for noun in nouns.values() for name in (noun.name, *noun.synonyms, *noun.plurals)}
+    doers = {
+        doer: activity
+        for activity, phrases in read_table("words")["doers"].items()
+        for doer in _split(phrases)
+    }
     for noun_name, kinds in read_table("kinds").items():
         for kind in _split(kinds) if noun_name in nouns else ():
-            if kind not in names:
-                is_mass = kind in word_set("things", "plurals")
-                yield kind, Sense("noun", NounSense(noun_name, is_mass, is_kind=True))
-                yield from _list_plurals(kind, NounSense(noun_name, True, is_kind=True))
+            if kind in names:
+                continue
+            usual = doers.get(kind, "")
+            is_mass = kind in word_set("things", "plurals")
+            yield kind, Sense("noun", NounSense(noun_name, is_mass, True, usual))
+            yield from _list_plurals(kind, NounSense(noun_name, True, True, usual))
     for place, phrases in place_names().items():
         for phrase in phrases:
             for form in (phrase, *list_plurals(phrase)):
                 yield form, Sense("place", place)
-    for form in ("sky", "skies"):
-        yield form, Sense("place", "sky")
+    for place, phrases in read_table("words")["place_names"].items():
+        for phrase in _split(phrases):
+            for form in (phrase, *list_plurals(phrase)):
+                yield form, Sense("place", place)
 
 
 _UNSAID = ("parked ", "flying ", "upright ")

@@ -136,7 +136,7 @@ class _Reader:
         else:
             subjects, is_lost = self._name_subjects(clause)
         for phrase in clause.before:
-            self._relate(phrase, subjects, is_lost=is_lost)
+            self._relate(phrase, subjects, subjects, is_lost=is_lost)
         if clause.before and self._goes_nearest(clause):
             subjects = self._nearest
         moved = subjects
@@ -153,16 +153,32 @@ class _Reader:
                 self._name(group)
         for one in clause.after:
             if isinstance(one, Phrase):
-                self._relate(one, subjects, is_lost=is_lost and clause.verb is None)
+                self._relate(one, subjects, moved, is_lost=is_lost and clause.verb is None)
             else:
                 self._say(one, moved, is_lost=is_lost)
         self._subjects, self._was_lost = list(subjects), is_lost
 
     def _name_subjects(self, clause: Clause) -> tuple[list[int], bool]:
         """Subjects of a clause, and whether none of them is known."""
-        found = [index for group in clause.subjects for index in self._name(group)]
+        found: list[int] = []
+        for group in clause.subjects:
+            if not (found and self._pose(group, found[-1])):
+                found.extend(self._name(group))
         is_lost = not found and any(group.head is None for group in clause.subjects)
         return found, is_lost
+
+    def _pose(self, group: Group, index: int) -> bool:
+        """As "a hand shows a thumbs up": what a body before it does."""
+        pose = None if group.head is None else group.head.first("pose")
+        if pose is None or group.head is None or group.head.has("noun"):
+            return False
+        who, activity = pose.value
+        thing = self._draft.things[index]
+        if thing.noun not in (HAND_NOUNS if who == "hand" else PERSON_NOUNS):
+            return False
+        thing.motions.append({"kind": activity})
+        self._draft.show(group.head)
+        return True
 
     def _goes_nearest(self, clause: Clause) -> bool:
         """Whether the last group before the verb does it: "a boat with dolphins jumping"."""
@@ -210,7 +226,7 @@ class _Reader:
         draft = self._draft
         pose = head.first("pose")
         if noun is not None:
-            thing = Thing(noun.value.noun)
+            thing = Thing(noun.value.noun, usual=noun.value.usual)
             is_same = any(one.value.is_plural for one in head.all("noun"))  # "fish"
             is_name = head.text.casefold() == noun.value.noun and not group.is_single
             if noun.value.is_plural or (is_same and is_name):
@@ -333,6 +349,12 @@ class _Reader:
         sense = token.first("directions", "paces", "placements")
         draft = self._draft
         if apply_shot(draft, token, self._phase) or self._set_scene(token, subjects):
+            return
+        is_rate = token.quantity is not None and token.quantity[0] == "rate"
+        if is_rate and not subjects and "flicker_hz" in draft.light:
+            assert token.quantity is not None
+            draft.light["flicker_hz"] = token.quantity[1]
+            draft.show(token)
             return
         if token.picture is not None and draft.things:
             draft.things[-1].values["picture"] = token.picture
@@ -510,7 +532,9 @@ class _Reader:
 
     # Prepositions
 
-    def _relate(self, phrase: Phrase, subjects: Sequence[int], *, is_lost: bool) -> None:
+    def _relate(
+        self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int], *, is_lost: bool
+    ) -> None:
         """Apply a preposition with its groups."""
         draft, token = self._draft, phrase.preposition
         sense = token.first("relations")
@@ -532,8 +556,10 @@ class _Reader:
                 targets.extend(self._name(group, kind or token.text.casefold()))
         is_set = bool(draft.place) and not is_placed
         if not targets:
-            if way == "across" and subjects and not is_lost and is_set:
-                self._go_across(subjects)
+            if way == "across" and not is_lost and is_set:
+                self._go_across(moved)
+            elif token.text.casefold() == "on" and is_set:
+                self._stand_on_road(subjects)
             elif kind in _POSITIONS and any(group.head is None for group in phrase.groups):
                 draft.lose(token)
             return
@@ -547,6 +573,14 @@ class _Reader:
         draft.show(token)
         for index in subjects:
             self._relate_one(index, kind, way, targets)
+
+    def _stand_on_road(self, subjects: Sequence[int]) -> None:
+        """As "a dog on a road": what is no vehicle is on the road, too, not beside it."""
+        if self._draft.place.get("name") == "road":
+            for index in subjects:
+                thing = self._draft.things[index]
+                if self._nouns[thing.noun].motion != "drive":
+                    thing.values.setdefault("placement", "lane")
 
     def _go_across(self, subjects: Sequence[int]) -> None:
         for index in subjects:
@@ -688,11 +722,14 @@ class _Reader:
         sense = phrase.preposition.first("relations")
         kind = sense.value if sense is not None else ""
         if targets:  # as "orbits a car in front of a house"
-            self._relate(phrase, targets, is_lost=False)
+            self._relate(phrase, targets, targets, is_lost=False)
             return []
         if phrase.is_back:
             return list(self._subjects)
+        is_placed = bool(self._draft.place)
         found = [one for group in phrase.groups for one in self._name(group, kind or "with")]
+        if not found and kind == "on" and not is_placed:
+            self._stand_on_road(self._nearest)
         self._draft.show(phrase.preposition)
         return found if aims_at(kind) else []
 
@@ -726,5 +763,5 @@ class _Reader:
 
 _OF_PEOPLE = frozenset({"hold", "carry", "wear", "ride", "kick", "hit", "throw", "catch"})
 """Relations that need hands, or legs."""
-_GIVEN_UP = frozenset({"kick", "throw", "catch", "push", "pull", "wave", "fly"})
+_GIVEN_UP = frozenset({"kick", "throw", "catch", "push", "pull", "walk"})
 """Activities that are an act where something is done to a thing: "kicks a ball"."""
