@@ -20,6 +20,10 @@ _SETTINGS = ("lights", "weather", "place fields", "light fields", "place_phrases
              "framings", "film", "lamps", "effect adjective")  # fmt: skip
 """Senses of what stands alone, in any place."""
 _SHOTS = ("shots", "views", "framings", "film")
+_PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
+"""Begin phrases that stand alone: "at night"."""
+_PARTICLES = ("up", "down", "off", "out", "over", "in", "on")
+"""Prepositions that go with a verb right before them: "picks up"."""
 _ADVERBS = ("directions", "paces", "placements")
 
 
@@ -174,7 +178,8 @@ class _Parser:
             self._next.is_next = word == "then"
             self._next.is_joined = word == "then"
             return True
-        if token.has("relatives") and not self._starts_group(1) and draft.freeze() != Clause():
+        is_said = self._token(1).picture is not None or not self._starts_group(1)
+        if token.has("relatives") and is_said and draft.freeze() != Clause():
             self._at += 1
             self._next.is_nearest = True
             return True
@@ -242,7 +247,13 @@ class _Parser:
         return True
 
     def _read_absence(self, draft: _Draft) -> bool:
-        if self._token().text.casefold() not in ("no", "without") or not self._starts_group(1):
+        if not self._token().has("negations"):
+            return False
+        if self._token(1).verbs("base", "ing", "ed"):
+            draft.after.append(self._token())
+            self._at += 2  # the verb is in no clause, and so not understood
+            return True
+        if not self._starts_group(1):
             return False
         self._at += 1
         draft.absent.append(self._group())
@@ -348,8 +359,8 @@ class _Parser:
         return True
 
     def _read_group(self, draft: _Draft) -> bool:
-        is_verb = self._token().is_unknown and bool(draft.subjects) and draft.verb is None
-        if is_verb or not self._starts_group():
+        is_said = bool(draft.subjects) if draft.verb is None else bool(draft.objects or draft.after)
+        if (self._token().is_unknown and is_said) or not self._starts_group():
             return False
         groups = draft.objects if draft.verb is not None else draft.subjects
         groups.append(self._group())
@@ -361,6 +372,8 @@ class _Parser:
         is_manner = token.text.endswith("ly")
         if token.is_unknown and draft.subjects and draft.verb is None and not is_manner:
             draft.verb = token
+            if self._token(1).text.casefold() in _PARTICLES:
+                self._at += 1
             if self._starts_group(1):
                 self._at += 1
                 draft.objects.extend(self._groups())
@@ -379,14 +392,17 @@ class _Parser:
             return False
         if token.has("noun", "place", "effect", "pose", "liquid", "colour", "sizes", "counts"):
             return True
-        if token.number is not None or token.picture is not None or token.has("crossing"):
+        if token.number is not None or token.has("crossing"):
             return True
+        if token.picture is not None:
+            return after.has("noun")
+        if token.text.casefold().startswith(_PREPOSITIONS):
+            return False
         is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
         if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relations"):
             return True
         is_manner = token.text.endswith("ly")
-        is_light = token.has("lights", "weather") and " " not in token.text  # no "at night"
-        return is_light or (token.is_unknown and not is_manner)
+        return token.has("lights", "weather") or (token.is_unknown and not is_manner)
 
     def _groups(self) -> list[Group]:
         """Groups with "and" between them, but for one that begins a clause."""
@@ -395,7 +411,8 @@ class _Parser:
             start = self._at
             self._at += 1
             group = self._group()
-            if self._is_verb(_Draft(subjects=[group])):
+            is_unknown = self._token().is_unknown and not self._token().text.endswith("ly")
+            if is_unknown or self._is_verb(_Draft(subjects=[group])):
                 self._at = start
                 break
             found.append(group)

@@ -10,7 +10,7 @@ from texvent.scenes.read.tokens import Token
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec import scene as spec
 
-_GRAMMAR = frozenset({"articles", "pronouns", "conjunctions", "relatives", "small", "style",
+_GRAMMAR = frozenset({"articles", "pronouns", "conjunctions", "relatives", "negations", "small", "style",
                       "relations", "camera", "liquid"})  # fmt: skip
 """Senses of words that a report does not list unless they are lost or shown."""
 

@@ -118,7 +118,8 @@ def _list_senses(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     yield from _list_models()
     yield from _list_phrases()
     grammar = read_table("words")["grammar"]
-    for kind in ("articles", "camera", "pronouns", "conjunctions", "relatives", "small"):
+    for kind in ("articles", "camera", "pronouns", "conjunctions", "relatives",
+                 "negations", "small"):
         for word in grammar[kind].replace("|", " ").split():
             yield word, Sense(kind, word)
     for phrase in _split(grammar["style"]):
@@ -137,6 +138,8 @@ def _list_phrases() -> Iterator[tuple[str, Sense]]:
         for value, phrases in words[table].items():
             for phrase in _split(phrases):
                 yield phrase, Sense(table, value)
+    for phrase in _split(words["other"]["phrases"]):
+        yield phrase, Sense("other", phrase)
     for preposition, meaning in words["ways"].items():
         kind, way = meaning.split()
         yield preposition, Sense("relations", kind, way)

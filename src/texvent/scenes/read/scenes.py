@@ -9,6 +9,7 @@ from texvent.errors import InputError, few
 from texvent.scenes.colours import SHADES
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.traits import trait_value
 from texvent.scenes.read.camera import add_move, aims_at, apply_shot, read_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import SceneDraft, Thing
@@ -146,6 +147,8 @@ class _Reader:
             moved = found or subjects
             if is_lost:
                 self._draft.lose(clause.verb)
+                for index in subjects:  # what it does is not known, and not made up
+                    self._draft.things[index].usual = "stand"
                 for group in clause.objects:
                     self._name(group)
         else:
@@ -153,7 +156,7 @@ class _Reader:
                 self._name(group)
         for one in clause.after:
             if isinstance(one, Phrase):
-                self._relate(one, subjects, moved, is_lost=is_lost and clause.verb is None)
+                self._relate(one, subjects, moved, is_lost=is_lost)
             else:
                 self._say(one, moved, is_lost=is_lost)
         self._subjects, self._was_lost = list(subjects), is_lost
@@ -212,7 +215,7 @@ class _Reader:
     def _is_place(self, head: Token, relation: str) -> bool:
         if not head.has("place", "crossing"):
             return False
-        if head.has("noun"):
+        if head.has("noun", "liquid"):
             return bool(relation) and relation not in _POSITIONS
         return True
 
@@ -251,6 +254,8 @@ class _Reader:
         if head.text.casefold() in word_set("things", "likenesses"):
             self._lose_group(group)
             return
+        if group.head is not None and group.head.has("liquid"):
+            return  # "a bottle of water"
         inside = self._name(group)
         if inside and self._draft.things[vessel].noun in word_set("things", "vessels"):
             self._draft.relate(inside[0], "in", [vessel])
@@ -482,11 +487,17 @@ class _Reader:
             draft.effects.extend({"kind": act.kind, "source": one} for one in subjects[:1])
         elif act.who == "lamp":
             for index in subjects:
-                draft.things[index].values["blink_hz"] = BLINK_HZ
+                if not self._is_flame(index):
+                    draft.things[index].values["blink_hz"] = BLINK_HZ
         elif act.kind:
             for index in subjects:
                 self._move(index, act)
         return self._apply_to_objects(act, subjects, objects)
+
+    def _is_flame(self, index: int) -> bool:
+        """Whether it flickers by itself."""
+        lamps = trait_value("lamps", self._draft.things[index].noun) or ()
+        return any((trait_value("lamp kind", one) or {}).get("wave") == "flame" for one in lamps)
 
     def _move(self, index: int, act: VerbSense) -> None:
         motion: dict[str, object] = {"kind": act.kind}

@@ -41,7 +41,7 @@ class Token:
     def is_unknown(self) -> bool:
         """Whether it is a word or a sign of writing that the reader does not know."""
         plain = self.number is None and self.quantity is None and self.picture is None
-        return plain and not self.senses and not self.is_sign
+        return plain and not self.is_sign and (not self.senses or self.has("other"))
 
     def all(self, kind: str) -> tuple[Sense, ...]:
         """Senses of a kind."""
@@ -143,7 +143,8 @@ def _without_chance(
 ) -> tuple[Sense, ...]:
     """Senses of several words that do not stand together by chance.
 
-    As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street" (no thing).
+    As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
+    (no things).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     kept = []
@@ -151,9 +152,10 @@ def _without_chance(
         is_camera = one.kind == "verb" and one.value.who == "camera"
         if is_camera and not _is_of_camera(before):
             continue
-        if one.kind == "noun" and words[end].endswith("ing"):
-            if after in word_set("grammar", "articles"):
-                continue
+        is_verb = words[end].endswith("ing") and after in word_set("grammar", "articles")
+        is_single = bool(before) and before[-1].text.casefold() in ("a", "an")
+        if one.kind == "noun" and (is_verb or (is_single and one.value.is_plural)):
+            continue
         kept.append(one)
     return tuple(kept)
 
