@@ -10,6 +10,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
 import texvent
 from texvent.errors import ConfigError, InputError, warnings_to
@@ -18,7 +19,6 @@ from texvent.generate.procedural import (
     ProceduralGenerator,
     ProceduralVideo,
 )
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.report import PromptReport
 from texvent.sensor import SensorSize
 from texvent.video import FrameStream, RenderableStream

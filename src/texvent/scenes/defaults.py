@@ -81,9 +81,7 @@ def _note(description: SceneDescription, note: str) -> SceneDescription:
     return replace(description, notes=(*description.notes, note))
 
 
-def _change(
-    description: SceneDescription, changed: Mapping[int, SceneObject]
-) -> SceneDescription:
+def _change(description: SceneDescription, changed: Mapping[int, SceneObject]) -> SceneDescription:
     """The description with some objects replaced."""
     objects = tuple(changed.get(n, one) for n, one in enumerate(description.objects))
     return replace(description, objects=objects)
@@ -111,9 +109,7 @@ def _add_source(description: SceneDescription) -> SceneDescription:
     if noun is None or noun in description.absent:
         return description
     description = _note(description, f"no source of the {effect.kind} is said: {noun} is chosen")
-    return replace(
-        description, objects=(SceneObject(noun),), effects=(replace(effect, source=0),)
-    )
+    return replace(description, objects=(SceneObject(noun),), effects=(replace(effect, source=0),))
 
 
 def _limit_bodies(description: SceneDescription) -> SceneDescription:
@@ -228,7 +224,9 @@ def _rest_of(
     subject, target = objects[relation.subject], objects[relation.targets[0]]
     is_person = subject.noun in PERSON_NOUNS
     if relation.kind == "at" or (
-        relation.kind == "on" and is_person and target.noun in nouns_with("seat") | nouns_with("sat on")
+        relation.kind == "on"
+        and is_person
+        and target.noun in nouns_with("seat") | nouns_with("sat on")
     ):
         return {relation.subject: ObjectMotion("sit")}
     if relation.kind == "in" or (relation.kind == "on" and target.motion is None):
@@ -239,7 +237,8 @@ def _rest_of(
         return {
             n: STANDING
             for n in (relation.subject, *relation.targets)
-            if nouns[objects[n].noun].habitat == "ground" or nouns[objects[n].noun].motion in _AFLOAT
+            if nouns[objects[n].noun].habitat == "ground"
+            or nouns[objects[n].noun].motion in _AFLOAT
         }
     return {}
 
@@ -266,9 +265,7 @@ def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     return _moved(_change(description, changed), motions)
 
 
-def _carry(
-    relation: Relation, rider: SceneObject, target: SceneObject
-) -> dict[int, SceneObject]:
+def _carry(relation: Relation, rider: SceneObject, target: SceneObject) -> dict[int, SceneObject]:
     """What moves under, or on, something that moves by itself."""
     motion = rider.motion
     assert motion is not None
@@ -473,8 +470,10 @@ def _usual_place(members: Sequence[Noun], description: SceneDescription) -> str:
     of_nouns = [trait_value("usual place", noun.name) or noun.place for noun in members]
     has_ground = any(noun.habitat == "ground" for noun in members)
     for place in (*of_nouns, *of_acts):
-        if place and not (is_outdoors and is_room(place)) and not (
-            has_ground and place in _NO_GROUND
+        if (
+            place
+            and not (is_outdoors and is_room(place))
+            and not (has_ground and place in _NO_GROUND)
         ):
             return str(place)
     flies = bool(members) and all(

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.placement.tables.at_table import list_places, turned_to

@@ -7,8 +7,8 @@ import math
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.placement.at_wall import list_at_wall
 from texvent.sensor import SensorSize

@@ -7,10 +7,10 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
 from texvent.errors import InputError
 from texvent.scenes import projection
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.scene import Camera, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor

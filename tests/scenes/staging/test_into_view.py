@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
 from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.projection import project
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 
-from texvent.scenes.language.parser import parse_prompt
+from tests.scenes.sentences import parse_prompt
+
 from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.placement.lanes import find_lanes
 from texvent.sensor import SensorSize

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.body_boxes import part_boxes
 from texvent.scenes.staging.compose import compose_scene

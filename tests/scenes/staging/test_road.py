@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.scenes.sentences import parse_prompt
 
 from texvent.scenes.description import (
     ObjectMotion,
@@ -15,7 +16,6 @@ from texvent.scenes.description import (
     SceneObject,
     Surroundings,
 )
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
-from texvent.scenes.description import Illumination, NamedColour
-from texvent.scenes.staging.surroundings.light.lighting import usual_lighting
 from texvent.scenes.staging.surroundings.light.said_light import (
     choose_lighting,
     tint_of,
     towards_light,
 )
+
+from texvent.scenes.description import Illumination, NamedColour
+from texvent.scenes.staging.surroundings.light.lighting import usual_lighting
 
 AHEAD = np.array((0.0, 1.0, 0.0))
 USUAL = np.array((0.0, 0.6, 0.8))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.projection import project
 from texvent.scenes.staging.camera.camera_path import share_followed
 from texvent.scenes.staging.compose import ComposedScene, compose_scene

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
+from texvent.scenes.language.vocabulary.objects import MATERIALS as WORDS
+from texvent.scenes.language.vocabulary.scene import PLACES as PLACE_WORDS
+from texvent.scenes.staging.surroundings.places import PLACES, is_room
+from texvent.scenes.staging.surroundings.scenery.tables import SCENERY
 
 from texvent.errors import InputError
 from texvent.scenes.description import NamedColour, SceneDescription, SceneObject, Surroundings
-from texvent.scenes.language.parser import parse_prompt
-from texvent.scenes.language.vocabulary.objects import MATERIALS as WORDS
-from texvent.scenes.language.vocabulary.scene import PLACES as PLACE_WORDS
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import MATERIALS
 from texvent.scenes.models.nouns import NOUNS
@@ -17,8 +19,6 @@ from texvent.scenes.models.protocol import Pose
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Ground, Texture
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.places import PLACES, is_room
-from texvent.scenes.staging.surroundings.scenery.tables import SCENERY
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(48, 36)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
 from texvent.scenes.description import SceneObject
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.projection import project
 from texvent.scenes.staging.compose import compose_scene

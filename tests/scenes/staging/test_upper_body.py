@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 

@@ -111,8 +111,11 @@ class _Draft:
     @property
     def is_plural(self) -> bool:
         """Whether a verb in its base form agrees with the subject."""
-        return self.is_joined or self.is_nearest or len(self.subjects) > 1 or any(
-            map(is_plural, self.subjects)
+        return (
+            self.is_joined
+            or self.is_nearest
+            or len(self.subjects) > 1
+            or any(map(is_plural, self.subjects))
         )
 
     def freeze(self) -> Clause:
@@ -312,8 +315,10 @@ class _Parser:
         if is_second:
             return not token.has("noun", "relations") and bool(forms & {"ing", "s"})
         if token.has("noun", "effect", "place", "lights", "weather", "colour", "materials"):
-            return draft.has_subject and (not draft.after or draft.is_joined) and (
-                "s" not in forms or not draft.is_plural or draft.is_joined
+            return (
+                draft.has_subject
+                and (not draft.after or draft.is_joined)
+                and ("s" not in forms or not draft.is_plural or draft.is_joined)
             )
         if draft.has_subject:
             return True

@@ -26,7 +26,6 @@ class Thing:
     usual: str = ""
     """What it does if nothing else is said."""
 
-
     @property
     def all_motions(self) -> list[dict[str, Any]]:
         """Its motions, or the usual one."""

@@ -112,14 +112,53 @@ def make_lexicon(nouns: Mapping[str, Noun]) -> Lexicon:
     return Lexicon(MappingProxyType(plain), max(map(len, plain)))
 
 
+def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
+    """The noun that a word names, or shows as a kind; None: none.
+
+    Example:
+        >>> from texvent.scenes.models.nouns import NOUNS
+        >>> find_noun("fire truck", NOUNS), find_noun("cocker spaniel", NOUNS)
+        ('fire engine', None)
+    """
+    return next((one.value.noun for one in _find(word, nouns) if one.kind == "noun"), None)
+
+
+def find_place(word: str) -> str | None:
+    """The place that a word names; None: none.
+
+    Example:
+        >>> find_place("meadow")
+        'grass'
+    """
+    return next((one.value for one in _find(word, None) if one.kind == "place"), None)
+
+
+def _find(word: str, nouns: Mapping[str, Noun] | None) -> tuple[Sense, ...]:
+    return lexicon_of(nouns).senses.get(tuple(word.casefold().replace("-", " ").split()), ())
+
+
+def lexicon_of(nouns: Mapping[str, Noun] | None) -> Lexicon:
+    """Lexicon of nouns; None: the embedded ones."""
+    from texvent.scenes.models.nouns import NOUNS
+
+    return common_lexicon() if nouns is None or nouns is NOUNS else make_lexicon(nouns)
+
+
 def _list_senses(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     yield from _list_things(nouns)
     yield from _list_verbs()
     yield from _list_models()
     yield from _list_phrases()
     grammar = read_table("words")["grammar"]
-    for kind in ("articles", "camera", "pronouns", "conjunctions", "relatives",
-                 "negations", "small"):
+    for kind in (
+        "articles",
+        "camera",
+        "pronouns",
+        "conjunctions",
+        "relatives",
+        "negations",
+        "small",
+    ):
         for word in grammar[kind].replace("|", " ").split():
             yield word, Sense(kind, word)
     for phrase in _split(grammar["style"]):
@@ -280,7 +319,9 @@ def verb_forms(base: str) -> list[tuple[str, str]]:
         [('carry', 'base'), ('carries', 's'), ('carrying', 'ing'), ('carried', 'ed')]
     """
     stem = base[:-1] if base.endswith("e") and not base.endswith("ee") else base
-    regular = f"{base[:-1]}ied" if base.endswith("y") and base[-2:-1] not in "aeiou" else f"{stem}ed"
+    regular = (
+        f"{base[:-1]}ied" if base.endswith("y") and base[-2:-1] not in "aeiou" else f"{stem}ed"
+    )
     written = read_table("words")["irregular"].get(base, f"{stem}ing {regular}")
     present, *pasts = written.split()
     forms = [(base, "base"), (list_finite_forms(base)[-1], "s"), (present, "ing")]

@@ -15,11 +15,9 @@ from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import SceneDraft, Thing
 from texvent.scenes.read.lexicon import (
     PLURAL_COUNT,
-    Lexicon,
     Sense,
     VerbSense,
-    common_lexicon,
-    make_lexicon,
+    lexicon_of,
     word_set,
 )
 from texvent.scenes.read.tokens import Token, split_prompt
@@ -83,9 +81,7 @@ def read_text(prompt: str, nouns: Mapping[str, Noun] | None = None) -> tuple[Rea
     """What `read` returns, for any text, and whether nothing in it is understood."""
     from texvent.scenes.models.nouns import NOUNS
 
-    is_common = nouns is None or nouns is NOUNS
-    lexicon: Lexicon = common_lexicon() if is_common else make_lexicon(nouns or NOUNS)
-    tokens = split_prompt(prompt, lexicon)
+    tokens = split_prompt(prompt, lexicon_of(nouns))
     draft = SceneDraft(tokens)
     reader = _Reader(draft, nouns or NOUNS)
     for clause in read_clauses(tokens):
@@ -380,7 +376,11 @@ class _Reader:
         if sense is not None and sense.kind == "paces":
             self._pace(index, float(sense.value))
             return
-        if token.quantity is not None and token.quantity[0] == "rate" and "blink_hz" in thing.values:
+        if (
+            token.quantity is not None
+            and token.quantity[0] == "rate"
+            and "blink_hz" in thing.values
+        ):
             thing.values["blink_hz"] = token.quantity[1]
             return
         if not thing.motions:
@@ -614,8 +614,10 @@ class _Reader:
         draft.relate(index, kind, targets, way)
 
     def _is_effect(self, group: Group) -> bool:
-        return group.head is not None and group.head.has("effect") and not group.head.has(
-            "noun", "place", "weather"
+        return (
+            group.head is not None
+            and group.head.has("effect")
+            and not group.head.has("noun", "place", "weather")
         )
 
     def _add_effects(self, group: Group, subjects: Sequence[int]) -> None:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.models.places import is_room
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath
@@ -31,7 +32,6 @@ from texvent.scenes.staging.camera.pieces import KEPT_TOGETHER
 from texvent.scenes.staging.camera.prominence import Prominence, come_near, has_clear_view
 from texvent.scenes.staging.camera.upper_body import come_near_arms
 from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles, level_out
-from texvent.scenes.models.places import is_room
 
 SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""

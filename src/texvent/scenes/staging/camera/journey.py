@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.models.places import PLACES
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.camera.camera_path import Journey
-from texvent.scenes.models.places import PLACES
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 

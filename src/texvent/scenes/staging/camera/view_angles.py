@@ -9,11 +9,10 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.objects.receptacles import SERVED_IN_VIEW
+from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.placement.at_wall import list_at_wall
 from texvent.scenes.staging.still_life import is_still_life
-from texvent.scenes.models.places import is_room
-from texvent.scenes.models.places import PLACES
 
 FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""

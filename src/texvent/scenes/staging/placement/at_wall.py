@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import SceneDescription, SceneObject
+from texvent.scenes.models.places import is_room
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
-from texvent.scenes.models.places import is_room
 
 AT_WALL = frozenset(
     {"toilet", "sink", "bathtub", "shower", "shower curtain", "wash stand", "mirror",

@@ -9,10 +9,10 @@ from texvent.scenes.description import Relation, SceneDescription, SceneObject
 from texvent.scenes.models.nouns import FAMILIES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import PROPS
+from texvent.scenes.models.places import is_room
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.acts.holding import WORN
 from texvent.scenes.staging.placement.fitting import extent
-from texvent.scenes.models.places import is_room
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
 _FAMILIES = (
