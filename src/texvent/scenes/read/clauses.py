@@ -5,26 +5,21 @@ Nothing is decided here about what can be shown: a token keeps all its senses.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from texvent.scenes.read.tokens import NO_TOKEN, Token
 
-_HEADS = ("noun", "place", "effect", "lights", "weather", "pose", "liquid")
+_HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
-_MODIFIERS = ("colour", "shade", "sizes", "materials", "counts", "lights", "weather", "paces",
-              "place fields", "light fields", "effect adjective", "lamps", "place_phrases",
-              "crossing")  # fmt: skip
+_MODIFIERS = ("field", "scene", "adverb", "effect adjective")
 """Senses of what stands before it."""
-_SETTINGS = ("lights", "weather", "place fields", "light fields", "place_phrases", "shots", "views",
-             "framings", "film", "lamps", "effect adjective")  # fmt: skip
-"""Senses of what stands alone, in any place."""
-_SHOTS = ("shots", "views", "framings", "film")
+_STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
+"""Senses of words that no noun group holds."""
 _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
 _PARTICLES = ("up", "down", "off", "out", "over", "in", "on")
 """Prepositions that go with a verb right before them: "picks up"."""
-_ADVERBS = ("directions", "paces", "placements")
 
 
 @dataclass(frozen=True)
@@ -36,22 +31,37 @@ class Group:
     modifiers: tuple[Token, ...] = ()
     unknown: tuple[Token, ...] = ()
     """Tokens without effect: words that are not known, or that another word stands before."""
-    is_definite: bool = False
-    """Whether "the" or an owner stands before it."""
-    is_single: bool = False
-    """Whether "a" stands before it."""
+    article: str = ""
     of: Group | None = None
     """Group after "of"."""
+
+    @property
+    def is_definite(self) -> bool:
+        """Whether "the" or an owner stands before it."""
+        return self.article in ("the", "its", "his", "her", "their")
+
+    @property
+    def is_plural(self) -> bool:
+        """Whether it names several things: "two dogs", "fish"."""
+        counts = [one.number for one in self.modifiers if one.number is not None]
+        for one in self.modifiers:
+            counts += [sense.value[1] for sense in one.all("field") if sense.value[0] == "count"]
+        if counts or self.head is None:
+            return any(count > 1 for count in counts)
+        senses = [one.value for one in self.head.all("noun")]
+        is_name = any(one.noun == self.head.text.casefold() for one in senses)  # "fish", "sheep"
+        is_open = is_name and self.article not in ("a", "an")
+        return bool(senses) and (
+            senses[0].is_plural or (is_open and any(one.is_plural for one in senses))
+        )
 
 
 @dataclass(frozen=True)
 class Phrase:
-    """Preposition with its groups; without any, it is about the group before it."""
+    """Preposition with its groups; without any, a pronoun follows: "behind them"."""
 
     preposition: Token
     groups: tuple[Group, ...] = ()
-    is_back: bool = False
-    """Whether a pronoun follows: "behind them"."""
 
 
 @dataclass(frozen=True)
@@ -77,63 +87,26 @@ class Clause:
     is_back: bool = False
     """Whether a pronoun is the object: "follows it"."""
 
-
-def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
-    """Clauses of the tokens, in order."""
-    parser, found = _Parser(tokens), []
-    while not parser.is_done:
-        clause = parser.clause()
-        if clause != Clause():
-            found.append(clause)
-    return tuple(found)
-
-
-@dataclass
-class _Draft:
-    """Clause that is being read."""
-
-    subjects: list[Group] = field(default_factory=list)
-    verb: Token | None = None
-    objects: list[Group] = field(default_factory=list)
-    before: list[Phrase] = field(default_factory=list)
-    after: list[Phrase | Token] = field(default_factory=list)
-    absent: list[Group] = field(default_factory=list)
-    is_camera: bool = False
-    is_joined: bool = False
-    is_nearest: bool = False
-    is_next: bool = False
-    is_back: bool = False
-
     @property
     def has_subject(self) -> bool:
+        """Whether a verb may follow."""
         return bool(self.subjects) or self.is_joined or self.is_nearest or self.is_camera
 
     @property
     def is_plural(self) -> bool:
         """Whether a verb in its base form agrees with the subject."""
-        return (
-            self.is_joined
-            or self.is_nearest
-            or len(self.subjects) > 1
-            or any(map(is_plural, self.subjects))
-        )
-
-    def freeze(self) -> Clause:
-        values = vars(self)
-        return Clause(**{k: tuple(v) if isinstance(v, list) else v for k, v in values.items()})
+        is_open = self.is_joined or self.is_nearest or self.is_camera
+        return is_open or len(self.subjects) > 1 or any(one.is_plural for one in self.subjects)
 
 
-def is_plural(group: Group) -> bool:
-    """Whether a group names several things."""
-    if any(one.has("counts") or one.number is not None for one in group.modifiers):
-        return not any(one.text.casefold() in ("one", "single", "1") for one in group.modifiers)
-    noun = None if group.head is None else group.head.first("noun")
-    return noun is not None and noun.value.is_plural
-
-
-def _is_bare_verb(token: Token) -> bool:
-    """Whether a token is nothing but the base form of a verb."""
-    return bool(token.senses) and all(one.form == "base" for one in token.senses)
+def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
+    """Clauses of the tokens, in order."""
+    parser, found, before = _Parser(tokens), [], Clause()
+    while not parser.is_done:
+        clause, before = parser.clause(before)
+        if clause != Clause():
+            found.append(clause)
+    return tuple(found)
 
 
 class _Parser:
@@ -142,10 +115,6 @@ class _Parser:
     def __init__(self, tokens: Sequence[Token]) -> None:
         self._tokens = tokens
         self._at = 0
-        self._next = _Draft()
-        """What the next clause takes over from the one before."""
-        self._is_of_phrase = False
-        """Whether the group that is read stands after a preposition."""
 
     @property
     def is_done(self) -> bool:
@@ -156,236 +125,202 @@ class _Parser:
         at = self._at + ahead
         return self._tokens[at] if 0 <= at < len(self._tokens) else NO_TOKEN
 
-    def clause(self) -> Clause:
-        """The next clause, up to a sign or a conjunction."""
-        draft, self._next = self._next, _Draft()
-        steps: tuple[Callable[[_Draft], bool], ...] = (
-            self._read_camera, self._read_absence, self._read_setting, self._read_verb,
-            self._read_phrase, self._read_pronoun, self._read_adverb, self._read_group,
-        )  # fmt: skip
-        while not self.is_done and not self._ends(draft):
-            if not any(step(draft) for step in steps):
-                self._read_rest(draft)
-        return draft.freeze()
+    def _take(self) -> Token:
+        self._at += 1
+        return self._token(-1)
+
+    def clause(self, clause: Clause) -> tuple[Clause, Clause]:
+        """The next clause, begun as the one before says, and how the one after it begins."""
+        steps = (self._read_camera, self._read_absence, self._read_setting, self._read_verb,
+                 self._read_phrase, self._read_adverb, self._read_group)  # fmt: skip
+        while not self.is_done:
+            following = self._end(clause)
+            if following is not None:
+                return clause, following
+            done = next((one for step in steps if (one := step(clause)) is not None), None)
+            clause = self._read_rest(clause) if done is None else done
+        return clause, Clause()
 
     # Where a clause ends
 
-    def _ends(self, draft: _Draft) -> bool:
-        token = self._token()
-        word = token.text.casefold()
+    def _end(self, clause: Clause) -> Clause | None:
+        """How the next clause begins, where this one ends here."""
+        token, word = self._token(), self._token().word
+        is_begun = clause != Clause()
         if token.is_sign:
-            self._at += 1
-            return not (word == "," and self._continues_list(draft))
-        if word in ("then", "and then") or token.has("conjunctions"):
-            self._at += 1
-            self._next.is_next = word == "then"
-            self._next.is_joined = word == "then"
-            return True
-        is_said = self._token(1).picture is not None or not self._starts_group(1)
-        if token.has("relatives") and is_said and draft.freeze() != Clause():
-            self._at += 1
-            self._next.is_nearest = True
-            return True
+            self._take()
+            return None if word == "," and self._continues_list(clause) else Clause()
+        if token.has("conjunctions"):
+            self._take()
+            return Clause(is_next=word == "then", is_joined=word == "then")
+        if token.has("relatives") and is_begun and self._follows_relative():
+            self._take()
+            return Clause(is_nearest=True)
         if word == "and":
-            return self._ends_at_and(draft)
-        if token.has("camera") and draft.freeze() != Clause() and self._is_camera_subject():
-            return True
-        if draft.verb is not None and self._is_verb(draft, is_second=True):
-            forms = {one.form for one in token.all("verb")}
-            self._next.is_nearest = "ing" in forms
-            self._next.is_joined = not self._next.is_nearest
-            return True
-        return False
+            return self._end_at_and(clause)
+        if token.has("camera") and is_begun and self._token(1).has("verb", "shot", "small"):
+            return Clause()
+        if clause.verb is not None and self._is_verb(clause, is_second=True):
+            is_nearest = bool(token.verbs("ing"))
+            return Clause(is_nearest=is_nearest, is_joined=not is_nearest)
+        return None
 
-    def _ends_at_and(self, draft: _Draft) -> bool:
-        self._at += 1
-        if self._token().text.casefold() == "then":
-            self._at += 1
-            self._next.is_next = self._next.is_joined = True
-            return True
-        if draft.verb is None:
-            return self._token().has("camera")
-        joined = _Draft(is_joined=True)
+    def _follows_relative(self) -> bool:
+        after = self._token(1)
+        return after.picture is not None or not self._starts_group(1)
+
+    def _end_at_and(self, clause: Clause) -> Clause | None:
+        self._take()
+        if self._token().word == "then":
+            self._take()
+            return Clause(is_next=True, is_joined=True)
+        starts = self._starts_group() or self._token().has("camera")
+        if clause.verb is None:
+            return Clause() if self._token().has("camera") else None
+        joined = Clause(is_joined=True)
         if self._is_verb(joined):
-            self._next = joined
-            return True
-        return self._starts_group() or self._token().has("camera")
+            return joined
+        return Clause() if starts else None
 
-    def _continues_list(self, draft: _Draft) -> bool:
+    def _continues_list(self, clause: Clause) -> bool:
         """Whether a comma stands between subjects: "a car, a bus and a van drive"."""
-        if not draft.subjects or draft.verb or draft.before or draft.after:
+        if not clause.subjects or clause != Clause(clause.subjects):
             return False
         start, is_list = self._at, False
-        while self._starts_group() and not self._token().has("camera"):
+        while self._starts_group():
             self._group()
-            if self._token().text not in (",", "and"):
+            if self._token().word not in (",", "and"):
                 break
-            is_list = is_list or self._token().text == "and"
-            self._at += 1
+            is_list = is_list or self._take().word == "and"
         self._at = start
         return is_list
 
-    def _is_camera_subject(self) -> bool:
-        after = self._token(1)
-        return after.has("verb", "shots") or after.text.casefold() in ("is", "slowly", "quickly")
+    # Parts of a clause: each step gives the clause with what it has read, or None
 
-    # Parts of a clause
-
-    def _read_camera(self, draft: _Draft) -> bool:
+    def _read_camera(self, clause: Clause) -> Clause | None:
+        """As "the camera", or "zoom in" at the beginning of a clause."""
         ahead = 1 if self._token().has("articles") else 0
-        if draft.has_subject or draft.verb or not self._token(ahead).has("camera"):
-            return self._read_command(draft)
-        self._at += ahead + 1
-        draft.is_camera = True
-        return True
-
-    def _read_command(self, draft: _Draft) -> bool:
-        """As "zoom in", "pan left" at the beginning of a clause."""
+        if not clause.has_subject and clause.verb is None and self._token(ahead).has("camera"):
+            self._at += ahead + 1
+            return replace(clause, is_camera=True)
         is_command = any(one.value.who == "camera" for one in self._token().verbs("base"))
-        if draft.freeze() != Clause() or not is_command or self._token().has("noun"):
-            return False
-        draft.is_camera = True
-        draft.verb = self._token()
-        self._at += 1
-        return True
+        if clause == Clause() and is_command and not self._token().has("noun"):
+            return Clause(is_camera=True, verb=self._take())
+        return None
 
-    def _read_absence(self, draft: _Draft) -> bool:
+    def _read_absence(self, clause: Clause) -> Clause | None:
+        """As "without cars"; a verb that is denied is in no clause, and so not understood."""
         if not self._token().has("negations"):
-            return False
+            return None
         if self._token(1).verbs("base", "ing", "ed"):
-            draft.after.append(self._token())
-            self._at += 2  # the verb is in no clause, and so not understood
-            return True
+            self._at += 2
+            return replace(clause, after=(*clause.after, self._token(-2), self._token(-1)))
         if not self._starts_group(1):
-            return False
-        self._at += 1
-        draft.absent.append(self._group())
-        return True
+            return None
+        self._take()
+        return replace(clause, absent=(*clause.absent, self._group()))
 
-    def _read_setting(self, draft: _Draft) -> bool:
-        token = self._token()
-        ahead = 1 if token.has("articles") and self._token(1).has(*_SHOTS) else 0
-        self._at += ahead  # "a time lapse of clouds"
-        token = self._token()
-        if not token.has(*_SETTINGS) or token.has("noun"):
-            return False
-        if token.has("verb") and draft.verb is None and self._is_verb(draft):
-            return False
-        after = self._token(1)
-        is_before = token.has(*_MODIFIERS) and after.has(*_HEADS, *_MODIFIERS)
-        if is_before and not after.has("relations") and not self._is_verb(draft, 1):
-            return False
-        draft.after.append(token)
-        self._at += 1
-        return True
+    def _read_setting(self, clause: Clause) -> Clause | None:
+        """A word of the scene or of the camera, in any place."""
+        is_after_article = self._token().has("articles") and self._token(1).has("shot", "scene")
+        token = self._token(1) if is_after_article and _is_alone(self._token(1)) else self._token()
+        is_verb = token.has("verb") and clause.verb is None and self._is_verb(clause)
+        if not token.has("scene", "shot", "effect adjective") or token.has("noun") or is_verb:
+            return None
+        ahead = token.at - self._token().at
+        after = self._token(ahead + 1)
+        if token.has(*_MODIFIERS) and not _is_alone(token):
+            if after.has(*_HEADS, "field") and not self._is_verb(clause, ahead + 1):
+                return None
+        self._at += ahead + 1
+        return replace(clause, after=(*clause.after, token))
 
-    def _read_verb(self, draft: _Draft) -> bool:
-        is_to = self._token().text.casefold() == "to"
-        if is_to and self._token(1).verbs("base") and draft.verb and draft.verb.is_unknown:
-            self._at += 1  # "bends down to drink": the second one is known
-            draft.after.clear()
-        elif draft.verb is not None or not self._is_verb(draft):
-            return False
-        if any(one.value.who == "auxiliary" for one in self._token().all("verb")):
-            self._at += 1
-            if self._token().text.casefold() == "to":
-                self._at += 1
-            draft.is_joined = True
-            return True
-        draft.verb = self._token()
-        self._at += 1
+    def _read_verb(self, clause: Clause) -> Clause | None:
+        is_unknown = clause.verb is not None and clause.verb.is_unknown
+        if is_unknown and self._token().word == "to" and self._token(1).verbs("base"):
+            self._take()  # "bends down to drink": the second one is known
+            clause = replace(clause, after=())
+        elif clause.verb is not None or not self._is_verb(clause):
+            return None
+        verb = self._take()
+        if any(one.value.who == "auxiliary" for one in verb.all("verb")):
+            if self._token().word == "to":
+                self._take()
+            return replace(clause, is_joined=not clause.subjects)
         if self._token().has("pronouns"):
-            draft.is_back = True
-            self._at += 1
-        elif self._starts_group() and not self._token().has(*_ADVERBS):
-            draft.objects.extend(self._groups())
-        return True
+            self._take()
+            return replace(clause, verb=verb, is_back=True)
+        is_object = self._starts_group() and not self._token().has("adverb")
+        return replace(clause, verb=verb, objects=self._groups() if is_object else ())
 
-    def _is_verb(self, draft: _Draft, ahead: int = 0, *, is_second: bool = False) -> bool:
+    def _is_verb(self, clause: Clause, ahead: int = 0, *, is_second: bool = False) -> bool:
         """Whether the token is a verb of the clause.
 
         A bare form needs several subjects, and a word that is a noun too needs one right before.
         """
         token, last = self._token(ahead), self._token(ahead - 1)
+        forms = {one.form for one in token.all("verb")}
         if last.has("articles") and not last.has("relatives") and ahead == 0:
             return False
-        forms = {one.form for one in token.all("verb")}
-        if not forms or (forms == {"base"} and not (draft.is_plural or draft.is_camera)):
+        is_after_auxiliary = any(one.value.who == "auxiliary" for one in last.all("verb"))
+        if not forms or (forms == {"base"} and not (clause.is_plural or is_after_auxiliary)):
             return False
         if is_second:
-            return not token.has("noun", "relations") and bool(forms & {"ing", "s"})
-        if token.has("noun", "effect", "place", "lights", "weather", "colour", "materials"):
-            return (
-                draft.has_subject
-                and (not draft.after or draft.is_joined)
-                and ("s" not in forms or not draft.is_plural or draft.is_joined)
-            )
-        if draft.has_subject:
-            return True
-        return "ing" in forms and not self._token(ahead + 1).has("noun")
+            return not token.has("noun", "relation") and bool(forms & {"ing", "s"})
+        if token.has("noun", "effect", "place", "scene", "field"):
+            agrees = "s" not in forms or not any(one.is_plural for one in clause.subjects)
+            return clause.has_subject and (not clause.after or clause.is_joined) and agrees
+        is_ego = "ing" in forms and not self._token(ahead + 1).has("noun")
+        return clause.has_subject or is_ego
 
-    def _read_phrase(self, draft: _Draft) -> bool:
+    def _read_phrase(self, clause: Clause) -> Clause | None:
         token = self._token()
-        if not token.has("relations", "small") or token.text.casefold() in ("and", "or"):
-            return False
-        if self._token(1).has("pronouns") and token.has("relations"):
-            phrase = Phrase(token, is_back=True)
+        if not token.has("relation", "small") or token.word in ("and", "or"):
+            return None
+        if self._token(1).has("pronouns") and token.has("relation"):
             self._at += 2
-        elif self._starts_group(1) and not self._token(1).has(*_ADVERBS):
-            self._at += 1
-            self._is_of_phrase = True
-            phrase = Phrase(token, tuple(self._groups()))
-            self._is_of_phrase = False
-        elif token.has("directions") or not token.has("relations"):
-            return False
+            phrase = Phrase(token)
+        elif self._starts_group(1) and not self._token(1).has("adverb"):
+            self._take()
+            phrase = Phrase(token, self._groups(is_phrase=True))
+        elif token.has("adverb") or not token.has("relation"):
+            return None
         else:
-            self._at += 1
-            return True
-        is_before = draft.verb is None and bool(draft.subjects)
-        (draft.before if is_before else draft.after).append(phrase)
-        return True
+            self._take()
+            return clause
+        if clause.verb is None and clause.subjects:
+            return replace(clause, before=(*clause.before, phrase))
+        return replace(clause, after=(*clause.after, phrase))
 
-    def _read_pronoun(self, draft: _Draft) -> bool:
-        if not self._token().has("pronouns"):
-            return False
-        if not draft.has_subject and draft.verb is None:
-            draft.is_joined = True
-        self._at += 1
-        return True
-
-    def _read_adverb(self, draft: _Draft) -> bool:
+    def _read_adverb(self, clause: Clause) -> Clause | None:
         token = self._token()
-        if not token.has(*_ADVERBS) and token.quantity is None:
-            return False
-        if token.has("paces") and self._starts_group(1) and not draft.has_subject:
-            return False
-        draft.after.append(token)
-        self._at += 1
-        return True
+        if token.has("pronouns"):
+            self._take()
+            is_subject = not clause.has_subject and clause.verb is None
+            return replace(clause, is_joined=True) if is_subject else clause
+        is_before_noun = not clause.has_subject and self._starts_group(1)
+        if (not token.has("adverb") or is_before_noun) and token.quantity is None:
+            return None
+        return replace(clause, after=(*clause.after, self._take()))
 
-    def _read_group(self, draft: _Draft) -> bool:
-        is_said = bool(draft.subjects) if draft.verb is None else bool(draft.objects or draft.after)
+    def _read_group(self, clause: Clause) -> Clause | None:
+        is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
         if (self._token().is_unknown and is_said) or not self._starts_group():
-            return False
-        groups = draft.objects if draft.verb is not None else draft.subjects
-        groups.append(self._group())
-        return True
+            return None
+        if clause.verb is None:
+            return replace(clause, subjects=(*clause.subjects, self._group()))
+        return replace(clause, objects=(*clause.objects, self._group()))
 
-    def _read_rest(self, draft: _Draft) -> None:
+    def _read_rest(self, clause: Clause) -> Clause:
         """A word that is not known right after the subject is taken to be its verb."""
-        token = self._token()
-        is_manner = token.text.endswith("ly")
-        if token.is_unknown and draft.subjects and draft.verb is None and not is_manner:
-            draft.verb = token
-            if self._token(1).text.casefold() in _PARTICLES:
-                self._at += 1
-            if self._starts_group(1):
-                self._at += 1
-                draft.objects.extend(self._groups())
-                return
-        elif not token.has("small", "style", "articles"):
-            draft.after.append(token)
-        self._at += 1
+        token = self._take()
+        if not token.is_unknown or not clause.subjects or clause.verb or token.is_manner:
+            is_grammar = token.has("small", "style", "articles") and not token.is_unknown
+            return clause if is_grammar else replace(clause, after=(*clause.after, token))
+        if self._token().word in _PARTICLES:
+            self._take()
+        groups = self._groups() if self._starts_group() else ()
+        return replace(clause, verb=token, objects=groups)
 
     # Noun groups
 
@@ -393,109 +328,104 @@ class _Parser:
         token, after = self._token(ahead), self._token(ahead + 1)
         if token.has("articles"):
             return not after.has("camera") and not after.is_sign
-        if token.has("camera", "pronouns", "conjunctions", "relatives") or token.is_sign:
+        if token.has(*_STANDPOINTS) or token.is_sign or _is_alone(token):
             return False
-        if token.has("noun", "place", "effect", "pose", "liquid", "colour", "sizes", "counts"):
-            return True
-        if token.number is not None or token.has("crossing"):
+        if token.has("noun", "place", "effect", "pose", "field") or token.number is not None:
             return True
         if token.picture is not None:
             return after.has("noun")
-        if token.text.casefold().startswith(_PREPOSITIONS):
-            return False
         is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
-        if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relations"):
+        if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relation"):
             return True
-        is_manner = token.text.endswith("ly")
-        return token.has("lights", "weather") or (token.is_unknown and not is_manner)
+        return token.has("scene") or (token.is_unknown and not token.is_manner)
 
-    def _groups(self) -> list[Group]:
+    def _groups(self, *, is_phrase: bool = False) -> tuple[Group, ...]:
         """Groups with "and" between them, but for one that begins a clause."""
-        found = [self._group()]
-        while self._token().text.casefold() == "and" and self._starts_group(1):
+        found = [self._group(is_phrase=is_phrase)]
+        while self._token().word == "and" and self._starts_group(1):
             start = self._at
-            self._at += 1
-            group = self._group()
-            is_unknown = self._token().is_unknown and not self._token().text.endswith("ly")
-            if is_unknown or self._is_verb(_Draft(subjects=[group])):
+            self._take()
+            group, token = self._group(is_phrase=is_phrase), self._token()
+            is_unknown = token.is_unknown and not token.is_manner
+            if is_unknown or self._is_verb(Clause((group,))):
                 self._at = start
                 break
             found.append(group)
-        return found
+        return tuple(found)
 
-    def _group(self) -> Group:
+    def _group(self, *, is_phrase: bool = False) -> Group:
         modifiers: list[Token] = []
         unknown: list[Token] = []
-        head = None
-        article = self._token().text.casefold()
+        head, article = None, self._token().word
         while self._token().has("articles"):
-            self._at += 1
-        while (token := self._token()) is not NO_TOKEN:
-            if self._ends_group(token, is_empty=not modifiers and not unknown):
-                break
-            self._at += 1
-            if token.is_unknown or _is_bare_verb(token):
+            self._take()
+        first = self._at
+        while head is None and not self._ends_group(first):
+            token = self._take()
+            if token.word == "and":  # a second colour: "black and white"
+                unknown.append(self._take())
+            elif token.is_unknown or _is_bare_verb(token):
                 unknown.append(token)
-            elif token.text.casefold() == "and":  # a second colour: "black and white"
-                unknown.append(self._token())
-                self._at += 1
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
-            elif self._is_compound():
+            elif self._is_compound(is_phrase=is_phrase):
                 unknown.append(token)
             else:
                 head = token
-                break
-        if head is None and not unknown and not modifiers:
-            self._at += 1
-            unknown.append(token)
-        if head is not None and self._token().picture is not None:
-            if not self._token(1).has("noun"):  # "the digit 7"
-                modifiers.append(self._token())
-                self._at += 1
-        is_definite = article in ("the", "its", "his", "her", "their")
-        is_single = article in ("a", "an")
-        return Group(
-            head, tuple(modifiers), tuple(unknown), is_definite, is_single, self._read_of()
-        )
+        if self._at == first and not self.is_done:
+            unknown.append(self._take())
+        is_shown = self._token().picture is not None and not self._token(1).has("noun")
+        if head is not None and is_shown:  # "the digit 7"
+            modifiers.append(self._take())
+        of = None
+        if self._token().word == "of" and self._starts_group(1):
+            self._take()
+            of = self._group()
+        return Group(head, tuple(modifiers), tuple(unknown), article, of)
 
-    def _ends_group(self, token: Token, *, is_empty: bool) -> bool:
-        if token.is_sign or token.has("camera", "pronouns", "conjunctions", "relatives"):
+    def _ends_group(self, first: int) -> bool:
+        token, after = self._token(), self._token(1)
+        if token is NO_TOKEN or token.is_sign or token.has(*_STANDPOINTS):
             return True
-        if token.text.casefold() == "and":
-            return not (self._token(-1).has("colour") and self._token(1).has("colour"))
-        if token.is_unknown or token.has(*_HEADS, *_MODIFIERS):
+        if token.word == "and":
+            return not (_is_colour(self._token(-1)) and _is_colour(after))
+        if token.number is not None or token.picture is not None or token.is_unknown:
             return False
-        if token.number is not None or token.picture is not None:
-            return False
-        if token.has("articles"):
-            return not is_empty
-        after = self._token(1)
+        if token.has(*_HEADS, *_MODIFIERS):
+            return token.has("relation") and self._at > first
         if _is_bare_verb(token) and self._token(-1).has("articles", *_MODIFIERS):
             return not after.has(*_HEADS)  # "an open field"
-        is_attribute = bool(token.verbs("ing", "ed")) and (
-            after.has(*_HEADS, *_MODIFIERS) or after.is_unknown
-        )
-        return not is_attribute
+        is_attribute = after.has(*_HEADS, *_MODIFIERS) or after.is_unknown
+        return not (is_attribute and token.verbs("ing", "ed"))
 
     def _stands_before(self, token: Token) -> bool:
         """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
         after = self._token()
         if not token.has(*_MODIFIERS):
             return token.has("place") and after.has("place") and not after.has("noun")
-        return after.has(*_HEADS, "colour", "materials", "sizes") and not after.has("relations")
+        return after.has(*_HEADS, "field") and not after.has("relation")
 
-    def _is_compound(self) -> bool:
-        """Whether the word that follows is the head: "dog house", "bus driver waves"."""
+    def _is_compound(self, *, is_phrase: bool) -> bool:
+        """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
         after, third = self._token(), self._token(1)
-        if after.has("noun", "place") and not after.has("verb", "relations", "directions"):
+        if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
             return True
-        is_end = third.is_sign and self._is_of_phrase  # "in a traffic jam"
-        is_verb = bool(third.verbs("s")) or third.text.casefold() == "is"
-        return after.is_unknown and not after.text.endswith("ly") and (is_verb or is_end)
+        is_verb = bool(third.verbs("s")) or third.word == "is"
+        is_end = is_phrase and third.is_sign
+        return after.is_unknown and not after.is_manner and (is_verb or is_end)
 
-    def _read_of(self) -> Group | None:
-        if self._token().text.casefold() != "of" or not self._starts_group(1):
-            return None
-        self._at += 1
-        return self._group()
+
+def _is_alone(token: Token) -> bool:
+    """Whether a token stands for itself, before no noun: "at night", "aerial view"."""
+    return token.word.startswith(_PREPOSITIONS) or (
+        token.has("shot") and not token.has("noun", "place")
+    )
+
+
+def _is_bare_verb(token: Token) -> bool:
+    """Whether a token is nothing but the base form of a verb."""
+    return bool(token.senses) and all(one.form == "base" for one in token.senses)
+
+
+def _is_colour(token: Token) -> bool:
+    return any(one.value[0] == "colour" for one in token.all("field"))

@@ -10,9 +10,17 @@ from texvent.scenes.read.tokens import Token
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec import scene as spec
 
-_GRAMMAR = frozenset({"articles", "pronouns", "conjunctions", "relatives", "negations", "small", "style",
-                      "relations", "camera", "liquid"})  # fmt: skip
+_GRAMMAR = frozenset({"articles", "pronouns", "conjunctions", "relatives", "negations", "small",
+                      "style", "relation", "camera"})  # fmt: skip
 """Senses of words that a report does not list unless they are lost or shown."""
+
+
+def is_grammar(token: Token) -> bool:
+    """Whether a token names nothing by itself: "the", "of", "under", "footage"."""
+    return any(
+        one.kind in _GRAMMAR or (one.kind == "verb" and one.value.who == "auxiliary")
+        for one in token.senses
+    )
 
 
 @dataclass
@@ -20,11 +28,11 @@ class Thing:
     """Object of the scene."""
 
     noun: str
+    usual: str = ""
+    """What it does if nothing else is said."""
     values: dict[str, Any] = field(default_factory=dict)
     motions: list[dict[str, Any]] = field(default_factory=list)
     relations: list[dict[str, Any]] = field(default_factory=list)
-    usual: str = ""
-    """What it does if nothing else is said."""
 
     @property
     def all_motions(self) -> list[dict[str, Any]]:
@@ -39,99 +47,98 @@ class SceneDraft:
 
     tokens: Sequence[Token]
     things: list[Thing] = field(default_factory=list)
-    camera: dict[str, Any] = field(default_factory=dict)
     moves: list[dict[str, Any]] = field(default_factory=list)
-    light: dict[str, Any] = field(default_factory=dict)
-    place: dict[str, Any] = field(default_factory=dict)
     effects: list[dict[str, Any]] = field(default_factory=list)
     absent: list[str] = field(default_factory=list)
-    is_timelapse: bool = False
-    _shown: set[int] = field(default_factory=set)
-    _lost: set[int] = field(default_factory=set)
-    _substituted: dict[int, str] = field(default_factory=dict)
+    parts: dict[str, dict[str, Any]] = field(
+        default_factory=lambda: {"camera": {}, "light": {}, "place": {}, "scene": {}}
+    )
+    """Fields of the camera, the light, the place, and the whole scene."""
+    _fates: dict[int, str] = field(default_factory=dict)
+    """Number of a token → "lost", "shown", or the noun that it is shown as."""
 
     @property
     def is_empty(self) -> bool:
         """Whether nothing is said that could be shown."""
-        return not (self.things or self.camera or self.moves or self.light or self.place
-                    or self.effects)  # fmt: skip
+        return not (self.things or self.moves or self.effects or any(self.parts.values()))
 
     def show(self, *tokens: Token) -> None:
-        """Count tokens as shown."""
-        self._shown.update(one.at for one in tokens)
+        """Count tokens as shown, unless they are lost or shown as something else."""
+        for one in tokens:
+            self._fates.setdefault(one.at, "shown")
 
     def lose(self, *tokens: Token) -> None:
         """Count tokens as not understood, whatever else is said of them."""
-        self._lost.update(one.at for one in tokens)
+        self._fates.update((one.at, "lost") for one in tokens)
 
     def substitute(self, token: Token, shown: str) -> None:
         """Count a token as shown as something else."""
-        self._substituted[token.at] = shown
+        self._fates[token.at] = f"as {shown}"
 
     def relate(self, subject: int, kind: str, targets: Sequence[int], way: str = "") -> None:
         """Add a relation of an object to others."""
-        relation: dict[str, Any] = {"kind": kind, "to": tuple(targets)}
-        if way:
-            relation["way"] = way
+        relation = {"kind": kind, "to": tuple(targets), **({"way": way} if way else {})}
         self.things[subject].relations.append(relation)
+
+    def add_effect(self, kind: str, source: int | None) -> None:
+        """Add an effect, from an object or all around."""
+        self.effects.append({"kind": kind, "source": source})
 
     def build(self, prompt: str) -> spec.Scene:
         """The scene."""
         ids = spec.number_nouns([one.noun for one in self.things])
-        objects = tuple(
-            spec.SceneObject(
-                noun=one.noun,
-                motions=tuple(spec.Motion(**motion) for motion in one.all_motions),
-                relations=tuple(
-                    spec.Relation(**{**each, "to": tuple(ids[target] for target in each["to"])})
-                    for each in one.relations
-                ),
-                **one.values,
-            )
-            for one in self.things
-        )
-        camera = dict(self.camera)
-        if "target" in camera:
-            camera["target"] = ids[camera["target"]]
-        effects = (
-            {**one, "source": None if one["source"] is None else ids[one["source"]]}
-            for one in self.effects
-        )
+
+        def relation(one: dict[str, Any]) -> spec.Relation:
+            return spec.Relation(**{**one, "to": tuple(ids[target] for target in one["to"])})
+
+        def named(index: int | None) -> str | None:
+            return None if index is None else ids[index]
+
+        camera = self.parts["camera"]
         return spec.Scene(
             prompt=prompt,
-            objects=objects,
-            effects=tuple(spec.Effect(**one) for one in effects),
-            camera=spec.Camera(moves=tuple(spec.CameraMove(**one) for one in self.moves), **camera),
-            light=spec.Light(**self.light),
-            place=spec.Place(**self.place),
+            objects=tuple(
+                spec.SceneObject(
+                    noun=one.noun,
+                    motions=tuple(spec.Motion(**motion) for motion in one.all_motions),
+                    relations=tuple(map(relation, one.relations)),
+                    **one.values,
+                )
+                for one in self.things
+            ),
+            effects=tuple(
+                spec.Effect(**{**one, "source": named(one["source"])}) for one in self.effects
+            ),
+            camera=spec.Camera(
+                moves=tuple(spec.CameraMove(**one) for one in self.moves),
+                **{**camera, "target": named(camera.get("target"))},
+            ),
+            light=spec.Light(**self.parts["light"]),
+            place=spec.Place(**self.parts["place"]),
             absent=tuple(self.absent),
-            is_timelapse=self.is_timelapse,
+            **self.parts["scene"],
         )
 
     def report(self) -> tuple[tuple[str, ...], tuple[Substitution, ...], tuple[str, ...]]:
-        """Words that are shown, shown as something else, and not understood, each once."""
-        lost = dict.fromkeys(one.text for one in self.tokens if self._is_lost(one))
-        others = {
-            one.text: Substitution(one.text, self._substituted[one.at])
-            for one in self.tokens
-            if one.at in self._substituted and one.text not in lost
-        }
-        shown = dict.fromkeys(
-            one.text
-            for one in self.tokens
-            if one.at in self._shown and one.text not in lost and one.text not in others
+        """Words that are shown, shown as something else, and not understood, each once.
+
+        A word that is lost at one place of the prompt is not shown.
+        """
+        fates: dict[str, str] = {}
+        for token in self.tokens:
+            fate = self._fates.get(token.at)
+            if fate is None and not token.is_sign and not is_grammar(token):
+                fate = "lost"
+            if fate is not None and fates.get(token.text, "shown") == "shown":
+                fates[token.text] = fate
+            if fate == "lost":
+                fates[token.text] = fate
+        return (
+            tuple(word for word, fate in fates.items() if fate == "shown"),
+            tuple(
+                Substitution(word, fate.removeprefix("as "))
+                for word, fate in fates.items()
+                if fate.startswith("as ")
+            ),
+            tuple(word for word, fate in fates.items() if fate == "lost"),
         )
-        return tuple(shown), tuple(others.values()), tuple(lost)
-
-    def _is_lost(self, token: Token) -> bool:
-        if token.at in self._lost:
-            return True
-        if token.at in self._shown or token.at in self._substituted or token.is_sign:
-            return False
-        is_known = token.number is None and token.quantity is None and token.picture is None
-        return not (is_known and token.senses and is_grammar(token))
-
-
-def is_grammar(token: Token) -> bool:
-    """Whether a token names nothing by itself: "the", "of", "under", "footage"."""
-    return any(one.kind in _GRAMMAR for one in token.senses)

@@ -10,7 +10,7 @@ from importlib.resources import files
 from types import MappingProxyType
 from typing import Any
 
-from texvent.scenes.colours import COLOURS, SHADES
+from texvent.scenes.colours import SURFACES
 from texvent.scenes.inflection import list_finite_forms, list_plurals
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
@@ -19,9 +19,8 @@ from texvent.scenes.models.places import place_names
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.kept import kept
 
-PLURAL_COUNT = 3
-"""Copies that a bare plural means: "birds fly"."""
-Phrase = tuple[str, ...]
+_UNSAID = ("parked ", "flying ", "upright ")
+"""Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
 
 
 @cache
@@ -34,7 +33,7 @@ def read_table(name: str) -> Mapping[str, Any]:
 @cache
 def word_set(table: str, key: str) -> frozenset[str]:
     """Words of an entry of words.toml."""
-    return frozenset(read_table("words")[table][key].split())
+    return frozenset(read_table("words")[table][key].replace("|", " ").split())
 
 
 @dataclass(frozen=True)
@@ -53,9 +52,9 @@ class NounSense:
 class VerbSense:
     """Verb, and what it asks for of its subject and its object."""
 
-    who: str = ""
+    who: str = "plain"
     """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "mover" (a person whose
-    object moves), "source" (of an effect), "plain" (anything) or "auxiliary"."""
+    object moves), "source" (of an effect), "plain" (anything); or "auxiliary"."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0
@@ -74,42 +73,53 @@ class Sense:
     """Meaning that a phrase may have."""
 
     kind: str
-    """Part of the grammar: "noun", "verb", "direction", "colour", "relation", ..."""
+    """Part of the grammar: "noun", "place", "verb", "relation", "shot", "pose", "effect"; "field"
+    (of an object), "adverb" (of a motion) and "scene" (of the camera, the light or the place),
+    whose values are names with values; "unit"; "other" (nothing that is shown); or of words.toml's
+    [grammar]."""
     value: Any
     form: str = ""
-    """Of a verb: "base", "s", "ing" or "ed"."""
+    """Of a verb "base", "s", "ing" or "ed"; of a relation its way."""
 
 
 @dataclass(frozen=True)
 class Lexicon:
     """Phrases, as words in lower case without articles, and their senses."""
 
-    senses: Mapping[Phrase, tuple[Sense, ...]]
-    longest: int
+    senses: Mapping[tuple[str, ...], tuple[Sense, ...]]
+    longest: Mapping[str, int]
+    """First word of phrases → most words of one."""
+
+
+def lexicon_of(nouns: Mapping[str, Noun] | None) -> Lexicon:
+    """Lexicon of nouns; None: the embedded ones."""
+    from texvent.scenes.models.nouns import NOUNS
+
+    return _embedded() if nouns is None or nouns is NOUNS else _make(nouns)
 
 
 @cache
-def common_lexicon() -> Lexicon:
-    """Lexicon of the embedded nouns."""
+def _embedded() -> Lexicon:
     from texvent.scenes.models.nouns import NOUNS
 
-    return make_lexicon(NOUNS)
+    return _make(NOUNS)
 
 
-def make_lexicon(nouns: Mapping[str, Noun]) -> Lexicon:
-    """Lexicon of what can be shown with these nouns."""
-    found: dict[Phrase, list[Sense]] = {}
+def _make(nouns: Mapping[str, Noun]) -> Lexicon:
+    found: dict[tuple[str, ...], dict[Sense, None]] = {}
     articles = word_set("grammar", "articles")
-    for text, sense in _list_senses(nouns):
-        phrase = tuple(one for one in text.replace("-", " ").split() if one not in articles)
-        senses = found.setdefault(phrase or (text,), [])
-        if sense not in senses:
-            senses.append(sense)
+    for text, sense in (*_list_nouns(nouns), *_list_verbs(), *_list_effects(), *_list_words()):
+        words = text.replace("-", " ").split()
+        phrase = tuple(one for one in words if one not in articles) or (text,)
+        found.setdefault(phrase, {})[sense] = None
     for word in word_set("ambiguous", "words"):
         for form in (word, *list_plurals(word)):
             found.pop((form,), None)
-    plain = {phrase: tuple(senses) for phrase, senses in found.items()}
-    return Lexicon(MappingProxyType(plain), max(map(len, plain)))
+    senses = {phrase: tuple(one) for phrase, one in found.items()}
+    longest: dict[str, int] = {}
+    for phrase in senses:
+        longest[phrase[0]] = max(len(phrase), longest.get(phrase[0], 0))
+    return Lexicon(MappingProxyType(senses), MappingProxyType(longest))
 
 
 def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
@@ -117,151 +127,59 @@ def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
 
     Example:
         >>> from texvent.scenes.models.nouns import NOUNS
-        >>> find_noun("fire truck", NOUNS), find_noun("cocker spaniel", NOUNS)
+        >>> find_noun("fire truck", NOUNS), find_noun("wug", NOUNS)
         ('fire engine', None)
     """
-    return next((one.value.noun for one in _find(word, nouns) if one.kind == "noun"), None)
+    phrase = tuple(word.casefold().replace("-", " ").split())
+    senses = lexicon_of(nouns).senses.get(phrase, ())
+    return next((one.value.noun for one in senses if one.kind == "noun"), None)
 
 
-def find_place(word: str) -> str | None:
-    """The place that a word names; None: none.
-
-    Example:
-        >>> find_place("meadow")
-        'grass'
-    """
-    return next((one.value for one in _find(word, None) if one.kind == "place"), None)
-
-
-def _find(word: str, nouns: Mapping[str, Noun] | None) -> tuple[Sense, ...]:
-    return lexicon_of(nouns).senses.get(tuple(word.casefold().replace("-", " ").split()), ())
-
-
-def lexicon_of(nouns: Mapping[str, Noun] | None) -> Lexicon:
-    """Lexicon of nouns; None: the embedded ones."""
-    from texvent.scenes.models.nouns import NOUNS
-
-    return common_lexicon() if nouns is None or nouns is NOUNS else make_lexicon(nouns)
-
-
-def _list_senses(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
-    yield from _list_things(nouns)
-    yield from _list_verbs()
-    yield from _list_models()
-    yield from _list_phrases()
-    grammar = read_table("words")["grammar"]
-    for kind in (
-        "articles",
-        "camera",
-        "pronouns",
-        "conjunctions",
-        "relatives",
-        "negations",
-        "small",
-    ):
-        for word in grammar[kind].replace("|", " ").split():
-            yield word, Sense(kind, word)
-    for phrase in _split(grammar["style"]):
-        yield phrase, Sense("style", phrase)
-
-
-_ONE_OF = ("directions", "paces", "relations", "placements", "counts", "sizes", "materials",
-           "lights", "lamps", "weather", "place_phrases", "shots", "views", "framings",
-           "film")  # fmt: skip
-"""Tables of words.toml: value = phrases."""
-
-
-def _list_phrases() -> Iterator[tuple[str, Sense]]:
-    words = read_table("words")
-    for table in _ONE_OF:
-        for value, phrases in words[table].items():
-            for phrase in _split(phrases):
-                yield phrase, Sense(table, value)
-    for phrase in _split(words["other"]["phrases"]):
-        yield phrase, Sense("other", phrase)
-    for preposition, meaning in words["ways"].items():
-        kind, way = meaning.split()
-        yield preposition, Sense("relations", kind, way)
-    for table in ("light", "place"):
-        for phrase, fields in words[table].items():
-            values = {k: tuple(v) if isinstance(v, list) else v for k, v in fields.items()}
-            yield phrase, Sense(f"{table} fields", values)
-    for word in words["crossings"]["words"].split():
-        yield word, Sense("crossing", True)
-    for quantity, units in words["units"].items():
-        for unit, factor in units.items():
-            yield unit, Sense("unit", (quantity, factor))
-    for colour in COLOURS:
-        yield colour, Sense("colour", colour)
-    for shade in SHADES:
-        yield shade, Sense("shade", shade)
-
-
-def _list_things(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
-    nouns = kept("nouns", nouns)
-    said = [one for one in nouns.values() if not one.name.startswith(_UNSAID)]
-    for noun in said:
-        for name in (noun.name, *noun.synonyms):
-            yield name, Sense("noun", NounSense(noun.name))
-    for noun in said:
-        for name in (noun.name, *noun.synonyms):
-            yield from _list_plurals(name, NounSense(noun.name, is_plural=True))
-        for name in noun.plurals:
-            yield name, Sense("noun", NounSense(noun.name, is_plural=True))
-    names = {name for noun in nouns.values() for name in (noun.name, *noun.synonyms, *noun.plurals)}
+def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
+    said = [one for one in kept("nouns", nouns).values() if not one.name.startswith(_UNSAID)]
+    names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
+    plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
     doers = {
         doer: activity
         for activity, phrases in read_table("words")["doers"].items()
         for doer in _split(phrases)
     }
-    for noun_name, kinds in read_table("kinds").items():
-        for kind in _split(kinds) if noun_name in nouns else ():
-            if kind in names:
-                continue
-            usual = doers.get(kind, "")
-            is_mass = kind in word_set("things", "plurals")
-            yield kind, Sense("noun", NounSense(noun_name, is_mass, True, usual))
-            yield from _list_plurals(kind, NounSense(noun_name, True, True, usual))
-    for place, phrases in place_names().items():
-        for phrase in phrases:
-            for form in (phrase, *list_plurals(phrase)):
-                yield form, Sense("place", place)
-    for place, phrases in read_table("words")["place_names"].items():
-        for phrase in _split(phrases):
-            for form in (phrase, *list_plurals(phrase)):
-                yield form, Sense("place", place)
-
-
-_UNSAID = ("parked ", "flying ", "upright ")
-"""Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
-
-
-def _list_plurals(name: str, sense: NounSense) -> Iterator[tuple[str, Sense]]:
-    for plural in list_plurals(name):
-        if plural != name:
-            yield plural, Sense("noun", sense)
+    for noun, kinds in read_table("kinds").items():
+        for kind in _split(kinds) if noun in nouns else ():
+            if kind not in names and kind not in plurals:
+                is_mass = kind in word_set("things", "plurals")
+                names[kind] = NounSense(noun, is_mass, is_kind=True, usual=doers.get(kind, ""))
+    for name, sense in names.items():
+        yield name, Sense("noun", sense)
+    for name, one in names.items():
+        for plural in set(list_plurals(name)) - {name}:
+            yield plural, Sense("noun", NounSense(one.noun, True, one.is_kind, one.usual))
+    for name, sense in plurals.items():
+        yield name, Sense("noun", sense)
 
 
 def _list_verbs() -> Iterator[tuple[str, Sense]]:
+    for phrase, sense in (*_list_plain_verbs(), *_list_activities()):
+        base, _, rest = phrase.replace("-", " ").partition(" ")
+        for word, form in verb_forms(base):
+            yield f"{word} {rest}".strip(), Sense("verb", sense, form)
+
+
+def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
     words = read_table("words")
-    for table, is_near in (("motions", False), ("near", True)):
+    for table in ("motions", "near"):
         for kind, verbs in words[table].items():
             for verb in verbs.split():
                 base, _, pace = verb.partition("*")
-                sense = VerbSense("plain", kind, float(pace or 1.0), is_near=is_near)
-                yield from _inflect(base, sense)
+                yield base, VerbSense("plain", kind, float(pace or 1), is_near=table == "near")
     for base, fields in words["verbs"].items():
-        yield from _inflect(base, VerbSense("plain", **fields))
-    for kind, verbs in words["moved"].items():
-        for base in verbs.split():
-            yield from _inflect(base, VerbSense("mover", object=kind))
+        yield base, VerbSense(**fields)
+    for motion, verbs in words["moved"].items():
+        yield from ((base, VerbSense("mover", object=motion)) for base in verbs.split())
     for move, verbs in words["camera_verbs"].items():
-        for base in _split(verbs):
-            yield from _inflect(base, VerbSense("camera", move))
-    for base in words["blinking"]["verbs"].split():
-        yield from _inflect(base, VerbSense("lamp"))
-    for base in words["auxiliaries"]["words"].split():
-        yield from _inflect(base, VerbSense("auxiliary"))
+        yield from ((base, VerbSense("camera", move)) for base in _split(verbs))
+    for who, verbs in words["more_verbs"].items():
+        yield from ((base, VerbSense(who)) for base in verbs.split())
 
 
 _PERFORMERS = (
@@ -270,45 +188,87 @@ _PERFORMERS = (
 )
 
 
-def _list_models() -> Iterator[tuple[str, Sense]]:
-    """Words of activities, gestures, acts of animals and effects."""
+def _list_activities() -> Iterator[tuple[str, VerbSense]]:
     for who, table in _PERFORMERS:
         for name, activity in table.items():
-            for phrase in activity.words:
-                yield from _inflect(phrase, VerbSense(who, name))
-            for phrase in activity.near:
-                yield from _inflect(phrase, VerbSense(who, name, is_near=True))
-            for phrase in activity.named:
-                yield phrase, Sense("pose", (who, name))
-    for phrase, name in DVS_GESTURES.items():
-        yield phrase, Sense("pose", ("person", name))
+            yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
+            yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
     for name, verbs in ANIMAL_ACTS.items():
-        for verb in verbs:
-            yield from _inflect(verb, VerbSense("animal", name))
+        yield from ((verb, VerbSense("animal", name)) for verb in verbs)
     for name, effect in kept("effects", EFFECTS).items():
-        for verb in effect.verbs:
-            yield from _inflect(verb, VerbSense("source", name))
+        yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
+
+
+def _list_effects() -> Iterator[tuple[str, Sense]]:
+    """Nouns of effects, and activities and gestures that are named by a noun."""
+    for name, effect in kept("effects", EFFECTS).items():
         for phrase in effect.nouns:
-            for form in (phrase, *list_plurals(phrase)):
-                yield form, Sense("effect", name)
-        for phrase in effect.adjectives:
-            yield phrase, Sense("effect adjective", name)
-    for name, verbs in read_table("words")["effects"]["pouring"].items():
-        for verb in verbs.split():
-            yield from _inflect(verb, VerbSense("liquid", name))
-    for word in word_set("effects", "liquids"):
-        yield word, Sense("liquid", word)
+            yield from _with_plurals(phrase, Sense("effect", name))
+        yield from ((phrase, Sense("effect adjective", name)) for phrase in effect.adjectives)
+    for name, phrases in read_table("words")["effects"]["phrases"].items():
+        yield from ((phrase, Sense("effect", name)) for phrase in _split(phrases))
+    for who, table in _PERFORMERS:
+        for name, activity in table.items():
+            yield from ((phrase, Sense("pose", (who, name))) for phrase in activity.named)
+    yield from ((phrase, Sense("pose", ("person", name))) for phrase, name in DVS_GESTURES.items())
 
 
-def _split(phrases: str) -> list[str]:
-    return [" ".join(phrase.split()) for phrase in phrases.split("|")]
+def _list_words() -> Iterator[tuple[str, Sense]]:
+    """Words of places, of fields of the scene, and of grammar."""
+    words = read_table("words")
+    for place, names in (*place_names().items(), *_split_all(words["place_names"])):
+        for name in names:
+            yield from _with_plurals(name, Sense("place", place))
+    for kind, part in (("field", "fields"), ("adverb", "adverbs")):
+        for field, table in words[part].items():
+            for value, phrases in _split_all(table):
+                sense = Sense(kind, (field, _plain(value)))
+                yield from ((phrase, sense) for phrase in phrases)
+    yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
+    yield from _list_settings()
+    for kind in ("relations", "shots"):
+        for value, phrases in _split_all(words[kind]):
+            yield from ((phrase, Sense(kind[:-1], value)) for phrase in phrases)
+    for preposition, meaning in words["ways"].items():
+        yield preposition, Sense("relation", *meaning.split())
+    for quantity, units in words["units"].items():
+        yield from ((unit, Sense("unit", (quantity, each))) for unit, each in units.items())
+    for kind, phrases in (*_split_all(words["grammar"]), *_split_all(words["other"])):
+        yield from ((phrase, Sense(kind, phrase)) for phrase in phrases)
 
 
-def _inflect(phrase: str, sense: VerbSense) -> Iterator[tuple[str, Sense]]:
-    """Forms of a verb phrase: its first word is the verb."""
-    base, _, rest = phrase.replace("-", " ").partition(" ")
-    for word, form in verb_forms(base):
-        yield f"{word} {rest}".strip(), Sense("verb", sense, form)
+def _list_settings() -> Iterator[tuple[str, Sense]]:
+    words = read_table("words")
+    for part, tables in words["scene"].items():
+        for field, table in tables.items():
+            for value, phrases in _split_all(table):
+                sense = Sense("scene", (part, ((field, _plain(value)),)))
+                yield from ((phrase, sense) for phrase in phrases)
+    for phrase, parts in words["phrases"].items():
+        for part, fields in parts.items():
+            values = tuple((k, tuple(v) if isinstance(v, list) else v) for k, v in fields.items())
+            yield phrase, Sense("scene", (part, values))
+    for word in word_set("things", "crossings"):
+        yield word, Sense("scene", ("place", (("road", "crossing"),)))
+
+
+def _with_plurals(phrase: str, sense: Sense) -> Iterator[tuple[str, Sense]]:
+    yield from ((form, sense) for form in {phrase, *list_plurals(phrase)})
+
+
+def _split_all(table: Mapping[str, str]) -> Iterator[tuple[str, tuple[str, ...]]]:
+    yield from ((value, _split(phrases)) for value, phrases in table.items())
+
+
+def _split(phrases: str) -> tuple[str, ...]:
+    return tuple(" ".join(phrase.split()) for phrase in phrases.split("|"))
+
+
+def _plain(value: str) -> str | float | bool:
+    """As "true" = True, "0.5" = 0.5."""
+    if value in ("true", "false"):
+        return value == "true"
+    return float(value) if value.replace(".", "").isdigit() else value
 
 
 def verb_forms(base: str) -> list[tuple[str, str]]:
@@ -325,4 +285,4 @@ def verb_forms(base: str) -> list[tuple[str, str]]:
     written = read_table("words")["irregular"].get(base, f"{stem}ing {regular}")
     present, *pasts = written.split()
     forms = [(base, "base"), (list_finite_forms(base)[-1], "s"), (present, "ing")]
-    return [*forms, *((past_form, "ed") for past_form in pasts)]
+    return [*forms, *((past, "ed") for past in pasts)]

@@ -43,6 +43,16 @@ class Token:
         plain = self.number is None and self.quantity is None and self.picture is None
         return plain and not self.is_sign and (not self.senses or self.has("other"))
 
+    @property
+    def word(self) -> str:
+        """In lower case."""
+        return self.text.casefold()
+
+    @property
+    def is_manner(self) -> bool:
+        """Whether it looks like an adverb of manner: "happily"."""
+        return self.text.endswith("ly")
+
     def all(self, kind: str) -> tuple[Sense, ...]:
         """Senses of a kind."""
         return tuple(one for one in self.senses if one.kind == kind)
@@ -106,35 +116,36 @@ def _read_phrase(
     words: Sequence[str], at: int, lexicon: Lexicon, before: Sequence[Token]
 ) -> tuple[Token, int]:
     """The longest phrase at a word, and its number of words."""
-    best: tuple[int, tuple[Sense, ...]] | None = None
+    length = 1
+    senses: tuple[Sense, ...] = ()
     phrase: list[str] = []
     skipped: set[str] = set()
+    first = words[at].casefold()
     for end in range(at, len(words)):
         word = words[end].casefold()
         if end > at and word in word_set("grammar", "articles"):
             skipped.add(word)
             continue
-        phrase.append(_OWNER.sub("", word) if end > at or len(words) > at + 1 else word)
-        if len(phrase) > lexicon.longest:
+        phrase.append(_OWNER.sub("", word))
+        if len(phrase) > max(1, lexicon.longest.get(phrase[0], 0)):
             break
-        senses = lexicon.senses.get(tuple(phrase), ())
+        found = lexicon.senses.get(tuple(phrase), ())
         if end == at and _OWNER.search(word):
-            senses = ()
+            found = ()  # "the cat's" alone: whose, not what
         if skipped:
             not_cut = _UNCUT if skipped & {"a", "an"} else _UNCUT[:2]
-            senses = tuple(one for one in senses if one.kind not in not_cut)
+            found = tuple(one for one in found if one.kind not in not_cut)
         if len(phrase) > 1:
-            senses = _without_chance(senses, words, end, before)
-        if senses:
-            best = end + 1 - at, senses
-    number = _read_number(words[at])
-    if number is not None and (best is None or best[0] == 1):
+            found = _without_chance(found, words, end, before)
+        if found:
+            length, senses = end + 1 - at, found
+    number = _read_number(first)
+    if number is not None and length == 1:
         return _read_quantity(words, at, number, lexicon, len(before))
-    length, senses = best or (1, ())
     return Token(" ".join(words[at : at + length]), len(before), senses), length
 
 
-_UNCUT = ("noun", "place", "lights")
+_UNCUT = ("noun", "place", "scene")
 """Senses of phrases that no article stands in; "in the dark", but not "in a dark"."""
 
 
@@ -147,17 +158,15 @@ def _without_chance(
     (no things).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
-    kept = []
-    for one in senses:
-        is_camera = one.kind == "verb" and one.value.who == "camera"
-        if is_camera and not _is_of_camera(before):
-            continue
-        is_verb = words[end].endswith("ing") and after in word_set("grammar", "articles")
-        is_single = bool(before) and before[-1].text.casefold() in ("a", "an")
-        if one.kind == "noun" and (is_verb or (is_single and one.value.is_plural)):
-            continue
-        kept.append(one)
-    return tuple(kept)
+    is_verb = words[end].endswith("ing") and after in word_set("grammar", "articles")
+    is_single = bool(before) and before[-1].word in ("a", "an")
+
+    def stands(one: Sense) -> bool:
+        if one.kind == "verb" and one.value.who == "camera":
+            return _is_of_camera(before)
+        return one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural))
+
+    return tuple(filter(stands, senses))
 
 
 def _is_of_camera(before: Sequence[Token]) -> bool:
