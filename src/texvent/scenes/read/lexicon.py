@@ -33,7 +33,7 @@ def read_table(name: str) -> Mapping[str, Any]:
 @cache
 def word_set(table: str, key: str) -> frozenset[str]:
     """Words of an entry of words.toml."""
-    return frozenset(read_table("words")[table][key].replace("|", " ").split())
+    return frozenset(read_table("words")[table][key])
 
 
 @dataclass(frozen=True)
@@ -142,10 +142,10 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     doers = {
         doer: activity
         for activity, phrases in read_table("words")["doers"].items()
-        for doer in _split(phrases)
+        for doer in phrases
     }
     for noun, kinds in read_table("kinds").items():
-        for kind in _split(kinds) if noun in nouns else ():
+        for kind in kinds if noun in nouns else ():
             if kind not in names and kind not in plurals:
                 is_mass = kind in word_set("things", "plurals")
                 names[kind] = NounSense(noun, is_mass, is_kind=True, usual=doers.get(kind, ""))
@@ -169,19 +169,20 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
     words = read_table("words")
     for table in ("motions", "near"):
         for kind, verbs in words[table].items():
-            for verb in verbs.split():
+            for verb in verbs:
                 base, _, pace = verb.partition("*")
                 yield base, VerbSense("plain", kind, float(pace or 1), is_near=table == "near")
     for base, fields in words["verbs"].items():
         yield base, VerbSense(**fields)
     for motion, verbs in words["moved"].items():
-        yield from ((base, VerbSense("mover", object=motion)) for base in verbs.split())
+        yield from ((base, VerbSense("mover", object=motion)) for base in verbs)
     for move, verbs in words["camera_verbs"].items():
-        yield from ((base, VerbSense("camera", move)) for base in _split(verbs))
+        yield from ((base, VerbSense("camera", move)) for base in verbs)
     for who, verbs in words["more_verbs"].items():
-        yield from ((base, VerbSense(who)) for base in verbs.split())
+        yield from ((base, VerbSense(who)) for base in verbs)
 
 
+_SHOWING = ("show", "make", "do", "give")
 _PERFORMERS = (
     ("person", kept("activities", ACTIVITIES)),
     ("hand", kept("hand_gestures", HAND_GESTURES)),
@@ -193,6 +194,8 @@ def _list_activities() -> Iterator[tuple[str, VerbSense]]:
         for name, activity in table.items():
             yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
             yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
+            for phrase in activity.named:  # "a hand shows a thumbs up"
+                yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
     for name, verbs in ANIMAL_ACTS.items():
         yield from ((verb, VerbSense("animal", name)) for verb in verbs)
     for name, effect in kept("effects", EFFECTS).items():
@@ -206,7 +209,7 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
             yield from _with_plurals(phrase, Sense("effect", name))
         yield from ((phrase, Sense("effect adjective", name)) for phrase in effect.adjectives)
     for name, phrases in read_table("words")["effects"]["phrases"].items():
-        yield from ((phrase, Sense("effect", name)) for phrase in _split(phrases))
+        yield from ((phrase, Sense("effect", name)) for phrase in phrases)
     for who, table in _PERFORMERS:
         for name, activity in table.items():
             yield from ((phrase, Sense("pose", (who, name))) for phrase in activity.named)
@@ -216,24 +219,24 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
 def _list_words() -> Iterator[tuple[str, Sense]]:
     """Words of places, of fields of the scene, and of grammar."""
     words = read_table("words")
-    for place, names in (*place_names().items(), *_split_all(words["place_names"])):
+    for place, names in (*place_names().items(), *words["place_names"].items()):
         for name in names:
             yield from _with_plurals(name, Sense("place", place))
     for kind, part in (("field", "fields"), ("adverb", "adverbs")):
         for field, table in words[part].items():
-            for value, phrases in _split_all(table):
+            for value, phrases in table.items():
                 sense = Sense(kind, (field, _plain(value)))
                 yield from ((phrase, sense) for phrase in phrases)
     yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
     yield from _list_settings()
     for kind in ("relations", "shots"):
-        for value, phrases in _split_all(words[kind]):
+        for value, phrases in words[kind].items():
             yield from ((phrase, Sense(kind[:-1], value)) for phrase in phrases)
     for preposition, meaning in words["ways"].items():
         yield preposition, Sense("relation", *meaning.split())
     for quantity, units in words["units"].items():
         yield from ((unit, Sense("unit", (quantity, each))) for unit, each in units.items())
-    for kind, phrases in (*_split_all(words["grammar"]), *_split_all(words["other"])):
+    for kind, phrases in (*words["grammar"].items(), *words["other"].items()):
         yield from ((phrase, Sense(kind, phrase)) for phrase in phrases)
 
 
@@ -241,7 +244,7 @@ def _list_settings() -> Iterator[tuple[str, Sense]]:
     words = read_table("words")
     for part, tables in words["scene"].items():
         for field, table in tables.items():
-            for value, phrases in _split_all(table):
+            for value, phrases in table.items():
                 sense = Sense("scene", (part, ((field, _plain(value)),)))
                 yield from ((phrase, sense) for phrase in phrases)
     for phrase, parts in words["phrases"].items():
@@ -254,14 +257,6 @@ def _list_settings() -> Iterator[tuple[str, Sense]]:
 
 def _with_plurals(phrase: str, sense: Sense) -> Iterator[tuple[str, Sense]]:
     yield from ((form, sense) for form in {phrase, *list_plurals(phrase)})
-
-
-def _split_all(table: Mapping[str, str]) -> Iterator[tuple[str, tuple[str, ...]]]:
-    yield from ((value, _split(phrases)) for value, phrases in table.items())
-
-
-def _split(phrases: str) -> tuple[str, ...]:
-    return tuple(" ".join(phrase.split()) for phrase in phrases.split("|"))
 
 
 def _plain(value: str) -> str | float | bool:

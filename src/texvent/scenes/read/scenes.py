@@ -122,7 +122,7 @@ class _Reader:
         if goes_on:
             subjects, is_lost = self._subjects, self._was_lost and clause.is_joined
         elif not clause.is_nearest:
-            subjects = self._name_subjects(clause)
+            subjects = [index for group in clause.subjects for index in self._name(group)]
             is_lost = not subjects and any(group.head is None for group in clause.subjects)
         for phrase in clause.before:
             self._relate(phrase, subjects, subjects, is_lost=is_lost)
@@ -149,26 +149,6 @@ class _Reader:
             self._draft.things[index].usual = "stand"
 
     # Noun groups
-
-    def _name_subjects(self, clause: Clause) -> list[int]:
-        found: list[int] = []
-        for group in clause.subjects:
-            if not (found and self._pose(group, found[-1])):
-                found.extend(self._name(group))
-        return found
-
-    def _pose(self, group: Group, index: int) -> bool:
-        """As "a hand shows a thumbs up": what a body before it does."""
-        pose = None if group.head is None else group.head.first("pose")
-        if pose is None or group.head is None or group.head.has("noun"):
-            return False
-        who, activity = pose.value
-        thing = self._draft.things[index]
-        if thing.noun not in (HAND_NOUNS if who == "hand" else PERSON_NOUNS):
-            return False
-        thing.motions.append({"kind": activity})
-        self._draft.show(group.head)
-        return True
 
     def _goes_nearest(self, clause: Clause) -> bool:
         """Whether the last group before the verb does it: "a boat with dolphins jumping"."""

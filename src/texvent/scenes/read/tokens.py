@@ -13,7 +13,7 @@ from texvent.scenes.spec.scene import Picture
 
 MOST_WORDS = 2000
 """Words of a prompt that are read; later ones are not understood."""
-_WORD = re.compile(r"\d+(?:[.,]\d+)*|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
+_WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
 _IS = re.compile(r"(?i)(it|that|there|he|she|camera)['’]s$")
 _OWNER = re.compile(r"['’]s?$")
 
@@ -120,7 +120,6 @@ def _read_phrase(
     senses: tuple[Sense, ...] = ()
     phrase: list[str] = []
     skipped: set[str] = set()
-    first = words[at].casefold()
     for end in range(at, len(words)):
         word = words[end].casefold()
         if end > at and word in word_set("grammar", "articles"):
@@ -139,9 +138,8 @@ def _read_phrase(
             found = _without_chance(found, words, end, before)
         if found:
             length, senses = end + 1 - at, found
-    number = _read_number(first)
-    if number is not None and length == 1:
-        return _read_quantity(words, at, number, lexicon, len(before))
+    if words[at][0].isdecimal() and length == 1:
+        return _read_quantity(words, at, lexicon, len(before))
     return Token(" ".join(words[at : at + length]), len(before), senses), length
 
 
@@ -179,18 +177,11 @@ def _is_of_camera(before: Sequence[Token]) -> bool:
     return not before or before[-1].is_sign
 
 
-def _read_number(word: str) -> float | None:
-    plain = word.replace(",", "") if re.fullmatch(r"\d{1,3}(,\d{3})+", word) else word
-    try:
-        return float(plain.replace(",", ".")) if plain.isascii() and plain[0].isdigit() else None
-    except ValueError:
-        return None
-
-
 def _read_quantity(
-    words: Sequence[str], at: int, number: float, lexicon: Lexicon, index: int
+    words: Sequence[str], at: int, lexicon: Lexicon, index: int
 ) -> tuple[Token, int]:
     """A number, with its unit if one follows."""
+    number = float(words[at].replace(",", ""))
     for length in (3, 2, 1):
         unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
         for sense in lexicon.senses.get(unit, ()):
