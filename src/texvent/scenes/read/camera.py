@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Any, get_args
 
-from texvent.scenes.read.clauses import Clause
+from texvent.scenes.read.clauses import Clause, Phrase
 from texvent.scenes.read.draft import SceneDraft
 from texvent.scenes.read.lexicon import word_set
 from texvent.scenes.read.tokens import Token
 from texvent.scenes.spec.scene import MoveDirection, MoveKind
 
 _KINDS = sorted(get_args(MoveKind), key=len, reverse=True)
+_WAYS = {"towards": "towards", "toward": "towards", "away from": "away", "from": "away"}
 _MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 
 
@@ -40,6 +41,10 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
         return None
     draft.show(verb)
     move = split_move(moves[0])
+    for phrase in clause.after:
+        way = _WAYS.get(phrase.preposition.word) if isinstance(phrase, Phrase) else None
+        if way is not None and move["kind"] == "truck":
+            move["direction"] = way
     for token in clause.after:
         said = token.first("adverb") if isinstance(token, Token) else None
         if said is None or not isinstance(token, Token):

@@ -48,6 +48,8 @@ class Group:
             counts += [sense.value[1] for sense in one.all("field") if sense.value[0] == "count"]
         if counts or self.head is None:
             return any(count > 1 for count in counts)
+        if self.head.has("effect") and not self.head.has("noun"):
+            return self.head.word.endswith("s")
         senses = [one.value for one in self.head.all("noun")]
         is_name = any(one.noun == self.head.text.casefold() for one in senses)  # "fish", "sheep"
         is_open = is_name and self.article not in ("a", "an")
@@ -307,14 +309,21 @@ class _Parser:
         is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
         if (self._token().is_unknown and is_said) or not self._starts_group():
             return None
+        if clause.verb is None and self._follows_head(clause):
+            return None  # "a woman ties her shoes": a noun that stands where a verb does
         if clause.verb is None:
             return replace(clause, subjects=(*clause.subjects, self._group()))
         return replace(clause, objects=(*clause.objects, self._group()))
 
+    def _follows_head(self, clause: Clause) -> bool:
+        return bool(clause.subjects) and clause.subjects[-1].head is self._token(-1)
+
     def _read_rest(self, clause: Clause) -> Clause:
         """A word that is not known right after the subject is taken to be its verb."""
+        is_noun = self._follows_head(clause) and self._token().has("noun")
         token = self._take()
-        if not token.is_unknown or not clause.subjects or clause.verb or token.is_manner:
+        is_verb = clause.subjects and not clause.verb and (is_noun or token.is_unknown)
+        if not is_verb or token.is_manner:
             is_grammar = token.has("small", "style", "articles") and not token.is_unknown
             return clause if is_grammar else replace(clause, after=(*clause.after, token))
         if self._token().word in _PARTICLES:
@@ -409,7 +418,7 @@ class _Parser:
         """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
         after, third = self._token(), self._token(1)
         if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
-            return True
+            return not (after.word.endswith("s") and third.has("articles"))
         is_verb = bool(third.verbs("s")) or third.word == "is"
         is_end = is_phrase and third.is_sign
         return after.is_unknown and not after.is_manner and (is_verb or is_end)

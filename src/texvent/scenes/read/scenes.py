@@ -32,6 +32,9 @@ _POSITIONS = frozenset({"behind", "front", "beside", "left of", "right of", "bet
 """Relations to a thing, where a word is both thing and place: "behind a mountain"."""
 _OF_PEOPLE = frozenset({"hold", "wear", "ride", "kick", "hit", "throw", "catch"})
 """Relations that need hands, or legs."""
+_SENDING = frozenset({"kick", "hit", "throw"})
+_ROUTES = frozenset({"above", "past", "through", "under", "around", "between", "in", "on"})
+"""Relations that then would be about the wrong object."""
 _ACTS = frozenset({"kick", "throw", "catch", "push", "pull", "walk"})
 """Activities that are a relation where something is done to a thing: "kicks a ball"."""
 _DOERS = ("person", "hand", "animal", "mover", "source", "lamp", "plain")
@@ -90,6 +93,11 @@ def read_text(prompt: str, nouns: Mapping[str, Noun] | None = None) -> tuple[Rea
     return reading, draft.is_empty
 
 
+def _is_route(phrase: Phrase) -> bool:
+    """Whether a preposition says the way of what is sent off: "kicks a ball over a wall"."""
+    return phrase.preposition.all("relation")[0].value in _ROUTES
+
+
 class _Reader:
     """Applies clauses to a draft."""
 
@@ -135,12 +143,18 @@ class _Reader:
             is_lost, moved = found is None, found or subjects
             if is_lost:
                 self._lose_verb(clause.verb, subjects)
+        acts = {relation["kind"] for index in subjects for relation in self._relations(index)}
+        is_sent = clause.verb is not None and bool(objects) and bool(acts & _SENDING)
         for one in clause.after:
             if isinstance(one, Phrase):
-                self._relate(one, subjects, moved, is_lost=is_lost)
+                is_route = is_sent and one.preposition.has("relation") and _is_route(one)
+                self._relate(one, subjects, moved, is_lost=is_lost or is_route)
             else:
                 self._say(one, moved, is_lost=is_lost)
         self._subjects, self._was_lost = list(subjects), is_lost
+
+    def _relations(self, index: int) -> list[dict[str, Any]]:
+        return self._draft.things[index].relations
 
     def _lose_verb(self, verb: Token, subjects: Sequence[int]) -> None:
         """What the subjects do is not known, and is not made up."""
@@ -161,7 +175,7 @@ class _Reader:
         head = group.head
         self._draft.lose(*group.unknown)
         is_drawn = any(
-            one.word in word_set("things", "likenesses")
+            one.word.removesuffix("s") in word_set("things", "likenesses")
             for one in (*group.unknown, *((head,) if head else ()))
         )
         if head is not None and self._is_place(head, relation):
@@ -175,7 +189,7 @@ class _Reader:
         return []
 
     def _is_place(self, head: Token, relation: str) -> bool:
-        is_thing = head.has("noun", "pose")
+        is_thing = head.has("noun", "pose") or head.word in word_set("things", "liquids")
         return head.has("place") and (
             not is_thing or (bool(relation) and relation not in _POSITIONS)
         )
@@ -325,7 +339,10 @@ class _Reader:
         if verb is None or not subjects:
             return self._act_of_effect(clause)
         others = [one for one in self._nearest if one not in subjects] if clause.is_back else []
-        is_unknown = any(group.head is None for group in clause.objects) or clause.is_back
+        heads = [group.head for group in clause.objects]
+        is_unknown = clause.is_back or any(
+            one is None or one.word in word_set("things", "liquids") for one in heads
+        )
         return self._apply_act(
             verb, verb.all("verb"), subjects, [*objects, *others], has_object=is_unknown
         )
@@ -349,13 +366,18 @@ class _Reader:
         draft, has_object = self._draft, has_object or bool(objects)
         able = [one.value for one in senses if self._fits(one.value, subjects, has_object)]
         act = min(able, key=lambda one: _DOERS.index(one.who), default=None)
-        if act is None:
-            return None
+        if act is None or (has_object and not objects and act.who in ("mover", "plain")):
+            return None  # what it is done to is not known
+        if act.kind in word_set("things", "pair_acts") and objects:
+            if any(draft.things[one].noun not in PERSON_NOUNS for one in objects):
+                return None
+            subjects = [*subjects, *objects]
         draft.show(verb)
         if act.is_near:
             draft.substitute(verb, act.kind)
         if act.who == "source":
-            draft.add_effect(act.kind, subjects[0])
+            if act.kind != "fire" or not self._is_flame(subjects[0]):
+                draft.add_effect(act.kind, subjects[0])
         elif act.who == "lamp":
             self._blink(subjects)
         elif act.kind:
@@ -377,18 +399,24 @@ class _Reader:
         if verb.who in ("source", "lamp"):
             return not has_object and not is_acting
         if verb.who != "plain" or has_object != (verb.relation is not None):
-            is_alone = verb.relation == "collide" or (bool(verb.kind) and not verb.object)
+            meets = verb.relation == "collide" and self._are_several(subjects)
+            is_alone = meets or (bool(verb.kind) and not verb.object)
             return verb.who == "plain" and not has_object and is_alone
         return is_acting or verb.relation not in _OF_PEOPLE
 
+    def _are_several(self, subjects: Sequence[int]) -> bool:
+        counts = [self._draft.things[one].values.get("count", 1) for one in subjects]
+        return sum(counts) > 1
+
     def _blink(self, subjects: Sequence[int]) -> None:
-        """Let lamps blink; flames flicker by themselves."""
         for index in subjects:
-            thing = self._draft.things[index]
-            lamps = trait_value("lamps", thing.noun) or ()
-            waves = [(trait_value("lamp kind", one) or {}).get("wave") for one in lamps]
-            if "flame" not in waves:
-                thing.values["blink_hz"] = BLINK_HZ
+            if not self._is_flame(index):
+                self._draft.things[index].values["blink_hz"] = BLINK_HZ
+
+    def _is_flame(self, index: int) -> bool:
+        """Whether it burns and flickers by itself."""
+        lamps = trait_value("lamps", self._draft.things[index].noun) or ()
+        return any((trait_value("lamp kind", one) or {}).get("wave") == "flame" for one in lamps)
 
     def _move(self, index: int, act: VerbSense) -> None:
         """Add a motion, or fill in one of which only the pace is said, or a posture."""
@@ -400,7 +428,9 @@ class _Reader:
             pace *= motions.pop().get("pace", 1.0)
         elif motions and motions[-1]["kind"] in ("stand", "sit") and act.who == "person":
             motions.pop()
-        motions.append({**motion, **({"pace": pace} if pace != 1.0 else {})})
+        motion |= {"pace": pace} if pace != 1.0 else {}
+        if motion not in motions[-1:]:
+            motions.append(motion)
 
     def _apply_to_objects(
         self, act: VerbSense, subjects: Sequence[int], objects: Sequence[int]
