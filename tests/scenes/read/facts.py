@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from texvent.errors import InputError
 from texvent.generate.scene_input import list_nouns, understand
 from texvent.scenes.description import SceneDescription
 
@@ -56,6 +57,9 @@ def has_fact(scene: SceneDescription, fact: str) -> bool:
 
 def grade(prompt: Mapping[str, Any]) -> tuple[list[str], bool]:
     """Facts that are wrong, and whether the report says that some word is not shown."""
-    scene = understand(prompt["text"], list_nouns())
+    try:
+        scene = understand(prompt["text"], list_nouns())
+    except InputError:
+        return list(prompt["facts"]), True
     wrong = [fact for fact in prompt["facts"] if not has_fact(scene, fact)]
     return wrong, bool(scene.not_understood or scene.substituted)

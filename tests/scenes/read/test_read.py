@@ -8,21 +8,23 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from tests.scenes.read.facts import PROMPTS, grade
-from tests.scenes.read.words import sentences
+from tests.scenes.read.saying import say, sentences
 
 from texvent.errors import InputError
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.read import find_noun, find_place, read
+from texvent.scenes.read import find_noun, read
 from texvent.scenes.read.draft import is_grammar
 from texvent.scenes.read.lexicon import lexicon_of
 from texvent.scenes.read.scenes import read_text
 from texvent.scenes.read.tokens import split_prompt
-from texvent.scenes.spec.data import checked_scene
-from texvent.scenes.spec.description import to_description
+from texvent.scenes.spec.data import scene_from_data, scene_to_data
 
 MOST_WRONG, MOST_SILENT = 0.07, 0.03
+"""Share of facts that are wrong, and of prompts that are wrong without a word in the report."""
 MOST_SECONDS = 0.001
 """Mean time to read a prompt."""
+WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None).senses)
+SIGNS = [",", ".", "and", "the", "a", "then", "of", "it", "wug", "7", "2 Hz", '"STOP"', "a.png"]
 
 
 def test_facts_of_short_prompts_are_right():
@@ -34,34 +36,31 @@ def test_facts_of_short_prompts_are_right():
     assert len(silent) <= MOST_SILENT * len(PROMPTS), silent
 
 
-words = st.sampled_from(sorted(" ".join(phrase) for phrase in lexicon_of(None).senses))
-texts = st.lists(words | st.sampled_from([",", ".", "and", "the", "a", "then", "wug", "7", "2 Hz",
-                                          '"STOP"', "a.png"]), max_size=14).map(" ".join)  # fmt: skip
-
-
-@settings(max_examples=400, deadline=None)
-@given(texts | st.text(max_size=80))
+@settings(max_examples=300, deadline=None)
+@given(
+    st.lists(st.sampled_from(WORDS) | st.sampled_from(SIGNS), max_size=14).map(" ".join)
+    | st.text(max_size=80)
+)
 @example("a the and of")
 @example("the camera. camera camera moves moves it")
-def test_every_content_word_is_in_one_list_of_the_report(text):
-    reading, is_empty = read_text(text)
+@example("without a of the no of")
+def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
+    reading, _ = read_text(text)
     lists = (reading.shown, [one.said for one in reading.substituted], reading.not_understood)
     listed = [word for one in lists for word in one]
     assert len(listed) == len(set(listed))
     for token in split_prompt(text, lexicon_of(None)):
-        if not token.is_sign and not is_grammar(token):
-            assert token.text in listed
-    assert is_empty or to_description(reading.scene).objects or reading.scene.place or True
-    checked_scene(reading.scene)
+        assert token.is_sign or is_grammar(token) or token.text in listed
+    assert scene_from_data(scene_to_data(reading.scene)) == reading.scene
 
 
 def test_a_prompt_is_read_in_less_than_a_millisecond():
     prompts = [prompt["text"] for prompt in PROMPTS]
-    lexicon_of(None)
-    started = time.perf_counter()
+    read_text(prompts[0])  # the lexicon is made once
+    started = time.process_time()
     for prompt in prompts:
         read_text(prompt)
-    assert (time.perf_counter() - started) / len(prompts) < MOST_SECONDS
+    assert (time.process_time() - started) / len(prompts) < MOST_SECONDS
 
 
 @pytest.mark.parametrize("prompt", ["", " \n", "wug", "the of and", "xyz!?"])
@@ -70,21 +69,16 @@ def test_a_prompt_without_a_known_word_is_refused(prompt):
         read(prompt)
 
 
-def test_words_are_found_by_their_names():
-    assert [find_noun(one, NOUNS) for one in ("Automobiles", "terrier", "wug")] == [
-        "car", "dog", None
-    ]  # fmt: skip
-    assert [find_place(one) for one in ("meadows", "wug")] == ["grass", None]
+def test_nouns_are_found_by_their_names():
+    found = [find_noun(one, NOUNS) for one in ("Automobiles", "terrier", "wug")]
+    assert found == ["car", "dog", None]
+
+
+def test_ambiguous_words_are_in_no_scene():
+    for word in ("bat", "track", "crane"):
+        assert word in read(f"a {word} and a dog").not_understood
 
 
 @pytest.mark.parametrize(("prompt", "expected"), sentences())
 def test_sentences_say(prompt, expected):
-    reading, _ = read_text(prompt)
-    assert say(reading) == expected
-
-
-def say(reading) -> str:
-    """A reading in a line, as words.toml's sentences have it."""
-    from tests.scenes.read.words import say_reading
-
-    return say_reading(reading)
+    assert say(read_text(prompt)[0]) == expected

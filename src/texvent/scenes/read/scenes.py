@@ -301,10 +301,11 @@ class _Reader:
             return
         elif effect:
             draft.add_effect(effect.value, subjects[0])
-        for index in subjects if adverb else ():
-            self._say_of(adverb.value if adverb else (), index)
-        for index in subjects if quantity and token.picture is None else ():
-            self._measure(quantity or ("", 0.0), index)
+        for index in subjects:
+            if adverb:
+                self._say_of(adverb.value, index)
+            elif quantity:
+                self._measure(quantity, index)
         draft.show(token)
 
     def _say_of(self, said: tuple[str, Any], index: int) -> None:
@@ -398,7 +399,7 @@ class _Reader:
             return has_object and is_acting
         if verb.who in ("source", "lamp"):
             return not has_object and not is_acting
-        if verb.who != "plain" or has_object != (verb.relation is not None):
+        if verb.who != "plain" or has_object != bool(verb.relation):
             meets = verb.relation == "collide" and self._are_several(subjects)
             is_alone = meets or (bool(verb.kind) and not verb.object)
             return verb.who == "plain" and not has_object and is_alone

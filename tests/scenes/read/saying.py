@@ -17,7 +17,7 @@ def sentences() -> list[tuple[str, str]]:
     return [(prompt, expected) for prompt, expected in pairs]
 
 
-def say_reading(reading: Reading) -> str:
+def say(reading: Reading) -> str:
     """A reading in a line: objects, effects, camera, light and place, and words that are lost."""
     data = scene_to_data(reading.scene)
     parts = [_say_object(one) for one in data.get("objects", ())]
