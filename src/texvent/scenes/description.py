@@ -184,6 +184,15 @@ class CameraMove:
     place."""
     speed_m_s: float | None = None
     """For travel: speed that the prompt states, m/s."""
+    start_s: float | None = None
+    """When it starts, s; None = with its phase, or at 0 where `stop_s` is given."""
+    stop_s: float | None = None
+    """When it stops, s; None = with its phase, or at the end where `start_s` is given."""
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether it has times of its own instead of a phase."""
+        return self.start_s is not None or self.stop_s is not None
 
 
 @dataclass(frozen=True)
@@ -244,7 +253,7 @@ class Surroundings:
     """Where the scene is."""
 
     place: str | None = None
-    """Key of `lexicon_scene.PLACES`; never None after
+    """Key of `models.places.PLACES`; never None after
     `parse_prompt`."""
     colour: NamedColour | None = None
     """Colour of the ground, where the place has a ground to paint."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Literal
+from typing import Any, Literal
 
 from texvent.scenes.models.traits import trait_values
 
@@ -58,11 +58,13 @@ class Lamp:
 
 
 def _read_lamps() -> dict[str, tuple[Lamp, ...]]:
-    kinds = {
-        kind: Lamp(**{name: tuple(v) if isinstance(v, list) else v for name, v in entry.items()})
-        for kind, entry in trait_values("lamp kind").items()
-    }
+    kinds = {kind: _lamp_from(entry) for kind, entry in trait_values("lamp kind").items()}
     return {noun: tuple(kinds[one] for one in own) for noun, own in trait_values("lamps").items()}
+
+
+def _lamp_from(entry: dict[str, Any]) -> Lamp:
+    direction = entry.get("direction")
+    return Lamp(**{**entry, "direction": tuple(direction) if direction else None})
 
 
 LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType(_read_lamps())

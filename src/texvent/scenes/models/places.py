@@ -14,10 +14,10 @@ from typing import Any, Literal
 
 from texvent.scenes.scene import Colour, Ground, Texture
 
-Where = Literal["around", "wall", "under", "both sides", "across", "water", "far", "route"]
+Where = Literal["around", "wall", "under", "both sides", "water", "far", "route"]
 """Where scenery stands."""
 _SCALES: Mapping[str, tuple[float, float]] = {
-    "wall": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0), "across": (1.0, 1.0),
+    "wall": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0),
 }  # fmt: skip
 """Usual multiples of its size, of what does not stand around."""
 ROAD_GROUNDS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
@@ -48,8 +48,8 @@ class Scenery:
 
     @property
     def is_structure(self) -> bool:
-        """Whether it is part of a place that is empty, too: walls, a parapet."""
-        return self.where in ("both sides", "across")
+        """Whether it is part of a place that is empty, too: walls."""
+        return self.where == "both sides"
 
 
 @dataclass(frozen=True)

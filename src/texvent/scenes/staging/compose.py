@@ -24,7 +24,6 @@ from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitiv
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
-from texvent.scenes.staging.camera.main_actor import choose_main
 from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
@@ -34,12 +33,8 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
-from texvent.scenes.staging.placement.fitting import enlarge_small
-from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
-from texvent.scenes.staging.placement.tables.plating import dish_up
-from texvent.scenes.staging.placement.tables.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
@@ -52,7 +47,7 @@ from texvent.scenes.staging.surroundings.scenery import (
     scatter,
     under_snow,
 )
-from texvent.scenes.staging.surroundings.water import turn_to_water, wade, water_line
+from texvent.scenes.staging.surroundings.water import wade, water_line
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -75,8 +70,8 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
-    still_nouns: tuple[str, ...] = ()
-    """Noun of each shape of `still`."""
+    scenery: tuple[str, ...] = ()
+    """Nouns of the scenery, as often as it is there."""
     object_of: Mapping[int, int] = field(default_factory=dict)
     """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
@@ -144,9 +139,8 @@ def compose_scene(
     """An animated scene from a description; the same arguments give the same scene.
 
     Args:
-        description: from `grammar.parse_prompt`.
-        seed: decides what the prompt leaves open; another seed gives another layout of the same
-            sentence.
+        description: the scene, with what it leaves open decided.
+        seed: decides the layout; another seed gives another one of the same scene.
         size: image size, pixels, for the framing.
         duration_s: length of the clip, s; moves are spread over it.
         nouns: table of models.
@@ -154,8 +148,7 @@ def compose_scene(
     Raises:
         InputError: the duration is not a positive number.
     """
-    said, missing = prepare(description, nouns, duration_s)
-    description = said if said.is_metric else _set_out(said, nouns)
+    description, missing = prepare(description, nouns, duration_s)
     place = description.surroundings.place or "grass"
     levels = choose_levels(PLACES[place], description, nouns)
     travel = plan_travel(description, place, duration_s)
@@ -170,7 +163,7 @@ def compose_scene(
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
-    names, object_of = _name_bodies(actors, surrounding, len(said.objects))
+    names, object_of = _name_bodies(actors, surrounding)
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
         description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
@@ -178,20 +171,16 @@ def compose_scene(
     )  # fmt: skip
     lamps = plan_lamps(
         description, actors, place=PLACES[place],
-        strength=choose_lighting(PLACES[place], description.light).lamps, instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
+        strength=choose_lighting(PLACES[place], description.light).lamps,
+        instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
     particles = stage_effects(
         description, Setting(actors, camera_path.framing, place, duration_s, seed)
     )
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
+        tuple(dict.fromkeys(missing)), tuple(item.noun for item in items), object_of,
     )  # fmt: skip
-
-
-def _set_out(said: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """The description with small things enlarged, on tables and plates."""
-    return dish_up(set_on_table(enlarge_small(said, nouns), nouns), nouns)
 
 
 def _place_scenery(
@@ -203,13 +192,11 @@ def _place_scenery(
 
 
 def _name_bodies(
-    actors: Sequence[Actor], surrounding: Sequence[tuple[int, SceneryItem]], objects: int
+    actors: Sequence[Actor], surrounding: Sequence[tuple[int, SceneryItem]]
 ) -> tuple[dict[int, str], dict[int, int]]:
-    """Instance → noun, and instance → object of the prompt, of which there are `objects`."""
+    """Instance → noun, and instance → object of the description."""
     names = {actor.instance: actor.noun.name for actor in actors}
-    object_of = {
-        actor.instance: actor.object_index for actor in actors if actor.object_index < objects
-    }
+    object_of = {actor.instance: actor.object_index for actor in actors}
     for instance, (index, item) in enumerate(surrounding, len(actors) + 1):
         names[instance], object_of[instance] = item.noun, index
     return names, object_of
@@ -231,7 +218,7 @@ def _set_camera(
     has_lanes = travel is None and PLACES[place].has_road
 
     def stand(placed: list[Actor]) -> list[Actor]:
-        placed = turn_to_water(with_headroom(description, placed), PLACES[place])
+        placed = with_headroom(description, placed)
         return queue_in_lanes(placed, 0.5 * PLACES[place].road_m) if has_lanes else placed
 
     def film(cast: Sequence[Actor]) -> CameraPath:
@@ -248,24 +235,7 @@ def _set_camera(
         return stand_before_wall(
             description, placer.groups, lambda one: stand(placer.move(one)), film, place
         )
-    path = film(actors)
-    if actors and PLACES[place].ground is not Ground.NONE:
-        subject = None if travel else choose_main(description, actors).object_index
-        shifts = find_shifts(
-            description, actors, path, subject=subject, aspect=aspect, duration_s=duration_s
-        )
-        if shifts:
-            actors = stand(placer.move(shifts))
-    return actors, path
-
-
-def _name_shapes(
-    items: Sequence[SceneryItem],
-    surrounding: Sequence[tuple[int, SceneryItem]],
-    placed: Sequence[PlacedModel],
-) -> tuple[str, ...]:
-    nouns = [item.noun for item in (*items, *(item for _, item in surrounding))]
-    return tuple(noun for noun, model in zip(nouns, placed, strict=True) for _ in model.parts)
+    return actors, film(actors)
 
 
 def _describe_view(

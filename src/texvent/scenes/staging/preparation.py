@@ -9,7 +9,7 @@ from dataclasses import replace
 from texvent.errors import InputError
 from texvent.scenes.description import ObjectMotion, SceneDescription
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.staging.placement.spatial_relations import GATES
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.staging.trajectories.schedule import left_out
 
 _PLACES_TO_GO = frozenset(
@@ -71,7 +71,7 @@ def _face_passages(description: SceneDescription) -> SceneDescription:
     objects = list(description.objects)
     for relation in description.relations:
         motion = objects[relation.subject].motion
-        gates = [t for t in relation.targets if objects[t].noun in GATES]
+        gates = [t for t in relation.targets if objects[t].noun in nouns_with("passage")]
         if relation.kind != "through" or not gates or motion is None:
             continue
         if motion.direction is None and motion.is_moving:

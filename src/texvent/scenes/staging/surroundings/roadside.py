@@ -130,9 +130,9 @@ def _is_free(
     spot, radius = np.array(item.position), item.radius_m
     if float(np.min(np.hypot(*(line - spot).T))) < min(travel.clear_m) + radius:
         return False
-    if road_half_m is not None:
-        if float(travel.road.distance(spot[None])[0]) < road_half_m + radius:
-            return False
+    away = float(travel.road.distance(spot[None])[0])
+    if road_half_m is not None and away < road_half_m + radius:
+        return False
     if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < bodies[:, 2] + radius + 0.2):
         return False
     return all(np.hypot(*(spot - one.position)) >= 0.8 * (radius + one.radius_m) for one in items)

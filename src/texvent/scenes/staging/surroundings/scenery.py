@@ -35,9 +35,8 @@ _FROM_NET_M = 1.2
 """Who is nearer to the middle of a court than that stands in its net."""
 _WIDTHS = (1.0, 1.4, 2.0)
 """Walls on both sides of the view are wider where what goes there needs it."""
-_GAP_M, _STEP_M = 0.35, 1.3
-"""From what must not touch it to a wall along the view; from what is furthest off to a wall across
-the view."""
+_GAP_M = 0.35
+"""From what must not touch it to a wall along the view."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +120,7 @@ def scatter(
         noun = nouns.get(rule.noun)
         if noun is None or rule.where == "route":
             continue
-        if rule.where in ("under", "both sides", "across"):
+        if rule.where in ("under", "both sides"):
             item = _lay_out(rule, noun, view, actors, bodies, rng)
             items += [item] if item is not None else []
             continue
@@ -174,8 +173,6 @@ def _lay_out(
         model = build(rule, noun, 0, rng, wider)
         if rule.where == "both sides":
             spot = _stand_along(model, view.cameras, bodies)
-        elif rule.where == "across":
-            spot = _stand_across(view.cameras, bodies)
         else:
             spot = (*_middle_of(bodies, actors, rule.ahead_m), view.road.angle)
         if spot is not None:
@@ -206,7 +203,7 @@ def _stand_along(
         cameras: at some instants.
         bodies: [n, 3] x, y and radius of what is between them, m.
     """
-    forward = _look(cameras)
+    forward = _flat(cameras[len(cameras) // 2])
     right = np.array([forward[1], -forward[0]])
     eyes = np.array([camera.position[:2] for camera in cameras])
     aside = bodies[:, :2] @ right
@@ -219,20 +216,8 @@ def _stand_along(
     return float(middle[0]), float(middle[1]), math.atan2(float(forward[1]), float(forward[0]))
 
 
-def _stand_across(cameras: Sequence[Camera], bodies: Float64Array) -> tuple[float, float, float]:
-    """x, y and heading of what stands right across the view, its front to the camera."""
-    forward, first = _look(cameras), cameras[0].position[:2]
-    ahead = (bodies[:, :2] - first) @ forward + bodies[:, 2]
-    x, y = first + (max(float(ahead.max(initial=-math.inf)), 2.0) + _STEP_M) * forward
-    return float(x), float(y), math.atan2(-float(forward[1]), -float(forward[0]))
-
-
-def _look(cameras: Sequence[Camera]) -> Float64Array:
-    """[2] which way the camera looks over the ground, in the middle of the clip."""
-    return _flat(cameras[len(cameras) // 2])
-
-
 def _flat(camera: Camera) -> Float64Array:
+    """[2] which way a camera looks over the ground."""
     forward = np.asarray(camera.rotation[2, :2], dtype=np.float64)
     return forward / max(float(np.hypot(*forward)), 1e-9)
 

@@ -9,14 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import SceneDescription
-from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.places import Place
 from texvent.scenes.scene import Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.attached import HeldAt
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.surroundings.road import RoadLine
-from texvent.scenes.staging.trajectories.trajectory import BodyState, Stationary, Trajectory
+from texvent.scenes.staging.trajectories.trajectory import BodyState, Trajectory
 
 _AFLOAT = ("swim", "surf")
 """What people do in water, or on it."""
@@ -26,10 +25,6 @@ _GAP = 0.22
 _DEPTH_SHARE, _DEPTH_OF_BIRDS = 0.4, 0.1
 """Share of the height of a body that is under water at most; of birds, as high as their spread
 wings reach."""
-_AWAY_RAD = 0.5
-"""Heading of who drinks: to the right or the left, and away from the camera."""
-_WET_SHARE = 0.08
-"""How far the water reaches before the mouth, as a share of the animal's length."""
 
 
 def water_line(
@@ -46,7 +41,6 @@ def water_line(
     half = place.road_m if place.ground is Ground.RIVER else 0.0
     distance = path.framing.distance_m
     swimmers = [one for one in actors if _is_in_water(one, description)]
-    drinkers = [one for one in actors if _drinks(one)]
     if not actors or any(set(_OVER_SHORE) & _ways(description, one) for one in actors):
         gap = half
     elif swimmers and place.ground is Ground.RIVER:
@@ -55,8 +49,6 @@ def water_line(
         x, y = float(state.position[0]), float(state.position[1])
     elif swimmers:
         gap = -0.45 * distance
-    elif drinkers:
-        gap = half + min(_edge_of(one, angle, (x, y)) for one in drinkers)
     else:
         gap = half + _GAP * distance + 1.0
     across = angle + 0.5 * math.pi
@@ -73,34 +65,6 @@ def _ways(description: SceneDescription, actor: Actor) -> set[str | None]:
     """How its motions go with respect to the shore."""
     one = description.objects[actor.object_index]
     return {motion.shore for motion in (one.motion, *one.then) if motion is not None}
-
-
-def turn_to_water(actors: Sequence[Actor], place: Place) -> list[Actor]:
-    """Animals that drink where they stand face the water, which lies behind them."""
-    if not place.has_shore:
-        return list(actors)
-    turned = []
-    for actor in actors:
-        path = actor.trajectory
-        if isinstance(path, Stationary) and _drinks(actor):
-            yaw = _AWAY_RAD if math.cos(path.yaw) >= 0.0 else math.pi - _AWAY_RAD
-            actor = replace(actor, trajectory=replace(path, yaw=yaw))
-        turned.append(actor)
-    return turned
-
-
-def _drinks(actor: Actor) -> bool:
-    path = actor.trajectory
-    is_animal = actor.noun.name not in PERSON_NOUNS
-    return is_animal and isinstance(path, Stationary) and path.activity == "drink"
-
-
-def _edge_of(actor: Actor, angle: float, middle: tuple[float, float]) -> float:
-    """How far behind a point the water begins at which an animal drinks, m."""
-    x, y, _ = (float(value) for value in actor.anchor("mouth", 0.0)[:, 3])
-    across = angle + 0.5 * math.pi
-    way = (x - middle[0]) * math.cos(across) + (y - middle[1]) * math.sin(across)
-    return way - _WET_SHARE * actor.model.length
 
 
 @dataclass(frozen=True)

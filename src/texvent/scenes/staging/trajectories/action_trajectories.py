@@ -174,8 +174,7 @@ class Arc:
         span, elapsed = self.end_s - self.start_s, time_s - self.start_s
         share = elapsed / span
         x, y, z = (
-            a + share * (b - a)
-            for a, b in zip(self.start.position, self.end.position, strict=True)
+            a + share * (b - a) for a, b in zip(self.start.position, self.end.position, strict=True)
         )
         yaw, pitch, roll = (
             first + share * math.remainder(last - first, 2.0 * math.pi)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
@@ -36,6 +37,8 @@ from texvent.scenes.staging.trajectories.trajectory import (
     ahead,
 )
 
+_STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTS})
+"""What bodies without hands do in their place."""
 _LARGEST_AFLOAT_M = 2.5
 """What is larger bobs no more than that: a moon, a cloud."""
 _DRIFT_TURN_RAD, _SLIP_RAD = 1.3, 0.62
@@ -187,7 +190,8 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     if kind == "sway":
         return Sway(home, 0.14, plan.motion.rate_hz or 0.5 * pace, plan.yaw)
     way = -1.0 if plan.motion.direction == "clockwise" else 1.0
-    return Stationary(home, plan.yaw, "move", way * pace, way * _gain(plan))
+    activity = kind if kind in _STAYING else "move"
+    return Stationary(home, plan.yaw, activity, way * pace, way * _gain(plan))
 
 
 def _spin(

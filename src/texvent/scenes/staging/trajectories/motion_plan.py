@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import ObjectMotion
-from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -59,7 +58,7 @@ class MotionPlan:
     path: SteeredPath | None = None
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
-    """What its limbs do in its place: a name of `people.activities` or of `Noun.acts`."""
+    """What a person or a hand does in its place: a name of `people.activities`."""
     radius_m: float = 0.0
     """Of what rolls over and over; 0 = it goes on wheels or feet."""
     spin_axis: Axis = "yaw"
@@ -129,9 +128,7 @@ def plan_motion(
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
 
 
-def _choose_yaw(
-    motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss: float
-) -> float:
+def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss: float) -> float:
     motion, default = motions[0], YAWS["left" if toss < 0.5 else "right"]
     later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
     direction = motion.direction or next(later, None) or ""
@@ -165,16 +162,11 @@ def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
     return noun.habitat == "fixed" and is_wide and motion.kind == "slide"
 
 
-_STAYING = frozenset({"stand", "sit", "lie"}) | frozenset(ANIMAL_ACTS)
-
-
 def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
-    """What a body does that stays in its place: an activity, a gesture, an act; None = nothing."""
+    """The activity of a person or hand that stays in its place; None = it is no such thing."""
     kinds = {**dict.fromkeys(PERSON_NOUNS, ACTIVITIES), **dict.fromkeys(HAND_NOUNS, HAND_GESTURES)}
     known = kinds.get(noun.name)
-    if known is None:
-        return motion.kind if motion.kind in _STAYING | noun.acts else None
-    if motion.kind in PATH_KINDS or motion.kind in ("jump", "spin", "fall"):
+    if known is None or motion.kind in PATH_KINDS or motion.kind in ("jump", "spin", "fall"):
         return None
     handed = f"{motion.kind} {motion.direction}"
     if handed in known:
@@ -219,7 +211,11 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
-    front, side, is_person = -0.5 * math.pi, math.pi if toss < 0.5 else 0.0, noun.name in PERSON_NOUNS
+    front, side, is_person = (
+        -0.5 * math.pi,
+        math.pi if toss < 0.5 else 0.0,
+        noun.name in PERSON_NOUNS,
+    )
     if motion.kind == "sway" and noun.habitat != "fixed" and not is_person:
         return front + math.copysign(0.6, tilt)
     if is_person and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:

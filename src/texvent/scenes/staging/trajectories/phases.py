@@ -325,7 +325,7 @@ class _Builder:
         climb = min(max(self._usual, 0.3 * size), size) * motion.pace
         if not is_up and self._noun.motion == "sail":
             climb = -_SUNK * self._model.height / span
-        elif not is_up and self._is_single and self._noun.habitat == "air":
+        elif not is_up and self._is_single:
             self.initial_height = climb * 0.85 * span
             climb = -climb
         elif not is_up:

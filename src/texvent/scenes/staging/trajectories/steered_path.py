@@ -190,9 +190,7 @@ class Lagging:
                     high = middle
             state = self.path.at(high)
         leader = self.path.at(time_s)
-        return replace(
-            state, distance_m=way, speed_m_s=leader.speed_m_s, activity=leader.activity
-        )
+        return replace(state, distance_m=way, speed_m_s=leader.speed_m_s, activity=leader.activity)
 
 
 def _ramp(piece: Piece) -> float:

@@ -51,43 +51,6 @@ _LEVEL_SPAN_S = 6.0
 """Instants and time over which a part's brightest state is looked for."""
 
 
-@dataclass(frozen=True)
-class Switch:
-    """How the lamps of one object are switched."""
-
-    is_lit: bool | None
-    """As `SceneObject.is_lit`."""
-    blink_hz: float | None
-    """As `SceneObject.blink_hz`."""
-    strength: float
-    """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
-    phase: float = 0.0
-    """Head start of flames, periods, so that two candles do not flicker in step."""
-
-    def is_on(self, lamp: Lamp) -> bool:
-        """Whether a lamp is on."""
-        if self.is_lit is not None:
-            return self.is_lit
-        return lamp.always_on or self.strength > lamp.least_dark
-
-    def blink_of(self, lamp: Lamp) -> float | None:
-        """Frequency at which a lamp blinks, Hz; None = it is steady."""
-        return lamp.blink_hz if self.blink_hz is None else self.blink_hz
-
-    def level(self, lamp: Lamp, time_s: float, number: int) -> float:
-        """Light of the object's lamp `number` at that instant, as a share of its usual light."""
-        if not self.is_on(lamp):
-            return 0.0
-        full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
-        rate = self.blink_of(lamp)
-        if rate is None:
-            return full
-        wave = wave_at(lamp, rate, time_s, self.phase, number)
-        if lamp.wave == "flame" and self.blink_hz is not None:
-            wave = max(1.0 + _FLICKERING * (wave - 1.0), 0.05)
-        return full * wave
-
-
 def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int) -> float:
     """Share of its light that a blinking lamp gives off at an instant; at t = 0 it is on."""
     cycles = rate_hz * time_s
@@ -107,29 +70,63 @@ def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int
 
 @dataclass(frozen=True)
 class LitActor:
-    """An object with lamps."""
+    """An object with lamps, and how they are switched."""
 
     actor: Actor
-    switch: Switch
+    is_lit: bool | None
+    """As `SceneObject.is_lit`."""
+    blink_hz: float | None
+    """As `SceneObject.blink_hz`."""
+    strength: float
+    """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
     brightest: tuple[float, ...]
     """Greatest emission of each part over time; 0 = it does not glow."""
-    casts: bool
+    casts: bool = False
     """Whether its lamps cast shadows."""
+
+    def is_on(self, lamp: Lamp) -> bool:
+        """Whether a lamp is on."""
+        if self.is_lit is not None:
+            return self.is_lit
+        return lamp.always_on or self.strength > lamp.least_dark
+
+    def blink_of(self, lamp: Lamp) -> float | None:
+        """Frequency at which a lamp blinks, Hz; None = it is steady."""
+        return lamp.blink_hz if self.blink_hz is None else self.blink_hz
+
+    def level(self, lamp: Lamp, time_s: float, number: int) -> float:
+        """Light of the object's lamp `number` at that instant, as a share of its usual light."""
+        if not self.is_on(lamp):
+            return 0.0
+        full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
+        rate = self.blink_of(lamp)
+        if rate is None:
+            return full
+        # Two candles do not flicker in step.
+        wave = wave_at(lamp, rate, time_s, fraction(self.actor.instance, "flame"), number)
+        if lamp.wave == "flame" and self.blink_hz is not None:
+            wave = max(1.0 + _FLICKERING * (wave - 1.0), 0.05)
+        return full * wave
 
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""
-        parts, number = [], 0
-        for part in placed.parts:
+        parts = list(placed.parts)
+        for index, number, lamp in self.lamps_of(placed):
+            part, level = parts[index], self.level(lamp, time_s, number)
+            if self.is_on(lamp):
+                parts[index] = replace(part, emission=part.emission * lamp.boost * level)
+            elif self.is_lit is not None:
+                parts[index] = replace(part, emission=0.0)
+        return replace(placed, parts=parts)
+
+    def lamps_of(self, placed: PlacedModel) -> list[tuple[int, int, Lamp]]:
+        """Its lamps: index of the part, number among the lamps, and kind."""
+        found: list[tuple[int, int, Lamp]] = []
+        for index, part in enumerate(placed.parts):
             lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
             if lamp is not None:
-                level = self.switch.level(lamp, time_s, number)
-                if self.switch.is_on(lamp):
-                    part = replace(part, emission=part.emission * lamp.boost * level)
-                elif self.switch.is_lit is not None:
-                    part = replace(part, emission=0.0)
-                number += 1
-            parts.append(part)
-        return replace(placed, parts=parts)
+                found.append((index, len(found), lamp))
+        return found
 
     def rows(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
         """Its lamps at that instant, as in `Environment.lamps`: always as many."""
@@ -137,7 +134,7 @@ class LitActor:
 
     def haze(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
         """What is seen of its beams from the side: puffs, as in `Environment.puffs`."""
-        if self.switch.strength <= 0.0:
+        if self.strength <= 0.0:
             return []
         return [
             haze_rows(row, lamp.haze_m, level)
@@ -150,19 +147,15 @@ class LitActor:
     ) -> list[tuple[Lamp, Float64Array, float]]:
         """Its lamps that are on: kind, numbers, and light as a share of the usual."""
         rows: list[tuple[Lamp, Float64Array, float]] = []
-        number, done = 0, set[Lamp]()
-        for part, brightest in zip(placed.parts, self.brightest, strict=True):
-            lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
-            if lamp is None or lamp in done:
-                continue
-            if lamp.is_single:
-                done.add(lamp)
-            level = self.switch.level(lamp, time_s, number) * part.emission / max(brightest, 1e-9)
-            if self.switch.is_on(lamp):
+        for index, number, lamp in self.lamps_of(placed):
+            is_done = lamp.is_single and any(lamp == one for one, _, _ in rows)
+            if self.is_on(lamp) and not is_done:
+                part = placed.parts[index]
+                level = self.level(lamp, time_s, number)
+                level *= part.emission / max(self.brightest[index], 1e-9)
                 casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
                 row = lamp_row(lamp, part, placed.to_world, level, time_s, casts)
                 rows.append((lamp, row, level))
-            number += 1
         return rows
 
 
@@ -262,19 +255,18 @@ class LampPlan:
     @property
     def is_moving(self) -> bool:
         """Whether objects of the scene, which may move, shed light."""
-        return any(one.switch.is_lit is not False for one in self.lit)
+        return any(one.is_lit is not False for one in self.lit)
 
     @property
     def blink_hz(self) -> float | None:
         """Highest frequency at which a lamp goes up and down, Hz; None = all are steady."""
-        rates = []
+        rates = [0.0]
         for one in self.lit:
-            for part in one.actor.place(0.0).parts:
-                lamp = lamp_of(one.actor.noun.name, part.colour)
-                if part.emission > 0.0 and lamp is not None and one.switch.is_on(lamp):
-                    rate = max(one.switch.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
-                    rates.append(rate * (FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0))
-        return max(rates, default=0.0) or None
+            for _, _, lamp in one.lamps_of(one.actor.place(0.0)):
+                rate = max(one.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
+                rate *= FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0
+                rates.append(rate if one.is_on(lamp) else 0.0)
+        return max(rates) or None
 
 
 def plan_lamps(
@@ -319,19 +311,14 @@ def plan_lamps(
 def _lit_actor(actor: Actor, description: SceneDescription, strength: float) -> LitActor | None:
     """The lamps of an object; None where it has none that are on or said to be off."""
     said, brightest = description.objects[actor.object_index], _brightest(actor)
-    switch = Switch(said.is_lit, said.blink_hz, strength, fraction(actor.instance, "flame"))
-    lamps = [lamp_of(actor.noun.name, part.colour) for part in actor.place(0.0).parts]
-    is_on = any(
-        lamp is not None and level > 0.0 and switch.is_on(lamp)
-        for lamp, level in zip(lamps, brightest, strict=True)
-    )
-    is_off = said.is_lit is False and any(brightest)
-    return LitActor(actor, switch, brightest, casts=False) if is_on or is_off else None
+    lit, placed = LitActor(actor, said.is_lit, said.blink_hz, strength, brightest), actor.place(0.0)
+    is_seen = said.is_lit is False and any(brightest)
+    return lit if is_seen or any(lit.is_on(one) for _, _, one in lit.lamps_of(placed)) else None
 
 
 def _steady_rows(one: LitActor, time_s: float) -> Float64Array:
     """[m, 15] its lamps as if they did not blink."""
-    steady = replace(one, switch=replace(one.switch, blink_hz=1e-9))
+    steady = replace(one, blink_hz=1e-9)
     return np.array(steady.rows(one.actor.place(time_s), 0.0)).reshape(-1, LAMP_COLUMNS)
 
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from texvent.scenes.staging.surroundings.light.said_light import (
+
+from texvent.scenes.description import Illumination, NamedColour
+from texvent.scenes.models.places import PLACES
+from texvent.scenes.staging.surroundings.light.lighting import (
     choose_lighting,
     tint_of,
     towards_light,
+    usual_lighting,
 )
-
-from texvent.scenes.description import Illumination, NamedColour
-from texvent.scenes.staging.surroundings.light.lighting import usual_lighting
 
 AHEAD = np.array((0.0, 1.0, 0.0))
 USUAL = np.array((0.0, 0.6, 0.8))
@@ -19,7 +20,7 @@ USUAL = np.array((0.0, 0.6, 0.8))
 
 @pytest.mark.parametrize("place", ["road", "kitchen", "underwater"])
 def test_light_of_which_nothing_is_said_is_the_usual_one(place: str) -> None:
-    assert choose_lighting(place, Illumination()) == usual_lighting(place, "day")
+    assert choose_lighting(PLACES[place], Illumination()) == usual_lighting(PLACES[place], "day")
     assert towards_light(USUAL, AHEAD, Illumination()) is USUAL
 
 
@@ -50,9 +51,9 @@ def test_a_tint_has_its_colour() -> None:
 
 
 def test_soft_light_casts_no_shadow_and_hard_light_darkens_them() -> None:
-    usual = usual_lighting("road", "day")
-    soft = choose_lighting("road", Illumination(hardness="soft"))
-    hard = choose_lighting("road", Illumination(hardness="hard"))
+    usual = usual_lighting(PLACES["road"], "day")
+    soft = choose_lighting(PLACES["road"], Illumination(hardness="soft"))
+    hard = choose_lighting(PLACES["road"], Illumination(hardness="hard"))
     assert not soft.shadows
     assert soft.sun[0] / soft.ambient[0] < usual.sun[0] / usual.ambient[0]
     assert hard.shadows
