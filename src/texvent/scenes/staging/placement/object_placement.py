@@ -39,10 +39,9 @@ from texvent.scenes.staging.placement.spatial_relations import (
 )
 from texvent.scenes.staging.still_life import still_yaw
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
-from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
-from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath
+from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath, bend_path
 from texvent.scenes.staging.trajectories.trajectory import Riding, Straight, Trajectory, Vector
 
 _MUCH_LARGER = 1.3

@@ -18,10 +18,14 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Sway,
     Swing,
 )
-from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath, flight_s
+from texvent.scenes.staging.trajectories.steered_path import (
+    Piece,
+    SteeredPath,
+    bend_path,
+    flight_s,
+)
 from texvent.scenes.staging.trajectories.trajectory import (
     TO_CAMERA,
     BodyState,
@@ -106,7 +110,7 @@ def _leap(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> Steer
     """Along its heading, in the air over its home at mid clip."""
     height = max(0.35 * model.height, 1.25 * clear_m + 0.1)
     flight = flight_s(height)
-    speed, lead = 1.6 * model.length / flight, max(0.5 * (plan.duration_s - flight), 1e-3)
+    speed, lead = 1.2 * model.length / flight, max(0.5 * (plan.duration_s - flight), 1e-3)
     pieces = (Piece(lead, speed), Piece(flight, speed, hop_m=height), Piece(lead, speed))
     start = ahead(home, plan.yaw, -speed * (lead + 0.5 * flight), home[2])
     return SteeredPath(start, plan.yaw, pieces, speed, floor_m=home[2])
@@ -148,7 +152,7 @@ def _drift(plan: MotionPlan, home: Vector) -> Trajectory:
     path = bend_path(plan.yaw, speed, _DRIFT_TURN_RAD / (duration_s * speed), duration_s)
     x, y, _ = path.start
     path = replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=home[2])
-    return Slipping(path, _SLIP_RAD, 0.1 * duration_s)
+    return Slipping(path, _SLIP_RAD)
 
 
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
