@@ -70,8 +70,8 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
-    scenery: tuple[str, ...] = ()
-    """Nouns of the scenery, as often as it is there."""
+    still_nouns: tuple[str, ...] = ()
+    """Noun of each shape of `still`."""
     object_of: Mapping[int, int] = field(default_factory=dict)
     """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
@@ -163,6 +163,8 @@ def compose_scene(
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
+    nouns_of = [item.noun for item in (*items, *(item for _, item in surrounding))]
+    still_nouns = tuple(n for n, one in zip(nouns_of, placed, strict=True) for _ in one.parts)
     names, object_of = _name_bodies(actors, surrounding)
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
@@ -179,7 +181,7 @@ def compose_scene(
     )
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), tuple(item.noun for item in items), object_of,
+        tuple(dict.fromkeys(missing)), still_nouns, object_of,
     )  # fmt: skip
 
 

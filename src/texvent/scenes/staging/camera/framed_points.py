@@ -112,7 +112,12 @@ def list_views(
     copies = {one.instance for one in actors if one.object_index == main.object_index}
     partners = {one.instance for one in near if one.object_index in related}
     others = {one.instance for one in near if goes(one, times) or not main.is_mover}
-    choices = ({one.instance for one in near}, others | partners, partners, set())
+    choices: tuple[set[int], ...] = (
+        {one.instance for one in near},
+        others | partners,
+        partners,
+        set(),
+    )
     least = _LARGE_IN_WIDE if is_wide else 1.0
     return [
         View(_points_of([a for a in actors if a.instance in copies | some], scope), fill, least * g)

@@ -171,7 +171,7 @@ def _emit(
             is_once=words.happens_once, floor_m=setting.floor_m,
         )
         for style in words.emitters
-        if style.body != "chip" or actor is not None
+        if style.colours or actor is not None
     ]  # fmt: skip
 
 

@@ -220,7 +220,9 @@ class Emitter(ParticleEffect):
         """[n, 3] unit vectors in which particles leave."""
         style = self.style
         if style.body == "chip" and style.fills is not None and style.fills[2] > 0.0:
-            return offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-9)
+            return np.asarray(
+                offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-9)
+            )
         return aimed(directions(draws, style.spread_rad), style.aim) @ turn.T
 
     def _landing_s(self, above: Float64Array, upward: Float64Array) -> Float64Array:
