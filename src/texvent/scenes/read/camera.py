@@ -42,7 +42,7 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
     draft.show(verb)
     move = split_move(moves[0])
     for phrase in clause.after:
-        way = _WAYS.get(phrase.preposition.word) if isinstance(phrase, Phrase) else None
+        way = _WAYS.get(phrase.preposition.text) if isinstance(phrase, Phrase) else None
         if way is not None and move["kind"] == "truck":
             move["direction"] = way
     for token in clause.after:

@@ -49,9 +49,9 @@ class Group:
         if counts or self.head is None:
             return any(count > 1 for count in counts)
         if self.head.has("effect") and not self.head.has("noun"):
-            return self.head.word.endswith("s")
+            return self.head.text.endswith("s")
         senses = [one.value for one in self.head.all("noun")]
-        is_name = any(one.noun == self.head.text.casefold() for one in senses)  # "fish", "sheep"
+        is_name = any(one.noun == self.head.text for one in senses)  # "fish", "sheep"
         is_open = is_name and self.article not in ("a", "an")
         return bool(senses) and (
             senses[0].is_plural or (is_open and any(one.is_plural for one in senses))
@@ -147,7 +147,7 @@ class _Parser:
 
     def _end(self, clause: Clause) -> Clause | None:
         """How the next clause begins, where this one ends here."""
-        token, word = self._token(), self._token().word
+        token, word = self._token(), self._token().text
         is_begun = clause != Clause()
         if token.is_sign:
             self._take()
@@ -173,7 +173,7 @@ class _Parser:
 
     def _end_at_and(self, clause: Clause) -> Clause | None:
         self._take()
-        if self._token().word == "then":
+        if self._token().text == "then":
             self._take()
             return Clause(is_next=True, is_joined=True)
         starts = self._starts_group() or self._token().has("camera")
@@ -191,9 +191,9 @@ class _Parser:
         start, is_list = self._at, False
         while self._starts_group():
             self._group()
-            if self._token().word not in (",", "and"):
+            if self._token().text not in (",", "and"):
                 break
-            is_list = is_list or self._take().word == "and"
+            is_list = is_list or self._take().text == "and"
         self._at = start
         return is_list
 
@@ -239,14 +239,14 @@ class _Parser:
 
     def _read_verb(self, clause: Clause) -> Clause | None:
         is_unknown = clause.verb is not None and clause.verb.is_unknown
-        if is_unknown and self._token().word == "to" and self._token(1).verbs("base"):
+        if is_unknown and self._token().text == "to" and self._token(1).verbs("base"):
             self._take()  # "bends down to drink": the second one is known
             clause = replace(clause, after=())
         elif clause.verb is not None or not self._is_verb(clause):
             return None
         verb = self._take()
         if any(one.value.who == "auxiliary" for one in verb.all("verb")):
-            if self._token().word == "to":
+            if self._token().text == "to":
                 self._take()
             return replace(clause, is_joined=not clause.subjects)
         if self._token().has("pronouns"):
@@ -277,7 +277,7 @@ class _Parser:
 
     def _read_phrase(self, clause: Clause) -> Clause | None:
         token = self._token()
-        if not token.has("relation", "small") or token.word in ("and", "or"):
+        if not token.has("relation", "small") or token.text in ("and", "or"):
             return None
         if self._token(1).has("pronouns") and token.has("relation"):
             self._at += 2
@@ -326,7 +326,7 @@ class _Parser:
         if not is_verb or token.is_manner:
             is_grammar = token.has("small", "style", "articles") and not token.is_unknown
             return clause if is_grammar else replace(clause, after=(*clause.after, token))
-        if self._token().word in _PARTICLES:
+        if self._token().text in _PARTICLES:
             self._take()
         groups = self._groups() if self._starts_group() else ()
         return replace(clause, verb=token, objects=groups)
@@ -351,7 +351,7 @@ class _Parser:
     def _groups(self, *, is_phrase: bool = False) -> tuple[Group, ...]:
         """Groups with "and" between them, but for one that begins a clause."""
         found = [self._group(is_phrase=is_phrase)]
-        while self._token().word == "and" and self._starts_group(1):
+        while self._token().text == "and" and self._starts_group(1):
             start = self._at
             self._take()
             group, token = self._group(is_phrase=is_phrase), self._token()
@@ -365,13 +365,13 @@ class _Parser:
     def _group(self, *, is_phrase: bool = False) -> Group:
         modifiers: list[Token] = []
         unknown: list[Token] = []
-        head, article = None, self._token().word
+        head, article = None, self._token().text
         while self._token().has("articles"):
             self._take()
         first = self._at
         while head is None and not self._ends_group(first):
             token = self._take()
-            if token.word == "and":  # a second colour: "black and white"
+            if token.text == "and":  # a second colour: "black and white"
                 unknown.append(self._take())
             elif token.is_unknown or _is_bare_verb(token):
                 unknown.append(token)
@@ -387,7 +387,7 @@ class _Parser:
         if head is not None and is_shown:  # "the digit 7"
             modifiers.append(self._take())
         of = None
-        if self._token().word == "of" and self._starts_group(1):
+        if self._token().text == "of" and self._starts_group(1):
             self._take()
             of = self._group()
         return Group(head, tuple(modifiers), tuple(unknown), article, of)
@@ -396,7 +396,7 @@ class _Parser:
         token, after = self._token(), self._token(1)
         if token is NO_TOKEN or token.is_sign or token.has(*_STANDPOINTS):
             return True
-        if token.word == "and":
+        if token.text == "and":
             return not (_is_colour(self._token(-1)) and _is_colour(after))
         if token.number is not None or token.picture is not None or token.is_unknown:
             return False
@@ -418,15 +418,15 @@ class _Parser:
         """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
         after, third = self._token(), self._token(1)
         if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
-            return not (after.word.endswith("s") and third.has("articles"))
-        is_verb = bool(third.verbs("s")) or third.word == "is"
+            return not (after.text.endswith("s") and third.has("articles"))
+        is_verb = bool(third.verbs("s")) or third.text == "is"
         is_end = is_phrase and third.is_sign
         return after.is_unknown and not after.is_manner and (is_verb or is_end)
 
 
 def _is_alone(token: Token) -> bool:
     """Whether a token stands for itself, before no noun: "at night", "aerial view"."""
-    return token.word.startswith(_PREPOSITIONS) or (
+    return token.text.startswith(_PREPOSITIONS) or (
         token.has("shot") and not token.has("noun", "place")
     )
 

@@ -9,6 +9,7 @@ from typing import Any
 from texvent.scenes.read.tokens import Token
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec import scene as spec
+from texvent.scenes.spec.data import PLACING
 
 _GRAMMAR = frozenset({"articles", "pronouns", "conjunctions", "relatives", "negations", "small",
                       "style", "relation", "camera"})  # fmt: skip
@@ -75,10 +76,29 @@ class SceneDraft:
         """Count a token as shown as something else."""
         self._fates[token.at] = f"as {shown}"
 
-    def relate(self, subject: int, kind: str, targets: Sequence[int], way: str = "") -> None:
-        """Add a relation of an object to others."""
+    def relate(self, subject: int, kind: str, targets: Sequence[int], way: str = "") -> bool:
+        """Add a relation of an object to others; False: it goes round in a circle."""
+        is_one = self.things[subject].values.get("count", 1) == 1
+        if (subject in targets and is_one) or (
+            kind in PLACING and any(self._stands_by(target, subject) for target in targets)
+        ):
+            return False
         relation = {"kind": kind, "to": tuple(targets), **({"way": way} if way else {})}
         self.things[subject].relations.append(relation)
+        return True
+
+    def _stands_by(self, subject: int, other: int) -> bool:
+        """Whether where an object stands depends on where another one does."""
+        relations = [one for one in self.things[subject].relations if one["kind"] in PLACING]
+        return subject == other or any(
+            self._stands_by(target, other) for one in relations for target in one["to"]
+        )
+
+    def limit_bodies(self) -> None:
+        """Leave out copies of objects that have most, until a scene holds them all."""
+        while sum(one.values.get("count", 1) for one in self.things) > spec.MAX_BODIES:
+            most = max(self.things, key=lambda one: one.values.get("count", 1))
+            most.values["count"] -= 1
 
     def add_effect(self, kind: str, source: int | None) -> None:
         """Add an effect, from an object or all around."""

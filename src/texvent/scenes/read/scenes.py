@@ -22,6 +22,8 @@ MAX_COUNT = 24
 """Most copies of one object."""
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
+_RANGES = {"speed": (0.0, 1000.0), "rate": (0.001, 100_000.0)}
+"""Least and most of a quantity, m/s and Hz; others are not understood."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 MOST_NAMED = 12
@@ -87,6 +89,7 @@ def read_text(prompt: str, nouns: Mapping[str, Noun] | None = None) -> tuple[Rea
     reader = _Reader(draft, nouns or NOUNS)
     for clause in read_clauses(tokens):
         reader.apply(clause)
+    draft.limit_bodies()
     shown, substituted, lost = draft.report()
     scene = draft.build(prompt)
     reading = Reading(scene=scene, shown=shown, substituted=substituted, not_understood=lost)
@@ -175,7 +178,7 @@ class _Reader:
         head = group.head
         self._draft.lose(*group.unknown)
         is_drawn = any(
-            one.word.removesuffix("s") in word_set("things", "likenesses")
+            one.text.removesuffix("s") in word_set("things", "likenesses")
             for one in (*group.unknown, *((head,) if head else ()))
         )
         if head is not None and self._is_place(head, relation):
@@ -189,7 +192,7 @@ class _Reader:
         return []
 
     def _is_place(self, head: Token, relation: str) -> bool:
-        is_thing = head.has("noun", "pose") or head.word in word_set("things", "liquids")
+        is_thing = head.has("noun", "pose") or head.text in word_set("things", "liquids")
         return head.has("place") and (
             not is_thing or (bool(relation) and relation not in _POSITIONS)
         )
@@ -223,7 +226,7 @@ class _Reader:
 
     def _name_content(self, group: Group | None, vessel: int, *, is_drawn: bool) -> None:
         """As "a bowl of apples"; what a picture shows is not there."""
-        if group is None or (group.head and group.head.word in word_set("things", "liquids")):
+        if group is None or (group.head and group.head.text in word_set("things", "liquids")):
             return
         if is_drawn:
             self._lose_group(group)
@@ -292,9 +295,14 @@ class _Reader:
             return
         adverb, effect = token.first("adverb"), token.first("effect adjective")
         quantity, light = token.quantity, draft.parts["light"]
+        if quantity is not None:
+            least, most = _RANGES[quantity[0]]
+            is_lost = is_lost or not least <= quantity[1] <= most
         if token.picture is not None and draft.things:
             draft.things[-1].values["picture"] = token.picture
-        elif quantity and quantity[0] == "rate" and not subjects and "flicker_hz" in light:
+        elif quantity and quantity[0] == "rate" and "flicker_hz" in light and not (
+            subjects or is_lost
+        ):
             light["flicker_hz"] = quantity[1]
         elif is_lost or not subjects or not (adverb or effect or quantity):
             draft.lose(token)
@@ -342,7 +350,7 @@ class _Reader:
         others = [one for one in self._nearest if one not in subjects] if clause.is_back else []
         heads = [group.head for group in clause.objects]
         is_unknown = clause.is_back or any(
-            one is None or one.word in word_set("things", "liquids") for one in heads
+            one is None or one.text in word_set("things", "liquids") for one in heads
         )
         return self._apply_act(
             verb, verb.all("verb"), subjects, [*objects, *others], has_object=is_unknown
@@ -475,16 +483,15 @@ class _Reader:
                 draft.show(head)
                 draft.lose(*group.modifiers, *group.unknown)
             else:
-                targets += self._name(group, kind or token.word)
+                targets += self._name(group, kind or token.text)
         if not targets:
             is_there = draft.parts["place"].get("name") != place
             self._go_to_place(token, way, subjects, moved) if is_there and not is_lost else None
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
         elif kind and subjects and not is_lost:
-            draft.show(token)
-            for index in subjects:
-                self._relate_one(token, index, targets)
+            placed = [self._relate_one(token, index, targets) for index in subjects]
+            (draft.show if any(placed) else draft.lose)(token)
         elif subjects and kind in _POSITIONS:
             draft.lose(token)
 
@@ -496,12 +503,12 @@ class _Reader:
         for index in moved if way == "across" else ():
             for motion in draft.things[index].motions[-1:]:
                 motion.setdefault("direction", "across")
-        for index in subjects if token.word == "on" else ():
+        for index in subjects if token.text == "on" else ():
             thing = draft.things[index]
             if draft.parts["place"]["name"] == "road" and self._nouns[thing.noun].motion != "drive":
                 thing.values.setdefault("placement", "lane")
 
-    def _relate_one(self, token: Token, index: int, targets: Sequence[int]) -> None:
+    def _relate_one(self, token: Token, index: int, targets: Sequence[int]) -> bool:
         draft, sense = self._draft, token.all("relation")[0]
         kind, way = sense.value, sense.form
         thing, target = draft.things[index], draft.things[targets[0]]
@@ -509,15 +516,14 @@ class _Reader:
             if thing.noun in PERSON_NOUNS:
                 kind, way = "wear", ""
             elif kind == "in":
-                draft.lose(token)
-                return
+                return False
         elif kind == "at" and target.noun not in word_set("things", "tables"):
             kind, way = "beside", "at"
         elif kind == "surround":
             for values in (draft.things[one].values for one in targets):
                 if values.get("count") == PLURAL_COUNT:
                     values["count"] = SURROUND_COUNT
-        draft.relate(index, kind, targets, way)
+        return draft.relate(index, kind, targets, way)
 
     # The scene
 
@@ -547,7 +553,7 @@ class _Reader:
         name = head.all("place")[0].value
         for token in group.modifiers:
             colours = [one.value[1] for one in token.all("field") if one.value[0] == "colour"]
-            if token.word == "dark":
+            if token.text == "dark":
                 draft.parts["light"].setdefault("kind", "night")
             elif colours:
                 place["sky" if name == "sky" else "colour"] = colours[0]

@@ -23,7 +23,7 @@ class Token:
     """Phrase of a prompt, with all its senses."""
 
     text: str
-    """As the prompt has it."""
+    """In lower case; of a picture as the prompt has it."""
     at: int
     """Number in the prompt, from 0."""
     senses: tuple[Sense, ...] = ()
@@ -42,11 +42,6 @@ class Token:
         """Whether it is a word or a sign of writing that the reader does not know."""
         plain = self.number is None and self.quantity is None and self.picture is None
         return plain and not self.is_sign and (not self.senses or self.has("other"))
-
-    @property
-    def word(self) -> str:
-        """In lower case."""
-        return self.text.casefold()
 
     @property
     def is_manner(self) -> bool:
@@ -78,9 +73,9 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     """Tokens of a prompt, in order.
 
     Example:
-        >>> from texvent.scenes.read.lexicon import common_lexicon
-        >>> [token.text for token in split_prompt("Two fire engines, 5 m/s", common_lexicon())]
-        ['Two', 'fire engines', ',', '5 m / s']
+        >>> from texvent.scenes.read.lexicon import lexicon_of
+        >>> [token.text for token in split_prompt("Two fire engines, 5 m/s", lexicon_of(None))]
+        ['two', 'fire engines', ',', '5 m / s']
     """
     text = unicodedata.normalize("NFKC", prompt)
     found: list[Token] = []
@@ -140,7 +135,7 @@ def _read_phrase(
             length, senses = end + 1 - at, found
     if words[at][0].isdecimal() and length == 1:
         return _read_quantity(words, at, lexicon, len(before))
-    return Token(" ".join(words[at : at + length]), len(before), senses), length
+    return Token(" ".join(words[at : at + length]).casefold(), len(before), senses), length
 
 
 _UNCUT = ("noun", "place", "scene")
@@ -157,7 +152,7 @@ def _without_chance(
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     is_verb = words[end].endswith("ing") and after in word_set("grammar", "articles")
-    is_single = bool(before) and before[-1].word in ("a", "an")
+    is_single = bool(before) and before[-1].text in ("a", "an")
 
     def stands(one: Sense) -> bool:
         if one.kind == "verb" and one.value.who == "camera":
@@ -187,6 +182,6 @@ def _read_quantity(
         for sense in lexicon.senses.get(unit, ()):
             if sense.kind == "unit":
                 quantity, factor = sense.value
-                text = " ".join(words[at : at + 1 + length])
+                text = " ".join(words[at : at + 1 + length]).casefold()
                 return Token(text, index, quantity=(quantity, number * factor)), 1 + length
     return Token(words[at], index, number=number), 1
