@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.scenes.sentences import parse_prompt
 
-<<<<<<< HEAD
 from texvent.scenes.description import ObjectMotion, SceneDescription, SceneObject
-=======
->>>>>>> read
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize

@@ -7,7 +7,6 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from tests.scenes.sentences import parse_prompt
 
 from texvent.scenes.description import (
     NamedColour,
