@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.support_surface import top_heights
 from texvent.scenes.scene import Float64Array, Shape
 from texvent.scenes.staging.actors import Actor
 
@@ -64,11 +63,3 @@ def gap(first: Boxes, second: Boxes) -> float:
         first.low[:, None] - second.high[None], second.low[None] - first.high[:, None]
     )
     return float(np.linalg.norm(np.maximum(apart, 0.0), axis=2).min())
-
-
-def top_below(actor: Actor, time_s: float, spot: Float64Array) -> float:
-    """Height of an upright body's highest surface over a ground point [2], m; -inf: none."""
-    to_world = actor.trajectory.at(time_s).to_world()
-    own = to_world[:, :3].T @ (np.array([*spot, 0.0]) - to_world[:, 3])
-    top = top_heights(own_parts(actor, time_s), own[:1], own[1:2])[0]
-    return float(top + to_world[2, 3])
