@@ -14,10 +14,10 @@ from typing import Any, Literal
 
 from texvent.scenes.scene import Colour, Ground, Texture
 
-Where = Literal["around", "wall", "under", "both sides", "water", "far", "route"]
+Where = Literal["around", "walls", "under", "both sides", "water", "far", "route"]
 """Where scenery stands."""
 _SCALES: Mapping[str, tuple[float, float]] = {
-    "wall": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0),
+    "walls": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0),
 }  # fmt: skip
 """Usual multiples of its size, of what does not stand around."""
 ROAD_GROUNDS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)

@@ -311,6 +311,6 @@ def _set_up(
     """Scenery in view, and along the route of a camera that travels."""
     if view.travel is None:
         return scatter(rules, view, actors, nouns, rng=rng, taken=taken)
-    lined = line_route(rules, view.travel, actors, nouns, rng=rng, road_half_m=view.road_half_width)
+    lined = line_route(rules, view, view.travel, actors, nouns, rng)
     far = [rule for rule in rules if is_placed_by_view(rule)]
     return lined + scatter(far, view, actors, nouns, rng=rng, taken=taken)

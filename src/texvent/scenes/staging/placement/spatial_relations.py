@@ -129,7 +129,7 @@ def _is_sheltered(target: ObjectGroup, spot: Float64Array, radius_m: float, tall
 def _place_between(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     """In the middle, where `object_placement` has left room between them."""
     x, y, _ = np.mean([target.centre for target in targets], axis=0)
-    return Goal(np.array([x, y, height]), _FIXED)
+    return Goal(np.array([x, y, height]), _FIXED if len(targets) == 1 else -_AWAY)
 
 
 def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
@@ -187,7 +187,7 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "towards": (x * along[0], y * along[1], _AWAY),
         "overtake": (0.0, y + _CLEAR_M, _AWAY),
         "past": beside,
-        "beside": beside if goes else (x, level, _ALONG_X),
+        "beside": (_stop_m(subject), *beside[1:]) if is_aside else (x, level, _ALONG_X),
         "with": (ahead * along[0], y + 0.1, _AWAY) if is_aside else (x, level, _ALONG_X),
         "left of": (x, level, _ALONG_X),
         "right of": (-x, level, -_ALONG_X),
@@ -196,6 +196,15 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
+
+
+def _stop_m(subject: ObjectGroup) -> float:
+    """How far to the right of its middle the nose of what comes to rest gets, m; 0 = it goes on."""
+    last = (subject.plan.motion, *subject.scene_object.then)[-1]
+    if last.end_pace != 0.0 and (last.kind != "stand" or not subject.scene_object.then):
+        return 0.0
+    reach = float(subject.half[0]) - 0.1 * subject.models[0].length
+    return math.copysign(reach, math.cos(subject.plan.yaw))
 
 
 def _hide_before(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:

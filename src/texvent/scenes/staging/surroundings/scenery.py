@@ -124,7 +124,7 @@ def scatter(
             item = _lay_out(rule, noun, view, actors, bodies, rng)
             items += [item] if item is not None else []
             continue
-        must_show = number == 0 and rule.where == "wall"
+        must_show = number == 0 and rule.where == "walls"
         for copy in range(rule.count):
             model = build(rule, noun, copy, rng, _fit_scale(rule, view))
             item = _find_place(rule, model, view, bodies, items, rng, must_show=must_show)
@@ -235,13 +235,13 @@ def _find_place(
     """A free place for a piece; one that must show is in view, if it can be."""
     for attempt in range(ATTEMPTS):
         camera = view.cameras[int(rng.integers(len(view.cameras)))]
-        if rule.where == "wall":
+        if rule.where == "walls":
             item = _stand_at_wall(rule, model, camera, view.room_m, rng)
             if must_show and 2 * attempt < ATTEMPTS and not _is_in_view(item, camera):
                 continue
         else:
             item = _stand_around(rule, model, camera, view, rng)
-        if _is_free(item, rule, view, bodies, items):
+        if is_free(item, rule, view, bodies, items):
             return item
     return None
 
@@ -304,7 +304,7 @@ def _draw_reach(
     return flat * (1.0 + float(rng.uniform(near, far)))
 
 
-def _is_free(
+def is_free(
     item: SceneryItem,
     rule: Scenery,
     view: ViewClearance,
