@@ -128,7 +128,7 @@ _MODULES = (
 )
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
     {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}
-    | BODY_FAMILIES
+    | dict(BODY_FAMILIES)
 )
 """Nouns by family, such as "vehicles cars"."""
 

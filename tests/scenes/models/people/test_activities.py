@@ -15,7 +15,6 @@ from texvent.scenes.models.people.activities import (
     PERSON_NOUNS,
     TRAVELLING,
 )
-from texvent.scenes.models.people.creatures import nouns as creatures
 from texvent.scenes.models.people.gestures import GESTURES, PALM_HALF
 from texvent.scenes.models.people.hand import build_hand
 from texvent.scenes.models.people.hand_gestures import HAND_MOVEMENTS
@@ -231,7 +230,7 @@ def test_ease_and_pulse_by_hand() -> None:
 
 
 def test_people_nouns_are_those_with_limbs() -> None:
-    people = (*person.NOUNS, *nouns.NOUNS, *creatures.NOUNS)
+    people = (*person.NOUNS, *nouns.NOUNS)
     assert {noun.name for noun in people} == PERSON_NOUNS
 
 

@@ -70,7 +70,7 @@ def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> Mo
     long, kind = build.ear
     material = coat.ears
     root = (x - 0.05 * skull, side * 0.28 * skull, z + 0.30 * skull)
-    if kind == "fan":
+    if kind == "broad":
         middle = (x - 0.40 * skull, side * (0.70 + 0.15 * twitch) * skull, z - 0.10 * skull)
         return moved(
             [ball(coat.dark, middle, (0.95 * long, 0.12 * skull, 1.15 * long))],
