@@ -84,7 +84,7 @@ def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     from texvent.scenes.models.effects import EFFECTS
     from texvent.scenes.models.motions import MOTIONS
     from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
-    from texvent.scenes.staging.surroundings.places import PLACES
+    from texvent.scenes.models.places import PLACES
 
     usual = {kind for noun in nouns.values() for kind in (noun.motion, *noun.acts)}
     return {

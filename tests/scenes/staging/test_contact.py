@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from texvent.scenes.language.parser import parse_prompt
-from texvent.scenes.models.people.daily import SEAT
+from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import ComposedScene, compose_scene

@@ -13,7 +13,7 @@ from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.wrapped.opened import OpenedModel
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.claims.bodies import part_boxes
+from texvent.scenes.staging.body_boxes import part_boxes
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 

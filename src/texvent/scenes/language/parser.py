@@ -36,10 +36,8 @@ from texvent.scenes.language.posing import lose_standing
 from texvent.scenes.language.vocabulary.film import GREYSCALE
 from texvent.scenes.language.vocabulary.scene import TIMELAPSES
 from texvent.scenes.language.word_claims import (
-    CROWDED,
     is_silent,
     is_unread,
-    list_claims,
     says_something,
 )
 from texvent.scenes.language.words.english import is_of_other_grammar, list_readings
@@ -122,7 +120,6 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         shown=shown,
         substituted=substituted,
         not_understood=unread,
-        claims=list_claims(words, is_crowded=len(description.objects) >= CROWDED),
         notes=(*notes, *description.notes),
     )
     return complete_description(description, nouns, cues)

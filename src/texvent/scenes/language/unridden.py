@@ -26,12 +26,6 @@ def _list_ridden(description: SceneDescription) -> set[int]:
         if relation.kind in RIDES
         for target in relation.targets
     }
-    ridden |= {
-        index
-        for claim in description.claims
-        for index in claim.things
-        if claim.word.removesuffix("s") in _RIDERS
-    }
     return ridden | {one.subject for one in description.relations if one.kind == "collide"}
 
 

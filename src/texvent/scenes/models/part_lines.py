@@ -43,7 +43,8 @@ _AXES = {
     **dict.fromkeys(_RODS, "xyzxyz--"),
     **dict.fromkeys(_SPANNED, "xyzxyzxyzxyz"),
     "bar": "xyzyz--", "disc": "xyz--", "frame": "xyz----", "ring": "xyz------", "lathe": "xyz",
-    "bits": "xyz---", "chain": "-" + 40 * "xyz", "wheel": "xyz--", "thin-wheel": "xyz--", "spoked-wheel": "xyz--",
+    "bits": "xyz---", "chain": "-" + 40 * "xyz", "wheel": "xyz--",
+    "thin-wheel": "xyz--", "spoked-wheel": "xyz--",
 }  # fmt: skip
 """Shape → the axis that each number of a line is along, "-" for lengths."""
 _ROUNDED = 0.6
@@ -67,11 +68,18 @@ def read_parts(text: str) -> tuple[tuple[Placed, ...], list[Wheel]]:
                     wheels.append(_wheel(shape, _count(values, 5)))
                 else:
                     drawn += _read_one(shape, surface, values, more)
+            _check(drawn)
         except (ValueError, IndexError, KeyError, ZeroDivisionError) as error:
             raise ValueError(f"parts, {line!r}: {error}") from None
         for turn in turns:
             parts += [replace(one, to_body=compose(turn, one.to_body)) for one in drawn]
     return tuple(parts), wheels
+
+
+def _check(parts: Sequence[Placed]) -> None:
+    """Refuse shapes without a volume."""
+    if any(np.linalg.det(one.to_body[:, :3]) <= 0.0 for one in parts):
+        raise ValueError("its sizes must be positive")
 
 
 def _whole_lines(text: str) -> list[str]:
@@ -92,6 +100,8 @@ _Words = tuple[str, str, list[str]]
 def _split(line: str) -> _Words:
     """Shape, surface and the rest; a surface may be written in brackets."""
     shape, *rest = line.split()
+    if len(rest) < 2:
+        raise ValueError("a line is a shape, a surface and numbers")
     if shape not in _AXES:
         raise ValueError(f"unknown shape {shape!r}; there are {', '.join(_AXES)}")
     if shape.endswith("wheel"):
@@ -147,7 +157,7 @@ def _written_out(words: _Words) -> Iterator[tuple[str, str, list[float], list[fl
 def _value(word: str, sign: float) -> float | str:
     if word[0] == "±":
         return sign * read_number(word[1:])
-    return word if word.isalpha() or word[0] in ".#" and word.strip(".#/") == "" else read_number(word)
+    return word if word.isalpha() or not word.strip(".#/") else read_number(word)
 
 
 def _count(values: Sequence[float], *counts: int) -> Sequence[float]:
@@ -254,7 +264,9 @@ def _ring(surface: str, values: list[float], more: Sequence[float | str]) -> Ite
     for step in range(pieces + 1):
         angle = math.radians(first + (last - first) * step / pieces)
         a, b = right * math.cos(angle), up * math.sin(angle)
-        points.append({"x": (x, y + a, z + b), "y": (x + a, y, z + b), "z": (x - b, y + a, z)}[axis])
+        points.append(
+            {"x": (x, y + a, z + b), "y": (x + a, y, z + b), "z": (x - b, y + a, z)}[axis]
+        )
     yield from _limbs(surface, points, thick, thick)
 
 

@@ -24,7 +24,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -41,7 +41,8 @@ from texvent.scenes.models.variation import choose
 from texvent.scenes.scene import Colour
 
 _KEYS = frozenset({"names", "plurals", "place", "habitat", "speed", "motion", "works", "colours",
-                   "varied", "surfaces", "parts", "moving", "laid", "variants", "rider"})  # fmt: skip
+                   "varied", "surfaces", "parts", "moving", "laid", "variants",
+                   "rider"})  # fmt: skip
 _HABITATS = ("ground", "air", "water", "fixed")
 _GREY = "(.4 .4 .4)"
 
@@ -100,7 +101,7 @@ class PartsBuilder:
         groups, named = [], dict[str, tuple[Joint, ...]]()
         for number, moving in enumerate(self.table.get("moving", ()), 1):
             parts, more = self._read(moving.get("parts", ""))
-            if not parts and not more or not {"joint", "light"} & set(moving):
+            if not (parts or more) or not {"joint", "light"} & set(moving):
                 self._fail(f"moving part {number} needs 'parts' and a 'joint' or a 'light'")
             groups.append(self._group(moving, parts, named))
             wheels += more
@@ -171,7 +172,7 @@ class PartsBuilder:
         every = [rigid, *chosen, *(group.parts for group in groups)]
         return frozenset(one.surface for parts in every for one in parts)
 
-    def _fail(self, what: str) -> Any:
+    def _fail(self, what: str) -> NoReturn:
         raise FileFormatError(f"{self.where}: {what}") from None
 
 
@@ -237,7 +238,9 @@ def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
 def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
     for key in table:
         if key not in _KEYS:
-            raise FileFormatError(f"{where}: unknown key {key!r}; known: {', '.join(sorted(_KEYS))}")
+            raise FileFormatError(
+                f"{where}: unknown key {key!r}; known: {', '.join(sorted(_KEYS))}"
+            )
     habitat = table.get("habitat", "fixed")
     if habitat not in _HABITATS:
         known = ", ".join(_HABITATS)

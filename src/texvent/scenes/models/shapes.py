@@ -111,42 +111,11 @@ def fin(
     return part(Shape.CONE, material, placed_spanned(base, tip, chord, thickness))
 
 
-def upright_fin(
-    material: Material, base: Point, tip: Point, chord: float, thick: float
-) -> ModelPart:
-    """A fin whose root runs along x, such as a tail plane: chord and thickness in m."""
-    return fin(material, base, tip, chord=(chord, 0.0, 0.0), thickness=(0.0, thick, 0.0))
-
-
 def plank(
     material: Material, start: Point, end: Point, *, chord: Point, thickness: Point
 ) -> ModelPart:
     """A slanted box spanned by three vectors: wings, roofs, blades."""
     return part(Shape.BOX, material, placed_spanned(start, end, chord, thickness))
-
-
-def gable(material: Material, base: Point, size: Point) -> ModelPart:
-    """The triangle under a roof whose ridge runs along y: a diamond, its lower half in the wall.
-
-    Args:
-        material: its surface.
-        base: middle of the triangle's foot, m.
-        size: full extents of the triangle: along x, along y, and its height, m.
-
-    Returns:
-        The part.
-    """
-    x, y, z = base
-    half, width, rise = 0.5 * size[0], size[1], size[2]
-    start, end = (x + 0.5 * half, y, z - 0.5 * rise), (x - 0.5 * half, y, z + 0.5 * rise)
-    return plank(material, start, end, chord=(half, 0.0, rise), thickness=(0.0, width, 0.0))
-
-
-def level_wing(
-    material: Material, start: Point, end: Point, chord: float, thick: float
-) -> ModelPart:
-    """A level plank whose chord runs along x; chord and thickness in m."""
-    return plank(material, start, end, chord=(chord, 0.0, 0.0), thickness=(0.0, 0.0, thick))
 
 
 def blade(
@@ -253,7 +222,10 @@ def _about(rotation: Affine, pivot: Point) -> Affine:
 
 
 def placed_between(start: Point, end: Point, radius: float, side: float, overlap: float) -> Affine:
-    """The map of a unit shape between two points: local z from start to end; local y as near to body y as it can be."""
+    """The map of a unit shape between two points.
+
+    Its local z runs from start to end; its local y is as near to body y as it can be.
+    """
     dx, dy, dz = end[0] - start[0], end[1] - start[1], end[2] - start[2]
     length = max(math.sqrt(dx * dx + dy * dy + dz * dz), 1e-9)
     dx, dy, dz = dx / length, dy / length, dz / length

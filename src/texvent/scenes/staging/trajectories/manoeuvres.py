@@ -1,4 +1,4 @@
-"""Bends of what steers, as pieces of a path: an arc, a zigzag, a change of lanes, into a bay."""
+"""Bends of what steers, as pieces of a path: an arc, a zigzag, into a parking bay."""
 
 from __future__ import annotations
 
@@ -11,12 +11,8 @@ from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
 QUARTER = 0.5 * math.pi
 ZIGZAG_RAD = 0.55
-LANE_M = 3.0
-"""From the middle of a lane to that of the next, m."""
 _RAMP_S = 0.3
 _SAMPLES = 41
-_MOST_SLANT = 0.6
-"""Most angle to the road of who changes lanes, radians."""
 
 
 def arc(span: float, speed: float, angle: float, least_m: float, activity: str) -> list[Piece]:
@@ -52,22 +48,11 @@ def zigzag(span: float, speed: float, activity: str, *, is_first: bool) -> list[
     return pieces
 
 
-def change_lane(
-    span: float, speed: float, sign: float, least_m: float, activity: str
-) -> list[Piece]:
-    """One bend and the opposite one; `sign` 1 = into the lane to its left."""
-    half = 0.38 * span
-    angle = sign * min(LANE_M / max(abs(speed) * half, 1e-6), _MOST_SLANT)
-    straight = Piece(0.12 * span, speed, activity=activity)
-    there = arc(half, speed, angle, least_m, activity)
-    return [straight, *there, *arc(half, speed, -angle, least_m, activity), straight]
-
-
-def park(span: float, speed: float, sign: float, least_m: float, activity: str) -> list[Piece]:
+def park(span: float, speed: float, angle: float, least_m: float, activity: str) -> list[Piece]:
     """Along, round into a bay at its side, and to rest."""
     along = Piece(0.2 * span, speed, activity=activity)
     into = Piece(0.35 * span, 0.0, ramp_s=0.3 * span, activity=activity)
-    return [along, *arc(0.45 * span, speed, sign * QUARTER, least_m, activity), into]
+    return [along, *arc(0.45 * span, speed, angle, least_m, activity), into]
 
 
 def bend_path(yaw: float, speed_m_s: float, curvature: float, duration_s: float) -> SteeredPath:
@@ -76,9 +61,14 @@ def bend_path(yaw: float, speed_m_s: float, curvature: float, duration_s: float)
     yaw -= 0.5 * turn * duration_s
     piece = Piece(duration_s, speed_m_s, turn, ramp_s=0.0)
     path = SteeredPath((0.0, 0.0, 0.0), yaw, (piece,), speed_m_s, turn)
+    return centred(path, duration_s)
+
+
+def centred(path: SteeredPath, duration_s: float) -> SteeredPath:
+    """The same path with its box over (0, 0)."""
     places = sample_places(path, duration_s)
     middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
-    return replace(path, start=(-float(middle[0]), -float(middle[1]), 0.0))
+    return replace(path, start=(-float(middle[0]), -float(middle[1]), path.start[2]))
 
 
 def sample_places(path: SteeredPath, duration_s: float) -> np.ndarray:
