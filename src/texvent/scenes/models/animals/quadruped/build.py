@@ -38,7 +38,7 @@ class Build:
     """Thickness of the legs relative to a dog's."""
     mane: str = ""
     """ "", "ridge", "full"."""
-    trunk: float = 0.0
+    trunk_length: float = 0.0
     """Length of an elephant's trunk."""
     hop: float = 0.0
     """Height of a rabbit's hop."""
