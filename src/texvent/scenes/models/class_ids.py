@@ -14,7 +14,7 @@ BACKGROUND = 0
 """Class of what is no object: ground, sky, walls, scenery without an id."""
 UNNAMED = 1000
 """Class of an object whose name is not known."""
-FIRST_OTHER = 1001
+FIRST_OTHER = 2001
 """Numbers of names that are no nouns of the embedded generator begin here."""
 
 
@@ -39,7 +39,7 @@ def class_ids_of(names: Iterable[str]) -> dict[str, int]:
 
     Example:
         >>> class_ids_of(["zeppelin", "dirigible"])
-        {'dirigible': 1001, 'zeppelin': 1002}
+        {'dirigible': 2001, 'zeppelin': 2002}
     """
     asked = set(names)
     others = enumerate(sorted(asked - CLASS_IDS.keys()), start=FIRST_OTHER)

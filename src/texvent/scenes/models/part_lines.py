@@ -47,6 +47,8 @@ _AXES = {
     "thin-wheel": "xyz--", "spoked-wheel": "xyz--",
 }  # fmt: skip
 """Shape → the axis that each number of a line is along, "-" for lengths."""
+_WORDS = frozenset({"lean", "turn", "map", "about", "rows"})
+"""Words with which the options of a line begin."""
 _ROUNDED = 0.6
 """How far a limb reaches beyond its joints, in its half thicknesses."""
 
@@ -135,26 +137,26 @@ def _written_out(words: _Words) -> Iterator[tuple[str, str, list[float], list[fl
             raise ValueError("'times' needs a number and a step along x, y and z")
         rest = rest[:at]
     axes = _AXES[shape].ljust(len(rest), "-")
-    first_word = next((n for n, one in enumerate(rest) if one.isalpha() and len(one) > 1), 999)
-    mirrored = [axes[n] for n, one in enumerate(rest) if one[0] == "±" and n < first_word]
+    first_word = next((n for n, one in enumerate(rest) if one in _WORDS), len(rest))
+    mirrored = [axes[n] for n, one in enumerate(rest[:first_word]) if one[0] == "±"]
     signs_of = [(1.0, -1.0) if axis in mirrored else (1.0,) for axis in "xyz"]
     for copy, signs in itertools.product(range(count), itertools.product(*signs_of)):
         by_axis = dict(zip("xyz", signs, strict=True))
         values: list[float] = []
-        more: list[float | str] = []
-        for n, one in enumerate(rest):
-            is_turned = n > first_word
-            sign = math.prod(signs) if is_turned else by_axis.get(axes[n], 1.0)
-            value = _value(one, sign)
-            if n >= first_word or isinstance(value, str):
-                more.append(value)
-                continue
+        for n, one in enumerate(rest[:first_word]):
+            value = (
+                by_axis.get(axes[n], 1.0) * read_number(one[1:])
+                if one[0] == "±"
+                else read_number(one)
+            )
             is_point = axes[n] in by_axis and not (shape in _SPANNED and n >= 6)
             values.append(value + (copy * step["xyz".index(axes[n])] if is_point else 0.0))
+        more = [_option(one, math.prod(signs)) for one in rest[first_word:]]
         yield shape, surface, values, more
 
 
-def _value(word: str, sign: float) -> float | str:
+def _option(word: str, sign: float) -> float | str:
+    """A number after the first word of a line, or a word: an axis, rows of bits."""
     if word[0] == "±":
         return sign * read_number(word[1:])
     return word if word.isalpha() or not word.strip(".#/") else read_number(word)
@@ -196,14 +198,14 @@ def _point(values: Sequence[float]) -> Point:
 def _solid(centre: Point, size: Sequence[float], more: Sequence[float | str]) -> Affine:
     """An upright solid, slanted by "lean" or turned about its middle by "turn"."""
     to_body = placed_upright((0.0, 0.0, 0.0), _point(size))
-    for word, *_ in [more[:1]] if more else []:
-        if word == "lean":
-            to_body[0, 2] = float(more[1]) * to_body[2, 2]
-        elif word == "turn":
-            for axis, angle in zip("xyz", more[1:4], strict=True):
-                to_body = compose(turn_about(axis, math.radians(float(angle))), to_body)
-        else:
-            raise ValueError(f"unknown word {word!r}; there are 'lean', 'turn' and 'map'")
+    word = more[0] if more else ""
+    if word == "lean":
+        to_body[0, 2] = float(more[1]) * to_body[2, 2]
+    elif word == "turn":
+        for axis, angle in zip("xyz", more[1:4], strict=True):
+            to_body = compose(turn_about(axis, math.radians(float(angle))), to_body)
+    elif word:
+        raise ValueError(f"{word!r} is not for it; there are 'lean', 'turn' and 'map'")
     return compose(shift(*centre), to_body)
 
 

@@ -58,7 +58,7 @@ class _Group:
     """Axis, least and greatest coordinate between which its boxes are seen, m."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PartsBuilder:
     """Builds the models of one noun; implements `protocol.ModelBuilder`."""
 
