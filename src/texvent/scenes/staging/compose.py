@@ -111,8 +111,7 @@ class ComposedScene:
             ]
         )
         lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
-        puffs = [np.zeros((0, PUFF_COLUMNS)), *self.lamps.puffs(time_s)]
-        puffs += [effect.puffs(time_s) for effect in effects]
+        puffs = [np.zeros((0, PUFF_COLUMNS)), *(effect.puffs(time_s) for effect in effects)]
         surroundings = self.animated_environment.at(time_s)
         return replace(
             surroundings,
