@@ -25,7 +25,10 @@ def _read() -> Mapping[str, Any]:
     found: dict[str, Any] = {}
     for file in sorted(folder.iterdir(), key=lambda one: one.name):
         if file.name.endswith(".toml"):
-            found.update(tomllib.loads(file.read_text(encoding="utf-8")))
+            own = tomllib.loads(file.read_text(encoding="utf-8"))
+            if common := found.keys() & own:
+                raise ValueError(f"{file.name}: traits {sorted(common)} are in another file, too")
+            found.update(own)
     return found
 
 
