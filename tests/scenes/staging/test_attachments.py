@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 from texvent.scenes.staging.claims.contact import is_in, rides, touches
 
-from tests.scenes.sentences import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
