@@ -72,6 +72,22 @@ def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
     return NOUNS if assets is None else merge_nouns(read_folder(Path(assets)))
 
 
+def nouns_of(subject: Subject, nouns: Mapping[str, Noun]) -> Mapping[str, Noun]:
+    """The nouns that a subject can name: those of a scene's own models too.
+
+    Raises:
+        ConfigError: a field of the scene is wrong.
+        InputError: a model does not exist.
+    """
+    from texvent.scenes.assets import with_models
+
+    if not isinstance(subject, Scene):
+        return nouns
+    scene = checked_scene(subject, {})
+    models = {one.noun: one.model for one in scene.objects if one.model is not None}
+    return with_models(nouns, models) if models else nouns
+
+
 def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     """The words of scenes, by kind: nouns, motions and activities, places, effects."""
     from texvent.scenes.models.effects import EFFECTS

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from tests.scenes.assets.glb_writer import GlbWriter, write_bar, write_slider
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.assets import check_files, load_model, merge_nouns, read_folder
 from texvent.scenes.assets.index import Asset, name_of
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
+from texvent.scenes.spec.files import load_scene
 from texvent.sensor import SensorSize
 
 
@@ -39,6 +40,32 @@ def corners_at(asset: Asset, time_s: float, activity: str = "move") -> np.ndarra
 )
 def test_names_come_from_file_names(name: str, noun: str) -> None:
     assert name_of(Path(name)) == noun
+
+
+def test_a_scene_brings_models_by_path(tmp_path: Path) -> None:
+    write_bar(tmp_path / "bar.glb")
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        '[[objects]]\nnoun = "weathercock"\nmodel = "bar.glb"\n[[objects]]\nnoun = "car"'
+    )
+    scene = load_scene(path)
+    assert scene.objects[0].model == str(tmp_path.resolve() / "bar.glb")
+    config = ProceduralConfig(duration=0.1)
+    generator = ProceduralGenerator(config, size=SensorSize(48, 36))
+    video = generator.generate(scene)
+    assert set(video.class_names.values()) == {"weathercock", "car"}
+    assert video.metadata["files"][0]["file"] == scene.objects[0].model
+    assert {part.mesh is not None for part in video.scene.actors[0].place(0.0).parts} == {True}
+    for model, message in (("no.glb", "does not exist"), ("bar.stl", r"must end in \.glb")):
+        path.write_text(f'[[objects]]\nnoun = "bar"\nmodel = "{model}"')
+        with pytest.raises(InputError, match=message):
+            generator.generate(load_scene(path))
+    two = '[[objects]]\nnoun = "car"\n'
+    path.write_text(f'{two}{two}model = "bar.glb"')
+    with pytest.raises(
+        ConfigError, match=r"objects\[1\]\.model is .*, but objects\[0\] is 'car' too"
+    ):
+        load_scene(path)
 
 
 def test_a_skin_bends_with_its_joint(tmp_path: Path) -> None:
@@ -219,3 +246,23 @@ def test_damaged_obj_and_ply_files_are_one_clear_line(tmp_path: Path) -> None:
             load_model(Asset(path, "thing"))
         assert "\n" not in str(caught.value)
         assert name in str(caught.value)
+
+
+def test_a_list_of_parts_is_an_asset_too(tmp_path: Path) -> None:
+    (tmp_path / "own.toml").write_text(
+        '[gizmo]\nnames = ["widget"]\nhabitat = "ground"\nspeed = 2\nmotion = "roll"\n'
+        'parts = "wheel 0 0 .3  .3 .1"\n[car]\nparts = "box red  0 0 1  1 1 2"\n'
+    )
+    nouns = merge_nouns(read_folder(tmp_path))
+    assert (nouns["gizmo"].synonyms, nouns["gizmo"].speed_m_s) == (("widget",), 2.0)
+    assert nouns["gizmo"].build(colour=None, scale=2.0, seed=0).height == pytest.approx(1.2)
+    assert len(nouns["car"].build(colour=None, scale=1.0, seed=0).parts(Pose(0, 0, 0))) == 1
+
+
+def test_the_pack_of_more_nouns_is_whole() -> None:
+    pack = Path(__file__).parents[3] / "packs" / "more-nouns"
+    assets = read_folder(pack)
+    assert len(assets) > 400
+    nouns = merge_nouns(assets)
+    for asset in assets[::9]:
+        assert nouns[asset.noun].build(colour=None, scale=1.0, seed=0).height > 0.0

@@ -25,7 +25,7 @@ ACTIONS = ("list", "show", "--schema")
 LIST_HELP = """List what prompts of the embedded generator can name: nouns by family, with
 their other names; models of a folder of your own come first."""
 SHOW_HELP = """Draw one noun as a PNG image: four views around it, or one with --views 1."""
-SCHEMA_HELP = """Print the JSON Schema of scene files (docs/scene-files.md), by which editors
+SCHEMA_HELP = """Print the JSON Schema of scene files (docs/scenes.md), by which editors
 complete and check them."""
 SIZE = SensorSize(320, 240)
 _TURN_S = 2.0

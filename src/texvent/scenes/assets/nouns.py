@@ -11,13 +11,14 @@ from types import MappingProxyType
 
 import numpy as np
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, shown
 from texvent.scenes.assets.figure import Figure, RigidFigure
 from texvent.scenes.assets.gltf_figure import GltfFigure
-from texvent.scenes.assets.index import Asset
+from texvent.scenes.assets.index import ENDINGS, Asset
 from texvent.scenes.assets.trimesh_files import load_with_trimesh
 from texvent.scenes.mesh import Colour, Float64Array
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
+from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.variation import choose
 from texvent.scenes.scene import Shape, Texture
@@ -81,6 +82,19 @@ class AssetModel:
                 ModelPart(Shape.MESH, to_body, (1.0, 1.0, 1.0), texture=Texture.PLAIN, mesh=mesh)
             )
         return found
+
+
+@lru_cache(maxsize=KEPT_FILES)
+def _read_parts(path: Path, changed_ns: int) -> Mapping[str, Noun]:
+    del changed_ns
+    return {noun.name: noun for noun in read_nouns(path)}
+
+
+def _part_noun(asset: Asset) -> Noun | None:
+    """The noun of an asset that is a list of parts; None: it is a mesh."""
+    if asset.path.suffix.lower() != ".toml":
+        return None
+    return _read_parts(asset.path, asset.path.stat().st_mtime_ns)[asset.noun]
 
 
 def load_model(
@@ -186,6 +200,9 @@ class _Builder:
         if not (math.isfinite(scale) and scale > 0.0):
             raise InputError(f"scale must be a positive number but got {scale!r}")
         asset = choose(seed, "asset", self.assets)
+        listed = _part_noun(asset)
+        if listed is not None:
+            return listed.build(colour=colour, scale=scale, seed=seed)
         return load_model(asset, colour=colour, scale=scale, is_centred=self.is_centred)
 
 
@@ -204,7 +221,25 @@ def merge_nouns(assets: Iterable[Asset]) -> Mapping[str, Noun]:
     return MappingProxyType(own | embedded)
 
 
+def with_models(nouns: Mapping[str, Noun], models: Mapping[str, str]) -> Mapping[str, Noun]:
+    """All nouns, some of them as the model of a file: noun → path.
+
+    Raises:
+        InputError: a path is no model, or there is no such file.
+    """
+    for noun, path in models.items():
+        if Path(path).suffix.lower() not in ENDINGS:
+            raise InputError(f"the model {path} of {shown(noun)} must end in {', '.join(ENDINGS)}")
+        if not Path(path).is_file():
+            raise InputError(f"the model {path} of {shown(noun)} does not exist")
+    own = {noun: _noun(noun, (Asset(Path(path), noun),)) for noun, path in models.items()}
+    return MappingProxyType({**nouns, **own})
+
+
 def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:
+    listed = _part_noun(assets[0])
+    if listed is not None:
+        return replace(listed, build=_Builder(assets, is_centred=False))
     first, usual = assets[0], usual_noun(name)
     habitat = first.habitat or (usual.habitat if usual is not None else "fixed")
     is_fixed = habitat == "fixed"

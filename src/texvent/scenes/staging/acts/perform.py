@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import RIDES, Relation, SceneDescription
+from texvent.scenes.models.people.outfit import CLOTHES
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts import pushing, striking
@@ -117,7 +118,7 @@ def _stow(cast: Cast, relation: Relation, at: int) -> None:
     where = trait_value(place, vehicle.noun.name)
     for number in cast.copies(relation.targets[0]):
         thing = cast.get(number)
-        if where is None or thing.noun.name in nouns_with("clothes of the body"):
+        if where is None or thing.noun.name in CLOTHES:
             cast.put(number, None)
             continue
         x, y, z = scaled(where, size_of(vehicle.model))

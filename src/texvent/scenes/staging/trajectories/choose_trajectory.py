@@ -33,7 +33,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Facing,
     Rolling,
     Shuttle,
-    Slipping,
     Stationary,
     Straight,
     Trajectory,
@@ -77,7 +76,9 @@ def choose_trajectory(
     if clear_m > 0.0:
         return _leap(plan, model, home, clear_m)
     if plan.path is not None:
-        path = _shift_path(plan.path, model, home)
+        path: Trajectory = _shift_path(plan.path, model, home)
+        if plan.radius_m:
+            path = Rolling(path, plan.radius_m, plan.radius_m)
         return Facing(path) if plan.is_facing else path
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
@@ -151,8 +152,8 @@ def _drift(plan: MotionPlan, home: Vector) -> Trajectory:
     speed, duration_s = 1.2 * plan.speed_m_s, plan.duration_s
     path = bend_path(plan.yaw, speed, _DRIFT_TURN_RAD / (duration_s * speed), duration_s)
     x, y, _ = path.start
-    path = replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=home[2])
-    return Slipping(path, _SLIP_RAD)
+    start = (x + home[0], y + home[1], home[2])
+    return replace(path, start=start, floor_m=home[2], slip_rad=_SLIP_RAD)
 
 
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:

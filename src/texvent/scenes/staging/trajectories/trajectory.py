@@ -249,20 +249,6 @@ class Facing:
 
 
 @dataclass(frozen=True)
-class Slipping:
-    """Goes along a path, turned into the bend from where it goes."""
-
-    path: Trajectory
-    slip_rad: float
-    """Positive = its front to the left."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        state = self.path.at(time_s)
-        return replace(state, yaw=state.yaw + self.slip_rad)
-
-
-@dataclass(frozen=True)
 class Riding:
     """Sits at a fixed place on another body and goes where that goes."""
 
