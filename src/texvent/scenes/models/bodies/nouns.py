@@ -1,7 +1,7 @@
 """Nouns of bodies that bend or depend on the seed, from the TOML files of `data/bodies/`.
 
 An entry has the keys of a noun (names, plurals, place, habitat, motion, speed, works), `size`, and
-those of a four-legged animal, which `animals.quadruped.build` describes, or of a figure:
+those of a four-legged animal, which `quadruped.build` describes, or of a figure:
 
     colours    {paint = ["(.5 .3 .1)"]}: usual ones; the one that a prompt says takes their place
     surfaces   {wing = "paint*.8 feathers"}
@@ -27,9 +27,9 @@ from typing import Any
 
 from texvent.errors import FileFormatError, InputError
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
-from texvent.scenes.models.animals.quadruped.body import build_quadruped
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.bodies.figure import build_figure
+from texvent.scenes.models.bodies.quadruped.body import build_quadruped
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import Colour
 
