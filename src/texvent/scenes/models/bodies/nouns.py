@@ -14,6 +14,8 @@ those of a four-legged animal, which `quadruped.build` describes, or of a figure
     gait, legs, bob    {stride, duty, lift}, see `limbs.Legs`; how far the body is lifted m, how
                often each stride, how late
     like       an entry above, whose keys it has where it has none of its own
+
+What stands above a file's first entry holds for all of them.
 """
 
 from __future__ import annotations
@@ -33,13 +35,14 @@ from texvent.scenes.models.bodies.quadruped.body import build_quadruped
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import Colour
 
-_WALKER = {"habitat": "ground", "motion": "walk"}
-
 
 def _read_family(text: str) -> tuple[Noun, ...]:
+    tables = tomllib.loads(text)
+    usual = {key: value for key, value in tables.items() if not isinstance(value, Mapping)}
     entries: dict[str, Mapping[str, Any]] = {}
-    for noun, entry in tomllib.loads(text).items():
-        model = entries[entry["like"]] if "like" in entry else {}
+    for noun in (key for key in tables if key not in usual):
+        entry = tables[noun]
+        model = entries[entry["like"]] if "like" in entry else usual
         inherited = {key: value for key, value in model.items() if key not in _OWN}
         entries[noun] = _merged(inherited, entry)
     return tuple(_read_noun(noun, entry) for noun, entry in entries.items())
@@ -82,8 +85,7 @@ class BodyBuilder:
             raise FileFormatError(f"data/bodies, {self.name!r}: {error}") from error
 
 
-def _read_noun(name: str, entry: Mapping[str, Any]) -> Noun:
-    table = {**_WALKER, **entry} if "build" in entry else entry
+def _read_noun(name: str, table: Mapping[str, Any]) -> Noun:
     habitat = table.get("habitat", "fixed")
     motion = table.get("motion", "stand")
     is_centred = habitat == "air" or (habitat == "water" and motion == "swim")
