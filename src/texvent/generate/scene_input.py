@@ -39,9 +39,7 @@ class Reading:
 def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """The scene that a sentence describes.
 
-    Nothing is drawn: what a scene hides or has no room for is not found here. The events of a
-    sentence may differ from those of its scene, because the generator then looks for a camera
-    position that shows more of its words.
+    Nothing is drawn: what a scene hides or has no room for is not found here.
 
     Args:
         prompt: an English sentence, such as "a red car drives left past two trees at dusk".

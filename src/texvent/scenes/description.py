@@ -253,7 +253,7 @@ class Surroundings:
     """Where the scene is."""
 
     place: str | None = None
-    """Key of `lexicon_scene.PLACES`; never None after
+    """Key of `models.places.PLACES`; never None after
     `parse_prompt`."""
     colour: NamedColour | None = None
     """Colour of the ground, where the place has a ground to paint."""

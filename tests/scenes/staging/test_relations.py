@@ -187,7 +187,7 @@ def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count: int) -> No
         inwards = (table.middle(0.0) - one.middle(0.0))[:2]
         assert state.activity == "sit"
         assert state.to_world()[:2, 0] @ inwards > 0.4 * np.linalg.norm(inwards)
-        assert any(prop.furniture == "chair" for prop in one.props)
+        assert any(prop.anchor == "ground" for prop in one.props)
         assert overlap(one, table, 0.0) < 0.5
 
 

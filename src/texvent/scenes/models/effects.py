@@ -31,6 +31,9 @@ class EmitterStyle:
     count: int
     life: float = 0.0
     """Of a particle; 0 = without end."""
+    salvo: float | None = None
+    """Whether all are born at once, from a new place and of one colour in each life: the share of
+    a life at time 0; None = one after the other."""
     until_ground: bool = False
     """Whether a particle lives until it reaches the ground instead."""
     speed: float = 0.0
@@ -45,7 +48,7 @@ class EmitterStyle:
     """Radius of the spot that particles start from."""
     fills: Vector | None = None
     """Instead, shares of the body's length, width and height that they start in; where it has a
-    height they fly outwards from its middle."""
+    height, chips fly outwards from its middle."""
     gravity: float = 0.0
     """Share of gravity that acts; below 0 particles rise."""
     wind: float = 0.0
@@ -75,22 +78,6 @@ class EmitterStyle:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FlakeStyle:
-    """Flakes that fall all around; lengths are multiples of the side of the box they fall in."""
-
-    count: int
-    half: Vector
-    """Half extents."""
-    fall_m_s: float
-    sway: float
-    """Distance that a flake swings to the sides."""
-    swing_hz: float
-    turn_hz: float
-    """Rate at which it tumbles."""
-    colours: tuple[Colour, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
 class EffectWords:
     """An effect: its names, where it comes from, and what shows it."""
 
@@ -116,6 +103,8 @@ class EffectWords:
     """Its size where it comes from no object, by the distance of the camera."""
     alone_height: float = 0.0
     """Height at which it then is, above what the camera looks at; 0 = on the ground."""
+    alone_behind: float = 0.0
+    """Distance behind what the camera looks at, by the camera's."""
     anchor: Vector = (0.0, 0.0, 1.0)
     """Where it leaves its object: x and y in half extents, z in heights from below."""
     anchor_traits: tuple[str, ...] = ()
@@ -123,7 +112,6 @@ class EffectWords:
     headroom: float = 0.0
     """Room that it needs in the image above its object, by its size."""
     emitters: tuple[EmitterStyle, ...] = ()
-    flakes: FlakeStyle | None = None
 
 
 def _frozen(value: Any) -> Any:
@@ -143,8 +131,6 @@ def _effect(row: Mapping[str, Any]) -> EffectWords:
         EmitterStyle(**{name: _frozen(value) for name, value in one.items()})
         for one in row.get("emitters", ())
     )
-    if "flakes" in row:
-        fields["flakes"] = FlakeStyle(**{n: _frozen(value) for n, value in row["flakes"].items()})
     return EffectWords(**fields)
 
 

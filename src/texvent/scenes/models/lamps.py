@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Literal
+from typing import Any, Literal
 
 from texvent.scenes.models.traits import trait_values
 
@@ -49,8 +49,6 @@ class Lamp:
     """The glowing part is drawn this much brighter when the lamp is on."""
     is_single: bool = False
     """Whether only the first of its parts sheds light: the parts of one flame are one lamp."""
-    haze_m: float = 0.0
-    """How far its beam is seen from the side in the dark, m; 0 = it is not."""
     own_hz: float = 0.0
     """How often the model itself lets its part shine up and down each second."""
     turns_hz: float = 0.0
@@ -58,11 +56,13 @@ class Lamp:
 
 
 def _read_lamps() -> dict[str, tuple[Lamp, ...]]:
-    kinds = {
-        kind: Lamp(**{name: tuple(v) if isinstance(v, list) else v for name, v in entry.items()})
-        for kind, entry in trait_values("lamp kind").items()
-    }
+    kinds = {kind: _lamp_from(entry) for kind, entry in trait_values("lamp kind").items()}
     return {noun: tuple(kinds[one] for one in own) for noun, own in trait_values("lamps").items()}
+
+
+def _lamp_from(entry: dict[str, Any]) -> Lamp:
+    direction = entry.get("direction")
+    return Lamp(**{**entry, "direction": tuple(direction) if direction else None})
 
 
 LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType(_read_lamps())

@@ -69,8 +69,7 @@ class Pose:
     """Time since the instant of contact of a single act such as a kick, s; None = it repeats."""
     grips: tuple[tuple[str, tuple[float, float, float]], ...] = ()
     """Where "left hand", "right hand", "left foot", "right foot" or "hips" are held, m, in body
-    coordinates; with "neck" (base of the neck), "tip" (where what the right hand holds points to)
-    and "gaze" (what is looked at) the torso bends to its work."""
+    coordinates."""
 
 
 class Model(Protocol):

@@ -70,8 +70,8 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
-    scenery: tuple[str, ...] = ()
-    """Nouns of the scenery, as often as it is there."""
+    still_nouns: tuple[str, ...] = ()
+    """Noun of each shape of `still`."""
     object_of: Mapping[int, int] = field(default_factory=dict)
     """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
@@ -104,8 +104,7 @@ class ComposedScene:
             [self.lamps.rows(time_s), *(effect.lamps(time_s) for effect in effects)]
         )
         lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
-        puffs = [np.zeros((0, PUFF_COLUMNS)), *self.lamps.puffs(time_s)]
-        puffs += [effect.puffs(time_s) for effect in effects]
+        puffs = [np.zeros((0, PUFF_COLUMNS)), *(effect.puffs(time_s) for effect in effects)]
         surroundings = self.animated_environment.at(time_s)
         return replace(
             surroundings,
@@ -163,6 +162,8 @@ def compose_scene(
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
+    nouns_of = [item.noun for item in (*items, *(item for _, item in surrounding))]
+    still_nouns = tuple(n for n, one in zip(nouns_of, placed, strict=True) for _ in one.parts)
     names, object_of = _name_bodies(actors, surrounding)
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
@@ -179,7 +180,7 @@ def compose_scene(
     )
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), tuple(item.noun for item in items), object_of,
+        tuple(dict.fromkeys(missing)), still_nouns, object_of,
     )  # fmt: skip
 
 
@@ -309,6 +310,6 @@ def _set_up(
     """Scenery in view, and along the route of a camera that travels."""
     if view.travel is None:
         return scatter(rules, view, actors, nouns, rng=rng, taken=taken)
-    lined = line_route(rules, view.travel, actors, nouns, rng=rng, road_half_m=view.road_half_width)
+    lined = line_route(rules, view, view.travel, actors, nouns, rng)
     far = [rule for rule in rules if is_placed_by_view(rule)]
     return lined + scatter(far, view, actors, nouns, rng=rng, taken=taken)

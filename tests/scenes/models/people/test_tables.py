@@ -1,19 +1,35 @@
 """Tables of people: tracks by hand, what is worn and held, and that every entry can be drawn."""
 
 import math
+from dataclasses import fields
 
 import numpy as np
 import pytest
 
 from texvent.scenes.models.people import person
-from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS
-from texvent.scenes.models.people.outfit import ADULT, CLOTHES, KINDS, dress_person, put_on
+from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS, Activity
+from texvent.scenes.models.people.movements import find_track
+from texvent.scenes.models.people.outfit import (
+    ADULT,
+    CLOTHES,
+    KINDS,
+    PersonKind,
+    dress_person,
+    put_on,
+)
 from texvent.scenes.models.people.part_table import draw_parts
 from texvent.scenes.models.people.props import HOLDS, PROPS, list_props
 from texvent.scenes.models.people.tables import read_table
 from texvent.scenes.models.people.track import read_track
 from texvent.scenes.models.protocol import Pose
 
+BODY_CHANNELS = {
+    *("hips", "lean", "tilt", "turn", "nod", "look", "heading", "tool"),
+    *(f"{arm}.{what}" for arm in ("left", "right", "arms") for what in ("hand", "elbow", "fixed")),
+    *(f"{leg}.{what}" for leg in ("left_leg", "right_leg", "legs") for what in
+      ("foot", "knee", "pitch")),
+}  # fmt: skip
+HAND_CHANNELS = {"bent", "spread", "roll", "pitch", "yaw", "shift", "keys"}
 RED, BLUE = (0.5, 0.0, 0.0), (0.0, 0.0, 0.5)
 
 
@@ -45,6 +61,23 @@ def test_every_person_is_drawn_and_stands_on_the_ground(noun: str) -> None:
     model = person.build_person(KINDS[noun], colour=None, scale=1.0, seed=3)
     assert model.parts(Pose(0.0, 0.0, 0.0, "stand"))
     assert model.height == pytest.approx(1.75 * KINDS[noun].height, rel=0.15)
+
+
+def test_every_key_of_the_tables_is_read() -> None:
+    activity = {one.name for one in fields(Activity)}
+    kind = {one.name for one in fields(PersonKind)} | {"names", "plurals", "speed", "motion"}
+    for name in ("activities", "hand_gestures"):
+        for row in read_table(name).values():
+            assert set(row) <= activity | {"props"} | HAND_CHANNELS
+    for row in read_table("outfits")["people"].values():
+        assert set(row) <= kind | {"holds"}
+    for noun, row in CLOTHES.items():
+        assert set(row) <= kind | {"painted", "usual"}, noun
+    for name in read_table("movements"):
+        track = find_track(name)
+        assert track is not None
+        channels = {*track.series, *(one for keys in track.keyed for one, _ in keys.channels)}
+        assert channels <= BODY_CHANNELS, name
 
 
 def test_every_prop_hat_and_garment_can_be_drawn() -> None:

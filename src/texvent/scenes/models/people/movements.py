@@ -29,7 +29,7 @@ def find_posture(activity: str, time_s: float, act_s: float | None = None) -> Po
     if activity not in ACTIVITIES:
         return None
     row = ACTIVITIES[activity]
-    track = _find_track(row.moves_as or activity)
+    track = find_track(row.moves_as or activity)
     if track is None:
         return None
     if act_s is not None and row.contact_s is not None:
@@ -38,7 +38,8 @@ def find_posture(activity: str, time_s: float, act_s: float | None = None) -> Po
 
 
 @cache
-def _find_track(activity: str) -> Track | None:
+def find_track(activity: str) -> Track | None:
+    """The channels that an activity decides; None = those of standing and walking."""
     row = read_table("movements").get(activity)
     return read_track(_with_elbows(row)) if row else None
 

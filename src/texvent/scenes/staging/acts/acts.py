@@ -8,8 +8,9 @@ import numpy as np
 
 from texvent.scenes.description import RIDES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.protocol import Model
+from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.shapes import Affine
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.trajectories.trajectory import Vector
@@ -51,6 +52,11 @@ class Cast:
         """Those that are left, numbered anew."""
         left = [actor for actor in self._actors if actor is not None]
         return [replace(actor, instance=number) for number, actor in enumerate(left, start=1)]
+
+
+def hides_riders(noun: Noun) -> bool:
+    """Whether it is a closed vehicle."""
+    return noun.habitat != "fixed" and noun.name in nouns_with("closed")
 
 
 def is_person(actor: Actor) -> bool:

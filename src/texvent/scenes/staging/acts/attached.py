@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -81,18 +80,6 @@ class OnPart:
         state = self.carrier.at(time_s)
         pose = Pose(state.tempo * time_s, state.distance_m, state.speed_m_s, state.activity)
         return np.asarray(self.model.parts(pose)[self.part].to_body)
-
-
-@dataclass(frozen=True)
-class OnEnd:
-    """Put on its end, as a pencil in a cup."""
-
-    path: Trajectory
-    lean_rad: float = 0.0
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        return replace(self.path.at(time_s), pitch=self.lean_rad - 0.5 * math.pi)
 
 
 @dataclass(frozen=True)

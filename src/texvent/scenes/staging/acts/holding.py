@@ -17,6 +17,7 @@ from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.acts import (
     foot_of,
     is_person,
+    lift_of,
     scaled,
     shifted,
     size_of,
@@ -37,7 +38,12 @@ _LARGE_M = 0.36
 _RAISED: Vector = (0.30, -0.24, 1.16)
 """Right hand of who holds something up, adult's body coordinates, m."""
 _UP_HIGH: Vector = (0.24, -0.24, 1.55)
-_GLOVED: Vector = (0.30, 0.22, 1.22)
+_RIGHT_HAND = {
+    "held as a tool": _RAISED, "held upright": _RAISED, "held by a string": _RAISED,
+    "held up high": _UP_HIGH, "flown on a string": _UP_HIGH,
+}  # fmt: skip
+_LEFT_HAND: Vector = (0.30, 0.22, 1.22)
+"""The left one of who has a glove on it."""
 _HANDS_FREE = frozenset({"stand", "move", "walk", "run", "sit", "sit on ground"})
 """Activities that leave the hands to what they hold."""
 _STANDING_TORSO = 0.95
@@ -112,36 +118,51 @@ def choose_style(holder: Actor, thing: Actor) -> str:
 
 def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
     """Where a thing is that is held in one way or the other, and where the hands are."""
-    size, model, lift = size_of(holder.model), thing.model, foot_of(thing)
-    raised: Grips = (("right hand", scaled(_RAISED, size)),)
-    high: Grips = (("right hand", scaled(_UP_HIGH, size)),)
-    if style == "held as a tool":
-        return Hold("right hand", along_tool(thing), False, raised)
-    if style in ("held upright", "held up high"):
-        low = min(0.35 * model.height, 0.06)
-        if holder.trajectory.at(0.0).activity == "drink":
-            low = 0.8 * model.height  # so that the rim is at the mouth
-        x = min(0.5 * model.length, 0.06) if model.height < 1.6 * model.length else 0.0
-        grips = high if style == "held up high" else raised
-        return Hold("right hand", shifted(x, 0.0, lift - low), grips=grips)
-    if style == "held hanging":
-        return Hold("right hand", shifted(0.0, 0.0, lift - model.height + 0.02))
-    if style == "held by a string":
-        return Hold("right hand", shifted(0.0, 0.0, lift - 0.02), grips=raised)
-    if style == "flown on a string":
-        return Hold("right hand", _fly(holder, lift), grips=high)
+    size = size_of(holder.model)
+    if style == "front":
+        return _in_both_arms(thing, size)
     if style == "held as a page":
-        return _page(size, model)
+        # Flat before the chest, its face to the holder.
+        x, y, z = 0.38 * size, min(0.45 * thing.model.width, 0.22 * size), 1.12 * size
+        offset = np.column_stack([rotation(0.0, -1.0, 0.0), [0.42 * size, 0.0, 1.16 * size]])
+        return Hold("ground", offset, grips=_both_hands(x, y, z))
     if style == "held as a guitar":
-        place = size * np.array([0.20, -0.42, -0.08])
-        return Hold("torso", np.column_stack([rotation(0.0, 0.0, -1.05), place]), False)
+        turn = rotation(0.0, 0.0, -1.05)
+        return Hold("torso", np.column_stack([turn, size * np.array([0.20, -0.42, -0.08])]), False)
     if style == "held as a glove":
         offset = np.column_stack([rotation(0.0, 0.5 * math.pi, 0.0), [0.0, 0.0, 0.08]])
-        return Hold("left hand", offset, grips=(("left hand", scaled(_GLOVED, size)),))
+        return Hold("left hand", offset, grips=(("left hand", scaled(_LEFT_HAND, size)),))
     if style == "mouth":
-        drop = 0.0 if thing.is_centred else -0.5 * model.height
-        return Hold("mouth", shifted(0.35 * model.length, 0.0, drop), False)
-    return _in_both_arms(thing, size)
+        offset = shifted(0.35 * thing.model.length, 0.0, -lift_of(thing))
+        return Hold("mouth", offset, False)
+    return _in_right_hand(style, holder, thing)
+
+
+def _in_right_hand(style: str, holder: Actor, thing: Actor) -> Hold:
+    model, size, foot = thing.model, size_of(holder.model), foot_of(thing)
+    grips: Grips = ()
+    if style in _RIGHT_HAND:
+        grips = (("right hand", scaled(_RIGHT_HAND[style], size)),)
+    if style == "held as a tool":
+        return Hold("right hand", along_tool(thing), False, grips)
+    if style == "flown on a string":
+        # Behind who goes on, beside who stands; along the axes of the world.
+        yaw = holder.trajectory.at(0.0).yaw
+        x, y = (-math.cos(yaw), -math.sin(yaw)) if holder.is_mover else (1.0, 0.2)
+        place = np.array([size * x, size * y, 0.8 * size + foot])
+        return Hold(
+            "right hand", np.column_stack([rotation(_KITE_YAW, 0.0, 0.0), place]), grips=grips
+        )
+    below, x = min(0.35 * model.height, 0.06), 0.0
+    if style == "held hanging":
+        below = model.height - 0.02
+    elif style == "held by a string":
+        below = 0.02
+    elif model.height < 1.6 * model.length:
+        x = min(0.5 * model.length, 0.06)
+    if holder.trajectory.at(0.0).activity == "drink":
+        below = 0.8 * model.height  # so that the rim is at the mouth
+    return Hold("right hand", shifted(x, 0.0, foot - below), grips=grips)
 
 
 def _in_both_arms(thing: Actor, size: float) -> Hold:
@@ -150,32 +171,16 @@ def _in_both_arms(thing: Actor, size: float) -> Hold:
     is_long = model.length > 1.2 * model.width
     deep, wide = (model.width, model.length) if is_long else (model.length, model.width)
     along = 0.16 * size + 0.5 * deep
-    reach = min(0.5 * wide, 0.34 * size)
-    x = min(along, 0.42 * size)
     bottom = max(1.08 * size - 0.5 * model.height, 0.75 * size)
     z = min(max(bottom + 0.15 * model.height, 0.9 * size), 1.25 * size)
     turn = rotation(0.5 * math.pi if is_long else 0.0, 0.0, 0.0)
-    offset = np.column_stack([turn, np.array([along, 0.0, bottom + foot_of(thing)])])
-    return Hold(
-        "ground", offset, grips=(("left hand", (x, reach, z)), ("right hand", (x, -reach, z)))
-    )
+    offset = np.column_stack([turn, [along, 0.0, bottom + foot_of(thing)]])
+    grips = _both_hands(min(along, 0.42 * size), min(0.5 * wide, 0.34 * size), z)
+    return Hold("ground", offset, grips=grips)
 
 
-def _page(size: float, model: Model) -> Hold:
-    """A flat thing before the chest, its face to the holder."""
-    reach = min(0.45 * model.width, 0.22 * size)
-    offset = np.column_stack([rotation(0.0, -1.0, 0.0), [0.42 * size, 0.0, 1.16 * size]])
-    hand = (0.38 * size, reach, 1.12 * size)
-    mirrored = (hand[0], -hand[1], hand[2])
-    return Hold("ground", offset, grips=(("left hand", hand), ("right hand", mirrored)))
-
-
-def _fly(holder: Actor, lift: float) -> Affine:
-    """Behind who goes on, beside who stands; along the axes of the world."""
-    yaw, size = holder.trajectory.at(0.0).yaw, size_of(holder.model)
-    x, y = (-math.cos(yaw), -math.sin(yaw)) if holder.is_mover else (1.0, 0.2)
-    place = np.array([size * x, size * y, 0.8 * size + lift])
-    return np.column_stack([rotation(_KITE_YAW, 0.0, 0.0), place])
+def _both_hands(x: float, y: float, z: float) -> Grips:
+    return (("left hand", (x, y, z)), ("right hand", (x, -y, z)))
 
 
 def _lower(subject: Actor, way: Hold) -> Hold:

@@ -18,7 +18,7 @@ from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.staging.actors import seeded
-from texvent.scenes.staging.acts.acts import ACTS, SINGLE
+from texvent.scenes.staging.acts.acts import ACTS, SINGLE, hides_riders
 
 _IDLE = frozenset({"stand", "sit", "sail", "drive"})
 _ACT_OF_ACTIVITY = {
@@ -44,36 +44,44 @@ def settle_motions(
     relations += _implied_acts(objects, relations)
     relations = _hit_with(objects, relations)
     for relation in relations:
-        if relation.kind not in ACTS or not relation.targets:
-            continue
-        at, to = relation.subject, relation.targets[0]
-        subject, target = objects[at], objects[to]
-        if relation.kind in RIDES:
-            objects[to] = _give_motion(subject, target, nouns)
-            objects[at] = replace(subject, motion=ObjectMotion("sit"), then=())
-            continue
-        is_rolling = target.motion is not None and target.motion.kind == "roll"
-        if relation.kind != "collide" or not is_rolling:
-            objects[to] = replace(target, motion=None, then=())
-        if relation.kind == "collide":
-            is_rolling = subject.motion is not None and subject.motion.kind == "roll"
-            if not is_rolling:
-                objects[at] = replace(objects[at], motion=None, then=())
-        elif relation.kind in SINGLE:
-            way = _choose_way(subject, target, seed, at)
-            objects[at] = replace(subject, motion=ObjectMotion(relation.kind, way), then=())
-        elif relation.kind in ("push", "pull"):
-            motion = subject.motion or STANDING
-            if motion.kind in ("push", "pull", "stand"):
-                objects[at] = replace(subject, motion=ObjectMotion("walk", motion.direction))
-        elif relation.kind == "wear":
-            is_shirt = target.noun in nouns_with("gives the shirt its colour")
-            if is_shirt and subject.noun in PERSON_NOUNS:
-                objects[at] = replace(subject, colour=target.colour or subject.colour)
-        else:
-            size = trait_value("carried size", target.noun) or 1.0
-            objects[to] = replace(objects[to], scale=size * target.scale)
+        if relation.kind in ACTS and relation.targets:
+            pair = relation.subject, relation.targets[0]
+            way = _choose_way(objects, pair, seed)
+            settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, way)
+            for index, one in zip(pair, settled, strict=True):
+                objects[index] = one
     return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _settle(
+    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], way: str
+) -> tuple[SceneObject, SceneObject]:
+    """Who acts and on what, with the motions that the act leaves them."""
+    motion, still = subject.motion or STANDING, replace(target, motion=None, then=())
+    if kind in RIDES:
+        sitting = replace(subject, motion=ObjectMotion("sit"), then=())
+        return sitting, _give_motion(subject, target, nouns)
+    if kind == "collide":
+        # What rolls there does not fly.
+        first, second = (
+            one if one.motion is not None and one.motion.kind == "roll"
+            else replace(one, motion=None, then=())
+            for one in (subject, target)
+        )  # fmt: skip
+        return first, second
+    if kind in SINGLE:
+        return replace(subject, motion=ObjectMotion(kind, way), then=()), still
+    if kind in ("push", "pull"):
+        if motion.kind in ("push", "pull", "stand"):
+            subject = replace(subject, motion=ObjectMotion("walk", motion.direction))
+        return subject, still
+    if kind == "wear":
+        is_shirt = target.noun in nouns_with("gives the shirt its colour")
+        if is_shirt and subject.noun in PERSON_NOUNS:
+            subject = replace(subject, colour=target.colour or subject.colour)
+        return subject, still
+    size = trait_value("carried size", target.noun) or 1.0
+    return subject, replace(still, scale=size * target.scale)
 
 
 def _mounted(
@@ -85,7 +93,7 @@ def _mounted(
         return relation
     is_mount = trait_value("ridden", target) is not None and relation.kind == "on"
     is_carrier = trait_value("seats", target) is not None or target in nouns_with("paddled")
-    is_closed = target in nouns_with("hides its riders") and relation.kind == "in"
+    is_closed = relation.kind == "in" and hides_riders(nouns[target])
     is_idle = (person.motion or STANDING).kind in _IDLE
     if is_mount or (is_idle and (is_carrier or is_closed)):
         return replace(relation, kind="ride")
@@ -162,8 +170,9 @@ def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, No
     return replace(ridden, motion=replace(said, kind=kind), then=ridden.then or rider.then)
 
 
-def _choose_way(subject: SceneObject, target: SceneObject, seed: int, index: int) -> str:
-    for motion in (subject.motion, target.motion):
+def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int) -> str:
+    """Where a single act goes in the picture."""
+    for motion in (objects[index].motion for index in pair):
         if motion is not None and motion.direction in ("left", "right", "towards", "away"):
             return str(motion.direction)
-    return "left" if seeded(seed, "act", index).random() < 0.5 else "right"
+    return "left" if seeded(seed, "act", pair[0]).random() < 0.5 else "right"

@@ -45,6 +45,19 @@ _FOREARM = 0.28
 """Share of a hand with its forearm below which the image may end: it comes from outside."""
 
 
+class _Scope(NamedTuple):
+    """What decides how much of each object must be seen."""
+
+    main: Actor
+    times: Float64Array
+    tying: Sequence[CameraMove]
+    """Moves of a camera that goes along with the subject; empty = it does not."""
+    passed: frozenset[int]
+    """Objects that something goes past."""
+    is_whole: bool
+    """Whether people are shown with their legs whatever they do."""
+
+
 class View(NamedTuple):
     """What the image is to hold."""
 
@@ -75,9 +88,16 @@ def list_views(
     shot = description.shot
     is_tied = main.is_mover and any(move.kind in _TYING for move in moves)
     tying = tuple(moves) if is_tied else ()
+    passed = {
+        target
+        for relation in description.relations
+        if relation.kind in ("past", "among", "overtake")
+        for target in relation.targets
+    }
+    scope = _Scope(main, times, tying, frozenset(passed), shot.framing is not None)
     near = [one for one in actors if description.objects[one.object_index].side != "far"]
     if any(move.kind in _APPROACHES for move in moves) and main.object_index == shot.target:
-        return _approach(near, main, times)
+        return _approach(near, scope._replace(tying=()))
     if shot.framing == "close" or shot.view == "shoulder" or shot.framing == "medium":
         framing = "close" if shot.framing == "close" else "medium"
         if framing == "close" or main.noun.name in PERSON_NOUNS:
@@ -92,23 +112,16 @@ def list_views(
     copies = {one.instance for one in actors if one.object_index == main.object_index}
     partners = {one.instance for one in near if one.object_index in related}
     others = {one.instance for one in near if goes(one, times) or not main.is_mover}
-    choices = ({one.instance for one in near}, others | partners, partners, set())
-    passed = {
-        target
-        for relation in description.relations
-        if relation.kind in ("past", "among", "overtake")
-        for target in relation.targets
-    }
+    choices: tuple[set[int], ...] = (
+        {one.instance for one in near},
+        others | partners,
+        partners,
+        set(),
+    )
     least = _LARGE_IN_WIDE if is_wide else 1.0
     return [
-        View(
-            _points_of(
-                [one for one in actors if one.instance in copies | some], main, times, tying, passed
-            ),
-            fill,
-            least * goal,
-        )
-        for some, goal in zip(choices, _GOALS, strict=True)
+        View(_points_of([a for a in actors if a.instance in copies | some], scope), fill, least * g)
+        for some, g in zip(choices, _GOALS, strict=True)
     ]
 
 
@@ -118,10 +131,10 @@ def _fill_for(move: CameraMove) -> float:
     return _FILL if is_calm else _FILL_BY_MOVE.get(move.kind, _FILL)
 
 
-def _approach(actors: Sequence[Actor], main: Actor, times: Float64Array) -> list[View]:
+def _approach(actors: Sequence[Actor], scope: _Scope) -> list[View]:
     """Views for a move in: at its far end the image shows what else there is, about the subject."""
-    near = corners_over([main], times)
-    rest = _points_of(actors, main, times, (), set())
+    near = corners_over([scope.main], scope.times)
+    rest = _points_of(actors, scope)
     aim = 0.5 * (near.min(axis=0) + near.max(axis=0))
     far_fill, near_fill = _AIM_FILLS
     return [
@@ -129,29 +142,25 @@ def _approach(actors: Sequence[Actor], main: Actor, times: Float64Array) -> list
     ]  # fmt: skip
 
 
-def _points_of(
-    actors: Sequence[Actor],
-    main: Actor,
-    times: Float64Array,
-    tying: Sequence[CameraMove],
-    passed: set[int],
-) -> Float64Array:
+def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
     """[n, 3] what must fit, m: movers whole, of much larger things the piece near the subject.
 
     Where the camera goes along with the subject, places are those relative to it.
     """
+    main, times, tying = scope.main, scope.times, scope.tying
     movers = [actor for actor in actors if actor.is_mover or actor is main]
     largest = max(actor.size_m for actor in movers)
     points = []
     for actor in actors:
-        if actor is not main and tying and not actor.is_mover:
+        is_mover = actor.is_mover or actor is main
+        if tying and not is_mover:
             continue
-        is_large = actor.size_m > _WHOLE * largest or actor.object_index in passed
-        if actor not in movers and is_large:
+        is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
+        if is_large and not is_mover:
             points.append(near_piece(actor, main, times, _PIECE * largest))
             continue
         boxes = [actor.corners(float(time)) for time in times]
-        if acts_with_arms(actor, times):
+        if not scope.is_whole and acts_with_arms(actor, times):
             boxes = [upper_part(box, _share_unseen(actor, "medium")) for box in boxes]
         if tying:
             boxes = [_to_subject(*one, main, tying) for one in zip(boxes, times, strict=True)]

@@ -11,6 +11,8 @@ EASE = 0.2
 """Share of a move in which it starts or stops, where it does so within the clip."""
 USUAL_S = 2.0
 """Length of a move that goes its usual way; shorter ones go less far."""
+_STEPS = 64
+"""Steps of the clip in which the range of a move is found."""
 _SIGNS = {
     "left": -1.0, "right": 1.0, "up": 1.0, "down": -1.0, "in": 1.0, "out": -1.0,
     "clockwise": 1.0, "counter-clockwise": -1.0,
@@ -68,11 +70,11 @@ class MoveChannels:
 
     @cached_property
     def _ranges(self) -> dict[str, tuple[float, float]]:
-        """Kind → least and most of its sum; moves are monotonous between starts and stops."""
-        edges = {0.0, self._duration_s}
+        """Kind → least and most of its sum over the clip."""
+        times = {self._duration_s * step / _STEPS for step in range(_STEPS + 1)}
         for move in self.moves:
-            edges.update(min(time, self._duration_s) for time in self.span_s(move))
-        sums = {move.kind: [self._sum(move.kind, edge) for edge in edges] for move in self.moves}
+            times.update(min(time, self._duration_s) for time in self.span_s(move))
+        sums = {move.kind: [self._sum(move.kind, time) for time in times] for move in self.moves}
         return {kind: (min(values), max(values)) for kind, values in sums.items()}
 
 

@@ -22,9 +22,8 @@ from texvent.scenes.staging.particles.body_lights import (
     make_string,
     make_turn_signals,
 )
+from texvent.scenes.staging.particles.bolts import Lightning
 from texvent.scenes.staging.particles.emitter import Emitter
-from texvent.scenes.staging.particles.flakes import Flakes
-from texvent.scenes.staging.particles.flashes import Fireworks, Lightning
 from texvent.scenes.staging.particles.motion import Source
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.surroundings.weather import WEATHERS
@@ -56,6 +55,12 @@ class Setting:
     def base(self) -> Float64Array:
         """[3] the point on the ground below what the camera looks at, m."""
         return np.array([self.framing.target[0], self.framing.target[1], 0.0])
+
+    @property
+    def away(self) -> Float64Array:
+        """[3] horizontal unit vector away from the camera."""
+        flat = -self.framing.offset * [1.0, 1.0, 0.0]
+        return np.asarray(flat / max(float(np.linalg.norm(flat)), 1e-9))
 
 
 @dataclass(frozen=True)
@@ -133,16 +138,9 @@ def _make(
     """What shows an effect at an object, or by itself."""
     kind, reach = effect.kind, setting.framing.distance_m
     colour = None if effect.colour is None else effect.colour.rgb
-    away = -setting.framing.offset * [1.0, 1.0, 0.0]
-    away /= max(float(np.linalg.norm(away)), 1e-9)
-    flakes = EFFECTS[kind].flakes
-    if flakes is not None:
-        return [Flakes.of(flakes, setting.base, 1.4 * reach, rng, colour)]
+    away = setting.away
     if kind == "lightning":
         return [Lightning.of(setting.base, away, reach, rng)]
-    if kind == "fireworks":
-        middle = setting.base + 1.1 * reach * away + [0.0, 0.0, 0.75 * reach]
-        return [Fireworks.of(middle, 0.3 * reach, rng)]
     if kind == "blinking lights":
         place = setting.framing.target + reach * (np.array([0.0, 0.0, 0.22]) + 0.1 * away)
         side = np.cross(away, [0.0, 0.0, 1.0])
@@ -173,7 +171,7 @@ def _emit(
             is_once=words.happens_once, floor_m=setting.floor_m,
         )
         for style in words.emitters
-        if style.body != "chip" or actor is not None
+        if style.colours or actor is not None
     ]  # fmt: skip
 
 
@@ -219,6 +217,7 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
         reach = setting.framing.distance_m
         target = np.array(setting.framing.target, dtype=np.float64)
         target[2] = target[2] + words.alone_height * reach if words.alone_height else 0.0
+        target += words.alone_behind * reach * setting.away
         return Source(words.alone * reach, target)
     size, model, noun = words.size * _bulk(actor), actor.model, actor.noun.name
     if words.breathed and noun in PERSON_NOUNS:

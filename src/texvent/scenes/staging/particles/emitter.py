@@ -102,7 +102,7 @@ class Emitter(ParticleEffect):
             height = float(source.at(np.zeros(1))[0, 2])
             height = max(height, 0.02) if math.isfinite(floor_m) else 3.0 * source.size_m
             life_s = 1.1 * math.sqrt(2.0 * height / GRAVITY)
-        lives = Lives.of(style.count, life_s, rng, start_s if is_once else None)
+        lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, style.salvo)
         colours = np.array(style.colours)
         if colour is not None and not style.keeps_colour:
             colours = np.array([colour])
@@ -159,11 +159,15 @@ class Emitter(ParticleEffect):
             return super().lamps(time_s)
         row = np.zeros((1, LAMP_COLUMNS))
         row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
-        level = wave_at(_FLAME, _FLAME_HZ, time_s, 0.37, 0)
-        if self.lives.once_at_s is not None:
-            age_s = max(time_s - self.lives.once_at_s, 0.0)
+        level, hue = wave_at(_FLAME, _FLAME_HZ, time_s, 0.37, 0), _FLAME_LIGHT
+        if self.lives.once_at_s is not None or style.salvo is not None:
+            age, draws = self.lives.at(time_s)
+            age_s = max(float(age[0]), 0.0) * self.lives.life_s
             level = min(age_s / 0.02, 1.0) * math.exp(-age_s / (0.35 * math.sqrt(size / GRAVITY)))
-        row[0, 3:6] = level * style.light * size * size * _FLAME_LIGHT
+            if style.salvo is not None:
+                row[0, :3] += self._offsets(draws)[0]
+                hue = self.colours[int(draws[0, 6] * len(self.colours))]
+        row[0, 3:6] = level * style.light * size * size * hue
         row[0, 6], row[0, 10:12], row[0, 12] = 12.0 * size, -2.0, 0.4 * size
         return row
 
@@ -215,14 +219,19 @@ class Emitter(ParticleEffect):
     ) -> Float64Array:
         """[n, 3] unit vectors in which particles leave."""
         style = self.style
-        if style.fills is not None and style.fills[2] > 0.0:
-            return offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-9)
+        if style.body == "chip" and style.fills is not None and style.fills[2] > 0.0:
+            return np.asarray(
+                offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-9)
+            )
         return aimed(directions(draws, style.spread_rad), style.aim) @ turn.T
 
     def _landing_s(self, above: Float64Array, upward: Float64Array) -> Float64Array:
         """[n] when chips come to rest on the ground, s after their birth."""
         fall = np.maximum(above - self.floor_m - 0.03 * self.source.size_m, 0.0)
-        return np.asarray((upward + np.sqrt(upward**2 + 2.0 * GRAVITY * fall)) / GRAVITY)
+        pull = GRAVITY * self.style.gravity
+        if pull > 0.0:
+            return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
+        return np.asarray(fall / np.maximum(-upward, 1e-6))
 
 
 def _between(ends: tuple[float, float], age: Float64Array) -> Float64Array:

@@ -67,11 +67,14 @@ class Lives:
 
     @classmethod
     def of(
-        cls, count: int, life_s: float, rng: np.random.Generator, once_at_s: float | None = None
-    ) -> Lives:
-        """`count` particles with draws of their own."""
+        cls, count: int, life_s: float, rng: np.random.Generator, once_at_s: float | None = None,
+        salvo: float | None = None,
+    ) -> Lives:  # fmt: skip
+        """`count` particles; those of a `salvo` have one place, and that age at time 0."""
         draws = rng.uniform(size=(count, GENERATIONS, 8))
         draws[:, :, 7] = ((np.arange(count) + 0.5) / count)[:, None]
+        if salvo is not None:
+            draws[:, :, 3:7], draws[:, :, 7] = draws[:1, :, 3:7], salvo
         return cls(draws, life_s, once_at_s)
 
     def at(self, time_s: float) -> tuple[Float64Array, Float64Array]:

@@ -53,26 +53,22 @@ class RoutePlacer:
             [3] middle of the group, m.
         """
         plan, travel = group.plan, self._travel
-        if is_goal:
-            x, y, heading = travel.point(travel.length_m + 3.0 + 0.9 * group.size_m, 0.0)
-            group.plan = replace(plan, yaw=heading + math.pi)
+        if is_goal or group.noun.name in nouns_with("passage"):
+            ahead = travel.length_m + 3.0 + 0.9 * group.size_m if is_goal else 0.6 * travel.length_m
+            x, y, heading = travel.point(ahead, 0.0)
+            group.plan = replace(plan, yaw=heading + (math.pi if is_goal else 0.0))
             return np.array([x, y, height])
-        if group.noun.name in nouns_with("passage"):
-            x, y, heading = travel.point(0.6 * travel.length_m, 0.0)
-            group.plan = replace(plan, yaw=heading)
-            return np.array([x, y, height])
-        if plan.is_path and plan.motion.direction in ("left", "right", "across"):
-            return self._place_beyond(group, height, 4.0 + 0.6 * group.models[0].width)
-        if plan.is_path and group.noun.habitat != "fixed":
+        crosses = plan.motion.direction in ("left", "right", "across")
+        if plan.is_path and not crosses and group.noun.habitat != "fixed":
             return self._place_on_the_way(group, height)
-        if group.scene_object.side == "lane":
-            return self._place_beyond(group, height, _BEFORE_M + 1.5 * float(max(group.half[:2])))
+        if (plan.is_path and crosses) or group.scene_object.side == "lane":
+            return self._place_beyond(group, height)
         return self._place_beside(group, height)
 
-    def _place_beyond(self, group: ObjectGroup, height: float, ahead_m: float) -> Float64Array:
+    def _place_beyond(self, group: ObjectGroup, height: float) -> Float64Array:
         """On the route just beyond its end, where the camera does not come, or across it."""
         deep = float(group.half[1])
-        along = self._travel.length_m + ahead_m + self._beyond_m + deep
+        along = self._travel.length_m + _BEFORE_M + self._beyond_m + 1.5 * deep
         self._beyond_m += 2.0 * deep + 0.5
         x, y, _ = self._travel.point(along, 0.0)
         return np.array([x, y, height])
@@ -80,34 +76,35 @@ class RoutePlacer:
     def _place_on_the_way(self, group: ObjectGroup, height: float) -> Float64Array:
         """Ahead of the camera or towards it: vehicles in lanes, others beside the road or aloft."""
         travel, plan = self._travel, group.plan
-        is_aloft = is_centred(group.noun)
-        keeps_lane = group.noun.motion == "drive" or group.noun.habitat in ("air", "water")
-        oncoming = plan.motion.direction == "towards"
-        if plan.motion.direction is None and not is_aloft:
-            oncoming = len(group.models) > 1 or not keeps_lane
-        x, y, heading = travel.point(0.5 * travel.length_m, 0.0)
-        own, speed = travel.speed_m_s, plan.speed_m_s
-        if not oncoming and keeps_lane and plan.motion.speed_m_s is None and own > 0.0:
-            speed = own * plan.motion.pace
-        group.plan = replace(
-            plan, yaw=heading + (math.pi if oncoming else 0.0), speed_m_s=speed, gesture=None
-        )
         length = max(model.length for model in group.models)
         width = max(model.width for model in group.models)
-        ahead, lane = _AHEAD_M + 0.5 * length, 0.0
-        if is_aloft:
-            ahead = 1.0 + 3.0 * max(length, width)
-            height = travel.journey.height_m - travel.journey.pitch_rad * ahead
-        elif not keeps_lane:
-            lane = travel.clear(1.0) + 0.5 * width + 0.4
-            ahead = _SEEN * lane
+        walks = group.noun.habitat == "ground" and group.noun.motion != "drive"
+        oncoming = plan.motion.direction == "towards" or (
+            plan.motion.direction is None and (walks or len(group.models) > 1)
+        )
+        x, y, heading = travel.point(0.5 * travel.length_m, 0.0)
+        speed, ahead, aside = plan.speed_m_s, _AHEAD_M + 0.5 * length, 0.0
+        if walks:
+            aside = travel.clear(1.0) + 0.5 * width + 0.4
+            ahead = _SEEN * aside
         elif oncoming:
-            lane, ahead = -max(0.67 * travel.clear(-1.0), 0.5 * width + 1.5), length
+            aside, ahead = -max(0.67 * travel.clear(-1.0), 0.5 * width + 1.5), length
+        elif plan.motion.speed_m_s is None and travel.speed_m_s > 0.0:
+            speed = travel.speed_m_s * plan.motion.pace
+        if is_centred(group.noun):
+            aside, ahead = 0.0, 1.0 + 3.0 * max(length, width)
+            height = travel.journey.height_m - travel.journey.pitch_rad * ahead
         if oncoming:
-            ahead += (0.5 if is_aloft else 0.25) * (abs(own) + speed) * self._duration_s
-        group.offsets = _queue(group, lane, length, width, heading)
+            ahead += 0.25 * (travel.speed_m_s + speed) * self._duration_s
+        yaw = heading + (math.pi if oncoming else 0.0)
+        group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None)
+        spacing = 1.6 * length + 2.0
+        forward = np.array([math.cos(heading), math.sin(heading), 0.0])
+        right = np.array([forward[1], -forward[0], 0.0])
+        places = [n * spacing * forward + aside * right for n in range(len(group.models))]
+        group.offsets = [(float(one[0]), float(one[1]), 0.0) for one in places]
         group.fit()
-        return np.array([x + ahead * math.cos(heading), y + ahead * math.sin(heading), height])
+        return np.array([x, y, height]) + ahead * forward
 
     def _place_beside(self, group: ObjectGroup, height: float) -> Float64Array:
         """Each copy on the next free place of the emptier side."""
@@ -133,21 +130,6 @@ class RoutePlacer:
             group.plan = replace(group.plan, yaw=places[0][2])
         group.fit()
         return np.array([*middle, height])
-
-
-def _queue(
-    group: ObjectGroup, lane_m: float, length: float, width: float, heading: float
-) -> list[tuple[float, float, float]]:
-    """Offsets of copies one behind the other in a lane; of what flies or swims, in a swarm."""
-    cosine, sine = math.cos(heading), math.sin(heading)
-    size, found = max(length, width), []
-    for number in range(len(group.models)):
-        along, aside, up = number * (1.6 * length + 2.0), lane_m, 0.0
-        if is_centred(group.noun):
-            aside = (-1.0) ** number * 0.75 * size * ((number + 1) // 2) + 0.3 * size
-            along, up = 0.9 * size * (number % 3), 0.4 * size * ((number + 1) % 3 - 1)
-        found.append((along * cosine + aside * sine, along * sine - aside * cosine, up))
-    return found
 
 
 def push_aside(group: ObjectGroup, travel: TravelPlan) -> None:

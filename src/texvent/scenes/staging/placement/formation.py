@@ -19,12 +19,8 @@ _RESTING = frozenset({"stand", "sit", "lie", "slide"})
 _SHOULDERS_M, _BUSY_M = 0.56, 0.95
 """Room from shoulder to shoulder, and of who does something with the arms, m."""
 _AT_EASE = frozenset({"stand", "sit", "talk", "walk", "run"})
-_ONE_ROW = 6
-"""Most copies side by side that stand together."""
 _TO_CAMERA_RAD = 0.35
 """How far who faces another is turned to the camera."""
-_HERD, _ROWS_APART = 6, 0.75
-"""From so many on animals stand close together in rows, which are so many lengths apart."""
 _APART = 0.3
 """Space between copies of small things, in their sizes: apples do not lie half a metre apart."""
 
@@ -38,45 +34,30 @@ def stagger(
     models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator
 ) -> list[Vector]:
     """Places of the copies about the middle of their group, m, staggered so none hides another."""
-    count = len(models)
+    count, is_driven = len(models), noun.motion == "drive"
     if count == 1:
         return [(0.0, 0.0, 0.0)]
     along, across = _spacing(models, plan, noun)
     is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
     is_on_ground = noun.habitat == "air" and rests(noun, plan.motion.kind)
     is_deep = is_centred(noun) and noun.name not in HAND_NOUNS and not (is_lifting or is_on_ground)
-    is_driven, is_herd = noun.motion == "drive", _is_herd(count, noun)
-    columns = _count_columns(count, is_driven=is_driven, is_herd=is_herd)
-    shift = 0.5 if is_herd else 0.3
+    tall = max(model.height for model in models) if is_deep else 0.0
+    columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
+    columns = math.ceil(count / 2) if is_driven else columns
     in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
     offsets: list[Vector] = []
     for number in range(count):
         row, column = divmod(number, columns)
         in_row = min(columns, count - row * columns)
-        a = (column - 0.5 * (in_row - 1) + shift * (row % 2)) * along
+        a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
         b = (row - 0.5 * ((count - 1) // columns)) * across
         a += float(rng.uniform(-0.12, 0.12)) * along
         stray = float(rng.uniform(-0.08, 0.08)) * across
         if not is_driven:  # vehicles keep to their lanes
             b = b + 0.6 * across * (number % 2) + stray
-        up = 0.0
-        if is_deep:
-            tall = max(model.height for model in models)
-            up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall
+        up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall if is_deep else 0.0
         offsets.append((b * 1.6, a, up) if in_depth else (a, b, up))
     return offsets
-
-
-def _is_herd(count: int, noun: Noun) -> bool:
-    return count >= _HERD and noun.motion == "walk" and noun.name not in PERSON_NOUNS
-
-
-def _count_columns(count: int, *, is_driven: bool, is_herd: bool) -> int:
-    if is_herd:
-        return round(math.sqrt(count))
-    if is_driven:
-        return math.ceil(count / 2)
-    return count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
 
 
 def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, float]:
@@ -88,16 +69,12 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
         return 4.0 * size, 4.0 * size
     if noun.motion == "drive":
         return 1.45 * length + 0.5, max(width + 0.9, 2.9)
-    if noun.name in HAND_NOUNS:
-        return 1.3 * width, 1.3 * width
-    if plan.is_facing:
+    if plan.is_facing or noun.name in HAND_NOUNS:
         return 1.6 * width, 0.2 * width  # in one row, as the camera sees them
     apart = min(0.3, _APART * size)
     across = 1.4 * width + apart + min(0.1, 0.1 * size)
     if is_centred(noun):
         return 0.8 * length + apart, across
-    if _is_herd(len(models), noun):
-        return length + 0.3 * apart, max(across, _ROWS_APART * length)
     return 1.2 * (length if plan.is_path else size) + apart, across
 
 
@@ -107,10 +84,8 @@ def form_up(group: ObjectGroup) -> None:
     is_person = group.noun.name in PERSON_NOUNS
     if len(group.models) < 2:
         return
-    if side == "row":
-        _stand_in_row(group)
-    elif side == "together":
-        _stand_together(group)
+    if side in ("row", "together"):
+        _stand_in_row(group, is_close=side == "together")
     elif side == "ring":
         model = group.models[0]
         size = max(model.length, model.width)
@@ -122,39 +97,24 @@ def form_up(group: ObjectGroup) -> None:
     group.fit()
 
 
-def _stand_in_row(group: ObjectGroup) -> None:
-    """Side by side across the image; what goes away from the camera or comes, one by one."""
-    count, model, is_path = len(group.models), group.models[0], group.plan.is_path
-    goes_away = is_path and abs(math.sin(group.plan.yaw)) > 0.7
-    step = 1.25 * (model.length if is_path else max(model.length, model.width)) + 0.15
-    places = [step * (number - 0.5 * (count - 1)) for number in range(count)]
-    group.offsets = [(0.0, at, 0.0) if goes_away else (at, 0.0, 0.0) for at in places]
-
-
-def _stand_together(group: ObjectGroup) -> None:
-    """Shoulder to shoulder, in two rows where they are many; who goes along, nearly abreast."""
-    count, model, turn = len(group.models), group.models[0], group.plan.yaw
+def _stand_in_row(group: ObjectGroup, *, is_close: bool) -> None:
+    """Side by side across the image; who goes along, one by one or, if close, nearly abreast."""
+    count, model, plan = len(group.models), group.models[0], group.plan
     long, wide = model.length, model.width
-    if group.noun.name in PERSON_NOUNS and group.plan.motion.kind != "lie":
-        room = _SHOULDERS_M if group.plan.motion.kind in _AT_EASE else _BUSY_M
+    cosine, sine = math.cos(plan.yaw), math.sin(plan.yaw)
+    if is_close and group.noun.name in PERSON_NOUNS and plan.motion.kind != "lie":
+        room = _SHOULDERS_M if plan.motion.kind in _AT_EASE else _BUSY_M
         long = wide = room * float(getattr(model, "scale", 1.0))
-    cosine, sine = math.cos(turn), math.sin(turn)
-    if group.plan.is_path:
-        step, abreast = 0.75 * long, 1.25 * wide
-        places = [number - 0.5 * (count - 1) for number in range(count)]
-        group.offsets = [
-            (at * (step * cosine - abreast * sine), at * (step * sine + abreast * cosine), 0.0)
-            for at in places
-        ]
-        return
-    across = abs(cosine) * long + abs(sine) * wide
-    deep = abs(sine) * long + abs(cosine) * wide
-    columns = count if count <= _ONE_ROW else math.ceil(count / 2)
-    group.offsets = []
-    for number in range(count):
-        row, column = divmod(number, columns)
-        at = column - 0.5 * (columns - 1) + 0.5 * row
-        group.offsets.append((1.12 * across * at, 1.1 * deep * row, 0.0))
+    if is_close and plan.is_path:
+        ahead, aside = 0.75 * long, 1.25 * wide
+        step = (ahead * cosine - aside * sine, ahead * sine + aside * cosine)
+    elif is_close:
+        step = (1.12 * (abs(cosine) * long + abs(sine) * wide), 0.0)
+    else:
+        apart = 1.25 * (long if plan.is_path else max(long, wide)) + 0.15
+        step = (0.0, apart) if plan.is_path and abs(sine) > 0.7 else (apart, 0.0)
+    places = [number - 0.5 * (count - 1) for number in range(count)]
+    group.offsets = [(step[0] * at, step[1] * at, 0.0) for at in places]
 
 
 def stand_in_ring(group: ObjectGroup, radius_m: float, *, is_open: bool = False) -> None:

@@ -12,8 +12,8 @@ from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.models.shapes import bounds
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.trajectories.manoeuvres import sample_places
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
+from texvent.scenes.staging.trajectories.steered_path import sample_places
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GAP_M = 0.25

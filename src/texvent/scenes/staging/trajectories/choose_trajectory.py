@@ -18,10 +18,14 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Sway,
     Swing,
 )
-from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath, flight_s
+from texvent.scenes.staging.trajectories.steered_path import (
+    Piece,
+    SteeredPath,
+    bend_path,
+    flight_s,
+)
 from texvent.scenes.staging.trajectories.trajectory import (
     TO_CAMERA,
     BodyState,
@@ -29,7 +33,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Facing,
     Rolling,
     Shuttle,
-    Slipping,
     Stationary,
     Straight,
     Trajectory,
@@ -73,7 +76,9 @@ def choose_trajectory(
     if clear_m > 0.0:
         return _leap(plan, model, home, clear_m)
     if plan.path is not None:
-        path = _shift_path(plan.path, model, home)
+        path: Trajectory = _shift_path(plan.path, model, home)
+        if plan.radius_m:
+            path = Rolling(path, plan.radius_m, plan.radius_m)
         return Facing(path) if plan.is_facing else path
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
@@ -106,7 +111,7 @@ def _leap(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> Steer
     """Along its heading, in the air over its home at mid clip."""
     height = max(0.35 * model.height, 1.25 * clear_m + 0.1)
     flight = flight_s(height)
-    speed, lead = 1.6 * model.length / flight, max(0.5 * (plan.duration_s - flight), 1e-3)
+    speed, lead = 1.2 * model.length / flight, max(0.5 * (plan.duration_s - flight), 1e-3)
     pieces = (Piece(lead, speed), Piece(flight, speed, hop_m=height), Piece(lead, speed))
     start = ahead(home, plan.yaw, -speed * (lead + 0.5 * flight), home[2])
     return SteeredPath(start, plan.yaw, pieces, speed, floor_m=home[2])
@@ -147,8 +152,8 @@ def _drift(plan: MotionPlan, home: Vector) -> Trajectory:
     speed, duration_s = 1.2 * plan.speed_m_s, plan.duration_s
     path = bend_path(plan.yaw, speed, _DRIFT_TURN_RAD / (duration_s * speed), duration_s)
     x, y, _ = path.start
-    path = replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=home[2])
-    return Slipping(path, _SLIP_RAD, 0.1 * duration_s)
+    start = (x + home[0], y + home[1], home[2])
+    return replace(path, start=start, floor_m=home[2], slip_rad=_SLIP_RAD)
 
 
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:

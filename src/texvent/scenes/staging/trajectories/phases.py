@@ -3,26 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.traits import nouns_with
-from texvent.scenes.staging.trajectories.manoeuvres import (
-    QUARTER,
-    ZIGZAG_RAD,
-    arc,
-    centred,
-    park,
-    zigzag,
-)
 from texvent.scenes.staging.trajectories.schedule import Phase, schedule
 from texvent.scenes.staging.trajectories.steered_path import (
     HOP_PAUSE_S,
     Piece,
     SteeredPath,
+    arc,
+    centred,
     flight_s,
 )
 
@@ -30,8 +23,8 @@ PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "slide", "roll", "m
 """Motions from one place to another."""
 GOING = PATH_KINDS | {"reverse", "enter", "leave", "appear"}
 """Those with a direction of travel."""
-_STEERED_KINDS = frozenset({"turn", "reverse", "zigzag", "enter", "leave", "appear", "park", "jump",
-                            "rise", "sink", "topple", "flip"})  # fmt: skip
+_STEERED = GOING | {"turn", "zigzag", "park"}
+_PIECED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
 
 YAWS = {
     "right": 0.0,
@@ -46,8 +39,10 @@ YAWS = {
 _STEERED_DIRECTIONS = frozenset({"backward", "around", "eight"})
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
-TURN_SHARE = 0.6
-"""Share of a turn's phase that it turns, where it is all that happens: it comes and goes on."""
+QUARTER, ZIGZAG_RAD = 0.5 * math.pi, 0.55
+_TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
+"""Shares of a phase that a turn takes where it is all that happens, for it comes and goes on; and
+that the turn to another direction takes."""
 ROAD_BEND_PER_M = 1.0 / 50.0
 """Curvature of a road that bends."""
 MOST_HASTE = 2.5
@@ -56,8 +51,8 @@ _RAMP_S = 0.3
 _BRAKING_M_S2 = 6.0
 _LONG = 0.8
 """Share of its height from which the length of what falls lays it onto its side."""
-_CLIMB, _RUNWAY_CLIMB = 0.45, 0.32
-"""Metres up per metre along, in general and from a runway."""
+_CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
+"""Metres up or down per metre along: in general, from a runway, and to it."""
 _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 """Shares of a phase after which wheels leave a runway, or meet it."""
 _SUNK = 0.8
@@ -74,7 +69,7 @@ def needs_steering(motions: Sequence[ObjectMotion]) -> bool:
         len(motions) > 1
         or (first.end_pace is not None and first.kind not in ("spin", "work"))
         or bool(first.start_s)
-        or first.kind in _STEERED_KINDS
+        or first.kind in _PIECED
         or (first.kind in PATH_KINDS and first.direction in _STEERED_DIRECTIONS)
     )
 
@@ -111,8 +106,6 @@ def build_path(
     builder = _Builder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
     for phase in phases:
         builder.add(phase)
-    is_flipping = any(phase.motion.kind == "flip" for phase in phases)
-    is_toppling = model.length > _LONG * model.height and not is_flipping
     path = SteeredPath(
         (0.0, 0.0, builder.initial_height),
         yaw + builder.initial_yaw,
@@ -122,8 +115,7 @@ def build_path(
         lean=1.0 if noun.habitat == "air" or noun.name in nouns_with("leans") else 0.0,
         usual_speed_m_s=usual_m_s,
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
-        side_m=0.5 * model.width if is_toppling else 0.0,
-        pivot_m=0.5 * model.height if is_flipping else 0.0,
+        side_m=0.5 * model.width if model.length > _LONG * model.height else 0.0,
     )
     return centred(path, duration_s)
 
@@ -141,7 +133,7 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
         if motion.kind in ("enter", "leave"):
             needed = max(needed, 2.0 * model.length / phase.duration_s)
         if motion.kind == "turn" or motion.direction == "around":
-            turning = phase.duration_s * (TURN_SHARE if len(phases) == 1 else 0.8)
+            turning = phase.duration_s * (_TURN_SHARE if len(phases) == 1 else 0.8)
             angle = math.pi if motion.direction == "around" else QUARTER
             needed = max(needed, radius * angle / turning)
     return min(needed, MOST_HASTE * usual_m_s)
@@ -156,6 +148,7 @@ class _Builder:
         self._noun, self._model, self._usual = noun, model, usual_m_s
         self._is_single = is_single
         self._is_free = noun.habitat in ("air", "water")
+        self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
         self._height = 0.0
         self._heading = yaw
         self.pieces: list[Piece] = []
@@ -167,32 +160,29 @@ class _Builder:
     def add(self, phase: Phase) -> None:
         """Append the pieces of one phase."""
         motion, span = phase.motion, phase.duration_s
-        kind, is_path = motion.kind, motion.kind in PATH_KINDS
-        if kind == "turn" or (is_path and motion.direction == "around"):
-            self._turn(motion, span)
-        elif is_path and motion.direction in ("circle", "eight"):
-            self._round(motion, span)
-        elif kind in GOING:
-            self._go(motion, span)
-        elif kind in ("zigzag", "park"):
-            self._manoeuvre(motion, span)
-        elif kind in ("rise", "sink"):
+        if motion.kind in _STEERED:
+            self._travel(motion, span)
+        elif motion.kind in ("rise", "sink"):
             self._climb(motion, span)
-        elif kind == "spin":
+        elif motion.kind == "spin":
             turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
             turn = -turn if motion.direction in _CLOCKWISE else turn
             self._start(0.0, turn)
             self._append(span, 0.0, turn, ramp=min(0.4, 0.5 * span))
-        elif kind in ("jump", "bounce", "flip"):
+        elif motion.kind in ("jump", "bounce"):
             self._hop(motion, span)
-        elif kind in ("fall", "topple"):
-            self._fall(kind, span)
+        elif motion.kind in ("fall", "topple"):
+            self._fall(motion.kind, span)
         else:
             self._rest(motion, span)
 
     def _speed(self, motion: ObjectMotion) -> float:
         """Signed speed at the beginning of a motion, m/s."""
         speed = self._usual * motion.pace if motion.speed_m_s is None else motion.speed_m_s
+        if motion.kind == "turn" and not self._is_mobile:
+            return 0.0
+        if motion.direction == "around" and self._is_mobile and self._noun.motion != "drive":
+            speed *= 0.4
         if motion.kind == "run" and self._noun.motion == "walk" and motion.speed_m_s is None:
             speed *= 1.6 if self.pieces else 1.0
         is_back = motion.direction == "backward" or motion.kind == "reverse"
@@ -224,97 +214,74 @@ class _Builder:
         before = self.pieces[-2].turn_rad_s if len(self.pieces) > 1 else self.initial_turn
         self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
 
-    def _extend(self, pieces: Iterable[Piece]) -> None:
-        for one in pieces:
-            self._append(
-                one.duration_s, one.speed_m_s, one.turn_rad_s, ramp=one.ramp_s,
-                activity=one.activity,
-            )  # fmt: skip
-
-    def _go(self, motion: ObjectMotion, span: float) -> None:
-        speed = self._speed(motion)
-        end = self._end_speed(motion, speed)
+    def _travel(self, motion: ObjectMotion, span: float) -> None:
+        """Along segments, straight or turning, at the end of which it may change its speed."""
+        speed, activity = self._speed(motion), activity_of(motion.kind)
+        end = 0.0 if motion.kind == "park" else self._end_speed(motion, speed)
         slope = {"up": _CLIMB, "down": -_CLIMB}.get(motion.direction or "", 0.0)
         climb = slope * abs(speed) if self._is_free else 0.0
-        activity = activity_of(motion.kind)
-        self._start(speed)
-        span -= self._head_for(motion, speed, span)
-        if end is None:
-            self._append(span, speed, climb=climb, activity=activity)
+        if motion.direction == "circle":
+            turn = speed / max(1.3 * max(self._model.length, self._model.width), 0.3)
+            self._start(speed, turn)
+            self._append(span, speed, turn, activity=activity)
             return
-        # What brakes is seen going, and at rest or slow for a while.
-        lead = (0.3 if abs(end) < abs(speed) else 0.12) * span
-        rest = 0.3 * span if abs(end) < abs(speed) else 0.0
-        self._append(lead, speed, climb=climb, activity=activity)
-        self._append(span - lead, end, climb=climb, ramp=span - lead - rest, activity=activity)
+        segments = self._choose_segments(motion, span)
+        self._start(speed)
+        if end is not None and segments[-1][1]:
+            segments = [(0.65 * share, turn) for share, turn in segments] + [(0.35, 0.0)]
+        last_s = segments.pop()[0] * span if end is not None else 0.0
+        for share, turn in segments:
+            if turn:
+                is_weaving = motion.kind == "zigzag"
+                least = 0.0 if is_weaving else least_radius(self._model, self._noun)
+                for one in arc(share * span, speed, turn, least):
+                    self._append(one.duration_s, speed, one.turn_rad_s, ramp=one.ramp_s,
+                                 activity=activity)  # fmt: skip
+            else:
+                self._append(share * span, speed, climb=climb, activity=activity)
+        if end is not None:
+            # What brakes is seen going, and at rest or slow for a while.
+            is_braking = abs(end) < abs(speed)
+            lead, ramp = (0.3, 0.4) if is_braking else (0.12, 0.88)
+            self._append(lead * last_s, speed, climb=climb, activity=activity)
+            self._append((1.0 - lead) * last_s, end, climb=climb, ramp=ramp * last_s,
+                         activity=activity)  # fmt: skip
 
-    def _head_for(self, motion: ObjectMotion, speed: float, span: float) -> float:
-        """Turn to the direction in the picture that a later motion has; s that it takes."""
-        target = YAWS.get(motion.direction or "")
-        if not self.pieces or target is None or motion.direction in ("up", "down"):
-            return 0.0
+    def _choose_segments(self, motion: ObjectMotion, span: float) -> list[tuple[float, float]]:
+        """Shares of the time, and by what angle each one turns, rad."""
+        kind, direction = motion.kind, motion.direction
+        angle = math.pi if direction == "around" else QUARTER
+        angle = -angle if direction in _CLOCKWISE else angle
+        if kind == "zigzag":
+            count = max(2, round(span / 0.8))
+            turns = [2.0 * ZIGZAG_RAD * (-1.0) ** number for number in range(count)]
+            if self.pieces:
+                turns[0] = ZIGZAG_RAD
+            else:
+                self.initial_yaw = -ZIGZAG_RAD
+            return [(1.0 / count, turn) for turn in turns]
+        if kind == "park":
+            return [(0.2, 0.0), (0.45, angle), (0.35, 0.0)]
+        if direction == "eight":
+            return [(0.5, 2.0 * math.pi), (0.5, -2.0 * math.pi)]
+        if kind == "turn" or direction == "around":
+            lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
+            turning = [(1.0 - 2.0 * lead, angle)]
+            return [(lead, 0.0), *turning, (lead, 0.0)] if lead else turning
+        target = YAWS.get(direction or "")
+        if not self.pieces or target is None or direction in ("up", "down"):
+            return [(1.0, 0.0)]
         turn = math.remainder(target - self._heading, 2.0 * math.pi)
         if abs(turn) < 0.05:
-            return 0.0
-        turning = 0.45 * span
-        self._arc(turning, speed, turn, activity_of(motion.kind))
-        return turning
-
-    def _round(self, motion: ObjectMotion, span: float) -> None:
-        """In a circle; or in an eight: round to the left, then round to the right."""
-        speed, activity = self._speed(motion), activity_of(motion.kind)
-        if motion.direction == "eight":
-            self._start(speed)
-            for sign in (1.0, -1.0):
-                self._arc(0.5 * span, speed, sign * 2.0 * math.pi, activity)
-            return
-        turn = speed / max(1.3 * max(self._model.length, self._model.width), 0.3)
-        self._start(speed, turn)
-        self._append(span, speed, turn, activity=activity)
-
-    def _turn(self, motion: ObjectMotion, span: float) -> None:
-        is_mobile = self._noun.speed_m_s > 0.0 and self._noun.habitat != "fixed"
-        speed = self._speed(motion) if is_mobile else 0.0
-        angle = math.pi if motion.direction == "around" else QUARTER
-        angle = -angle if motion.direction in _CLOCKWISE else angle
-        if motion.direction == "around" and is_mobile and self._noun.motion != "drive":
-            speed *= 0.4
-        self._start(speed)
-        activity = activity_of(motion.kind)
-        if self._is_single and is_mobile:
-            lead = 0.5 * (1.0 - TURN_SHARE) * span
-            self._append(lead, speed, activity=activity)
-            self._arc(span - 2.0 * lead, speed, angle, activity)
-            self._append(lead, speed, activity=activity)
-        else:
-            self._arc(span, speed, angle, activity)
-        end = self._end_speed(motion, speed)
-        if end is not None:
-            last = self.pieces.pop()
-            self.pieces.append(replace(last, speed_m_s=end, ramp_s=last.duration_s))
-
-    def _arc(self, span: float, speed: float, angle: float, activity: str) -> None:
-        """Turn by an angle, the rate rising and falling smoothly."""
-        self._extend(arc(span, speed, angle, least_radius(self._model, self._noun), activity))
-
-    def _manoeuvre(self, motion: ObjectMotion, span: float) -> None:
-        """Zigzag or park."""
-        speed, activity = self._speed(motion), activity_of(motion.kind)
-        self._start(speed)
-        if motion.kind == "zigzag":
-            if not self.pieces:
-                self.initial_yaw = -ZIGZAG_RAD
-            self._extend(zigzag(span, speed, activity, is_first=not self.pieces))
-            return
-        angle = -QUARTER if motion.direction == "right" else QUARTER
-        self._extend(park(span, speed, angle, least_radius(self._model, self._noun), activity))
+            return [(1.0, 0.0)]
+        return [(_HEADING_SHARE, turn), (1.0 - _HEADING_SHARE, 0.0)]
 
     def _climb(self, motion: ObjectMotion, span: float) -> None:
         """Straight up or down; from a runway, along it first, or last."""
         is_up = motion.kind == "rise"
         if self._is_single and self._noun.name in nouns_with("takes off"):
             speed = self._speed(motion)
-            climb = _RUNWAY_CLIMB * speed if is_up else -_RUNWAY_CLIMB * speed
+            climb = _TAKE_OFF * speed if is_up else -_LANDING * speed
             share = _LIFT_SHARE if is_up else _LANDING_SHARE
             self._start(speed)
             self._append(share * span, speed, climb=0.0 if is_up else climb, ramp=0.0)
@@ -335,17 +302,8 @@ class _Builder:
         self._append(span, 0.0, climb=climb * (2.0 if ramp == span else 1.0), ramp=ramp)
 
     def _hop(self, motion: ObjectMotion, span: float) -> None:
-        """Jump, bounce, or turn over in the air."""
+        """Jump or bounce."""
         model, speed = self._model, self._carried()
-        if motion.kind == "flip":
-            height = min(max(1.2 * max(model.length, model.width, model.height), 0.3), 2.5)
-            count = max(1, math.floor(span / (flight_s(height) + HOP_PAUSE_S)))
-            for number in range(count):
-                turned = 2.0 * math.pi * (number + 1)
-                self.pieces.append(
-                    Piece(span / count, ramp_s=flight_s(height), hop_m=height, pitch_rad=turned)
-                )
-            return
         height = max(1.5 * model.height, 0.4)
         if motion.kind == "jump":
             height = min(max(0.35 * model.height, 0.12), 1.5) * motion.pace

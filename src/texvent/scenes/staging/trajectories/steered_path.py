@@ -22,6 +22,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _RADIANS_PER_STEP = 1.0
 """Most heading that one step of the quadrature spans."""
 _STRAIGHT_RAD_S = 1e-9
+_RAMP_S, _SAMPLES = 0.3, 41
 
 
 @dataclass(frozen=True)
@@ -80,8 +81,8 @@ class SteeredPath:
     restitution: float = 0.3
     side_m: float = 0.0
     """Half the width of what falls onto its side; 0 = it falls forwards."""
-    pivot_m: float = 0.0
-    """Height above its origin about which it pitches and leans, m."""
+    slip_rad: float = 0.0
+    """From where it goes to where it points, as of a car that drifts; positive = to its left."""
 
     @property
     def duration_s(self) -> float:
@@ -118,13 +119,12 @@ class SteeredPath:
         roll -= math.atan(self.lean * now.speed * now.turn / GRAVITY_M_S2)
         return BodyState(
             (now.x, now.y, height),
-            now.heading,
+            now.heading + self.slip_rad,
             pitch,
             roll,
             distance_m=now.distance_m,
             speed_m_s=abs(now.speed),
             activity=piece.activity,
-            pivot_m=self.pivot_m,
             act_s=act_s,
         )
 
@@ -276,3 +276,44 @@ def _hop(piece: Piece, elapsed: float) -> tuple[float, float]:
     flight = min(flight, period)
     into = min(elapsed % period, flight) if elapsed < piece.duration_s else flight
     return max(0.5 * GRAVITY_M_S2 * into * (flight - into), 0.0), into - 0.5 * flight
+
+
+def arc(span: float, speed: float, angle: float, least_m: float) -> list[Piece]:
+    """Turn by an angle, the rate rising and falling smoothly.
+
+    Args:
+        span: how long it takes, s.
+        speed: along the heading, m/s.
+        angle: positive = to the left, radians.
+        least_m: least radius, m; a tighter turn is turned less far.
+    """
+    ramp = min(_RAMP_S, 0.3 * span)
+    turn = angle / (span - ramp)
+    if least_m > 0.0 and speed != 0.0:
+        turn = math.copysign(min(abs(turn), abs(speed) / least_m), turn)
+    return [
+        Piece(span - ramp, speed, turn, ramp_s=ramp),
+        Piece(ramp, speed, 0.0, ramp_s=ramp),
+    ]
+
+
+def bend_path(yaw: float, speed_m_s: float, curvature: float, duration_s: float) -> SteeredPath:
+    """A path along an arc at a steady speed, its box centred over (0, 0); curvature in 1/m."""
+    turn = speed_m_s * curvature
+    yaw -= 0.5 * turn * duration_s
+    piece = Piece(duration_s, speed_m_s, turn, ramp_s=0.0)
+    path = SteeredPath((0.0, 0.0, 0.0), yaw, (piece,), speed_m_s, turn)
+    return centred(path, duration_s)
+
+
+def centred(path: SteeredPath, duration_s: float) -> SteeredPath:
+    """The same path with its box over (0, 0)."""
+    places = sample_places(path, duration_s)
+    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
+    return replace(path, start=(-float(middle[0]), -float(middle[1]), path.start[2]))
+
+
+def sample_places(path: SteeredPath, duration_s: float) -> np.ndarray:
+    """[n, 3] places along a path over the clip, m."""
+    times = np.linspace(0.0, duration_s, _SAMPLES)
+    return np.array([path.at(float(time)).position for time in times])

@@ -249,23 +249,6 @@ class Facing:
 
 
 @dataclass(frozen=True)
-class Slipping:
-    """Goes along a path, turned into the bend from where it goes."""
-
-    path: Trajectory
-    slip_rad: float
-    """Positive = its front to the left."""
-    start_s: float
-    ramp_s: float = 0.5
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        state = self.path.at(time_s)
-        share = min(max((time_s - self.start_s) / self.ramp_s, 0.0), 1.0)
-        return replace(state, yaw=state.yaw + self.slip_rad * share**2 * (3.0 - 2.0 * share))
-
-
-@dataclass(frozen=True)
 class Riding:
     """Sits at a fixed place on another body and goes where that goes."""
 

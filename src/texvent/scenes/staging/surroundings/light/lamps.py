@@ -13,11 +13,10 @@ from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.variation import fraction
-from texvent.scenes.scene import LAMP_COLUMNS, PUFF_COLUMNS, Float64Array, Ground
+from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
-from texvent.scenes.staging.particles.shapes import along
 from texvent.scenes.staging.surroundings.light.lighting import hidden_lamp, tint_of
 from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
@@ -35,10 +34,6 @@ _DIMMEST_CASTER = 0.5
 """Lamps whose light at 1 m is less than this cast no shadows."""
 _LONG = 3.0
 """A part longer than this many thicknesses, such as a tube, is no spot of light."""
-_HAZE = 0.16
-"""Optical depth of a beam in hazy air near its lamp."""
-_HAZE_PUFFS = 7
-_HAZE_ALBEDO = 1e-3
 _MOST_CASTERS = 3
 """Each costs time: see docs/design/speed.md."""
 _FAINTEST_SHARE = 0.05
@@ -49,43 +44,6 @@ _FARTHEST_M = 120.0
 _LEVEL_INSTANTS = 24
 _LEVEL_SPAN_S = 6.0
 """Instants and time over which a part's brightest state is looked for."""
-
-
-@dataclass(frozen=True)
-class Switch:
-    """How the lamps of one object are switched."""
-
-    is_lit: bool | None
-    """As `SceneObject.is_lit`."""
-    blink_hz: float | None
-    """As `SceneObject.blink_hz`."""
-    strength: float
-    """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
-    phase: float = 0.0
-    """Head start of flames, periods, so that two candles do not flicker in step."""
-
-    def is_on(self, lamp: Lamp) -> bool:
-        """Whether a lamp is on."""
-        if self.is_lit is not None:
-            return self.is_lit
-        return lamp.always_on or self.strength > lamp.least_dark
-
-    def blink_of(self, lamp: Lamp) -> float | None:
-        """Frequency at which a lamp blinks, Hz; None = it is steady."""
-        return lamp.blink_hz if self.blink_hz is None else self.blink_hz
-
-    def level(self, lamp: Lamp, time_s: float, number: int) -> float:
-        """Light of the object's lamp `number` at that instant, as a share of its usual light."""
-        if not self.is_on(lamp):
-            return 0.0
-        full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
-        rate = self.blink_of(lamp)
-        if rate is None:
-            return full
-        wave = wave_at(lamp, rate, time_s, self.phase, number)
-        if lamp.wave == "flame" and self.blink_hz is not None:
-            wave = max(1.0 + _FLICKERING * (wave - 1.0), 0.05)
-        return full * wave
 
 
 def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int) -> float:
@@ -107,23 +65,52 @@ def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int
 
 @dataclass(frozen=True)
 class LitActor:
-    """An object with lamps."""
+    """An object with lamps, and how they are switched."""
 
     actor: Actor
-    switch: Switch
+    is_lit: bool | None
+    """As `SceneObject.is_lit`."""
+    blink_hz: float | None
+    """As `SceneObject.blink_hz`."""
+    strength: float
+    """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
     brightest: tuple[float, ...]
     """Greatest emission of each part over time; 0 = it does not glow."""
-    casts: bool
+    casts: bool = False
     """Whether its lamps cast shadows."""
+
+    def is_on(self, lamp: Lamp) -> bool:
+        """Whether a lamp is on."""
+        if self.is_lit is not None:
+            return self.is_lit
+        return lamp.always_on or self.strength > lamp.least_dark
+
+    def blink_of(self, lamp: Lamp) -> float | None:
+        """Frequency at which a lamp blinks, Hz; None = it is steady."""
+        return lamp.blink_hz if self.blink_hz is None else self.blink_hz
+
+    def level(self, lamp: Lamp, time_s: float, number: int) -> float:
+        """Light of the object's lamp `number` at that instant, as a share of its usual light."""
+        if not self.is_on(lamp):
+            return 0.0
+        full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
+        rate = self.blink_of(lamp)
+        if rate is None:
+            return full
+        # Two candles do not flicker in step.
+        wave = wave_at(lamp, rate, time_s, fraction(self.actor.instance, "flame"), number)
+        if lamp.wave == "flame" and self.blink_hz is not None:
+            wave = max(1.0 + _FLICKERING * (wave - 1.0), 0.05)
+        return full * wave
 
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""
         parts = list(placed.parts)
         for index, number, lamp in self.lamps_of(placed):
-            part, level = parts[index], self.switch.level(lamp, time_s, number)
-            if self.switch.is_on(lamp):
+            part, level = parts[index], self.level(lamp, time_s, number)
+            if self.is_on(lamp):
                 parts[index] = replace(part, emission=part.emission * lamp.boost * level)
-            elif self.switch.is_lit is not None:
+            elif self.is_lit is not None:
                 parts[index] = replace(part, emission=0.0)
         return replace(placed, parts=parts)
 
@@ -138,57 +125,19 @@ class LitActor:
 
     def rows(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
         """Its lamps at that instant, as in `Environment.lamps`: always as many."""
-        return [row for _, row, _ in self._shining(placed, time_s)]
-
-    def haze(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
-        """What is seen of its beams from the side: puffs, as in `Environment.puffs`."""
-        if self.switch.strength <= 0.0:
-            return []
-        return [
-            haze_rows(row, lamp.haze_m, level)
-            for lamp, row, level in self._shining(placed, time_s)
-            if lamp.haze_m > 0.0
-        ]
-
-    def _shining(
-        self, placed: PlacedModel, time_s: float
-    ) -> list[tuple[Lamp, Float64Array, float]]:
-        """Its lamps that are on: kind, numbers, and light as a share of the usual."""
-        rows: list[tuple[Lamp, Float64Array, float]] = []
+        rows: list[Float64Array] = []
+        done: set[Lamp] = set()
         for index, number, lamp in self.lamps_of(placed):
-            is_done = lamp.is_single and any(lamp == one for one, _, _ in rows)
-            if self.switch.is_on(lamp) and not is_done:
-                part = placed.parts[index]
-                level = self.switch.level(lamp, time_s, number)
-                level *= part.emission / max(self.brightest[index], 1e-9)
-                casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
-                row = lamp_row(lamp, part, placed.to_world, level, time_s, casts)
-                rows.append((lamp, row, level))
+            if lamp in done or not self.is_on(lamp):
+                continue
+            if lamp.is_single:
+                done.add(lamp)
+            part = placed.parts[index]
+            level = self.level(lamp, time_s, number) * part.emission
+            level /= max(self.brightest[index], 1e-9)
+            casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
+            rows.append(lamp_row(lamp, part, placed.to_world, level, time_s, casts))
         return rows
-
-
-def haze_rows(row: Float64Array, reach_m: float, level: float) -> Float64Array:
-    """[7, 19] what dust and damp in the air show of a beam: ever wider puffs along it.
-
-    Args:
-        row: the lamp, as in `Environment.lamps`.
-        reach_m: how far it is seen, m.
-        level: light as a share of its usual light.
-    """
-    edges = reach_m * np.linspace(0.0, 1.0, _HAZE_PUFFS + 1) ** 1.5
-    middle, half = 0.5 * (edges[1:] + edges[:-1]), edges[1:] - edges[:-1]
-    width = row[12] + 0.7 * math.tan(math.acos(row[11])) * middle
-    extents = np.stack([width, width, half], axis=1)
-    maps = along(
-        row[:3] + middle[:, None] * row[7:10], np.tile(row[7:10], (_HAZE_PUFFS, 1)), extents
-    )
-    rows = np.zeros((_HAZE_PUFFS, PUFF_COLUMNS))
-    rows[:, :12] = maps.reshape(-1, 12)
-    # Nearly black, so that it does not scatter the lamp's light once more.
-    rows[:, 12:15] = _HAZE_ALBEDO * row[3:6] / max(row[3:6].max(), 1e-9)
-    rows[:, 15] = _HAZE * level * np.linspace(1.0, 0.3, _HAZE_PUFFS)
-    rows[:, 16] = 1.0 / _HAZE_ALBEDO
-    return rows
 
 
 def lamp_row(
@@ -242,13 +191,11 @@ class LampPlan:
     still: Float64Array
     """[m, 15] lamps of the scenery, and light whose lamp is out of sight."""
 
-    def of(self, actor: Actor) -> LitActor | None:
-        """The lamps of one object, if it has any."""
-        return next((one for one in self.lit if one.actor.instance == actor.instance), None)
-
     def place(self, actor: Actor, time_s: float) -> PlacedModel:
         """An object in the world, with its lamps as bright as they are at that instant."""
-        placed, lit = actor.place(time_s), self.of(actor)
+        placed = actor.place(time_s)
+        own = (one for one in self.lit if one.actor.instance == actor.instance)
+        lit = next(own, None)
         return placed if lit is None else lit.glow(placed, time_s)
 
     def rows(self, time_s: float) -> Float64Array:
@@ -256,14 +203,10 @@ class LampPlan:
         rows = [row for one in self.lit for row in one.rows(one.actor.place(time_s), time_s)]
         return np.concatenate([np.array(rows).reshape(-1, LAMP_COLUMNS), self.still])
 
-    def puffs(self, time_s: float) -> list[Float64Array]:
-        """What is seen of beams from the side, as in `Environment.puffs`."""
-        return [rows for one in self.lit for rows in one.haze(one.actor.place(time_s), time_s)]
-
     @property
     def is_moving(self) -> bool:
         """Whether objects of the scene, which may move, shed light."""
-        return any(one.switch.is_lit is not False for one in self.lit)
+        return any(one.is_lit is not False for one in self.lit)
 
     @property
     def blink_hz(self) -> float | None:
@@ -271,9 +214,9 @@ class LampPlan:
         rates = [0.0]
         for one in self.lit:
             for _, _, lamp in one.lamps_of(one.actor.place(0.0)):
-                rate = max(one.switch.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
+                rate = max(one.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
                 rate *= FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0
-                rates.append(rate if one.switch.is_on(lamp) else 0.0)
+                rates.append(rate if one.is_on(lamp) else 0.0)
         return max(rates) or None
 
 
@@ -319,15 +262,14 @@ def plan_lamps(
 def _lit_actor(actor: Actor, description: SceneDescription, strength: float) -> LitActor | None:
     """The lamps of an object; None where it has none that are on or said to be off."""
     said, brightest = description.objects[actor.object_index], _brightest(actor)
-    switch = Switch(said.is_lit, said.blink_hz, strength, fraction(actor.instance, "flame"))
-    lit, placed = LitActor(actor, switch, brightest, casts=False), actor.place(0.0)
+    lit, placed = LitActor(actor, said.is_lit, said.blink_hz, strength, brightest), actor.place(0.0)
     is_seen = said.is_lit is False and any(brightest)
-    return lit if is_seen or any(switch.is_on(one) for _, _, one in lit.lamps_of(placed)) else None
+    return lit if is_seen or any(lit.is_on(one) for _, _, one in lit.lamps_of(placed)) else None
 
 
 def _steady_rows(one: LitActor, time_s: float) -> Float64Array:
     """[m, 15] its lamps as if they did not blink."""
-    steady = replace(one, switch=replace(one.switch, blink_hz=1e-9))
+    steady = replace(one, blink_hz=1e-9)
     return np.array(steady.rows(one.actor.place(time_s), 0.0)).reshape(-1, LAMP_COLUMNS)
 
 
