@@ -68,8 +68,3 @@ _STANCES: Mapping[str, Callable[[float], Stance]] = MappingProxyType(
         "wag": lambda t: Stance(wag=1.5 * _swing(t, 1.3)),
     }
 )
-
-
-def shown_as(act: str, verb: str) -> str | None:
-    """What is seen of a verb, where that is less than it says."""
-    return None if verb in ANIMAL_ACTS[act] else act

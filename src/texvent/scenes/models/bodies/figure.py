@@ -143,10 +143,6 @@ def _read_group(table: Mapping[str, Any], painted: Painted) -> _Group:
     return _Group(painted.draw(table["parts"]), joints, at_rest, table.get("pair", False))
 
 
-_BY_SEED = ("out", "up", "size", "shade")
-"""What the seed chooses of each ball of a clump."""
-
-
 def _read_clump(table: Mapping[str, Any], painted: Painted, seed: int) -> _Group:
     """Balls around an upright axis, their places, sizes and shades chosen by the seed.
 

@@ -20,15 +20,18 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from functools import partial
+from dataclasses import dataclass
 from importlib.resources import files
 from types import MappingProxyType
 from typing import Any
 
+from texvent.errors import FileFormatError, InputError
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
 from texvent.scenes.models.animals.quadruped.body import build_quadruped
+from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.bodies.figure import build_figure
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.scene import Colour
 
 _WALKER = {"habitat": "ground", "motion": "walk"}
 
@@ -56,15 +59,37 @@ _OWN = ("names", "plurals")
 """Keys that no other entry inherits."""
 
 
+@dataclass(frozen=True, eq=False)
+class BodyBuilder:
+    """Builds the models of one noun from its table; implements `protocol.ModelBuilder`."""
+
+    name: str
+    table: Mapping[str, Any]
+    is_centred: bool
+
+    def __call__(self, *, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+        """Build it; `colour` takes the place of its usual ones.
+
+        Raises:
+            FileFormatError: its table cannot be read.
+        """
+        build = build_quadruped if "build" in self.table else build_figure
+        try:
+            return build(self.table, self.is_centred, colour=colour, scale=scale, seed=seed)
+        except InputError:
+            raise
+        except (KeyError, TypeError, ValueError) as error:
+            raise FileFormatError(f"data/bodies, {self.name!r}: {error}") from error
+
+
 def _read_noun(name: str, entry: Mapping[str, Any]) -> Noun:
-    is_quadruped = "shoulder" in entry
-    table = {**_WALKER, **entry} if is_quadruped else entry
+    table = {**_WALKER, **entry} if "build" in entry else entry
     habitat = table.get("habitat", "fixed")
     motion = table.get("motion", "stand")
     is_centred = habitat == "air" or (habitat == "water" and motion == "swim")
     return Noun(
         name,
-        partial(build_quadruped if is_quadruped else build_figure, table, is_centred),
+        BodyBuilder(name, table, is_centred),
         habitat,
         table.get("speed", 0.0),
         motion,
@@ -78,7 +103,7 @@ def _read_noun(name: str, entry: Mapping[str, Any]) -> Noun:
 
 def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
     """What a body does in its place: all with four legs, what the mouth does if it bows."""
-    if "shoulder" in table:
+    if "build" in table:
         return frozenset(ANIMAL_ACTS)
     groups = table.get("moving", {}).values()
     joints = [joint for one in groups for joint in (*one.get("joints", ()), *one.get("rest", ()))]

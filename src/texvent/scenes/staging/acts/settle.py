@@ -76,9 +76,6 @@ def _settle(
             subject = replace(subject, motion=ObjectMotion("walk", motion.direction))
         return subject, still
     if kind == "wear":
-        is_shirt = target.noun in nouns_with("gives the shirt its colour")
-        if is_shirt and subject.noun in PERSON_NOUNS:
-            subject = replace(subject, colour=target.colour or subject.colour)
         return subject, still
     size = trait_value("carried size", target.noun) or 1.0
     return subject, replace(still, scale=size * target.scale)

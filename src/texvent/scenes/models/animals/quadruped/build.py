@@ -31,14 +31,14 @@ class Build:
     tail: tuple[float, float]
     """Length, and angle above horizontal at its root, radians."""
     ear: tuple[float, str]
-    """Length; "prick", "flop", "side", "round", "long" or "fan"."""
+    """Length; "prick", "flop", "side", "round", "long" or "broad"."""
     stride: float = 0.0
     """Distance of one cycle of steps; 0 = 1.5 times the shoulder height."""
     thick: float = 1.0
     """Thickness of the legs relative to a dog's."""
     mane: str = ""
     """ "", "ridge", "full"."""
-    trunk: float = 0.0
+    trunk_length: float = 0.0
     """Length of an elephant's trunk."""
     hop: float = 0.0
     """Height of a rabbit's hop."""
@@ -68,8 +68,9 @@ class Coat:
 
 
 def read_build(table: Mapping[str, Any]) -> Build:
-    """The proportions in the table of an animal."""
-    return Build(**{one.name: table[one.name] for one in fields(Build) if one.name in table})
+    """The proportions in the table of an animal: `build` holds those that all have, in order."""
+    more = {one.name: table[one.name] for one in fields(Build) if one.name in table}
+    return Build(*table["build"], **more)
 
 
 def paint_coat(table: Mapping[str, Any], *, colour: Colour | None, seed: int) -> Coat:
@@ -86,7 +87,7 @@ def paint_coat(table: Mapping[str, Any], *, colour: Colour | None, seed: int) ->
     trunk = painted.material(table["pattern"]) if "pattern" in table else plain
     limbs = painted.material(table["limb_pattern"]) if "limb_pattern" in table else plain
     dark = _fur(table, "dark") or fur(shade(hue, 0.45))
-    flops = fleece or table["ear"][1] == "flop"
+    flops = fleece or read_build(table).ear[1] == "flop"
     lined = Painted(
         painted.hues,
         painted.surfaces,

@@ -70,7 +70,7 @@ def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> Mo
     long, kind = build.ear
     material = coat.ears
     root = (x - 0.05 * skull, side * 0.28 * skull, z + 0.30 * skull)
-    if kind == "fan":
+    if kind == "broad":
         middle = (x - 0.40 * skull, side * (0.70 + 0.15 * twitch) * skull, z - 0.10 * skull)
         return moved(
             [ball(coat.dark, middle, (0.95 * long, 0.12 * skull, 1.15 * long))],
@@ -93,16 +93,16 @@ def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> Mo
 
 def _trunk(build: Build, coat: Coat, nose: Point, wag: float, curled: float) -> list[ModelPart]:
     """Down from the nose; `curled` 1 bends it up and back over the head."""
-    if build.trunk == 0.0:
+    if build.trunk_length == 0.0:
         return []
     sway = 0.10 * wag * (1.0 - curled)
     parts = []
     here: Point = (nose[0] + 0.02, 0.0, nose[2])
-    step = build.trunk / len(_TRUNK_DOWN)
+    step = build.trunk_length / len(_TRUNK_DOWN)
     for index, (low, high) in enumerate(zip(_TRUNK_DOWN, _TRUNK_UP, strict=True)):
         bent = low + curled * (high - low) + sway * (index + 1)
         there = (here[0] + step * math.cos(bent), 0.0, here[2] + step * math.sin(bent))
-        parts.append(limb(coat.limbs, here, there, (0.116 - 0.016 * index) * build.trunk))
+        parts.append(limb(coat.limbs, here, there, (0.116 - 0.016 * index) * build.trunk_length))
         here = there
     return parts
 

@@ -1,1 +1,0 @@
-"""Clothing of animals is gone; `clothing` goes with its last callers in staging."""
