@@ -47,7 +47,16 @@ def to_description(scene: Scene) -> SceneDescription:
             camera.look_at_m,
             camera.field_of_view_deg,
         ),
-        light=staged.Illumination(**{**vars(light), "tint": _colour(light.tint, "light")}),
+        light=staged.Illumination(
+            **{
+                **vars(light),
+                "tint": _colour(light.tint, "light"),
+                "lamps": tuple(
+                    staged.SceneLamp(**{**vars(one), "colour": _colour(one.colour, "light")})
+                    for one in light.lamps
+                ),
+            }
+        ),
         surroundings=staged.Surroundings(
             place.pop("name"),
             _colour(place.pop("colour"), "surface"),
@@ -92,7 +101,13 @@ def from_description(description: SceneDescription) -> Scene:
                 "look_at_m": shot.look_at_m,
                 "field_of_view_deg": shot.field_of_view_deg,
             },
-            "light": {**vars(description.light), "tint": _name(description.light.tint)},
+            "light": {
+                **vars(description.light),
+                "tint": _name(description.light.tint),
+                "lamps": [
+                    {**vars(one), "colour": _name(one.colour)} for one in description.light.lamps
+                ],
+            },
             "place": {
                 "name": place.pop("place"),
                 "colour": _name(place.pop("colour")),
