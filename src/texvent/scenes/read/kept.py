@@ -20,4 +20,6 @@ def _lists() -> Mapping[str, Any]:
 def kept(kind: str, table: Mapping[str, Value]) -> dict[str, Value]:
     """Entries of a table that stay; assets stay too."""
     names, gone = set(_lists()[kind]), set(_lists().get(f"gone {kind}", ()))
-    return {name: one for name, one in table.items() if name in names or (gone and name not in gone)}
+    return {
+        name: one for name, one in table.items() if name in names or (gone and name not in gone)
+    }

@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 from texvent.scenes.colours import SURFACES
-from texvent.scenes.inflection import list_finite_forms, list_plurals
+from texvent.scenes.inflection import list_plurals, list_verb_forms
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
@@ -54,7 +54,7 @@ class VerbSense:
 
     who: str = "plain"
     """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "mover" (a person whose
-    object moves), "source" (of an effect), "plain" (anything); or "auxiliary"."""
+    object moves), "source" (of an effect) or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0
@@ -161,7 +161,8 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
 def _list_verbs() -> Iterator[tuple[str, Sense]]:
     for phrase, sense in (*_list_plain_verbs(), *_list_activities()):
         base, _, rest = phrase.replace("-", " ").partition(" ")
-        for word, form in verb_forms(base):
+        written = read_table("words")["irregular"].get(base, "")
+        for word, form in list_verb_forms(base, written):
             yield f"{word} {rest}".strip(), Sense("verb", sense, form)
 
 
@@ -207,7 +208,7 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
     for name, effect in kept("effects", EFFECTS).items():
         for phrase in effect.nouns:
             yield from _with_plurals(phrase, Sense("effect", name))
-        yield from ((phrase, Sense("effect adjective", name)) for phrase in effect.adjectives)
+        yield from ((phrase, Sense("field", ("effect", name))) for phrase in effect.adjectives)
     for name, phrases in read_table("words")["effects"]["phrases"].items():
         yield from ((phrase, Sense("effect", name)) for phrase in phrases)
     for who, table in _PERFORMERS:
@@ -229,6 +230,11 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
                 yield from ((phrase, sense) for phrase in phrases)
     yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
     yield from _list_settings()
+    yield from _list_grammar()
+
+
+def _list_grammar() -> Iterator[tuple[str, Sense]]:
+    words = read_table("words")
     for kind in ("relations", "shots"):
         for value, phrases in words[kind].items():
             yield from ((phrase, Sense(kind[:-1], value)) for phrase in phrases)
@@ -264,20 +270,3 @@ def _plain(value: str) -> str | float | bool:
     if value in ("true", "false"):
         return value == "true"
     return float(value) if value.replace(".", "").isdigit() else value
-
-
-def verb_forms(base: str) -> list[tuple[str, str]]:
-    """Forms of a verb.
-
-    Example:
-        >>> verb_forms("carry")
-        [('carry', 'base'), ('carries', 's'), ('carrying', 'ing'), ('carried', 'ed')]
-    """
-    stem = base[:-1] if base.endswith("e") and not base.endswith("ee") else base
-    regular = (
-        f"{base[:-1]}ied" if base.endswith("y") and base[-2:-1] not in "aeiou" else f"{stem}ed"
-    )
-    written = read_table("words")["irregular"].get(base, f"{stem}ing {regular}")
-    present, *pasts = written.split()
-    forms = [(base, "base"), (list_finite_forms(base)[-1], "s"), (present, "ing")]
-    return [*forms, *((past, "ed") for past in pasts)]
