@@ -13,8 +13,10 @@ REPORTS = st.builds(
     scene=WORDS,
     shown=WORDS,
     substituted=st.lists(st.builds(Substitution, st.text(), st.text()), max_size=3).map(tuple),
-    not_shown=WORDS,
     not_understood=WORDS,
+    not_shown=WORDS,
+    out_of_view=WORDS,
+    too_small=WORDS,
     notes=WORDS,
 )
 
@@ -40,26 +42,26 @@ def test_metadata_of_older_files_are_read() -> None:
 def test_the_refusal_names_every_word() -> None:
     report = PromptReport(
         substituted=(Substitution("spaniel", "dog"),),
-        not_shown=("under the table",),
+        out_of_view=("table",),
         not_understood=tuple(f"w{number}" for number in range(12)),
     )
     said = report.refusal()
     assert said is not None
-    for word in ("spaniel → dog", "under the table", "w0", "w11"):
+    for word in ("spaniel → dog", "out of view: table", "w0", "w11"):
         assert word in said
 
 
 def test_a_tally_counts_prompts_and_words() -> None:
     tally = ReportTally()
     tally.add(PromptReport(not_understood=("wug",)))
-    tally.add(PromptReport(not_understood=("wug", "dax"), not_shown=("hold",)))
+    tally.add(PromptReport(not_understood=("wug", "dax"), out_of_view=("dog (1 of 2)",)))
     tally.add(PromptReport(shown=("dog",)))
     tally.add(None)
     assert tally.line() == (
         "1 of 4 prompts shown as they say; 2 with words not understood (wug (2), dax); "
-        "1 with words not shown (hold); 1 refused"
+        "1 with objects out of view (dog); 1 refused"
     )
     assert tally.tables["words"] == {
         "not_understood": {"wug": 2, "dax": 1},
-        "not_shown": {"hold": 1},
+        "out_of_view": {"dog": 1},
     }

@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from texvent.scenes.report import PromptReport
     from texvent.scenes.scene import Camera, Scene
     from texvent.scenes.staging.compose import ComposedScene
-    from texvent.scenes.staging.take import Take
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
@@ -282,8 +281,8 @@ class ProceduralGenerator:
         """
         del progress
         scene, report, files = self._stage(prompt)
-        for fault in report.faults(MOST_WORDS, rest=ALL_WORDS):
-            warn(f"prompt words {fault}")
+        for fault in report.warnings(MOST_WORDS, rest=ALL_WORDS):
+            warn(fault)
         metadata = {
             "generator": "procedural",
             "version": __version__,
@@ -313,9 +312,8 @@ class ProceduralGenerator:
 
         Args:
             prompt: as `generate` takes it.
-            is_staged: whether the scene is built, which takes 0.1 s, so that words that it cannot
-                show and things that are never in view are found too; False: the sentence is only
-                read.
+            is_staged: whether the scene is built, which takes 0.1 s, so that objects that are
+                never in view are found too; False: the sentence is only read.
 
         Raises:
             InputError: as `generate`.
@@ -326,28 +324,30 @@ class ProceduralGenerator:
 
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
-        from texvent.generate.takes import film
         from texvent.scenes.assets import list_files
+        from texvent.scenes.in_view import find_unseen
         from texvent.scenes.staging.compose import compose_scene
-        from texvent.scenes.staging.take import USUAL
 
         named = nouns_of(prompt, self._nouns)
         description = understand(prompt, named)
         self._accepted(description.report())  # before the scene is built
-        nouns, duration_s = _shown_nouns(description, named), self.config.duration
-
-        def stage(described: SceneDescription, take: Take) -> ComposedScene:
-            scene = compose_scene(
-                described, seed=self.seed, size=self.size, duration_s=duration_s, nouns=nouns,
-                take=take,
-            )  # fmt: skip
-            return replace(scene, has_highlights=self.config.hdr, is_grey=described.is_grey)
-
-        files = list_files(description, named)
-        if not isinstance(prompt, str):  # of a scene there are no words to look for
-            return stage(description, USUAL), description.report(), files
-        best = film(description, stage, self.size, duration_s)
-        return best.scene, self._accepted(best.report), files
+        duration_s = self.config.duration
+        scene = compose_scene(
+            description,
+            seed=self.seed,
+            size=self.size,
+            duration_s=duration_s,
+            nouns=_shown_nouns(description, named),
+        )
+        unseen = find_unseen(scene, description, scene.object_of, self.size, duration_s)
+        report = replace(
+            description.report(),
+            not_shown=scene.not_shown,
+            out_of_view=unseen.out_of_view,
+            too_small=unseen.too_small,
+        )
+        scene = replace(scene, has_highlights=self.config.hdr, is_grey=description.is_grey)
+        return scene, self._accepted(report), list_files(description, named)
 
     @cached_property
     def _nouns(self) -> Mapping[str, Noun]:

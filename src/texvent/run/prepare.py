@@ -144,8 +144,8 @@ def make_scene(
         return detailed
     reading = read(detailed, assets=getattr(settings.source, "assets", None))
     report = PromptReport(substituted=reading.substituted, not_understood=reading.not_understood)
-    for fault in report.faults():
-        warn(f"prompt words {fault}")
+    for fault in report.warnings():
+        warn(fault)
     return reading.scene
 
 

@@ -184,6 +184,15 @@ class CameraMove:
     place."""
     speed_m_s: float | None = None
     """For travel: speed that the prompt states, m/s."""
+    start_s: float | None = None
+    """When it starts, s; None = with its phase, or at 0 where `stop_s` is given."""
+    stop_s: float | None = None
+    """When it stops, s; None = with its phase, or at the end where `start_s` is given."""
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether it has times of its own instead of a phase."""
+        return self.start_s is not None or self.stop_s is not None
 
 
 @dataclass(frozen=True)
@@ -264,7 +273,7 @@ class Surroundings:
     """Where the scene is."""
 
     place: str | None = None
-    """Key of `lexicon_scene.PLACES`; never None after
+    """Key of `models.places.PLACES`; never None after
     `parse_prompt`."""
     colour: NamedColour | None = None
     """Colour of the ground, where the place has a ground to paint."""
@@ -287,31 +296,6 @@ class Surroundings:
     """Whether dust flies up behind what moves on the ground."""
     wave_height: float = 1.0
     """Of waves on water, as `Environment.wave_height`."""
-
-
-@dataclass(frozen=True)
-class Claim:
-    """What a word of the prompt stands for, at one of the places where the prompt has it."""
-
-    word: str
-    aspect: str
-    """"name" (of objects), "count", "motion", "relation", "colour", "size", "material", "part",
-    "side"; "light", "bright", "lighting" (how the light is), "weather", "clouds", "snow", "sky",
-    "steep", "dust", "flicker", "shadow", "effect", "place", "road", "view", "framing", "viewpoint"
-    (what the camera is in or on), "course" (over roofs, across or beside a road, in rows, in the
-    stands); or "quality" (whatever else it says)."""
-    things: tuple[int, ...]
-    """Indices of the objects that show it."""
-    relations: tuple[Relation, ...] = ()
-    """Relations that it stands for."""
-    motion: int | None = None
-    """Which of the motions of its objects, from 0; None = none, or not known."""
-    move: str | None = None
-    """Kind of the camera's move that it asks for."""
-    value: str = ""
-    """What it means, where it is a word of the scene: "fog" for "misty"."""
-    lost: tuple[str, ...] = ()
-    """Words that it goes with and that are not understood: "thumb" for "runs his thumb along"."""
 
 
 @dataclass(frozen=True)
@@ -338,8 +322,6 @@ class SceneDescription:
     """Words that are shown as something else."""
     not_understood: tuple[str, ...] = ()
     """Words that had no effect on the scene, in order, each once."""
-    claims: tuple[Claim, ...] = ()
-    """What the words that are shown, or substituted, stand for."""
     notes: tuple[str, ...] = ()
     """What the parser decided or left out, as sentences."""
 

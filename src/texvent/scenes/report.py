@@ -15,6 +15,10 @@ MOST_REFUSED = 30
 """Words of a kind that the error of `strict` names."""
 MOST_COUNTED = 5
 """Words that a tally names."""
+_LISTS = ("scene", "shown", "not_understood", "not_shown", "out_of_view", "too_small", "notes")
+"""Fields of a report that are lists of words or lines."""
+_OF_OBJECTS = ("out of view", "too small")
+"""Kinds of fault that objects have, and no words."""
 
 
 @dataclass(frozen=True)
@@ -53,22 +57,21 @@ class PromptReport:
     """Words that the scene shows, in order, each once."""
     substituted: tuple[Substitution, ...] = ()
     """Words that are shown as something else."""
-    in_doubt: tuple[str, ...] = ()
-    """Words that the scene shows but that may mean something else: what they go with is lost."""
-    not_shown: tuple[str, ...] = ()
-    """Words that are understood but that the scene could not show, such as "under the table"."""
     not_understood: tuple[str, ...] = ()
     """Words that had no effect on the scene, in order, each once."""
+    not_shown: tuple[str, ...] = ()
+    """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
+    out_of_view: tuple[str, ...] = ()
+    """Objects that the camera never shows, such as "tree" or "dog (2 of 3)"."""
+    too_small: tuple[str, ...] = ()
+    """Objects that are a few pixels large at most, such as "bird (2 pixels)"."""
     notes: tuple[str, ...] = ()
     """What was decided where the prompt leaves it open, as sentences."""
 
     @property
     def is_faithful(self) -> bool:
-        """Whether every word is shown as it says: what `strict` asks for.
-
-        No word is in doubt unless another one is lost.
-        """
-        return not (self.substituted or self.not_shown or self.not_understood)
+        """Whether every word is understood and every object in view: what `strict` asks for."""
+        return not self.faults()
 
     def faults(self, most: int | None = None, *, rest: str = "") -> list[str]:
         """What is not shown as it says: a line for each kind.
@@ -77,17 +80,28 @@ class PromptReport:
             most: words that a line names; None: all.
             rest: said at the end of a line that names fewer: where all of them are.
         """
-        kinds = {
-            "shown as something else": [str(one) for one in self.substituted],
-            "not shown": self.not_shown,
-            "not understood": self.not_understood,
-            "in doubt": self.in_doubt,
-        }
         return [
             f"{kind}: {', '.join(words) if most is None else few(words, most)}"
             f"{rest if most is not None and len(words) > most else ''}"
-            for kind, words in kinds.items()
+            for kind, words in self.kinds().items()
             if words
+        ]
+
+    def kinds(self) -> dict[str, list[str]]:
+        """Kind of fault → its words or objects."""
+        return {
+            "shown as something else": [str(one) for one in self.substituted],
+            "not understood": list(self.not_understood),
+            "not shown": list(self.not_shown),
+            "out of view": list(self.out_of_view),
+            "too small": list(self.too_small),
+        }
+
+    def warnings(self, most: int | None = None, *, rest: str = "") -> list[str]:
+        """The faults as sentences by themselves; arguments as of `faults`."""
+        return [
+            f"{'' if line.startswith(_OF_OBJECTS) else 'prompt words '}{line}"
+            for line in self.faults(most, rest=rest)
         ]
 
     def lines(self) -> list[str]:
@@ -106,13 +120,8 @@ class PromptReport:
     def to_json(self) -> dict[str, Any]:
         """Plain values; lists without entries are left out."""
         plain = {
-            "scene": list(self.scene),
-            "shown": list(self.shown),
             "substituted": [{"said": one.said, "shown": one.shown} for one in self.substituted],
-            "in_doubt": list(self.in_doubt),
-            "not_shown": list(self.not_shown),
-            "not_understood": list(self.not_understood),
-            "notes": list(self.notes),
+            **{name: list(getattr(self, name)) for name in _LISTS},
         }
         return {name: words for name, words in plain.items() if words}
 
@@ -121,13 +130,8 @@ class PromptReport:
         """The report that `to_json` wrote."""
         pairs = facts.get("substituted", ())
         return cls(
-            scene=tuple(facts.get("scene", ())),
-            shown=tuple(facts.get("shown", ())),
             substituted=tuple(Substitution(one["said"], one["shown"]) for one in pairs),
-            in_doubt=tuple(facts.get("in_doubt", ())),
-            not_shown=tuple(facts.get("not_shown", ())),
-            not_understood=tuple(facts.get("not_understood", ())),
-            notes=tuple(facts.get("notes", ())),
+            **{name: tuple(facts.get(name, ())) for name in _LISTS},
         )
 
     @classmethod
@@ -168,10 +172,8 @@ class ReportTally:
             self.refused += 1
             return
         self.faithful += report.is_faithful
-        self._count("not understood", report.not_understood)
-        self._count("not shown", report.not_shown)
-        self._count("shown as something else", map(str, report.substituted))
-        self._count("in doubt", (word.partition(" (")[0] for word in report.in_doubt))
+        for kind, words in report.kinds().items():
+            self._count(kind, (word.partition(" (")[0] for word in words))
 
     def _count(self, kind: str, words: Iterable[str]) -> None:
         found = set(words)
@@ -209,7 +211,8 @@ class ReportTally:
         """
         parts = [f"{self.faithful:,} of {self.prompts:,} {noun} {verb}"]
         for kind, count in self.kinds.items():
-            parts.append(f"{count:,} with words {kind} ({self._few(kind)})")
+            noun = "objects" if kind in _OF_OBJECTS else "words"
+            parts.append(f"{count:,} with {noun} {kind} ({self._few(kind)})")
         if self.refused:
             parts.append(f"{self.refused:,} refused")
         return "; ".join(parts)

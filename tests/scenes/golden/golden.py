@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.language.parser import parse_prompt
+from texvent.generate.scene_input import list_nouns, understand
 from texvent.scenes.spec.data import scene_from_data, scene_to_data
 from texvent.scenes.spec.description import from_description, to_description
 from texvent.sensor import SensorSize
@@ -52,7 +52,7 @@ def read_scene(sentence: str) -> dict[str, Any]:
     """The scene of a sentence, as plain values, with all that the sentence leaves open decided."""
     # Through JSON, as the stored ones: tuples become lists.
     scene: dict[str, Any] = json.loads(
-        json.dumps(scene_to_data(from_description(parse_prompt(sentence))))
+        json.dumps(scene_to_data(from_description(understand(sentence, list_nouns()))))
     )
     return scene
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from texvent.scenes.staging.claims.contact import is_in, rides, touches
 
-from texvent.scenes.language.parser import parse_prompt
+from tests.scenes.sentences import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.claims.contact import is_in, rides, touches
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.people.daily import SEAT
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.staging.actors import Actor

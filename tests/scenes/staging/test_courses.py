@@ -6,10 +6,10 @@ import math
 from dataclasses import replace
 
 import pytest
+from texvent.scenes.staging.claims.courses import approaches, comes_from, faces, goes_round
 
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.claims.courses import approaches, comes_from, faces, goes_round
 from texvent.scenes.staging.trajectories.trajectory import Circle, Stationary, Straight, Trajectory
 
 

@@ -6,14 +6,14 @@ import math
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.wrapped.opened import OpenedModel
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.claims.bodies import part_boxes
+from texvent.scenes.staging.body_boxes import part_boxes
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.scenes.sentences import parse_prompt
 
 from texvent.scenes.description import (
     ObjectMotion,
@@ -15,7 +16,6 @@ from texvent.scenes.description import (
     SceneObject,
     Surroundings,
 )
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize
@@ -62,19 +62,35 @@ def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(
 
 
 @pytest.mark.parametrize(
-    ("prompt", "is_on"),
+    ("nouns", "place", "is_on"),
     [
-        ("a fire hydrant and a street sign", False),
-        ("a cow stands on a street corner", False),
-        ("a dog sits in the middle of the street", True),
+        (("fire hydrant", "sign"), "road", False),
+        (("cow",), "city", False),
+        (("barrier", "fire hydrant"), "road", True),
+        (("car",), "road", True),
     ],
 )
-def test_what_rests_in_a_city_is_on_the_pavement_unless_it_is_in_the_street(
-    prompt: str, *, is_on: bool
+def test_what_rests_is_beside_the_road_unless_it_belongs_there(
+    nouns: tuple[str, ...], place: str, *, is_on: bool
 ) -> None:
-    scene = compose_scene(parse_prompt(prompt), seed=0, size=SensorSize(64, 48), duration_s=1.0)
+    objects = tuple(SceneObject(noun, motion=ObjectMotion("stand")) for noun in nouns)
+    description = SceneDescription("", objects, surroundings=Surroundings(place))
+    scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=1.0)
     environment = scene.environment(0.0)
     x, y = environment.road_offset
     road = RoadLine(environment.road_angle, (float(x), float(y)))
     spots = np.array([one.middle(0.0)[:2] for one in scene.actors])
     assert bool(road.distance(spots).min() < environment.road_half_width) == is_on
+
+
+def test_a_crosswalk_lies_across_the_road_under_who_crosses() -> None:
+    objects = (SceneObject("man", motion=ObjectMotion("walk", "across")), SceneObject("crosswalk"))
+    description = SceneDescription("", objects, surroundings=Surroundings("city"))
+    scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=2.0)
+    environment = scene.environment(0.0)
+    x, y = environment.road_offset
+    road = RoadLine(environment.road_angle, (float(x), float(y)))
+    man, stripes = scene.actors
+    assert road.distance(stripes.middle(0.0)[None, :2])[0] < 1e-6
+    along = np.array([math.cos(road.angle), math.sin(road.angle)])
+    assert abs((man.middle(1.0) - stripes.middle(1.0))[:2] @ along) < 0.1

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
-
-from texvent.scenes.language.parser import parse_prompt
-from texvent.scenes.staging.compose import compose_scene
+from tests.scenes.sentences import parse_prompt
 from texvent.scenes.staging.trajectories.legs import Leg, Legs, flight_s
+
+from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 
 

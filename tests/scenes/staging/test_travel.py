@@ -21,7 +21,7 @@ from texvent.sensor import SensorSize
 
 SIZE = SensorSize(173, 130)
 DURATION_S = 2.0
-PLACES = ("road", "city", "dirt road", "forest", "grass", "sand", "snow", "sea", "underwater",
+PLACES = ("road", "city", "dirt road", "forest", "grass", "desert", "snow", "sea", "underwater",
           "mountain", "sky", "indoor")  # fmt: skip
 
 
@@ -56,7 +56,7 @@ def test_the_camera_moves_on_above_the_ground_and_through_nothing(
         assert np.all(np.linalg.norm(middles - position, axis=1) > 0.3 * reach)
 
 
-@pytest.mark.parametrize("place", ["road", "city", "forest", "sand", "mountain"])
+@pytest.mark.parametrize("place", ["road", "city", "forest", "desert", "mountain"])
 def test_scenery_stands_on_both_sides_up_to_the_end_of_the_route(place: str) -> None:
     scene = travel(place, CameraMove("travel", "forward"))
     last = scene.camera(DURATION_S)

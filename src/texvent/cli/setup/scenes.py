@@ -143,15 +143,14 @@ def _show(options: ShowOptions) -> int:
 
 def _find(said: str, nouns: Mapping[str, Noun]) -> Noun:
     """The noun of a name or synonym, or the one that shows a kind."""
-    from texvent.scenes.models.kinds import find_kind
+    from texvent.scenes.read import find_noun
 
     wanted = said.lower().strip()
-    for noun in nouns.values():
-        if wanted == noun.name or wanted in noun.synonyms or wanted in noun.plurals:
-            return noun
-    kind = find_kind(wanted)
-    if kind is not None:
-        return nouns[kind]
+    if wanted in nouns:
+        return nouns[wanted]
+    found = find_noun(wanted, nouns)
+    if found is not None:
+        return nouns[found]
     raise InputError(f"{shown(said)} is no noun; {suggest(wanted, tuple(nouns), longest=220)}")
 
 

@@ -17,7 +17,6 @@ from texvent.scenes.assets.gltf_figure import GltfFigure
 from texvent.scenes.assets.index import ENDINGS, Asset
 from texvent.scenes.assets.trimesh_files import load_with_trimesh
 from texvent.scenes.mesh import Colour, Float64Array
-from texvent.scenes.models.kinds import find_kind
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.variation import choose
@@ -173,9 +172,6 @@ def usual_noun(name: str) -> Noun | None:
         for noun in NOUNS.values():
             if said in noun.synonyms:
                 return noun
-        kind = find_kind(said)
-        if kind is not None:
-            return NOUNS[kind]
     return None
 
 

@@ -1,18 +1,85 @@
 """Effects made of many small things: smoke, sparks, drops, leaves; and the words for them.
 
-How they look and move is in `staging.particles`; readers need only this table.
+The table is `data/effects.toml`; `staging.particles` shows what it says. Readers need only names.
 """
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib.resources import files
 from types import MappingProxyType
+from typing import Any, Literal
+
+from texvent.scenes.scene import Colour
+
+Vector = tuple[float, float, float]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
+class EmitterStyle:
+    """Particles that leave a source one after the other, or all at once.
+
+    Lengths are multiples of the effect's size s, speeds of √(g·s), times of √(s / g): small effects
+    are quick.
+    """
+
+    body: Literal["puff", "drop", "chip"]
+    """Translucent puffs, drops that are stretched along their flight, or tumbling solid chips that
+    come to rest on the ground."""
+    count: int
+    life: float = 0.0
+    """Of a particle; 0 = without end."""
+    salvo: float | None = None
+    """Whether all are born at once, from a new place and of one colour in each life: the share of
+    a life at time 0; None = one after the other."""
+    until_ground: bool = False
+    """Whether a particle lives until it reaches the ground instead."""
+    speed: float = 0.0
+    """At birth."""
+    lift: float = 0.0
+    """Part of the speed that is added upwards."""
+    spread_rad: tuple[float, float] = (0.0, 0.0)
+    """Least and greatest angle to `aim`."""
+    aim: Vector = (0.0, 0.0, 1.0)
+    """Middle of the directions at birth, in the coordinates of the source's body."""
+    area: float = 0.0
+    """Radius of the spot that particles start from."""
+    fills: Vector | None = None
+    """Instead, shares of the body's length, width and height that they start in; where it has a
+    height, chips fly outwards from its middle."""
+    gravity: float = 0.0
+    """Share of gravity that acts; below 0 particles rise."""
+    wind: float = 0.0
+    """Acceleration to the right, in g."""
+    drag: float | None = None
+    """Time in which drag takes all but 37 % of a velocity; None = no drag."""
+    curl: float = 0.0
+    """Distance that eddies carry a particle by the end of its life."""
+    radius: tuple[float, float] = (0.1, 0.1)
+    """At birth and at the end."""
+    proportions: Vector = (1.0, 1.0, 1.0)
+    """Half extents by the radius; the last one is upright, of drops along the flight."""
+    turns: float = 0.0
+    """Rate at which chips tumble."""
+    colours: tuple[Colour, ...] = ()
+    """Of puffs at birth and at the end; of solid bodies those that occur; empty: the object's."""
+    keeps_colour: bool = False
+    """Whether it has them whatever colour the effect is said to have."""
+    emission: tuple[float, float] = (0.0, 0.0)
+    """Light given off at birth and at the end, as a multiple of the colour."""
+    thickness: tuple[float, float] = (1.0, 0.0)
+    """Optical depth of a puff at birth and at the end."""
+    detail: float = 0.0
+    """Fine structure of puffs, 0..1."""
+    light: float = 0.0
+    """Light shed at 1 m per square metre of s²."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class EffectWords:
-    """How English names an effect."""
+    """An effect: its names, where it comes from, and what shows it."""
 
     nouns: tuple[str, ...] = ()
     """Singular or mass nouns that name it, such as "smoke": "smoke rises from a chimney"."""
@@ -22,130 +89,57 @@ class EffectWords:
     """Said of the object it comes from, such as "steaming"."""
     happens_once: bool = False
     """Whether it begins at one instant (a burst) rather than going on."""
-    needs_source: bool = True
+    needs_source: bool = False
     """Whether it comes from an object; otherwise it can be all around."""
     is_around: bool = False
     """Whether it is all around, whatever the prompt says that it comes from."""
     ends_source: bool = False
     """Whether the object it comes from is gone afterwards."""
+    breathed: bool = False
+    """Whether it comes from the mouth of a person."""
+    size: float = 0.5
+    """Its size by that of the object it comes from."""
+    alone: float = 0.15
+    """Its size where it comes from no object, by the distance of the camera."""
+    alone_height: float = 0.0
+    """Height at which it then is, above what the camera looks at; 0 = on the ground."""
+    alone_behind: float = 0.0
+    """Distance behind what the camera looks at, by the camera's."""
+    anchor: Vector = (0.0, 0.0, 1.0)
+    """Where it leaves its object: x and y in half extents, z in heights from below."""
+    anchor_traits: tuple[str, ...] = ()
+    """Traits that say so for some nouns, tried in order."""
+    headroom: float = 0.0
+    """Room that it needs in the image above its object, by its size."""
+    emitters: tuple[EmitterStyle, ...] = ()
 
 
-LIQUID_COLOURS: Mapping[str, tuple[float, float, float]] = MappingProxyType({
-    "milk": (0.9, 0.88, 0.82), "cream": (0.9, 0.86, 0.75), "coffee": (0.14, 0.06, 0.03),
-    "tea": (0.35, 0.14, 0.04), "wine": (0.30, 0.01, 0.04), "juice": (0.9, 0.42, 0.05),
-    "oil": (0.75, 0.55, 0.08), "honey": (0.75, 0.38, 0.04), "beer": (0.75, 0.42, 0.06),
-    "sauce": (0.45, 0.06, 0.02), "chocolate": (0.18, 0.07, 0.03), "syrup": (0.4, 0.15, 0.03),
-    "batter": (0.85, 0.72, 0.45), "whiskey": (0.55, 0.25, 0.05),
-})  # fmt: skip
-"""Word of a prompt → colour of what is poured."""
+def _frozen(value: Any) -> Any:
+    """Lists as tuples, all the way down."""
+    return tuple(_frozen(one) for one in value) if isinstance(value, list) else value
 
-EFFECTS: Mapping[str, EffectWords] = MappingProxyType({
-    "lightning": EffectWords(
-        ("lightning", "lightening", "lightning bolt", "lightning flash", "thunder", "thunderstorm",
-         "electrical storm", "lightning storm", "bolt of lightning", "flash of lightning",
-         "lightning strike", "thunder and lightning"), ("thunder",), needs_source=False,
-        is_around=True,
-    ),
-    "stage lights": EffectWords(
-        ("spotlight", "stage lighting", "disco light", "moving spotlight", "concert light",
-         "club light", "light show", "party light"), needs_source=False, is_around=True,
-    ),
-    "lasers": EffectWords(
-        ("laser", "laser beam", "laser light", "laser show"), needs_source=False, is_around=True,
-    ),
-    "string lights": EffectWords(
-        ("string light", "fairy light", "holiday light", "christmas light", "string of lights",
-         "led strip", "light chain", "light string", "festive light", "led light strip"),
-        needs_source=False,
-    ),
-    "blinking lights": EffectWords(needs_source=False),
-    "beacon": EffectWords(
-        ("beacon", "warning beacon", "emergency light", "warning light", "siren light",
-         "police light", "rotating light", "siren"),
-    ),
-    "turn signal": EffectWords(("turn signal", "turn indicator", "blinker", "indicator light")),
-    "hazard lights": EffectWords(("hazard light", "hazard warning light")),
-    "smoke": EffectWords(
-        ("smoke", "fume", "exhaust", "exhaust smoke", "smoke plume", "plume of smoke"), ("smoke",),
-        ("smoking", "smoky"), needs_source=False,
-    ),
-    "steam": EffectWords(
-        ("steam", "vapour", "vapor", "water vapour", "water vapor", "condensation"),
-        ("steam", "boil", "simmer"),
-        ("steaming", "steaming hot", "piping hot"), needs_source=False,
-    ),
-    "mist": EffectWords(
-        ("mist", "fog bank", "haze", "dry ice", "ground fog", "bank of fog"), (), ("misty", "hazy"),
-        needs_source=False,
-    ),
-    "fire": EffectWords(
-        ("flame", "blaze"), ("burn", "catch fire", "blaze"),
-        ("burning", "on fire", "in flames", "flaming", "ablaze"), needs_source=False,
-    ),
-    "embers": EffectWords(("ember", "glowing ash"), ("glow and crackle",), needs_source=False),
-    "sparks": EffectWords(
-        ("spark", "shower of sparks", "welding spark"), ("spark", "give off sparks", "weld"),
-        ("sparking",), needs_source=False,
-    ),
-    "fireworks": EffectWords(
-        ("firework", "fireworks", "firework display", "pyrotechnics"), needs_source=False
-    ),
-    "splash": EffectWords(
-        ("splash",), ("splash", "splash into the water", "plop"), ("splashing",),
-        happens_once=True, needs_source=False,
-    ),
-    "drip": EffectWords(
-        ("drip", "water drop", "droplet", "drop", "drop of water", "water droplet"),
-        ("drip", "leak"), ("dripping", "leaking", "leaky"), needs_source=False,
-    ),
-    "pour": EffectWords(
-        ("stream of water", "jet of water", "water jet", "running water"),
-        ("pour", "pour out", "run with water", "spill"), ("pouring",),
-    ),
-    "pour into": EffectWords(),
-    "popcorn": EffectWords((), needs_source=False),
-    "fountain": EffectWords(
-        ("fountain", "water fountain", "geyser"), ("spout",), needs_source=False
-    ),
-    "falling water": EffectWords(("falling water", "cascading water")),
-    "spray": EffectWords(
-        ("spray", "sea spray", "water spray"), ("spray", "squirt"), ("spraying",),
-        needs_source=False,
-    ),
-    "dust": EffectWords(
-        ("dust", "dust cloud", "cloud of dust"), ("kick up dust", "raise dust", "stir up dust"),
-        ("dusty",), needs_source=False,
-    ),
-    "sand": EffectWords(
-        ("blowing sand", "sandstorm", "sand storm", "dust storm"), ("throw up sand",),
-        needs_source=False,
-    ),
-    "leaves": EffectWords(
-        ("falling leaf", "autumn leaf", "leaf in the wind"), ("lose leaves", "shed leaves"),
-        needs_source=False,
-    ),
-    "petals": EffectWords(
-        ("petal", "falling petal", "cherry blossom petal"), ("shed petals",), needs_source=False
-    ),
-    "confetti": EffectWords(("confetti", "streamer", "ticker tape"), needs_source=False),
-    "bubbles": EffectWords(
-        ("bubble", "soap bubble", "air bubble"), ("bubble", "blow bubbles", "fizz"),
-        ("bubbling", "fizzing"), needs_source=False,
-    ),
-    "feathers": EffectWords(("falling feather", "feather"), ("moult",), needs_source=False),
-    "hail": EffectWords(("hail", "hailstone", "hailstorm"), ("hail",), needs_source=False),
-    "break": EffectWords(
-        ("shard", "broken glass"),
-        ("break", "shatter", "smash", "fall apart", "crumble", "collapse", "splinter",
-         "break apart", "break into pieces", "fall to pieces", "go to pieces"),
-        ("breaking", "shattering", "crumbling"), happens_once=True, ends_source=True,
-    ),
-    "burst": EffectWords(
-        (), ("burst", "pop"), ("bursting", "popping"), happens_once=True, ends_source=True
-    ),
-    "explode": EffectWords(
-        ("explosion", "blast", "detonation"), ("explode", "blow up", "detonate", "blast"),
-        ("exploding",), happens_once=True, needs_source=False, ends_source=True,
-    ),
-})  # fmt: skip
+
+def _read() -> dict[str, Any]:
+    file = files("texvent.scenes.models") / "data" / "effects.toml"
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def _effect(row: Mapping[str, Any]) -> EffectWords:
+    """An effect from its table."""
+    fields = {name: _frozen(value) for name, value in row.items()}
+    fields["emitters"] = tuple(
+        EmitterStyle(**{name: _frozen(value) for name, value in one.items()})
+        for one in row.get("emitters", ())
+    )
+    return EffectWords(**fields)
+
+
+_TABLE = _read()
+LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(
+    {name: _frozen(rgb) for name, rgb in _TABLE.pop("liquid colours").items()}
+)
+"""Name of a liquid → its colour."""
+EFFECTS: Mapping[str, EffectWords] = MappingProxyType(
+    {kind: _effect(row) for kind, row in _TABLE.items()}
+)
 """Every effect the generator shows."""

@@ -42,3 +42,9 @@ def nouns_with(trait: str) -> frozenset[str]:
 def trait_value(trait: str, noun: str) -> Any:
     """A noun's value of a trait that is a table; None where it has none."""
     return _read()[trait].get(noun)
+
+
+def trait_values(trait: str) -> Mapping[str, Any]:
+    """Noun → value of a trait that is a table."""
+    values: Mapping[str, Any] = _read()[trait]
+    return values

@@ -166,6 +166,7 @@ def _check_objects(scene: Scene) -> None:
                 )
     _check_circles(scene, ids)
     _check_metres(scene)
+    _check_moves(scene)
     _check_models(scene)
     if len(scene.light.lamps) > MAX_LAMPS:
         raise ConfigError(
@@ -215,6 +216,28 @@ def _check_circles(scene: Scene, ids: tuple[str, ...]) -> None:
             f"objects[{ids.index(circle[-1])}].relations go round in a circle "
             f"({few([*map(shown, reversed(circle))])}); leave one of them out"
         ) from None
+
+
+_TIMED = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "crane",
+          "dolly zoom")  # fmt: skip
+"""Camera moves that start and stop; others last all of the clip."""
+
+
+def _check_moves(scene: Scene) -> None:
+    """Refuse times of camera moves that would have no effect."""
+    for n, one in enumerate(scene.camera.moves):
+        if one.start_s is None and one.stop_s is None:
+            continue
+        if one.kind not in _TIMED:
+            raise ConfigError(
+                f"camera.moves[{n}] has a start or stop time, but {shown(one.kind)} lasts all of "
+                f"the clip; {', '.join(_TIMED)} have times"
+            )
+        if one.stop_s is not None and one.stop_s <= (one.start_s or 0.0):
+            raise ConfigError(
+                f"camera.moves[{n}].stop_s is {one.stop_s:g}, not after its start at "
+                f"{one.start_s or 0.0:g} s; give a later time"
+            )
 
 
 def _check_metres(scene: Scene) -> None:

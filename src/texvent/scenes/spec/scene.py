@@ -195,6 +195,10 @@ class CameraMove:
     """Vehicle or gait of travel."""
     speed_m_s: MetresPerSecond | None = None
     """Speed of travel, m/s."""
+    start_s: Seconds | None = None
+    """Start time, s; left out: with its phase, or time 0 if `stop_s` is given."""
+    stop_s: Seconds | None = None
+    """Stop time, s; left out: with its phase, or the end if `start_s` is given."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from texvent.scenes.description import AMID, SceneDescription, SceneLamp
-from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.places import PLACES, Place, Scenery
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import (
     PUFF_COLUMNS,
@@ -24,9 +24,6 @@ from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitiv
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
-from texvent.scenes.staging.camera.main_actor import choose_main
-from texvent.scenes.staging.claims.acts import Stage
-from texvent.scenes.staging.claims.missing import list_missing
 from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
@@ -36,36 +33,22 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
-from texvent.scenes.staging.placement.fitting import enlarge_again, enlarge_small
-from texvent.scenes.staging.placement.into_view import find_shifts
 from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
-from texvent.scenes.staging.placement.tables.plating import dish_up
-from texvent.scenes.staging.placement.tables.tabletop import set_on_table
 from texvent.scenes.staging.preparation import prepare
-from texvent.scenes.staging.surroundings.crosswalks import lay_crosswalks
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
-from texvent.scenes.staging.surroundings.light.said_light import choose_lighting
+from texvent.scenes.staging.surroundings.light.lighting import choose_lighting
 from texvent.scenes.staging.surroundings.light.scene_lamps import fastest_hz, scene_lamp_rows
-from texvent.scenes.staging.surroundings.places import PLACES
-from texvent.scenes.staging.surroundings.road_choice import find_beside, find_road
-from texvent.scenes.staging.surroundings.scenery.along_route import is_placed_by_view, line_route
-from texvent.scenes.staging.surroundings.scenery.scatter import SceneryItem, ViewClearance, scatter
-from texvent.scenes.staging.surroundings.scenery.scatter_rule import (
-    ScatterRule,
-    is_structure,
+from texvent.scenes.staging.surroundings.road_choice import find_road, lay_across
+from texvent.scenes.staging.surroundings.roadside import is_placed_by_view, line_route
+from texvent.scenes.staging.surroundings.scenery import (
+    SceneryItem,
+    ViewClearance,
+    scatter,
     under_snow,
 )
-from texvent.scenes.staging.surroundings.scenery.tables import BACKDROPS, SCENERY
-from texvent.scenes.staging.surroundings.wading import goes_over_shore, list_waders, wade
-from texvent.scenes.staging.surroundings.waterside import (
-    STRIPS,
-    WATERSIDE,
-    turn_to_water,
-    water_line,
-)
-from texvent.scenes.staging.take import USUAL, Take
+from texvent.scenes.staging.surroundings.water import wade, water_line
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -86,8 +69,8 @@ class ComposedScene:
     lamps: LampPlan
     class_names: dict[int, str]
     """Instance id → noun."""
-    unmet: tuple[Unmet, ...] = ()
-    """What the prompt says and the scene could not show, such as "under the table"."""
+    not_shown: tuple[str, ...] = ()
+    """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
     still_nouns: tuple[str, ...] = ()
     """Noun of each shape of `still`."""
     object_of: Mapping[int, int] = field(default_factory=dict)
@@ -97,13 +80,6 @@ class ComposedScene:
     is_grey: bool = False  # filmed in black and white
     scene_lamps: tuple[SceneLamp, ...] = ()
     """Lamps at positions that the scene gives."""
-    notes: tuple[str, ...] = ()
-    """What is added that the prompt does not say, as sentences."""
-
-    def list_scenery(self) -> list[str]:
-        """Noun of each shape of the scene that is scenery, "" for those of actors before it."""
-        acting = sum(len(self._place(actor, 0.0).parts) for actor in self.actors)
-        return [""] * acting + list(self.still_nouns)
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -146,11 +122,6 @@ class ComposedScene:
         )
 
     @property
-    def not_shown(self) -> tuple[str, ...]:
-        """Words for what the prompt says and the scene could not show."""
-        return tuple(dict.fromkeys(one.text for one in self.unmet))
-
-    @property
     def flicker_hz(self) -> float | None:
         """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
         rates = (
@@ -175,49 +146,45 @@ def compose_scene(
     size: SensorSize,
     duration_s: float,
     nouns: Mapping[str, Noun] = NOUNS,
-    take: Take = USUAL,
 ) -> ComposedScene:
     """An animated scene from a description; the same arguments give the same scene.
 
     Args:
-        description: from `grammar.parse_prompt`.
-        seed: decides what the prompt leaves open; another seed gives another layout of the same
-            sentence.
+        description: the scene, with what it leaves open decided.
+        seed: decides the layout; another seed gives another one of the same scene.
         size: image size, pixels, for the framing.
         duration_s: length of the clip, s; moves are spread over it.
         nouns: table of models.
-        take: what is otherwise than usual.
 
     Raises:
         InputError: the duration is not a positive number.
     """
-    said, missing = prepare(description, nouns, duration_s)
-    description = said if said.is_metric else _set_out(said, nouns, take)
+    description, missing = prepare(description, nouns, duration_s)
     place = description.surroundings.place or "grass"
-    levels = choose_levels(place, description, nouns)
+    levels = choose_levels(PLACES[place], description, nouns)
     travel = plan_travel(description, place, duration_s)
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors, camera_path = _set_camera(
-        description, placer, place, (seed, size, duration_s, take), travel
-    )
-    view = _describe_view(description, place, camera_path, actors, duration_s)
-    actors = wade(description, actors, place, view.road, PLACES[place].road_half_width)
+    actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
+    view = _describe_view(description, PLACES[place], camera_path, actors, duration_s)
+    if PLACES[place].has_road:
+        actors = lay_across(actors, view.road, duration_s)
+    actors = wade(description, actors, PLACES[place], view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
-    items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
+    items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
-    names, object_of = _name_bodies(actors, surrounding, len(said.objects))
+    nouns_of = [item.noun for item in (*items, *(item for _, item in surrounding))]
+    still_nouns = tuple(n for n, one in zip(nouns_of, placed, strict=True) for _ in one.parts)
+    names, object_of = _name_bodies(actors, surrounding)
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
-        description, place=place, road=view.road, distance_m=camera_path.framing.distance_m,
+        description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m, looking=looking,
     )  # fmt: skip
-    staged = replace(said, objects=description.objects)
-    stage = Stage(staged, actors, camera_path, animated_environment.at(0.0), place, duration_s)
-    missing += list_missing(said, description, surrounding, stage)
     lamps = plan_lamps(
-        description, actors, strength=choose_lighting(place, description.light).lamps,
+        description, actors, place=PLACES[place],
+        strength=choose_lighting(PLACES[place], description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
     particles = stage_effects(
@@ -225,16 +192,9 @@ def compose_scene(
     )
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), _name_shapes(items, surrounding, placed), object_of,
+        tuple(dict.fromkeys(missing)), still_nouns, object_of,
         scene_lamps=description.light.lamps,
-        notes=tuple(one for one in description.notes if one not in said.notes),
     )  # fmt: skip
-
-
-def _set_out(said: SceneDescription, nouns: Mapping[str, Noun], take: Take) -> SceneDescription:
-    """The description with small things enlarged, on tables and plates."""
-    set_out = set_on_table(enlarge_small(said, nouns), nouns)
-    return dish_up(enlarge_again(set_out, take.larger), nouns)
 
 
 def _place_scenery(
@@ -246,13 +206,11 @@ def _place_scenery(
 
 
 def _name_bodies(
-    actors: Sequence[Actor], surrounding: Sequence[tuple[int, SceneryItem]], objects: int
+    actors: Sequence[Actor], surrounding: Sequence[tuple[int, SceneryItem]]
 ) -> tuple[dict[int, str], dict[int, int]]:
-    """Instance → noun, and instance → object of the prompt, of which there are `objects`."""
+    """Instance → noun, and instance → object of the description."""
     names = {actor.instance: actor.noun.name for actor in actors}
-    object_of = {
-        actor.instance: actor.object_index for actor in actors if actor.object_index < objects
-    }
+    object_of = {actor.instance: actor.object_index for actor in actors}
     for instance, (index, item) in enumerate(surrounding, len(actors) + 1):
         names[instance], object_of[instance] = item.noun, index
     return names, object_of
@@ -262,29 +220,25 @@ def _set_camera(
     description: SceneDescription,
     placer: ObjectPlacer,
     place: str,
-    how: tuple[int, SensorSize, float, Take],
+    how: tuple[int, SensorSize, float],
     travel: TravelPlan | None,
 ) -> tuple[list[Actor], CameraPath]:
     """The camera, and the actors, placed so that it shows them.
 
-    `how` are the seed, the image's size, the length of the clip, s, and the take.
+    `how` are the seed, the image's size and the length of the clip, s.
     """
-    seed, size, duration_s, take = how
+    seed, size, duration_s = how
     aspect = size.height / size.width
-    has_lanes = travel is None and PLACES[place].ground in STRIPS and place not in WATERSIDE
+    has_lanes = travel is None and PLACES[place].has_road
 
     def stand(placed: list[Actor]) -> list[Actor]:
-        placed = turn_to_water(with_headroom(description, placed), place)
-        half = PLACES[place].road_half_width
-        if not has_lanes:
-            return placed
-        queued = queue_in_lanes(placed, 0.5 * half)
-        return lay_crosswalks(description, queued, half, duration_s)
+        placed = with_headroom(description, placed)
+        return queue_in_lanes(placed, 0.5 * PLACES[place].road_m) if has_lanes else placed
 
     def film(cast: Sequence[Actor]) -> CameraPath:
         return place_camera(
             description, cast, place, seed=seed, aspect=aspect, duration_s=duration_s,
-            travel=travel, take=take,
+            travel=travel,
         )  # fmt: skip
 
     if description.is_metric:
@@ -295,57 +249,35 @@ def _set_camera(
         return stand_before_wall(
             description, placer.groups, lambda one: stand(placer.move(one)), film, place
         )
-    path = film(actors)
-    if actors and PLACES[place].ground is not Ground.NONE:
-        subject = None if travel else choose_main(description, actors).object_index
-        shifts = find_shifts(
-            description, actors, path, subject=subject, aspect=aspect, duration_s=duration_s
-        )
-        if shifts:
-            actors = stand(placer.move(shifts))
-    return actors, path
-
-
-def _name_shapes(
-    items: Sequence[SceneryItem],
-    surrounding: Sequence[tuple[int, SceneryItem]],
-    placed: Sequence[PlacedModel],
-) -> tuple[str, ...]:
-    nouns = [item.noun for item in (*items, *(item for _, item in surrounding))]
-    return tuple(noun for noun, model in zip(nouns, placed, strict=True) for _ in model.parts)
+    return actors, film(actors)
 
 
 def _describe_view(
     description: SceneDescription,
-    place: str,
+    place: Place,
     path: CameraPath,
     actors: Sequence[Actor],
     duration_s: float,
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
-    half = PLACES[place].road_half_width
-    has_road = PLACES[place].ground in STRIPS
-    if place in WATERSIDE:
-        road = water_line(place, actors, path, half, waders=list_waders(description),
-                          goes_over_shore=goes_over_shore(description))  # fmt: skip
+    if place.has_shore:
+        road = water_line(description, place, actors, path)
     else:
-        road = find_road(actors, float(path.framing.target[1]), 0.5 * half,
-                         description.surroundings.road,
-                         beside=find_beside(description, place, actors))  # fmt: skip
+        road = find_road(description, place, actors, float(path.framing.target[1]))
+    has_strip = place.has_road or place.ground is Ground.RIVER
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
         for t in times
     ]
     return ViewClearance(
         [path.at(t) for t in times], points, path.framing.distance_m,
-        PLACES[place].road_half_width if has_road else None, road,
-        path.room_m, has_shore=PLACES[place].ground is Ground.LAKE,
+        place.road_m if has_strip else None, road, path.room_m,
+        has_shore=place.ground is Ground.LAKE,
     )  # fmt: skip
 
 
 def _scatter_all(
     description: SceneDescription,
-    place: str,
     view: ViewClearance,
     actors: Sequence[Actor],
     nouns: Mapping[str, Noun],
@@ -360,35 +292,37 @@ def _scatter_all(
     unsaid = {name: noun for name, noun in allowed.items() if name not in said}
     around: list[tuple[int, SceneryItem]] = []
     for relation in description.relations:
-        if relation.kind not in AMID:
-            continue
-        for target in relation.targets:
-            scene_object = description.objects[target]
-            colour = scene_object.colour.rgb if scene_object.colour is not None else None
-            sizes = (0.8 * scene_object.scale, 1.2 * scene_object.scale)
-            rule = ScatterRule(scene_object.noun, scene_object.count, -0.2, 3.5, sizes, (colour,))
-            rng = seeded(seed, "surround", target)
-            taken = [item for _, item in around]
-            if view.travel is None:
-                found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
-            else:
-                found = line_route(
-                    [rule], view.travel, actors, allowed, rng=rng, road_half_m=view.road_half_width
-                )
+        for target in relation.targets if relation.kind in AMID else ():
+            one = description.objects[target]
+            colour = one.colour.rgb if one.colour is not None else None
+            sizes = (0.8 * one.scale, 1.2 * one.scale)
+            rule = Scenery(one.noun, one.count, "around", (-0.2, 3.5), sizes, (colour,))
+            rng, taken = seeded(seed, "surround", target), [item for _, item in around]
+            found = _set_up([rule], view, actors, allowed, rng, taken)
             around.extend((target, item) for item in found)
-    is_empty = description.surroundings.is_empty
-    rules = [rule for rule in SCENERY.get(place, ()) if is_structure(rule) or not is_empty]
-    for backdrop in description.surroundings.backdrops:
-        rules.extend(BACKDROPS[backdrop])
-    rules = under_snow(rules) if description.surroundings.has_snow else rules
-    taken = [item for _, item in around]
-    rng = seeded(seed, "scenery", place)
-    if view.travel is not None:
-        if place == "sky":
-            rules.append(ScatterRule("cloud", 6, 0.0, 1.0, (0.3, 0.7)))
-        lined = line_route(
-            rules, view.travel, actors, unsaid, rng=rng, road_half_m=view.road_half_width
-        )
-        far = [rule for rule in rules if is_placed_by_view(rule)]
-        return lined + scatter(far, view, actors, unsaid, rng=rng, taken=taken), around
-    return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
+    surroundings = description.surroundings
+    place = surroundings.place or "grass"
+    rules = [
+        rule for rule in PLACES[place].scenery if rule.is_structure or not surroundings.is_empty
+    ]
+    for backdrop in surroundings.backdrops:
+        rules.extend(PLACES[backdrop].scenery)
+    rules = under_snow(rules) if surroundings.has_snow else rules
+    rng, taken = seeded(seed, "scenery", place), [item for _, item in around]
+    return _set_up(rules, view, actors, unsaid, rng, taken), around
+
+
+def _set_up(
+    rules: Sequence[Scenery],
+    view: ViewClearance,
+    actors: Sequence[Actor],
+    nouns: Mapping[str, Noun],
+    rng: np.random.Generator,
+    taken: Sequence[SceneryItem],
+) -> list[SceneryItem]:
+    """Scenery in view, and along the route of a camera that travels."""
+    if view.travel is None:
+        return scatter(rules, view, actors, nouns, rng=rng, taken=taken)
+    lined = line_route(rules, view.travel, actors, nouns, rng=rng, road_half_m=view.road_half_width)
+    far = [rule for rule in rules if is_placed_by_view(rule)]
+    return lined + scatter(far, view, actors, nouns, rng=rng, taken=taken)

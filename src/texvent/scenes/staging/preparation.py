@@ -8,9 +8,8 @@ from dataclasses import replace
 
 from texvent.errors import InputError
 from texvent.scenes.description import ObjectMotion, SceneDescription
-from texvent.scenes.evidence import Unmet
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.staging.placement.spatial_relations import GATES
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.staging.trajectories.schedule import left_out
 
 _PLACES_TO_GO = frozenset(
@@ -20,7 +19,7 @@ _PLACES_TO_GO = frozenset(
 
 def prepare(
     description: SceneDescription, nouns: Mapping[str, Noun], duration_s: float
-) -> tuple[SceneDescription, list[Unmet]]:
+) -> tuple[SceneDescription, list[str]]:
     """The description as it is staged, and what of it cannot be shown.
 
     A camera that follows something which stays in its place would show nothing: the subject does
@@ -31,16 +30,16 @@ def prepare(
     """
     if not (math.isfinite(duration_s) and duration_s > 0.0):
         raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
-    missing = []
-    for number, scene_object in enumerate(description.objects):
+    missing: list[str] = []
+    for scene_object in description.objects:
         said = [*filter(None, [scene_object.motion]), *scene_object.then]
         for motion in left_out(said, duration_s):
             text = (
                 f"the {scene_object.noun}'s {motion.kind} after {motion.start_s:g} s "
                 f"(the clip ends at {duration_s:g} s)"
             )
-            missing.append(Unmet(text, motion=(number, said.index(motion))))
-    description = _shade(_line_up(_face_passages(description)))
+            missing.append(text)
+    description = _shade(_face_passages(description))
     follows = any(move.kind == "follow" for move in description.shot.moves)
     if not follows or not description.objects:
         return description, missing
@@ -63,7 +62,7 @@ def prepare(
         replace(move, kind="truck", direction="right") if move.kind == "follow" else move
         for move in description.shot.moves
     )
-    missing.append(Unmet(f"following the {subject.noun}, which does not move", move="follow"))
+    missing.append(f"following the {subject.noun}, which does not move")
     return replace(description, shot=replace(description.shot, moves=moves)), missing
 
 
@@ -72,24 +71,12 @@ def _face_passages(description: SceneDescription) -> SceneDescription:
     objects = list(description.objects)
     for relation in description.relations:
         motion = objects[relation.subject].motion
-        gates = [t for t in relation.targets if objects[t].noun in GATES]
+        gates = [t for t in relation.targets if objects[t].noun in nouns_with("passage")]
         if relation.kind != "through" or not gates or motion is None:
             continue
         if motion.direction is None and motion.is_moving:
             turned = replace(motion, direction="towards")
             objects[relation.subject] = replace(objects[relation.subject], motion=turned)
-    return replace(description, objects=tuple(objects))
-
-
-def _line_up(description: SceneDescription) -> SceneDescription:
-    """As in "a row of chairs": the number is said by a word that says how they stand."""
-    objects = list(description.objects)
-    for claim in description.claims:
-        if claim.aspect != "count" or not set(claim.word.split()) & {"row", "line"}:
-            continue
-        for index in claim.things:
-            if objects[index].side is None:
-                objects[index] = replace(objects[index], side="row")
     return replace(description, objects=tuple(objects))
 
 

@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
 from texvent.scenes.description import (
     NamedColour,
@@ -14,7 +15,6 @@ from texvent.scenes.description import (
     SceneObject,
     Surroundings,
 )
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.props import RACKET_REACH
 from texvent.scenes.models.protocol import Pose

@@ -6,7 +6,7 @@ import pytest
 from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.striking import contact_time
-from texvent.scenes.staging.claims.bodies import gap, part_boxes
+from texvent.scenes.staging.body_boxes import gap, part_boxes
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 

@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.acts.pairs import GIVEN_S, PAIR_GAPS
 from texvent.scenes.models.protocol import Pose

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from texvent.scenes.staging.claims.contact import touches
 
 from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
-from texvent.scenes.language.parser import parse_prompt
+from tests.scenes.sentences import parse_prompt
 from texvent.scenes.staging.acts.hand_work.working import work_at
-from texvent.scenes.staging.claims.contact import touches
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 

@@ -1,86 +1,30 @@
-"""Two who do something together: they stand before each other, and hands meet."""
+"""Who turns to whom: two who do something together, who looks at something, who climbs it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from texvent.scenes.description import Relation
-from texvent.scenes.models.anchors import locate
-from texvent.scenes.models.people.acts.pairs import GIVEN_S, PAIR_GAPS
-from texvent.scenes.models.people.timing import ease
-from texvent.scenes.staging.actors import Actor, Tether
-from texvent.scenes.staging.acts.attached import HeldAt
-from texvent.scenes.staging.acts.cast import Cast
-from texvent.scenes.staging.acts.holding import is_person, size_of
-from texvent.scenes.staging.trajectories.trajectory import (
-    BodyState,
-    Stationary,
-    Trajectory,
-    Vector,
-)
+from texvent.scenes.models.traits import trait_value
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.acts.acts import Cast, is_person, size_of
+from texvent.scenes.staging.body_boxes import part_boxes
+from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
+from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
 
-_SWAY_M = {"wrestle": 0.12, "tug of war": 0.16, "box": 0.06}
-"""How far two push or pull each other to and fro, m."""
-_SWAY_HZ = 0.45
-_TUGGING = "tug of war"
-_OF_ANIMALS = ("fight", _TUGGING)
-"""What two animals do before each other."""
-_ROPE_SHARE, _ROPE_M = 0.22, 0.03
-"""Half of the rope between two animals, in their lengths, and its radius in their heights."""
-_TIED = frozenset({"at", "on", "in", "work on", "ride", "ride along", "push", "pull", "give"})
+_TIED = frozenset({"at", "on", "in", "ride", "ride along", "push", "pull"})
 """Relations that give their subject its heading."""
-_TURNING_RAD_S = {"tango": 1.5}
-_OPEN_RAD = 0.22
-"""How far two who talk are turned to the viewer out of facing each other, rad."""
-_OPEN = frozenset({"argue"})
+_REACH_M, _START_M, _CLIMB_M_S, _BELOW_TOP_M = 0.27, 0.12, 0.45, 1.2
+"""From the middle of a climber to what the hands hold, height and speed at the start, and how far
+below the top a climber stops, for an adult."""
 
 
-@dataclass(frozen=True)
-class Facing:
-    """One of two who face each other about a middle, which may move or turn them."""
-
-    middle: Vector
-    yaw: float
-    """Heading towards the other at the start."""
-    half_m: float
-    activity: str
-    tempo: float = 1.0
-    sway_m: float = 0.0
-    """To and fro along the world's x."""
-    turn_rad_s: float = 0.0
-    open_rad: float = 0.0
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        angle = self.yaw + self.turn_rad_s * self.tempo * time_s
-        x, y, z = self.middle
-        x += self.sway_m * math.sin(2.0 * math.pi * _SWAY_HZ * self.tempo * time_s)
-        place = (x - self.half_m * math.cos(angle), y - self.half_m * math.sin(angle), z)
-        return BodyState(place, angle + self.open_rad, activity=self.activity, tempo=self.tempo)
-
-
-@dataclass(frozen=True)
-class Passed:
-    """From one hand to another about `GIVEN_S`."""
-
-    before: Trajectory
-    after: Trajectory
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        share = ease(time_s, GIVEN_S - 0.15, GIVEN_S + 0.15)
-        first, last = self.before.at(time_s), self.after.at(time_s)
-        x, y, z = (a + share * (b - a) for a, b in zip(first.position, last.position, strict=True))
-        turn = math.remainder(last.yaw - first.yaw, 2.0 * math.pi)
-        return replace(first, position=(x, y, z), yaw=first.yaw + share * turn)
-
-
-def face_each_other(cast: Cast, numbers: list[int]) -> None:
-    """Those who do the same in their place, and what two do together, stand before each other.
+def face_each_other(cast: Cast, numbers: Sequence[int]) -> None:
+    """What two people do together they do before each other.
 
     Args:
         cast: the actors; those of pairs are replaced.
@@ -90,23 +34,34 @@ def face_each_other(cast: Cast, numbers: list[int]) -> None:
     for number in numbers:
         actor = cast.get(number)
         path = actor.trajectory
-        is_able = is_person(actor) or (
-            isinstance(path, Stationary) and path.activity in _OF_ANIMALS
-        )
-        if not (isinstance(path, Stationary) and is_able):
+        if not isinstance(path, Stationary) or not is_person(actor):
             continue
-        kind = path.activity if path.activity in (*PAIR_GAPS, *_OF_ANIMALS) else ""
-        if not kind or kind in ("give", "receive"):
+        apart_m = trait_value("distance of two who", path.activity)
+        if apart_m is None:
             continue
-        if kind not in waiting:
-            waiting[kind] = number
+        first = waiting.pop(path.activity, None)
+        if first is None:
+            waiting[path.activity] = number
             continue
-        first = waiting.pop(kind)
-        one, other = _face(cast.get(first), actor, (kind, kind))
-        if kind == _TUGGING and not is_person(one):
-            other = _tied_by_mouth(other, one)
+        one, other = _face(cast.get(first), actor, apart_m)
         cast.put(first, one)
         cast.put(number, other)
+
+
+def _face(one: Actor, other: Actor, apart_m: float) -> tuple[Actor, Actor]:
+    """Left and right of the middle between them, as they are placed; fronts to each other."""
+    places = [np.array(actor.trajectory.at(0.0).position) for actor in (one, other)]
+    x, y, z = (float(value) for value in 0.5 * (places[0] + places[1]))
+    half = 0.25 * apart_m * (size_of(one.model) + size_of(other.model))
+    is_left = places[0][0] <= places[1][0]
+    pair = []
+    for actor, is_first in ((one, True), (other, False)):
+        yaw = 0.0 if is_first == is_left else math.pi
+        path = actor.trajectory
+        if isinstance(path, Stationary):
+            path = replace(path, home=ahead((x, y, z), yaw, -half, z), yaw=yaw)
+        pair.append(replace(actor, trajectory=path, lead_m=0.0, is_mover=True))
+    return pair[0], pair[1]
 
 
 def look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> None:
@@ -120,96 +75,56 @@ def look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> Non
     tied = {one.subject for one in relations if one.kind in _TIED}
     for relation in relations:
         is_facing = relation.kind == "look at" or relation.way == "opposite"
-        if not is_facing or relation.subject in tied:
-            continue
         goals = [number for target in relation.targets for number in cast.copies(target)]
+        if not is_facing or relation.subject in tied or not goals:
+            continue
         if relation.targets == (relation.subject,):
             goals = goals[1:] + goals[:1]
-        for turn, number in enumerate(cast.copies(relation.subject) if goals else ()):
-            actor = cast.get(number)
-            path = actor.trajectory
-            if isinstance(path, Stationary):
-                goal = cast.get(goals[turn % len(goals)]).middle(0.5 * duration_s)
-                yaw = math.atan2(goal[1] - path.home[1], goal[0] - path.home[0])
-                cast.put(number, replace(actor, trajectory=replace(path, yaw=yaw)))
-                if relation.way == "opposite":
-                    _turn_back(cast, goals[turn % len(goals)], yaw + math.pi)
+        for turn, number in enumerate(cast.copies(relation.subject)):
+            goal = goals[turn % len(goals)]
+            x, y, _ = cast.get(number).trajectory.at(0.0).position
+            to = cast.get(goal).middle(0.5 * duration_s)
+            yaw = math.atan2(to[1] - y, to[0] - x)
+            _turn(cast, number, yaw)
+            if relation.way == "opposite" and cast.get(goal).noun.habitat == "ground":
+                _turn(cast, goal, yaw + math.pi)
 
 
-_BACK_M = 0.16
-"""From the middle of who leans to the back, for an adult, m."""
-
-
-def lean_on(cast: Cast, relations: Sequence[Relation]) -> None:
-    """Who leans against something before it has the back at it."""
-    for relation in relations:
-        if relation.kind != "front" or relation.way != "against":
-            continue
-        wall = cast.get(cast.copies(relation.targets[0])[0])
-        deep = 0.5 * min(wall.model.length, wall.model.width)
-        x, y, _ = wall.trajectory.at(0.0).position
-        people = cast.copies(relation.subject)
-        for turn, number in enumerate(people):
-            actor, path = cast.get(number), cast.get(number).trajectory
-            if not isinstance(path, Stationary) or path.activity != "lean":
-                continue
-            size = size_of(actor.model)
-            aside = 0.8 * (turn - 0.5 * (len(people) - 1))
-            home = (x + aside, y - deep - _BACK_M * size, path.home[2])
-            cast.put(number, replace(actor, trajectory=replace(path, home=home)))
-
-
-def _turn_back(cast: Cast, number: int, yaw: float) -> None:
-    """Who is faced, and stays in its place, faces the other."""
+def _turn(cast: Cast, number: int, yaw: float) -> None:
     actor, path = cast.get(number), cast.get(number).trajectory
-    if isinstance(path, Stationary) and actor.noun.habitat == "ground":
+    if isinstance(path, Stationary):
         cast.put(number, replace(actor, trajectory=replace(path, yaw=yaw)))
 
 
-def hand_over(giver: Actor, thing: Actor, taker: Actor) -> tuple[Actor, Actor, Actor]:
-    """The thing goes from the one's right hand to the other's.
-
-    Args:
-        giver: a person in its place.
-        thing: what is given; a small one.
-        taker: another person in its place.
-    """
-    ways = [one.trajectory for one in (giver, taker)]
-    if not all(isinstance(way, Stationary) for way in ways):
-        return giver, thing, taker
-    if not (is_person(giver) and is_person(taker)):
-        return giver, thing, taker
-    giver, taker = _face(giver, taker, ("give", "receive"))
-    lift = 0.5 * thing.model.height if thing.is_centred else 0.0
-    offset = np.column_stack([np.eye(3), np.array([0.04, 0.0, lift - 0.25 * thing.model.height])])
-    before, after = (HeldAt(one, "right hand", offset, is_upright=True) for one in (giver, taker))
-    return giver, replace(thing, trajectory=Passed(before, after), is_mover=True), taker
+def climb_all(cast: Cast, relations: Sequence[Relation]) -> None:
+    """Who climbs and is on or at a thing goes up its side."""
+    for relation in relations:
+        things = cast.copies(relation.targets[0])
+        if relation.kind not in ("on", "at") or not things:
+            continue
+        for number in cast.copies(relation.subject):
+            actor, thing = cast.get(number), cast.get(things[0])
+            if actor.trajectory.at(0.0).activity == "climb" and not thing.is_mover:
+                cast.put(number, _climb(actor, thing))
 
 
-def _tied_by_mouth(actor: Actor, other: Actor) -> Actor:
-    """A rope from mouth to mouth."""
-    x, y, z = (float(v) for v in locate(actor.model, "mouth", actor.pose(0.0))[:, 3])
-    return replace(actor, tether=Tether(other, "mouth", (x, y, z), _ROPE_M * actor.model.height))
+def _climb(subject: Actor, target: Actor) -> Actor:
+    """Up the left side of a thing that stays: a ladder, a tree."""
+    boxes, size = part_boxes(target, 0.0), size_of(subject.model)
+    low, high = boxes.hull
 
+    def side(height_m: float) -> float:
+        level = (boxes.low[:, 2] <= height_m) & (boxes.high[:, 2] >= height_m)
+        return float(boxes.low[level, 0].min()) if level.any() else float(low[0])
 
-def _face(one: Actor, other: Actor, kinds: tuple[str, str]) -> tuple[Actor, Actor]:
-    """Left and right of the middle between them, as they are placed; fronts to each other."""
-    places = [np.array(actor.trajectory.at(0.0).position) for actor in (one, other)]
-    x, y, z = (float(value) for value in 0.5 * (places[0] + places[1]))
-    size = 0.5 * (size_of(one.model) + size_of(other.model))
-    half = 0.5 * PAIR_GAPS.get(kinds[0], 1.0) * size
-    if not is_person(one):
-        half = 0.25 * (one.model.length + other.model.length) + _ROPE_SHARE * one.model.length
-    is_left = places[0][0] <= places[1][0]
-    pair = []
-    for actor, kind, is_first in ((one, kinds[0], True), (other, kinds[1], False)):
-        path = actor.trajectory
-        tempo = path.tempo if isinstance(path, Stationary) else 1.0
-        yaw = 0.0 if is_first == is_left else math.pi
-        towards = -_OPEN_RAD if yaw == 0.0 else _OPEN_RAD
-        facing = Facing(
-            (x, y, z), yaw, half, kind, tempo, _SWAY_M.get(kind, 0.0) * size,
-            _TURNING_RAD_S.get(kind, 0.0), towards if kind in _OPEN else 0.0,
-        )  # fmt: skip
-        pair.append(replace(actor, trajectory=facing, lead_m=0.0, is_mover=True))
-    return pair[0], pair[1]
+    first, second = side(1.4 * size), side(2.0 * size)
+    slope = min(max((second - first) / (0.6 * size), 0.0), 0.8)
+    rise_s = max(float(high[2]) - _BELOW_TOP_M * size - _START_M, 0.0) / _CLIMB_M_S
+    pieces = (
+        Piece(rise_s + 1e-3, slope * _CLIMB_M_S, climb_m_s=_CLIMB_M_S, activity="climb"),
+        Piece(0.1, activity="climb"),
+    )
+    start = (first - _REACH_M * size, float(0.5 * (low[1] + high[1])), _START_M)
+    # It stays upright however steep its way is.
+    path = SteeredPath(start, 0.0, pieces, slope * _CLIMB_M_S, usual_speed_m_s=math.inf)
+    return replace(subject, trajectory=path, is_mover=True, lead_m=0.0)

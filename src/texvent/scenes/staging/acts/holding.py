@@ -1,324 +1,208 @@
-"""How things are held and worn: a table of nouns, and defaults from their size for all others."""
+"""What a body holds or wears: where it is fixed, and where the hands are then."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
-from types import MappingProxyType
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import Relation
-from texvent.scenes.models.objects.toys import KITE_TURN_RAD
-from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.roles.dressing import DRESSED
 from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import Affine
 from texvent.scenes.models.support_surface import top_heights
-from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.trajectories.trajectory import Vector, rotation
+from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.staging.actors import Actor, Tether
+from texvent.scenes.staging.acts.acts import (
+    foot_of,
+    is_person,
+    lift_of,
+    scaled,
+    shifted,
+    size_of,
+)
+from texvent.scenes.staging.acts.attached import HeldAt, Performed
+from texvent.scenes.staging.trajectories.action_trajectories import Hover
+from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector, rotation
 
 Grips = tuple[tuple[str, Vector], ...]
 
-
-@dataclass(frozen=True)
-class Hold:
-    """How one thing is held."""
-
-    style: str
-    """"tool" (along what the right hand holds), "upright" (in the raised right hand), "hanging"
-    (from a hand at the side), "front" (in both arms), "string" (floats above the hand),
-    "kite" (flies above), "glove" (on the left hand), "page" (flat before the chest), "guitar",
-    "mouth", or the name of a place it is worn at."""
-    activity: str | None = None
-    """What a person who only stands does with it."""
-
-
-_TOOLS = (
-    "baseball bat", "tennis racket", "golf club", "sword", "broom", "mop", "shovel", "spade",
-    "hammer", "axe", "knife", "fork", "spoon", "stick", "rod", "fishing rod", "cricket bat",
-    "hockey stick", "badminton racket", "rake", "pitchfork", "sledgehammer", "mallet", "saw",
-    "ping-pong paddle", "brush", "paintbrush", "toothbrush", "scissors", "pen", "pencil",
-    "screwdriver", "wrench", "flashlight", "wand", "magnifying glass", "hair drier", "remote",
-    "arrow", "pool cue", "branch",
+_STYLES = (
+    "held as a tool", "held upright", "held up high", "held hanging", "held as a page",
+    "held as a guitar", "held as a glove", "held by a string", "flown on a string",
 )  # fmt: skip
-_UPRIGHTS = (
-    "umbrella", "flag", "candle", "sign", "flower", "bouquet", "cup", "mug", "bottle", "glass",
-    "wine glass", "ice cream", "lamp", "trophy", "vase", "apple", "banana", "orange", "sandwich",
-    "donut", "lollipop", "key", "soda can", "beer glass", "rose", "tulip", "hot dog", "hamburger",
-    "cupcake", "microphone", "leaf", "feather", "clock", "ball", "tennis ball", "torch",
-    "lantern", "fan",
-)  # fmt: skip
-_HANGING = (
-    "bag", "handbag", "suitcase", "bucket", "basket", "briefcase", "shopping bag", "watering can",
-    "kettle", "guitar case", "toolbox",
-)  # fmt: skip
-HOLDS: Mapping[str, Hold] = MappingProxyType(
-    {
-        **{noun: Hold("tool") for noun in _TOOLS},
-        **{noun: Hold("upright") for noun in _UPRIGHTS},
-        **{noun: Hold("hanging") for noun in _HANGING},
-        "baseball glove": Hold("glove"),
-        "balloon": Hold("string"),
-        "hot air balloon": Hold("kite"),
-        "kite": Hold("kite"),
-        "broom": Hold("tool", "sweep"),
-        "shovel": Hold("tool", "dig"),
-        "fishing rod": Hold("tool", "fish"),
-        **{noun: Hold("page", "read") for noun in ("book", "newspaper", "map", "page")},
-        **{noun: Hold("page") for noun in ("closed book", "tablet", "laptop", "tray", "card")},
-        **{
-            noun: Hold("guitar", "play guitar") for noun in ("guitar", "electric guitar", "ukulele")
-        },
-        "cell phone": Hold("upright", "text"),
-    }
-)
-"""Noun → how it is held or carried."""
-
-
-@dataclass(frozen=True)
-class Wear:
-    """Where one thing is worn."""
-
-    place: str
-    """Place of the wearer."""
-    shift: Vector = (0.0, 0.0, 0.0)
-    """From there to the bottom of the thing's middle, m."""
-    pitch: float = 0.0
-    """How far it is tipped forward, radians."""
-    yaw: float = 0.0
-
-
-WORN: Mapping[str, Wear] = MappingProxyType(
-    {
-        **dict.fromkeys(("hat", "cap"), Wear("crown", (-0.01, 0.0, -0.055))),
-        "helmet": Wear("crown", (-0.01, 0.0, -0.11)),
-        "crown": Wear("crown", (-0.02, 0.0, -0.045)),
-        "glasses": Wear("face", (-0.10, 0.0, -0.02)),
-        "mask": Wear("face", (-0.02, 0.0, -0.135)),
-        "headphones": Wear("head", (0.0, 0.0, -0.06)),
-        "scarf": Wear("neck", (0.0, 0.0, -0.36)),
-        "tie": Wear("torso", (0.15, 0.0, 0.24), 0.5 * math.pi),
-        "vest": Wear("torso", (0.0, 0.0, 0.02)),
-        "backpack": Wear("torso", (-0.25, 0.0, 0.02), 0.0, math.pi),
-        **dict.fromkeys(("shoe", "boot", "sandal", "high heel"), Wear("foot", (-0.11, 0.0, -0.07))),
-        "glove": Wear("hand"),
-    }
-)
-"""Noun → where it is worn; of a pair of feet or hands, one on each."""
-GARMENTS = DRESSED
-"""What the body's own clothes show."""
-IN_ITS_COLOUR = frozenset({"shirt", "jacket", "coat", "dress", "robe", "sweater", "hoodie",
-                           "wetsuit", "suit", "pyjamas"})  # fmt: skip
-"""Those of them that give their colour to the shirt."""
-
-HELD_SCALE: Mapping[str, float] = MappingProxyType({"flag": 0.3, "sign": 0.45, "branch": 0.75})
-"""Noun → size of what is carried relative to what stands on the ground."""
-LARGE_M = 0.36
+"""Traits that say how a noun is held."""
+_LARGE_M = 0.36
 """What is larger is held in both arms."""
 _RAISED: Vector = (0.30, -0.24, 1.16)
-"""Right hand of who holds something up, adult's body coordinates."""
-_GLOVED: Vector = (0.30, 0.22, 1.22)
+"""Right hand of who holds something up, adult's body coordinates, m."""
 _UP_HIGH: Vector = (0.24, -0.24, 1.55)
+_RIGHT_HAND = {
+    "held as a tool": _RAISED, "held upright": _RAISED, "held by a string": _RAISED,
+    "held up high": _UP_HIGH, "flown on a string": _UP_HIGH,
+}  # fmt: skip
+_LEFT_HAND: Vector = (0.30, 0.22, 1.22)
+"""The left one of who has a glove on it."""
+_HANDS_FREE = frozenset({"stand", "move", "walk", "run", "sit", "sit on ground"})
+"""Activities that leave the hands to what they hold."""
+_STANDING_TORSO = 0.95
+"""Height of the foot of the torso of who stands, m, of an adult."""
+_KITE_YAW = 0.3 - 0.5 * math.pi - 1.0
+"""Heading of a kite whose face is turned to the camera."""
+_SWAY_M = 0.28
+"""How far the wind takes a kite to and fro, m."""
+_STRING_M = 0.008
 
 
-def each_worn(relations: Iterable[Relation]) -> list[Relation]:
-    """Each of several things that one wears with a relation of its own."""
-    found: list[Relation] = []
-    for one in relations:
-        targets = one.targets if one.kind == "wear" else ()
-        found += [replace(one, targets=(target,)) for target in targets] or [one]
-    return found
+class Hold(NamedTuple):
+    """How a thing is fixed to a body."""
+
+    anchor: str
+    """Place of the holder."""
+    offset: Affine
+    """[3, 4] the thing's body coordinates in the axes of that place."""
+    is_upright: bool = True
+    """Whether the thing stays upright."""
+    grips: Grips = ()
+    """Where hands are, in the holder's body coordinates, m."""
 
 
-def is_person(actor: Actor) -> bool:
-    """Whether it has hands."""
-    return actor.noun.name in PERSON_NOUNS
+def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """Both, the thing in the hands of who holds it."""
+    style, doing = choose_style(subject, target), subject.trajectory.at(0.0).activity
+    way = place_in_hold(style, subject, target)
+    if doing in ("sit", "sit on ground"):
+        way = _lower(subject, way)
+    if is_person(subject) and doing in _HANDS_FREE:
+        activity = None if subject.is_mover else trait_value("held to", target.noun.name)
+        path = Performed(subject.trajectory, activity, way.grips)
+        subject = replace(subject, trajectory=path)
+    is_flown = style == "flown on a string"
+    activity = "move" if target.noun.name in nouns_with("moves in the hand") else "stand"
+    held: Trajectory = HeldAt(
+        subject, way.anchor, way.offset, way.is_upright, activity, turns=not is_flown
+    )  # fmt: skip
+    if is_flown:
+        held = Hover(held, _SWAY_M)
+        tether = Tether(subject, "right hand", (0.0, 0.0, 0.0), _STRING_M)
+        target = replace(target, tether=tether)
+    return subject, carried(target, held, subject)
 
 
-def size_of(model: Model) -> float:
-    """Scale of a model: 1 = the usual size."""
-    return float(getattr(model, "scale", 1.0))
+def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
+    """Both, the thing at its place on the body; None for clothes, which the body has on."""
+    if target.noun.name in nouns_with("clothes of the body"):
+        return subject, None
+    worn = trait_value("worn", target.noun.name) or {"place": "crown"}
+    turn = rotation(worn.get("yaw", 0.0), worn.get("pitch", 0.0), 0.0)
+    x, y, z = scaled(worn.get("at", (0.0, 0.0, 0.0)), size_of(subject.model))
+    offset = np.column_stack([turn, np.array([x, y, z + foot_of(target)])])
+    return subject, carried(target, HeldAt(subject, worn["place"], offset), subject)
 
 
-def choose_hold(holder: Actor, thing: Actor) -> Hold:
-    """How a thing is held: as the table says, else by its size and by who holds it."""
+def carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:
+    """The thing on a trajectory that its holder gives it."""
+    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0, extras=())
+
+
+def choose_style(holder: Actor, thing: Actor) -> str:
+    """How a thing is held: as the traits say, else by its size and by who holds it."""
     if not is_person(holder):
-        return Hold("mouth")
-    if thing.noun.name in HOLDS:
-        return HOLDS[thing.noun.name]
-    model = thing.model
-    large = max(model.length, model.width, model.height) > LARGE_M
-    if thing.noun.habitat == "air" and large and thing.noun.motion == "fly":
-        return Hold("front")
-    return Hold("front" if large else "upright")
+        return "mouth"
+    for style in _STYLES:
+        if thing.noun.name in nouns_with(style):
+            return style
+    return "front" if thing.size_m > _LARGE_M else "held upright"
 
 
-def place_in_hold(hold: Hold, holder: Actor, thing: Actor) -> tuple[str, Affine, bool, Grips]:
-    """Anchor, offset, whether it stays upright, and where the holder's hands are.
-
-    Args:
-        hold: how it is held.
-        holder: who holds it.
-        thing: what is held.
-
-    Returns:
-        Name of the holder's place, [3, 4] the thing's body coordinates in its axes, whether it
-        stays upright, and the grips in the holder's body coordinates, m.
-    """
-    size, model = size_of(holder.model), thing.model
-    lift = 0.5 * model.height if thing.is_centred else 0.0
-    if holder.trajectory.at(0.0).activity == "lift":
-        # A barbell lies across both hands and goes up with them.
-        turn = rotation(0.5 * math.pi if model.length > model.width else 0.0, 0.0, 0.0)
-        place = np.array([0.03, 0.0, lift - 0.5 * model.height])
-        return "hands", np.column_stack([turn, place]), True, ()
-    if hold.style == "tool":
-        grips = (("right hand", _scaled(_RAISED, size)),)
-        return "right hand", along_tool(thing, lift), False, grips
-    if hold.style == "page":
-        return _page(size, model, lift)
-    if hold.style in ("guitar", "glove"):
-        return _guitar(size) if hold.style == "guitar" else _on_left_hand(size)
-    if hold.style == "upright":
-        return _upright(holder, thing, size, lift)
-    if hold.style == "hanging":
-        return "right hand", _shifted(0.0, 0.0, lift - model.height + 0.02), True, ()
-    if hold.style in ("string", "kite"):
-        grips = (("right hand", _scaled(_UP_HIGH if hold.style == "kite" else _RAISED, size)),)
-        return "right hand", _fly(hold.style, holder, lift), True, grips
-    if hold.style == "mouth":
-        drop = 0.0 if thing.is_centred else -0.5 * model.height
-        return "mouth", _shifted(0.35 * model.length, 0.0, drop), False, ()
-    if hold.style == "front":
-        return _hold_in_front(holder, thing, size, lift)
-    return hold.style, _shifted(0.0, 0.0, lift), False, ()
+def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
+    """Where a thing is that is held in one way or the other, and where the hands are."""
+    size = size_of(holder.model)
+    if style == "front":
+        return _in_both_arms(thing, size)
+    if style == "held as a page":
+        # Flat before the chest, its face to the holder.
+        x, y, z = 0.38 * size, min(0.45 * thing.model.width, 0.22 * size), 1.12 * size
+        offset = np.column_stack([rotation(0.0, -1.0, 0.0), [0.42 * size, 0.0, 1.16 * size]])
+        return Hold("ground", offset, grips=_both_hands(x, y, z))
+    if style == "held as a guitar":
+        turn = rotation(0.0, 0.0, -1.05)
+        return Hold("torso", np.column_stack([turn, size * np.array([0.20, -0.42, -0.08])]), False)
+    if style == "held as a glove":
+        offset = np.column_stack([rotation(0.0, 0.5 * math.pi, 0.0), [0.0, 0.0, 0.08]])
+        return Hold("left hand", offset, grips=(("left hand", scaled(_LEFT_HAND, size)),))
+    if style == "mouth":
+        offset = shifted(0.35 * thing.model.length, 0.0, -lift_of(thing))
+        return Hold("mouth", offset, False)
+    return _in_right_hand(style, holder, thing)
 
 
-def _upright(
-    holder: Actor, thing: Actor, size: float, lift: float
-) -> tuple[str, Affine, bool, Grips]:
-    """In the raised right hand, upright."""
-    model = thing.model
-    grip = _UP_HIGH if thing.noun.name in ("flag", "sign", "torch") else _RAISED
-    low = min(0.35 * model.height, 0.06)
-    if thing.noun.name == "umbrella":
-        low = _CROOK_M
-    elif holder.trajectory.at(0.0).activity == "drink":
-        low = _RIM * model.height
-    x = 0.5 * model.length if model.height < 1.6 * model.length else 0.0
-    offset = _shifted(min(x, 0.06), 0.0, lift - low)
-    return "right hand", offset, True, (("right hand", _scaled(grip, size)),)
+def _in_right_hand(style: str, holder: Actor, thing: Actor) -> Hold:
+    model, size, foot = thing.model, size_of(holder.model), foot_of(thing)
+    grips: Grips = ()
+    if style in _RIGHT_HAND:
+        grips = (("right hand", scaled(_RIGHT_HAND[style], size)),)
+    if style == "held as a tool":
+        return Hold("right hand", along_tool(thing), False, grips)
+    if style == "flown on a string":
+        # Behind who goes on, beside who stands; along the axes of the world.
+        yaw = holder.trajectory.at(0.0).yaw
+        x, y = (-math.cos(yaw), -math.sin(yaw)) if holder.is_mover else (1.0, 0.2)
+        place = np.array([size * x, size * y, 0.8 * size + foot])
+        return Hold(
+            "right hand", np.column_stack([rotation(_KITE_YAW, 0.0, 0.0), place]), grips=grips
+        )
+    below, x = min(0.35 * model.height, 0.06), 0.0
+    if style == "held hanging":
+        below = model.height - 0.02
+    elif style == "held by a string":
+        below = 0.02
+    elif model.height < 1.6 * model.length:
+        x = min(0.5 * model.length, 0.06)
+    if holder.trajectory.at(0.0).activity == "drink":
+        below = 0.8 * model.height  # so that the rim is at the mouth
+    return Hold("right hand", shifted(x, 0.0, foot - below), grips=grips)
 
 
-def _on_left_hand(size: float) -> tuple[str, Affine, bool, Grips]:
-    """A glove upright on the raised left hand, its pocket ahead."""
-    turn = rotation(0.0, 0.5 * math.pi, 0.0)
-    offset = np.column_stack([turn, np.array([0.0, 0.0, 0.08])])
-    return "left hand", offset, True, (("left hand", _scaled(_GLOVED, size)),)
-
-
-_RIM = 0.8
-"""Share of its height at which one holds what one drinks from, so that its rim is at the mouth."""
-_CROOK_M = 0.12
-"""From the end of an umbrella's handle to the hand, m."""
-
-
-def _hold_in_front(
-    holder: Actor, thing: Actor, size: float, lift: float
-) -> tuple[str, Affine, bool, Grips]:
+def _in_both_arms(thing: Actor, size: float) -> Hold:
     """Both arms around it; its longer side goes across."""
     model = thing.model
-    is_alive = thing.noun.motion in ("walk", "run", "crawl", "jump")
     is_long = model.length > 1.2 * model.width
     deep, wide = (model.width, model.length) if is_long else (model.length, model.width)
-    ahead = 0.16 * size + 0.5 * deep
-    middle = 1.08 * size
-    reach = min(0.5 * wide, 0.34 * size)
-    x = min(ahead, 0.42 * size)
-    bottom = max(middle - 0.5 * model.height, 0.75 * size)
-    hand_z = min(max(bottom + 0.15 * model.height, 0.9 * size), 1.25 * size)
+    along = 0.16 * size + 0.5 * deep
+    bottom = max(1.08 * size - 0.5 * model.height, 0.75 * size)
+    z = min(max(bottom + 0.15 * model.height, 0.9 * size), 1.25 * size)
     turn = rotation(0.5 * math.pi if is_long else 0.0, 0.0, 0.0)
-    offset = np.column_stack([turn, np.array([ahead, 0.0, bottom + lift])])
-    grips = (("left hand", (x, reach, hand_z)), ("right hand", (x, -reach, hand_z)))
-    if is_alive:
-        # One arm below it, the other one about it.
-        x = min(ahead + 0.3 * deep, 0.42 * size)
-        low = max(bottom + 0.18 * model.height, 0.88 * size)
-        high = min(bottom + 0.55 * model.height, 1.25 * size)
-        grips = (("left hand", (x, -0.02 * size, low)), ("right hand", (x, 0.03 * size, high)))
-    return "ground", offset, True, grips
+    offset = np.column_stack([turn, [along, 0.0, bottom + foot_of(thing)]])
+    grips = _both_hands(min(along, 0.42 * size), min(0.5 * wide, 0.34 * size), z)
+    return Hold("ground", offset, grips=grips)
 
 
-def _fly(style: str, holder: Actor, lift: float) -> Affine:
-    """Above the hand at the end of a string; a kite shows its face to the camera's side.
-
-    It trails behind who goes on, and is beside who stands; along the axes of the world.
-    """
-    if style == "string":
-        return _shifted(0.0, 0.0, lift - 0.02)
-    yaw = holder.trajectory.at(0.0).yaw
-    along = (-math.cos(yaw), -math.sin(yaw)) if holder.is_mover else (1.0, 0.2)
-    size = size_of(holder.model)
-    place = np.array([size * along[0], size * along[1], 0.8 * size + lift])
-    return np.column_stack([rotation(0.3 - 0.5 * math.pi - KITE_TURN_RAD, 0.0, 0.0), place])
+def _both_hands(x: float, y: float, z: float) -> Grips:
+    return (("left hand", (x, y, z)), ("right hand", (x, -y, z)))
 
 
-def _shifted(x: float, y: float, z: float) -> Affine:
-    return np.column_stack([np.eye(3), np.array([x, y, z])])
+def _lower(subject: Actor, way: Hold) -> Hold:
+    """The hold of who sits: as much lower as the body is than that of who stands."""
+    torso = float(subject.anchor("torso", 0.0)[2, 3] - subject.trajectory.at(0.0).position[2])
+    drop = max(_STANDING_TORSO * size_of(subject.model) - torso, 0.0)
+    offset = way.offset
+    if way.anchor == "ground":
+        offset = np.column_stack([offset[:, :3], offset[:, 3] - (0.0, 0.0, drop)])
+    grips = tuple((hand, (x, y, z - drop)) for hand, (x, y, z) in way.grips)
+    return way._replace(offset=offset, grips=grips)
 
 
-def _scaled(point: Vector, size: float) -> Vector:
-    return (size * point[0], size * point[1], size * point[2])
-
-
-def shoulder_height(actor: Actor) -> float:
-    """Height of a person's shoulders, m; of another model three quarters of its height."""
-    return 1.38 * size_of(actor.model) if is_person(actor) else 0.75 * actor.model.height
-
-
-def arm_reach(actor: Actor, height_m: float) -> float:
-    """How far ahead of its middle a pusher's hands are at that height, m."""
-    if not is_person(actor):
-        return 0.5 * actor.model.length
-    size = size_of(actor.model)
-    drop = 1.34 - height_m / size
-    return size * (0.10 + math.sqrt(max(_STRETCH**2 - drop**2, 0.04)))
-
-
-_STRETCH = 0.60
-"""From the shoulder to the palm of an arm that is nearly straight, m."""
-
-
-def offset_of_worn(wear: Wear, wearer: Actor, thing: Actor) -> Float64Array:
-    """[3, 4] a worn thing's body coordinates in the axes of its place."""
-    size = size_of(wearer.model)
-    lift = 0.5 * thing.model.height if thing.is_centred else 0.0
-    turn = rotation(wear.yaw, wear.pitch, 0.0)
-    x, y, z = _scaled(wear.shift, size)
-    return np.column_stack([turn, np.array([x, y, z + lift])])
-
-
-def along_tool(thing: Actor, lift: float) -> Affine:
-    """What lies along its x: the handle in the hand, the rest along what the hand points to."""
+def along_tool(thing: Actor) -> Affine:
+    """The handle in the hand, the rest along what the hand points to."""
     model = thing.model
     if model.width > 2.0 * max(model.length, model.height):
-        # What lies along its y: a stick.
-        return np.column_stack(
-            [rotation(0.0, 0.0, 0.5 * math.pi), np.array([0.0, 0.0, 0.36 * model.width])]
-        )
+        # It lies along its y.
+        return np.column_stack([rotation(0.0, 0.0, 0.5 * math.pi), [0.0, 0.0, 0.36 * model.width]])
     if model.length < 2.0 * model.height:
-        return _shifted(0.0, 0.0, lift - 0.12 * model.height)
-    sign = _handle_side(model) * (-1.0 if thing.noun.name in _GUARDED else 1.0)
-    turn = rotation(0.0, 0.5 * math.pi * sign, 0.0)
-    middle = 0.38 * model.length
-    return np.column_stack([turn, np.array([0.0, 0.0, middle])])
-
-
-_GUARDED = frozenset({"sword"})
-"""What is wider at its handle."""
+        return shifted(0.0, 0.0, foot_of(thing) - 0.12 * model.height)
+    turn = rotation(0.0, 0.5 * math.pi * _handle_side(model), 0.0)
+    return np.column_stack([turn, [0.0, 0.0, 0.38 * model.length]])
 
 
 def _handle_side(model: Model) -> float:
@@ -331,19 +215,3 @@ def _handle_side(model: Model) -> float:
         x, y = (axis.ravel() for axis in np.meshgrid(sign * along, across))
         spread.append(int(np.isfinite(top_heights(parts, x, y)).sum()))
     return 1.0 if spread[0] < spread[1] else -1.0
-
-
-def _page(size: float, model: Model, lift: float) -> tuple[str, Affine, bool, Grips]:
-    """A flat thing before the chest, its face to the holder."""
-    turn = rotation(0.0, -1.0, 0.0)
-    reach = min(0.45 * model.width, 0.22 * size)
-    place = np.array([0.42 * size, 0.0, 1.16 * size])
-    grips = (("left hand", (0.38 * size, reach, 1.12 * size)),
-             ("right hand", (0.38 * size, -reach, 1.12 * size)))  # fmt: skip
-    return "ground", np.column_stack([turn, place]), True, grips
-
-
-def _guitar(size: float) -> tuple[str, Affine, bool, Grips]:
-    """Across the chest, the neck up to the left hand."""
-    place = size * np.array([0.20, -0.42, -0.08])
-    return "torso", np.column_stack([rotation(0.0, 0.0, -1.05), place]), False, ()

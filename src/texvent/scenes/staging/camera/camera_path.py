@@ -12,7 +12,7 @@ import numpy as np
 from texvent.scenes.description import CameraMove
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.camera.framing import Framing, direction, look_at
-from texvent.scenes.staging.camera.move_channels import MoveChannels
+from texvent.scenes.staging.camera.moves import MoveChannels
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
@@ -85,46 +85,39 @@ class CameraPath:
 
     def at(self, time_s: float) -> Camera:
         """The camera at that instant."""
-        share = time_s / self.duration_s
         if self.journey is not None:
             camera = self._travel(self.journey, time_s)
         else:
-            camera = self._watch(share, time_s)
+            camera = self._watch(time_s)
         slant = DUTCH_RAD if any(move.kind == "dutch" for move in self.moves) else 0.0
         slant += ROAM_SHARE * SHAKE_RAD * self._roam * 3.0 * math.sin(5.5 * time_s + 0.5)
-        return _rolled(camera, slant + ROLL_RAD * self._centred("roll", share))
+        return _rolled(camera, slant + ROLL_RAD * self._channels.centred("roll", time_s))
 
     @cached_property
     def _roam(self) -> float:
         """Pace of a camera that moves in all six degrees of freedom; 0 = it does not."""
         return sum(move.pace for move in self.moves if move.direction == ALL_AXES)
 
-    def _centred(self, kind: str, share: float) -> float:
-        return self._channels.centred(kind, share) if self._channels.has(kind) else 0.0
-
-    def _nearness(self, kind: str, share: float) -> float:
-        return self._channels.below_most(kind, share) if self._channels.has(kind) else 0.0
-
-    def _watch(self, share: float, time_s: float) -> Camera:
+    def _watch(self, time_s: float) -> Camera:
         """A camera that looks at its subject."""
-        framing = self.framing
-        azimuth = framing.azimuth + ORBIT_RAD * self._centred("orbit", share)
+        framing, moved, near = self.framing, self._channels.centred, self._channels.below_most
+        azimuth = framing.azimuth + ORBIT_RAD * moved("orbit", time_s)
         azimuth += self._turn_with_subject(time_s)
-        elevation = framing.elevation + CRANE_RAD * self._centred("crane", share)
+        elevation = framing.elevation + CRANE_RAD * moved("crane", time_s)
         elevation = min(max(elevation, -MOST_PITCH_RAD), MOST_PITCH_RAD)
-        distance = framing.distance_m * DOLLY ** -self._nearness("dolly", share)
-        distance *= DOLLY_ZOOM ** -self._nearness("dolly zoom", share)
-        focal = framing.focal * ZOOM ** self._nearness("zoom", share)
-        slide = self._slide(share, time_s)
+        distance = framing.distance_m * DOLLY ** -near("dolly", time_s)
+        distance *= DOLLY_ZOOM ** -near("dolly zoom", time_s)
+        focal = framing.focal * ZOOM ** near("zoom", time_s)
+        slide = self._slide(time_s)
         target = framing.target + slide
         position = self._keep_inside(target + distance * direction(azimuth, elevation))
         focal *= self._hold_size(target, position, time_s)
-        target = position + _turned(target - position, *self._turn(share, time_s))
+        target = position + _turned(target - position, *self._turn(time_s))
         return look_at(position, target, focal)
 
     def _travel(self, journey: Journey, time_s: float) -> Camera:
         """A camera that moves along its route and looks where it heads."""
-        share = time_s / self.duration_s
+        moved, near = self._channels.centred, self._channels.below_most
         state = journey.route.at(time_s)
         x, y, z = state.position
         bob = 0.0
@@ -132,14 +125,14 @@ class CameraPath:
             bob = STEP_M * math.sin(2.0 * math.pi * state.distance_m / journey.step_m)
         height = z + journey.height_m + bob
         width = 0.4 * journey.height_m
-        height += width * (self._centred("pedestal", share) + self._centred("crane", share))
+        height += width * (moved("pedestal", time_s) + moved("crane", time_s))
         position = self._keep_inside(np.array([x, y, height]))
         flat = math.cos(journey.pitch_rad)
         forward = np.array(
             [flat * math.cos(state.yaw), flat * math.sin(state.yaw), -math.sin(journey.pitch_rad)]
         )
-        target = position + _turned(forward, *self._turn(share, time_s))
-        focal = self.framing.focal * ZOOM ** self._nearness("zoom", share)
+        target = position + _turned(forward, *self._turn(time_s))
+        focal = self.framing.focal * ZOOM ** near("zoom", time_s)
         return _rolled(look_at(position, target, focal), -state.roll)
 
     def _turn_with_subject(self, time_s: float) -> float:
@@ -151,9 +144,9 @@ class CameraPath:
             return 0.0
         return self.followed.at(time_s).yaw - self.followed.at(0.0).yaw
 
-    def _slide(self, share: float, time_s: float) -> Float64Array:
+    def _slide(self, time_s: float) -> Float64Array:
         """Metres by which camera and target move together."""
-        slide = np.zeros(3)
+        slide, moved = np.zeros(3), self._channels.centred
         if self.followed is not None and any(m.kind in ("follow", "orbit") for m in self.moves):
             now, start = self.followed.at(time_s).position, self.followed.at(0.0).position
             rises = 1.0 if self.follows_height else 0.0
@@ -162,8 +155,8 @@ class CameraPath:
         width = self.framing.distance_m / self.framing.focal
         azimuth = self.framing.azimuth
         right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
-        slide += 0.4 * width * self._centred("truck", share) * right
-        slide[2] += 0.3 * width * self._centred("pedestal", share)
+        slide += 0.4 * width * moved("truck", time_s) * right
+        slide[2] += 0.3 * width * moved("pedestal", time_s)
         roam = ROAM_WIDTHS * width * self._roam
         slide += roam * math.sin(4.9 * time_s) * right
         slide += roam * math.sin(3.7 * time_s + 1.0) * np.array([-right[1], right[0], 0.0])
@@ -180,10 +173,10 @@ class CameraPath:
         near = target + offset * (self.framing.distance_m / max(distance, 1e-9))
         return _extent(corners, near, target) / _extent(corners, position, target)
 
-    def _turn(self, share: float, time_s: float) -> tuple[float, float]:
+    def _turn(self, time_s: float) -> tuple[float, float]:
         """Angles to the right and up, radians."""
-        right = PAN_RAD * self._centred("pan", share)
-        up = TILT_RAD * self._centred("tilt", share)
+        right = PAN_RAD * self._channels.centred("pan", time_s)
+        up = TILT_RAD * self._channels.centred("tilt", time_s)
         for move in self.moves:
             if move.kind == "handheld":
                 wave = 2.0 * math.pi * time_s

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.models.places import PLACES
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.camera.camera_path import Journey
-from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
@@ -139,7 +139,7 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     route, bends, corner = _steer(phases, speed, duration_s, tightest, is_curved=is_curved)
     lane, road_half = 0.0, 0.0
     if has_road:
-        road_half = PLACES[place].road_half_width
+        road_half = PLACES[place].road_m
         if means.is_on_road:
             lane = 0.5 * road_half
         elif place == "city" and not is_aerial and means.speed_m_s < 4.0:

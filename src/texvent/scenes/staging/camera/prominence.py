@@ -12,23 +12,14 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import Framing
 
-LARGE = 0.3
+_LARGE = 0.3
 """Geometric mean of the shares of the image's width and height that a subject should extend over:
 a person two thirds as high as the image, a car four tenths as wide. What is thin comes nearer."""
-LARGE_GROUP = 0.65
+_LARGE_GROUP = 0.65
 """Share of the image's width or height that a group should extend over together."""
-LARGE_COPY = 0.13
-"""The same as `LARGE` for each of a group."""
-GOALS = (1.0, 0.9)
-"""Prominence for which the rest leaves the image: first what stands about, then what else moves."""
+_LARGE_COPY = 0.13
+"""The same as `_LARGE` for each of a group."""
 _HALVINGS = 6
-
-
-_LOOMING = 0.4
-"""Share of the image that a thing in front of the subject may cover."""
-_IN_FRONT = 0.6
-"""What comes nearer than this share of the subject's distance is in front of it, if it is higher
-than the subject's middle: a rug or a table hides nothing."""
 
 
 @dataclass(frozen=True)
@@ -59,36 +50,14 @@ class Prominence:
         image[..., 1] /= self.aspect
         copy = float(np.sqrt(np.prod(np.ptp(image, axis=1), axis=1)).max())
         if len(image) == 1:
-            return copy / LARGE
+            return copy / _LARGE
         group = float(np.ptp(image, axis=(0, 1)).max())
-        return max(copy / LARGE, min(copy / LARGE_COPY, group / LARGE_GROUP))
-
-
-def has_clear_view(
-    path: CameraPath, main: Actor, others: Sequence[Actor], times: Float64Array, aspect: float
-) -> bool:
-    """Whether nothing else that the prompt names looms between the camera and the subject."""
-    for time in map(float, times):
-        camera = path.at(time)
-        middle = main.middle(time)
-        reach = float((middle - camera.position) @ camera.rotation[2])
-        for actor in others:
-            corners = actor.corners(time)
-            seen = (corners - camera.position) @ camera.rotation.T
-            is_in_front = np.max(seen[:, 2]) > 0.0 and np.min(seen[:, 2]) < _IN_FRONT * reach
-            if not is_in_front or np.max(corners[:, 2]) < middle[2]:
-                continue
-            image = camera.focal * seen[:, :2] / np.maximum(seen[:, 2:], 1e-3)
-            image = np.clip(image / [1.0, aspect], -0.5, 0.5)
-            if np.prod(np.ptp(image, axis=0)) > _LOOMING:
-                return False
-    return True
+        return max(copy / _LARGE, min(copy / _LARGE_COPY, group / _LARGE_GROUP))
 
 
 def come_near(
     framings: Sequence[Framing], path_of: Callable[[Framing], CameraPath],
     prominence: Callable[[CameraPath], float], goals: Sequence[float],
-    is_clear: Callable[[CameraPath], bool] = lambda path: True,
 ) -> CameraPath:  # fmt: skip
     """The camera that shows as much as it can with a subject that is large enough.
 
@@ -100,36 +69,29 @@ def come_near(
         path_of: the camera over the clip from a framing.
         prominence: of the subject in it.
         goals: how prominent it must be for the camera to go on to each framing after the first.
-        is_clear: whether nothing looms in front of the subject; the camera goes no nearer.
     """
     path = path_of(framings[0])
     for framing, goal in zip(framings[1:], goals, strict=True):
         if prominence(path) >= goal:
             break
         nearest = path_of(framing)
-        if prominence(nearest) <= prominence(path):
-            continue
-        path = between(path, nearest, prominence, goal, is_clear)
+        if prominence(nearest) > prominence(path):
+            path = _between(path, nearest, prominence, goal)
     return path
 
 
-def between(
-    wide: CameraPath, near: CameraPath, prominence: Callable[[CameraPath], float], goal: float,
-    is_clear: Callable[[CameraPath], bool],
-) -> CameraPath:  # fmt: skip
-    """The widest between two cameras that reaches the goal, or the nearest with a clear view."""
-
-    def is_enough(path: CameraPath) -> bool:
-        return prominence(path) >= goal or not is_clear(path)
-
+def _between(
+    wide: CameraPath, near: CameraPath, prominence: Callable[[CameraPath], float], goal: float
+) -> CameraPath:
+    """The widest between two cameras that reaches the goal, or the nearer one."""
     low, high = 0.0, 1.0
-    if not is_enough(near):
+    if prominence(near) < goal:
         return near
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if is_enough(_mixed(wide, near, middle)) else (middle, high)
-    nearest = _mixed(wide, near, high)
-    return nearest if is_clear(nearest) else _mixed(wide, near, low)
+        is_enough = prominence(_mixed(wide, near, middle)) >= goal
+        low, high = (low, middle) if is_enough else (middle, high)
+    return _mixed(wide, near, high)
 
 
 def _mixed(wide: CameraPath, near: CameraPath, share: float) -> CameraPath:

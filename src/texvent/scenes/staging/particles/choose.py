@@ -1,4 +1,4 @@
-"""Effects of a description → particle systems at their places."""
+"""Effects of a scene → particle systems at their places."""
 
 from __future__ import annotations
 
@@ -9,97 +9,31 @@ import numpy as np
 
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.anchors import locate
-from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.effects import EFFECTS, EmitterStyle
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.scene import Colour, Float64Array
+from texvent.scenes.models.traits import trait_value
+from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.body_lights import (
+    lowest_m,
     make_beacons,
     make_string,
     make_turn_signals,
 )
-from texvent.scenes.staging.particles.bursts import Fireball, Fireworks, Pieces, Splash
-from texvent.scenes.staging.particles.clouds import PLUMES, Plume, make_bank
-from texvent.scenes.staging.particles.falling_water import FallingWater
-from texvent.scenes.staging.particles.flakes import FLAKES, Falling
-from texvent.scenes.staging.particles.jets import BLOWN, BREATHED, JETS, WATER, Dripping, Jet
-from texvent.scenes.staging.particles.light_shows import Lasers, Lightning, StageLights
+from texvent.scenes.staging.particles.bolts import Lightning
+from texvent.scenes.staging.particles.emitter import Emitter
 from texvent.scenes.staging.particles.motion import Source
-from texvent.scenes.staging.particles.pouring import make_streams, pour_into
 from texvent.scenes.staging.particles.shapes import ParticleEffect
-from texvent.scenes.staging.particles.window_drops import WindowDrops
 from texvent.scenes.staging.surroundings.weather import WEATHERS
 
-OF_NOUNS = {"campfire": "fire", "fireplace": "fire", "torch": "fire", "volcano": "smoke",
-            "sprinkler": "spray", "waterfall": "falling water"}  # fmt: skip
-"""Noun → effect that it always has, unless it is said not to be lit."""
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
 _NO_GROUND = ("sky", "space", "underwater")
-
-_REAR = (-1.0, -0.55, 0.16)
-_ANCHORS: dict[tuple[str, str], tuple[float, float, float]] = {
-    **{
-        (kind, noun): _REAR
-        for kind in ("smoke", "steam")
-        for noun in ("car", "suv", "van", "pickup", "taxi", "police car", "bus", "motorcycle")
-    },
-    ("smoke", "truck"): (0.45, 0.5, 1.0),
-    ("smoke", "train"): (0.8, 0.0, 1.0),
-    ("steam", "train"): (0.8, 0.0, 1.0),
-    ("smoke", "airplane"): (-1.0, 0.0, 0.5),
-    ("smoke", "rocket"): (0.0, 0.0, 0.0),
-    ("smoke", "house"): (0.3, 0.35, 1.0),
-    ("smoke", "ship"): (0.1, 0.0, 1.0),
-    ("smoke", "volcano"): (0.0, 0.0, 0.58),
-    ("spray", "sprinkler"): (0.0, 0.0, 1.0),
-    ("fire", "torch"): (0.0, 0.0, 0.72),
-    ("fire", "fireplace"): (0.1, 0.0, 0.1),
-    **{(kind, "faucet"): (0.7, -0.92, 0.6) for kind in ("drip", "pour")},
-    **{(kind, "teapot"): (0.0, -0.92, 0.78) for kind in ("pour", "steam", "drip")},
-    **{(kind, "kettle"): (0.0, -0.92, 0.8) for kind in ("pour", "steam", "drip")},
-    **{(kind, "watering can"): (0.0, -0.92, 0.95) for kind in ("pour", "spray", "drip")},
-    **{(kind, "shower"): (0.0, 0.0, 0.93) for kind in ("pour", "spray", "drip")},
-    **{(kind, "hose"): (0.4, 1.0, 0.2) for kind in ("pour", "spray", "fountain")},
-}
-"""(effect, noun) → where it comes from: x and y in half extents, z in heights from below."""
-_AIMS: dict[str, tuple[float, float, float]] = {
-    "faucet": (0.0, 0.0, -1.0),
-    "shower": (0.0, 0.0, -1.0),
-    "teapot": (0.0, -1.0, 0.1),
-    "kettle": (0.0, -1.0, 0.1),
-    "watering can": (0.0, -1.0, 0.3),
-    "hose": (0.0, 1.0, 0.6),
-    "elephant": (-0.8, 0.0, 0.35),
-}
-"""Where water leaves a noun to, in its body coordinates."""
-_USUAL_ANCHOR: dict[str, tuple[float, float, float]] = {
-    "drip": (0.9, 0.0, 0.85),
-    "pour": (0.9, 0.0, 0.92),
-    "spray": (0.9, 0.0, 0.9),
-    "sparks": (0.6, 0.0, 0.6),
-    "dust": (-0.7, 0.0, 0.0),
-    "fire": (0.0, 0.0, 0.25),
-    "splash": (0.0, 0.0, 0.0),
-    "popcorn": (0.0, 0.0, 0.5),
-    "confetti": (0.0, 0.0, 1.0),
-}
-_SIZES: dict[str, float] = {"popcorn": 0.6, "fire": 0.75, "smoke": 0.32, "steam": 0.7, "dust": 0.55,
-                            "drip": 0.55,
-                            "pour": 0.6, "fountain": 0.9, "sparks": 0.6}  # fmt: skip
-"""Size of an effect by that of the object it comes from."""
-_NOUN_SIZES = {("fire", "fireplace"): 0.3, ("fire", "torch"): 0.9, ("spray", "sprinkler"): 2.5}
-"""The same for some objects of their own."""
-_ALONE: dict[str, float] = {"smoke": 0.15, "steam": 0.12, "fire": 0.2, "dust": 0.2, "drip": 0.16,
-                            "pour": 0.3, "fountain": 0.42, "sparks": 0.3, "embers": 0.25,
-                            "spray": 0.3, "bubbles": 0.25, "popcorn": 0.3}  # fmt: skip
-"""Size of an effect that comes from no object, by the distance of the camera."""
-_HEADROOM = {"pour into": 1.4, "smoke": 3.0, "steam": 1.8, "fire": 1.5, "fountain": 1.1,
-             "embers": 1.5, "sparks": 0.4, "bubbles": 1.0, "spray": 0.5}  # fmt: skip
-"""Room that an effect needs above its object, by its size."""
+_SPOUT = "spout"
+"""Trait of nouns that water leaves at a point, in a direction."""
 
 
 @dataclass(frozen=True)
@@ -117,6 +51,17 @@ class Setting:
         """Height of the ground, m; -inf where there is none."""
         return -np.inf if self.place in _NO_GROUND else 0.0
 
+    @property
+    def base(self) -> Float64Array:
+        """[3] the point on the ground below what the camera looks at, m."""
+        return np.array([self.framing.target[0], self.framing.target[1], 0.0])
+
+    @property
+    def away(self) -> Float64Array:
+        """[3] horizontal unit vector away from the camera."""
+        flat = -self.framing.offset * [1.0, 1.0, 0.0]
+        return np.asarray(flat / max(float(np.linalg.norm(flat)), 1e-9))
+
 
 @dataclass(frozen=True)
 class Staged:
@@ -125,27 +70,20 @@ class Staged:
     effects: tuple[ParticleEffect, ...]
     ends_s: dict[int, float]
     """Instance of an object → when it is gone, s."""
-    kinds: tuple[tuple[str, int | None], ...] = ()
-    """What each of `effects` belongs to: a kind of effect or a weather, and its object's index."""
 
 
 def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
-    """All effects of a description.
+    """All effects of a scene, those that some nouns always have, weather and dust.
 
-    Nouns that burn get their fire. An effect whose object has several copies is at each of them.
+    An effect whose object has several copies is at each of them.
     """
     said = list(description.effects)
     named = {(effect.kind, effect.source) for effect in said}
     for index, one in enumerate(description.objects):
-        kind = OF_NOUNS.get(one.noun)
+        kind = trait_value("own effect", one.noun)
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
     effects = _weather(description, setting)
-    fallen = description.surroundings.weather in WEATHERS
-    kinds: list[tuple[str, int | None]] = [
-        (str(description.surroundings.weather) if fallen and number == 0 else "dust", None)
-        for number in range(len(effects))
-    ]
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
         actors: Sequence[Actor | None] = [None]
@@ -153,34 +91,23 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
             actors = [one for one in setting.actors if one.object_index == effect.source] or [None]
         for copy, actor in enumerate(actors):
             rng = seeded(setting.seed, "effect", effect.kind, number, copy)
-            made = _make(effect, actor, setting, rng)
-            effects.extend(made)
-            kinds += [(effect.kind, effect.source)] * len(made)
+            effects += _make(effect, actor, setting, rng)
             if actor is not None and EFFECTS[effect.kind].ends_source:
                 ends[actor.instance] = _start(effect, actor, setting)
-    rng = seeded(setting.seed, "poured")
-    streams = make_streams(setting.actors, description.prompt, rng)
-    effects.extend(streams)
-    kinds += [("pour", None)] * len(streams)
-    return Staged(tuple(effects), ends, tuple(kinds))
+    return Staged(tuple(effects), ends)
 
 
 def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEffect]:
     """Rain and snow, and the dust behind what drives."""
-    said, framing = description.surroundings, setting.framing
-    base = np.array([framing.target[0], framing.target[1], 0.0])
+    said = description.surroundings
     made: list[ParticleEffect] = []
     if said.weather is not None and said.weather in WEATHERS:
         rng = seeded(setting.seed, said.weather)
-        made.append(WEATHERS[said.weather](base, 1.4 * framing.distance_m, rng))
-    for actor in setting.actors if said.weather == "rain" else ():
-        if actor.noun.name == "window":
-            made.append(WindowDrops.of(actor, seeded(setting.seed, "pane", actor.instance)))
-    if said.has_dust:
-        for actor in setting.actors:
-            if actor.is_mover and actor.noun.habitat == "ground":
-                rng = seeded(setting.seed, "dust", actor.instance)
-                made.append(Plume.of("dust", _source("dust", actor, setting), rng))
+        made.append(WEATHERS[said.weather](setting.base, 1.4 * setting.framing.distance_m, rng))
+    for actor in setting.actors if said.has_dust else ():
+        if actor.is_mover and actor.noun.habitat == "ground":
+            rng = seeded(setting.seed, "dust", actor.instance)
+            made += _emit(Effect("dust"), actor, setting, rng)
     return made
 
 
@@ -188,8 +115,9 @@ def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> lis
     """The objects, with room in the image for what rises from them."""
     room: dict[int, float] = {}
     for effect in description.effects:
-        if effect.source is not None and effect.kind in _HEADROOM:
-            needed = _HEADROOM[effect.kind] * _SIZES.get(effect.kind, 0.5)
+        words = EFFECTS[effect.kind]
+        if effect.source is not None and words.headroom:
+            needed = words.headroom * words.size
             room[effect.source] = max(needed, room.get(effect.source, 0.0))
     return [
         replace(actor, headroom_m=room[actor.object_index] * _bulk(actor))
@@ -199,129 +127,67 @@ def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> lis
     ]
 
 
-def _bulk(actor: Actor) -> float:
-    """Size of an object, m: the side of a cube as large as the box around it."""
-    model = actor.model
-    return float(np.cbrt(model.length * model.width * model.height))
+def gone(to_world: Float64Array) -> Float64Array:
+    """[3, 4] the pose of an object that is no more: too small to be seen."""
+    return np.column_stack([1e-6 * to_world[:, :3], to_world[:, 3]])
 
 
 def _make(
     effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
 ) -> list[ParticleEffect]:
-    kind = effect.kind
-    colour = None if effect.colour is None else effect.colour.rgb
-    base = np.array([setting.framing.target[0], setting.framing.target[1], 0.0])
-    reach = setting.framing.distance_m
-    if kind in _LIGHTS:
-        return _light_up(kind, actor, setting, colour, rng)
-    if kind in ("mist", "sand"):
-        return [make_bank(kind, base, 3.0 * reach, rng, colour)]
-    if kind in FLAKES:
-        return [Falling.of(kind, base, 1.4 * reach, rng, colour)]
-    if kind == "fireworks":
-        behind = -1.1 * reach * setting.framing.offset * [1.0, 1.0, 0.0]
-        middle = base + behind + np.array([0.0, 0.0, 0.75 * reach])
-        return [Fireworks.of(middle, 0.3 * reach, rng)]
-    if EFFECTS[kind].happens_once:
-        return _happen_once(effect, actor, setting, rng)
-    return _make_stream(effect, actor, setting, rng)
-
-
-def _make_stream(
-    effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
-) -> list[ParticleEffect]:
-    """Smoke, drops, flames: what leaves a source."""
+    """What shows an effect at an object, or by itself."""
     kind, reach = effect.kind, setting.framing.distance_m
     colour = None if effect.colour is None else effect.colour.rgb
-    source = _source(kind, actor, setting)
-    if kind == "falling water" and actor is not None:
-        return [FallingWater.of(actor, rng)]
-    if kind == "pour into" and actor is not None:
-        return [pour_into(actor, colour, rng)]
-    if kind == "drip" and actor is not None and actor.noun.name == "window":
-        return [WindowDrops.of(actor, rng)]
-    if kind == "drip":
-        start = source.at(np.zeros(1))[0]
-        height = max(float(start[2]), 0.05) if np.isfinite(setting.floor_m) else reach
-        return [Dripping.of(source, height, rng, colour or WATER)]
-    made: list[ParticleEffect] = []
-    aim = None if actor is None else _AIMS.get(actor.noun.name)
-    if kind in PLUMES and not (aim is not None and aim[2] < 0.0):
-        plume = Plume.of(kind, source, rng, colour=colour, start_s=effect.start_s)
-        has_lamp = actor is not None and actor.noun.name in LAMPS
-        made.append(plume.unlit() if has_lamp else plume)
-    if kind in JETS:
-        jet = Jet.of(kind, source, rng, colour=colour, start_s=effect.start_s)
-        is_blown = actor is not None and kind in BREATHED and actor.noun.name in PERSON_NOUNS
-        if is_blown and setting.place != "underwater":
-            jet = replace(jet, style=replace(jet.style, **BLOWN))
-        if aim is not None and kind in ("pour", "spray"):
-            jet = replace(jet, style=replace(jet.style, aim=aim))
-        made.append(jet.until_ground() if kind == "pour" else jet)
-    if kind == "fire" and actor is not None and actor.noun.name not in OF_NOUNS:
-        made.append(Plume.of("black smoke", source, rng, start_s=effect.start_s))
-    return made
-
-
-_LIGHTS = frozenset(
-    {"lightning", "stage lights", "lasers", "string lights", "blinking lights", "beacon",
-     "turn signal", "hazard lights"}
-)  # fmt: skip
-_BUILT_UP = frozenset({"city", "street", "village", "downtown", "forest"})
-"""Places whose houses or trees would hide what is behind them."""
-_NEAR = 0.3
-"""How near the bolts are there, as a share of their usual distance."""
-_BLINK_HZ = {"string lights": 0.0, "blinking lights": 1.1}
-
-
-def _light_up(
-    kind: str, actor: Actor | None, setting: Setting, colour: Colour | None,
-    rng: np.random.Generator,
-) -> list[ParticleEffect]:  # fmt: skip
-    """Effects that are light: see `light_shows` and `body_lights`."""
-    target = np.asarray(setting.framing.target, dtype=np.float64)
-    away = -setting.framing.offset * [1.0, 1.0, 0.0]
-    away /= max(float(np.linalg.norm(away)), 1e-9)
-    side = np.cross(away, [0.0, 0.0, 1.0])
-    reach = setting.framing.distance_m
+    away = setting.away
     if kind == "lightning":
-        behind = _NEAR if setting.place in _BUILT_UP else 1.0
-        return [Lightning.of(target * [1.0, 1.0, 0.0], away, reach, rng, behind)]
-    if kind == "stage lights":
-        return [StageLights(target * [1.0, 1.0, 0.0], side, reach, colour)]
-    if kind == "lasers":
-        return [Lasers(target + 0.1 * reach * away, side, reach, colour)]
-    if kind in _BLINK_HZ:
-        place = target + reach * (0.22 * np.array([0.0, 0.0, 1.0]) + 0.1 * away)
-        string = make_string(
-            actor, place, side, 0.9 * reach, blink_hz=_BLINK_HZ[kind], colour=colour
-        )
-        return [string]
-    if actor is None:
-        return []
-    if kind == "beacon":
-        return [make_beacons(actor, colour)]
-    return [make_turn_signals(actor, both=kind == "hazard lights")]
+        return [Lightning.of(setting.base, away, reach, rng)]
+    if kind == "blinking lights":
+        place = setting.framing.target + reach * (np.array([0.0, 0.0, 0.22]) + 0.1 * away)
+        side = np.cross(away, [0.0, 0.0, 1.0])
+        return [make_string(actor, place, side, 0.9 * reach, colour)]
+    if kind in ("beacon", "turn signal", "hazard lights"):
+        if actor is None:
+            return []
+        is_beacon = kind == "beacon"
+        both = kind == "hazard lights"
+        return [make_beacons(actor, colour) if is_beacon else make_turn_signals(actor, both=both)]
+    return _emit(effect, actor, setting, rng)
 
 
-def _happen_once(
+def _emit(
     effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
 ) -> list[ParticleEffect]:
-    start = _start(effect, actor, setting)
-    size = _size_of(actor, setting)
-    target = np.asarray(setting.framing.target, dtype=np.float64)
+    """The emitters of an effect."""
+    words = EFFECTS[effect.kind]
+    start_s = _start(effect, actor, setting) if words.happens_once else effect.start_s
+    source = _source(effect.kind, actor, setting)
     if effect.kind == "splash":
-        middle = target.copy() if actor is None else actor.middle(start)
-        middle[2] = 0.0
-        colour: Colour = WATER if effect.colour is None else effect.colour.rgb
-        return [Splash.of(middle, 0.9 * size, start, rng, colour)]
-    made: list[ParticleEffect] = []
-    middle = target if actor is None else actor.middle(start)
-    if actor is not None:
-        made.append(Pieces.of(actor, effect.kind, start, rng, setting.floor_m))
-    if effect.kind == "explode":
-        made.append(Fireball.of(middle, 0.7 * size, start, rng))
-    return made
+        middle = source.at(np.array([start_s or 0.0]))[0]
+        source = Source(source.size_m, middle * [1.0, 1.0, 0.0])
+    colour = None if effect.colour is None else effect.colour.rgb
+    return [
+        Emitter.of(
+            _fitted(style, effect.kind, actor), source, rng, colour=colour, start_s=start_s,
+            is_once=words.happens_once, floor_m=setting.floor_m,
+        )
+        for style in words.emitters
+        if style.colours or actor is not None
+    ]  # fmt: skip
+
+
+def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle:
+    """The style for an object: from its spout, or without light where it has a lamp."""
+    if actor is None:
+        return style
+    aim = trait_value("spout direction", actor.noun.name)
+    if aim is not None and _SPOUT in EFFECTS[kind].anchor_traits and style.body == "drop":
+        style = replace(style, aim=tuple(aim))
+    if kind in _BLOWN and actor.noun.name in PERSON_NOUNS:
+        style = replace(style, aim=(1.0, 0.0, 0.3))
+    return replace(style, light=0.0) if actor.noun.name in LAMPS else style
+
+
+_BLOWN = frozenset(kind for kind, words in EFFECTS.items() if words.breathed)
 
 
 def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
@@ -329,47 +195,35 @@ def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
     if effect.start_s is not None:
         return effect.start_s
     if actor is not None and effect.kind in ("splash", "break"):
-        lift = 0.5 * actor.model.height if actor.is_centred else 0.0
         times = np.linspace(0.0, setting.duration_s, _FALL_STEPS)
-        heights = np.array([actor.trajectory.at(float(t)).position[2] - lift for t in times])
+        low = lowest_m(actor)
+        heights = np.array([actor.trajectory.at(float(t)).position[2] + low for t in times])
         down = np.flatnonzero((heights[1:] <= 0.01) & (heights[:-1] > 0.01))
         if len(down):
             return float(times[down[0] + 1])
     return ONCE_AT * setting.duration_s
 
 
-def _size_of(actor: Actor | None, setting: Setting) -> float:
-    """Size of what an effect comes from, m."""
-    return 0.16 * setting.framing.distance_m if actor is None else _bulk(actor)
+def _bulk(actor: Actor) -> float:
+    """Size of an object, m: the side of a cube as large as the box around it."""
+    model = actor.model
+    return float(np.cbrt(model.length * model.width * model.height))
 
 
 def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     """Where an effect comes from."""
+    words = EFFECTS[kind]
     if actor is None:
-        target = np.asarray(setting.framing.target, dtype=np.float64)
-        lifted = kind in ("drip", "sparks", "pour", "spray")
         reach = setting.framing.distance_m
-        height = target[2] + 0.22 * reach if lifted else 0.0
-        return Source(_ALONE.get(kind, 0.15) * reach, np.array([target[0], target[1], height]))
-    size = _NOUN_SIZES.get((kind, actor.noun.name), _SIZES.get(kind, 0.5)) * _bulk(actor)
-    model = actor.model
-    x, y, z = _ANCHORS.get((kind, actor.noun.name), _USUAL_ANCHOR.get(kind, (0.0, 0.0, 1.0)))
-    low = -0.5 * model.height if actor.is_centred else 0.0
-    if kind in BREATHED and actor.noun.name in PERSON_NOUNS:
+        target = np.array(setting.framing.target, dtype=np.float64)
+        target[2] = target[2] + words.alone_height * reach if words.alone_height else 0.0
+        target += words.alone_behind * reach * setting.away
+        return Source(words.alone * reach, target)
+    size, model, noun = words.size * _bulk(actor), actor.model, actor.noun.name
+    if words.breathed and noun in PERSON_NOUNS:
         mouth = locate(model, "mouth", actor.pose(0.0))
         return Source(size, np.asarray(mouth @ [0.12 * _bulk(actor), 0.0, 0.0, 1.0]), actor)
-    trunk = actor.noun.name == "elephant" and kind in ("spray", "fountain", "splash")
-    if trunk:
-        tip = locate(model, "trunk", actor.pose(0.3))
-        return Source(_TRUNK_SHARE * _bulk(actor), np.asarray(tip[:, 3]), actor)
-    place = np.array([0.5 * x * model.length, 0.5 * y * model.width, low + z * model.height])
-    return Source(size, place, actor)
-
-
-_TRUNK_SHARE = 0.9
-"""Size of what comes from an elephant's trunk, relative to the elephant."""
-
-
-def gone(to_world: Float64Array) -> Float64Array:
-    """[3, 4] the pose of an object that is no more: too small to be seen."""
-    return np.column_stack([1e-6 * to_world[:, :3], to_world[:, 3]])
+    known = (trait_value(trait, noun) for trait in words.anchor_traits)
+    x, y, z = next((one for one in known if one is not None), words.anchor)
+    height = lowest_m(actor) + z * model.height
+    return Source(size, np.array([0.5 * x * model.length, 0.5 * y * model.width, height]), actor)

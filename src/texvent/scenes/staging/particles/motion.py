@@ -11,6 +11,7 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 
 GRAVITY = 9.81
+_STEP_S = 5e-3
 GENERATIONS = 16
 """Lives of a particle that differ; then they repeat."""
 
@@ -24,6 +25,21 @@ class Source:
     fixed: Float64Array
     """[3] the point, m, where there is no object; else in the object's body coordinates."""
     actor: Actor | None = None
+
+    @property
+    def extents_m(self) -> Float64Array:
+        """[3] length, width and height of the object, m; where there is none, a cube's."""
+        if self.actor is None:
+            return np.full(3, self.size_m)
+        model = self.actor.model
+        return np.array([model.length, model.width, model.height])
+
+    def velocity(self, time_s: float) -> Float64Array:
+        """[3] of the point just before a time, m/s; of what falls to the ground 0 downwards."""
+        before, now = self.at(np.array([time_s - _STEP_S, time_s]))
+        found = (now - before) / _STEP_S
+        found[2] = max(found[2], 0.0)
+        return np.asarray(found)
 
     def at(self, times_s: Float64Array) -> Float64Array:
         """[n, 3] where the point is at [n] times, m."""
@@ -41,21 +57,34 @@ class Source:
 
 @dataclass(frozen=True)
 class Lives:
-    """Particles that are born one after the other, live, and are born again elsewhere."""
+    """Particles that are born one after the other, live, and are born again; or live once."""
 
     draws: Float64Array
     """[n, GENERATIONS, 8] in 0..1; the last one is never a new draw: when it is first born."""
     life_s: float
+    once_at_s: float | None = None
+    """When all are born, once; None = they are born at even steps of time."""
 
     @classmethod
-    def of(cls, count: int, life_s: float, rng: np.random.Generator) -> Lives:
-        """`count` particles, born at even steps of time."""
+    def of(
+        cls, count: int, life_s: float, rng: np.random.Generator, once_at_s: float | None = None,
+        salvo: float | None = None,
+    ) -> Lives:  # fmt: skip
+        """`count` particles; those of a `salvo` have one place, and that age at time 0."""
         draws = rng.uniform(size=(count, GENERATIONS, 8))
         draws[:, :, 7] = ((np.arange(count) + 0.5) / count)[:, None]
-        return cls(draws, life_s)
+        if salvo is not None:
+            draws[:, :, 3:7], draws[:, :, 7] = draws[:1, :, 3:7], salvo
+        return cls(draws, life_s, once_at_s)
 
     def at(self, time_s: float) -> tuple[Float64Array, Float64Array]:
-        """Age of each particle, [n] in 0..1 of its life, and its draws in this life, [n, 8]."""
+        """Age of each particle, [n] in 0..1 of its life, and its draws in this life, [n, 8].
+
+        Of those that live once, it is below 0 before and above 1 after.
+        """
+        if self.once_at_s is not None:
+            age = (time_s - self.once_at_s) / self.life_s
+            return np.full(len(self.draws), age), self.draws[:, 0]
         cycles = time_s / self.life_s + self.draws[:, 0, 7]
         number = np.floor(cycles)
         rows = np.arange(len(cycles))
@@ -117,9 +146,19 @@ def turbulence(place: Float64Array, time_s: float, scale_m: float, speed: float)
     )
 
 
-def directions(draws: Float64Array, half_angle: float) -> Float64Array:
-    """[n, 3] unit vectors within an angle (radians) of straight up, evenly over the cap."""
-    height = 1.0 - draws[:, 0] * (1.0 - math.cos(half_angle))
+def directions(draws: Float64Array, angles: tuple[float, float]) -> Float64Array:
+    """[n, 3] unit vectors between two angles (radians) to straight up, evenly over the sphere."""
+    inner, outer = (math.cos(angle) for angle in angles)
+    height = inner - draws[:, 0] * (inner - outer)
     around = 2.0 * math.pi * draws[:, 1]
     flat = np.sqrt(np.maximum(1.0 - height * height, 0.0))
     return np.stack([flat * np.cos(around), flat * np.sin(around), height], axis=1)
+
+
+def aimed(upward: Float64Array, aim: tuple[float, float, float]) -> Float64Array:
+    """[n, 3] directions around straight up, turned to be around `aim`."""
+    z = np.array(aim) / np.linalg.norm(aim)
+    helper = np.array([0.0, 1.0, 0.0]) if abs(z[1]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    x = np.cross(helper, z)
+    x /= np.linalg.norm(x)
+    return np.asarray(upward @ np.stack([x, np.cross(z, x), z]))

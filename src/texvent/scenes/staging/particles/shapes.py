@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 
 from texvent.scenes.scene import (
@@ -20,46 +18,21 @@ TINY_M = 5e-6
 """Half extent of a particle that is not there at the moment: the caster leaves it out."""
 
 
-class ParticleEffect(Protocol):
-    """An effect as a function of time."""
+class ParticleEffect:
+    """An effect as a function of time; each kind overrides what it has."""
 
     def at(self, time_s: float) -> Primitives:
         """Its solid shapes at that instant: always as many, in the same order."""
-        ...
+        del time_s
+        return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
 
     def puffs(self, time_s: float) -> Float64Array:
         """[k, 19] its translucent puffs, as in `Environment.puffs`."""
-        ...
-
-    def lamps(self, time_s: float) -> Float64Array:
-        """[m, 15] the light it sheds, as in `Environment.lamps`."""
-        ...
-
-
-class SolidEffect:
-    """An effect without puffs and light."""
-
-    def puffs(self, time_s: float) -> Float64Array:
-        """No puffs."""
         del time_s
         return np.zeros((0, PUFF_COLUMNS))
 
     def lamps(self, time_s: float) -> Float64Array:
-        """No light."""
-        del time_s
-        return np.zeros((0, LAMP_COLUMNS))
-
-
-class PuffEffect:
-    """An effect without solid shapes and light."""
-
-    def at(self, time_s: float) -> Primitives:
-        """No shapes."""
-        del time_s
-        return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
-
-    def lamps(self, time_s: float) -> Float64Array:
-        """No light."""
+        """[m, 15] the light it sheds, as in `Environment.lamps`."""
         del time_s
         return np.zeros((0, LAMP_COLUMNS))
 

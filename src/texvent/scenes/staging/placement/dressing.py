@@ -1,73 +1,61 @@
-"""What people wear and have with them in a scene: by their role, and as the prompt says."""
+"""What people wear and have with them, and the rope of what swings."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from texvent.scenes.description import STANDING, SceneDescription
-from texvent.scenes.models.animals.four_legged.clothing import TRUNK_CLOTHES, clothe
 from texvent.scenes.models.materials import Material
-from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.daily import SEAT
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.people.roles.dressing import DRESSED, dress
-from texvent.scenes.models.people.roles.held import HOLDS
-from texvent.scenes.models.protocol import Model, ModelPart, Noun
-from texvent.scenes.models.shapes import post
+from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import moved, post
+from texvent.scenes.models.support_surface import find_support
+from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
-from texvent.scenes.staging.placement.tables.at_table import draw_chair
 from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
-_BOTH_HANDS = ("right hand", "left hand", "hands")
-_WITH_RIDER = frozenset({"bicycle", "motorcycle"})
-_BUSY: dict[str, tuple[str, ...]] = {
-    **dict.fromkeys(("hold", "carry", "push", "throw", "catch", "hit"), _BOTH_HANDS),
-    "pull": ("right hand",),
-    "ride": (*_BOTH_HANDS, "ground", "torso"),
-}
-"""Act → places of the body that it needs."""
+_SEAT_BACK_M = 0.03
+"""How far behind the hips the middle of a chair is."""
 
 
 def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
-    """The noun of an object, a person, a rider or an animal in what it is said to wear."""
+    """The noun of an object: a person in what it wears."""
     objects = description.objects
     noun = nouns[objects[index].noun]
-    is_animal = noun.name not in PERSON_NOUNS | _WITH_RIDER
     worn = [
         (objects[target].noun, colour.rgb if colour is not None else None)
         for one in description.relations
         if one.kind == "wear" and one.subject == index
         for target in one.targets
         for colour in (objects[target].colour,)
-        if objects[target].noun in (TRUNK_CLOTHES if is_animal else DRESSED)
+        if objects[target].noun in DRESSED
     ]
-    if is_animal and worn:
-        return clothe(noun, worn)
-    return dress(noun, worn) if worn else noun
+    return dress(noun, worn) if worn and noun.name in PERSON_NOUNS else noun
 
 
 def choose_copy(noun: Noun, number: int, nouns: Mapping[str, Noun]) -> Noun:
-    """Who the copy with that number, from 0, is: of people every second one is a woman."""
-    other = _OTHERS.get(noun.name)
+    """Who the copy with that number, from 0, is: of people every second one is another."""
+    other = trait_value("every second one", noun.name)
     if number % 2 == 0 or other is None or noun != nouns[noun.name]:
         return noun
     return replace(noun, build=nouns[other].build)
 
 
-_OTHERS = {"person": "woman", "elderly person": "elderly woman"}
-"""People of any kind → what every second one of several is."""
-
-
 def choose_props(
     description: SceneDescription, group: ObjectGroup, *, is_first: bool = True
 ) -> tuple[Prop, ...]:
-    """What a person's activities need and the prompt does not show as an object.
+    """What a person's activities need and the scene does not show as an object.
 
-    Of several who play before a television the first one has it.
-
-    Who climbs works where they are: no table stands before them.
+    Of several who share one thing the first has it.
     """
     if group.noun.name not in PERSON_NOUNS:
         return ()
@@ -77,11 +65,8 @@ def choose_props(
     size = float(getattr(group.models[0], "scale", 1.0))
     props = [prop for kind in kinds for prop in list_props(kind, size)]
     props = [prop for prop in props if is_first or not prop.is_shared]
-    if "climb" in kinds:
-        props = [prop for prop in props if prop.anchor != "ground"]
-    props += usual_holds(description, group, props)
-    if group.is_on_chairs and "chair" not in shown:
-        props.append(draw_chair(size))
+    if group.on_chairs and not shown & nouns_with("seat at a table"):
+        props.append(_draw_chair(size))
     return tuple(
         prop
         for prop in props
@@ -89,44 +74,15 @@ def choose_props(
     )
 
 
-def usual_holds(
-    description: SceneDescription, group: ObjectGroup, props: Sequence[Prop]
-) -> list[Prop]:
-    """What a role has with it, where hands and feet are free for it.
-
-    Args:
-        description: the scene, whose acts keep hands busy.
-        group: copies of a person.
-        props: what its activities need.
-    """
-    own = [one for one in description.relations if one.subject == group.index]
-    busy = {place for one in own for place in _BUSY.get(one.kind, ())}
-    busy |= {prop.anchor for prop in props}
-    if group.carrier is not None:
-        busy.add("ground")
-    if busy & {"left hand", "right hand"}:
-        busy.add("hands")
-    if "hands" in busy:
-        busy |= {"left hand", "right hand"}
-    used = {noun for prop in props for noun in prop.nouns}
-    return [
-        prop
-        for prop in HOLDS.get(group.noun.name, ())
-        if prop.anchor not in busy and not used.intersection(prop.nouns)
-    ]
-
-
-_WAIST_SHARE = 0.38
-"""Share of a person's height below which the image may end."""
-
-
-def find_waist(group: ObjectGroup, model: Model) -> float:
-    """Where the image may end of who does something at the own head, m; 0 = it shows all."""
-    said = (group.scene_object.motion or STANDING, *group.scene_object.then)
-    is_close = group.noun.name in PERSON_NOUNS and all(
-        one.kind in ACTIVITIES and ACTIVITIES[one.kind].is_close for one in said
-    )
-    return _WAIST_SHARE * model.height if is_close else 0.0
+def _draw_chair(scale: float) -> Prop:
+    """The chair under who sits at a table; `scale` is the body's, relative to an adult."""
+    (name,) = nouns_with("seat at a table")
+    usual_m = find_support(NOUNS[name].build(colour=None, scale=1.0, seed=0), near_m=SEAT).height
+    model = NOUNS[name].build(colour=None, scale=max(scale, 1.0) * SEAT / usual_m, seed=0)
+    low = SEAT * (1.0 - min(scale, 1.0))
+    axes = np.column_stack([np.eye(3), np.array([-_SEAT_BACK_M * scale, 0.0, -low])])
+    placed = moved(model.parts(Pose(0.0, 0.0, 0.0, "stand")), axes)
+    return Prop("ground", lambda _: placed, furniture=name)
 
 
 def hang_rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:

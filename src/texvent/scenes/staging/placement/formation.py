@@ -1,4 +1,4 @@
-"""Copies in formation: in a row, in a ring, or turned to each other."""
+"""Copies of one object in formation: staggered, in a row, in a ring, or turned to each other."""
 
 from __future__ import annotations
 
@@ -6,107 +6,173 @@ import math
 
 import numpy as np
 
-from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.protocol import Pose
-from texvent.scenes.models.shapes import bounds
-from texvent.scenes.staging.placement.object_groups import ObjectGroup, half_extents_over_clip
+from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.staging.actors import is_centred
+from texvent.scenes.staging.placement.object_groups import ObjectGroup
+from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
+from texvent.scenes.staging.trajectories.trajectory import Vector
 
-FACE_TO_FACE = frozenset({"talk", "shake hands", "high five", "hug", "fence", "box"})
+FACE_TO_FACE = frozenset({"talk", "shake hands", "high five", "hug", "box"})
 """What two people do turned to each other, and more in a half ring."""
-_AT_EASE = frozenset({"stand", "sit", "talk", "laugh", "smile", "walk", "run", "pose"})
-"""What people do who need no more room than their shoulders have."""
+_RESTING = frozenset({"stand", "sit", "lie", "slide"})
 _SHOULDERS_M, _BUSY_M = 0.56, 0.95
 """Room from shoulder to shoulder, and of who does something with the arms, m."""
-_CLOSE, _AHEAD, _ONE_ROW, _FEW = 1.12, 0.75, 6, 3
-"""From one to the next, in widths; how far one is ahead of the other, in lengths; most
-people, and others, of a row."""
-_TO_CAMERA = 0.35
-"""How far who faces another is turned to the camera, radians."""
+_AT_EASE = frozenset({"stand", "sit", "talk", "walk", "run"})
+_ONE_ROW = 6
+"""Most copies side by side that stand together."""
+_TO_CAMERA_RAD = 0.35
+"""How far who faces another is turned to the camera."""
+_APART = 0.3
+"""Space between copies of small things, in their sizes: apples do not lie half a metre apart."""
+
+
+def rests(noun: Noun, kind: str) -> bool:
+    """Whether it is on something while it does that."""
+    return kind in _RESTING or kind in noun.acts
+
+
+def stagger(
+    models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator
+) -> list[Vector]:
+    """Places of the copies about the middle of their group, m, staggered so none hides another."""
+    count, is_driven = len(models), noun.motion == "drive"
+    if count == 1:
+        return [(0.0, 0.0, 0.0)]
+    along, across = _spacing(models, plan, noun)
+    is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
+    is_on_ground = noun.habitat == "air" and rests(noun, plan.motion.kind)
+    is_deep = is_centred(noun) and noun.name not in HAND_NOUNS and not (is_lifting or is_on_ground)
+    tall = max(model.height for model in models) if is_deep else 0.0
+    columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
+    columns = math.ceil(count / 2) if is_driven else columns
+    in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
+    offsets: list[Vector] = []
+    for number in range(count):
+        row, column = divmod(number, columns)
+        in_row = min(columns, count - row * columns)
+        a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
+        b = (row - 0.5 * ((count - 1) // columns)) * across
+        a += float(rng.uniform(-0.12, 0.12)) * along
+        stray = float(rng.uniform(-0.08, 0.08)) * across
+        if not is_driven:  # vehicles keep to their lanes
+            b = b + 0.6 * across * (number % 2) + stray
+        up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall if is_deep else 0.0
+        offsets.append((b * 1.6, a, up) if in_depth else (a, b, up))
+    return offsets
+
+
+def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, float]:
+    """Metres from one copy to the next, along the heading and across it."""
+    length = max(model.length for model in models)
+    width = max(model.width for model in models)
+    size = max(length, width)
+    if plan.motion.direction in ("circle", "eight"):
+        return 4.0 * size, 4.0 * size
+    if noun.motion == "drive":
+        return 1.45 * length + 0.5, max(width + 0.9, 2.9)
+    if plan.is_facing or noun.name in HAND_NOUNS:
+        return 1.6 * width, 0.2 * width  # in one row, as the camera sees them
+    apart = min(0.3, _APART * size)
+    across = 1.4 * width + apart + min(0.1, 0.1 * size)
+    if is_centred(noun):
+        return 0.8 * length + apart, across
+    return 1.2 * (length if plan.is_path else size) + apart, across
 
 
 def form_up(group: ObjectGroup) -> None:
-    """Set the copies in the formation that the prompt says, or that what they do asks for."""
-    count, side = len(group.models), group.scene_object.side
-    if count < 2:
+    """Set the copies in the formation that the scene asks for, or that what they do does."""
+    side, kind = group.scene_object.side, group.plan.motion.kind
+    is_person = group.noun.name in PERSON_NOUNS
+    if len(group.models) < 2:
         return
     if side == "row":
         _stand_in_row(group)
     elif side == "together":
         _stand_together(group)
     elif side == "ring":
-        _stand_in_ring(group)
-    elif group.noun.name in PERSON_NOUNS and group.plan.motion.kind in FACE_TO_FACE:
-        if group.plan.path is None and not group.scene_object.then:
-            _face_each_other(group)
+        model = group.models[0]
+        size = max(model.length, model.width)
+        stand_in_ring(group, max(1.1 * size, 1.3 * size * len(group.models) / (2.0 * math.pi)))
+    elif is_person and kind in FACE_TO_FACE and not (group.plan.path or group.scene_object.then):
+        _face_each_other(group)
     else:
         return
-    group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+    group.fit()
 
 
 def _stand_in_row(group: ObjectGroup) -> None:
     """Side by side across the image; what goes away from the camera or comes, one by one."""
-    count, model = len(group.models), group.models[0]
-    goes_away = group.plan.is_path and abs(math.sin(group.plan.yaw)) > 0.7
-    is_along = group.plan.is_path
-    step = 1.25 * (model.length if is_along else max(model.length, model.width)) + 0.15
+    count, model, is_path = len(group.models), group.models[0], group.plan.is_path
+    goes_away = is_path and abs(math.sin(group.plan.yaw)) > 0.7
+    step = 1.25 * (model.length if is_path else max(model.length, model.width)) + 0.15
     places = [step * (number - 0.5 * (count - 1)) for number in range(count)]
     group.offsets = [(0.0, at, 0.0) if goes_away else (at, 0.0, 0.0) for at in places]
 
 
 def _stand_together(group: ObjectGroup) -> None:
     """Shoulder to shoulder, in two rows where they are many; who goes along, nearly abreast."""
-    count, model = len(group.models), group.models[0]
-    scale = float(getattr(model, "scale", 1.0))
-    low, high = bounds(model.parts(Pose(0.0, 0.0, 0.0, "stand")))
-    long, wide = (float(size) for size in (high - low)[:2])
+    count, model, turn = len(group.models), group.models[0], group.plan.yaw
+    long, wide = model.length, model.width
     if group.noun.name in PERSON_NOUNS and group.plan.motion.kind != "lie":
-        busy = group.plan.motion.kind not in _AT_EASE
-        long = wide = (_BUSY_M if busy else _SHOULDERS_M) * scale
+        room = _SHOULDERS_M if group.plan.motion.kind in _AT_EASE else _BUSY_M
+        long = wide = room * float(getattr(model, "scale", 1.0))
+    cosine, sine = math.cos(turn), math.sin(turn)
     if group.plan.is_path:
-        step, abreast = _AHEAD * long, 1.25 * wide + 0.05 * scale
-        turn = group.plan.yaw
+        step, abreast = 0.75 * long, 1.25 * wide
+        places = [number - 0.5 * (count - 1) for number in range(count)]
         group.offsets = [
-            (step * at * math.cos(turn) - abreast * at * math.sin(turn),
-             step * at * math.sin(turn) + abreast * at * math.cos(turn), 0.0)
-            for at in (number - 0.5 * (count - 1) for number in range(count))
-        ]  # fmt: skip
+            (at * (step * cosine - abreast * sine), at * (step * sine + abreast * cosine), 0.0)
+            for at in places
+        ]
         return
-    cosine, sine = abs(math.cos(group.plan.yaw)), abs(math.sin(group.plan.yaw))
-    across, deep = cosine * long + sine * wide, sine * long + cosine * wide
-    most = _ONE_ROW if group.noun.name in PERSON_NOUNS else _FEW
-    columns = count if count <= most else math.ceil(count / 2)
+    across = abs(cosine) * long + abs(sine) * wide
+    deep = abs(sine) * long + abs(cosine) * wide
+    columns = count if count <= _ONE_ROW else math.ceil(count / 2)
     group.offsets = []
     for number in range(count):
         row, column = divmod(number, columns)
         at = column - 0.5 * (columns - 1) + 0.5 * row
-        group.offsets.append((_CLOSE * across * at, 1.1 * deep * row, 0.0))
+        group.offsets.append((1.12 * across * at, 1.1 * deep * row, 0.0))
 
 
-def _stand_in_ring(group: ObjectGroup) -> None:
-    count, model = len(group.models), group.models[0]
-    size = max(model.length, model.width)
-    radius = max(1.1 * size, 1.3 * size * count / (2.0 * math.pi))
-    angles = [2.0 * math.pi * (number + 0.5) / count for number in range(count)]
-    group.offsets = [(radius * math.cos(a), radius * math.sin(a), 0.0) for a in angles]
+def stand_in_ring(group: ObjectGroup, radius_m: float, *, is_open: bool = False) -> None:
+    """In a ring, turned to its middle; an open one leaves the camera's side free."""
+    count, phase = len(group.models), 0.5
+    if not is_open:
+        angles = [2.0 * math.pi * (number + phase) / count for number in range(count)]
+    elif count <= 2:
+        angles = [math.pi * number for number in range(count)]
+    else:
+        angles = [float(a) for a in np.linspace(-0.7, math.pi + 0.7, count)]
+    group.offsets = [(radius_m * math.cos(a), radius_m * math.sin(a), 0.0) for a in angles]
     if not group.plan.is_path:
         group.yaws = [a + math.pi for a in angles]
 
 
 def _face_each_other(group: ObjectGroup) -> None:
     """Two side by side in the image; more in a half ring that is open to the camera."""
-    count, model = len(group.models), group.models[0]
-    scale = float(getattr(model, "scale", 1.0))
+    count, scale = len(group.models), float(getattr(group.models[0], "scale", 1.0))
     if count == 2:
         group.offsets = [(-0.55 * scale, 0.0, 0.0), (0.55 * scale, 0.0, 0.0)]
-        group.yaws = [-_TO_CAMERA, math.pi + _TO_CAMERA]
+        group.yaws = [-_TO_CAMERA_RAD, math.pi + _TO_CAMERA_RAD]
         return
     radius = max(0.7, 0.8 * (count - 1) / math.pi) * scale
-    angles = np.linspace(0.0, math.pi, count)
-    group.offsets = [(radius * math.cos(a), 0.7 * radius * math.sin(a), 0.0) for a in angles]
-    group.yaws = [_towards_middle(float(a)) for a in angles]
+    places = [(math.cos(a), 0.7 * math.sin(a)) for a in np.linspace(0.0, math.pi, count)]
+    group.offsets = [(radius * x, radius * y, 0.0) for x, y in places]
+    group.yaws = [math.atan2(-y - 0.35, -x) for x, y in places]
 
 
-def _towards_middle(angle: float) -> float:
-    """The heading to the middle of the half ring, a little to the camera."""
-    x, y = -math.cos(angle), -0.7 * math.sin(angle) - 0.35
-    return math.atan2(y, x)
+def part_in_midst(group: ObjectGroup, room_m: float) -> None:
+    """Set the copies of a group in two rows, left and right of a gap of twice that room."""
+    count, model = len(group.models), group.models[0]
+    if count < 2:
+        return
+    size = max(model.length, model.width)
+    group.offsets = []
+    for number in range(count):
+        row, side = number // 2, -1.0 if number % 2 == 0 else 1.0
+        rows = (count + 1 - number % 2) // 2
+        deep = (row - 0.5 * (rows - 1)) * 1.3 * size
+        group.offsets.append((side * (room_m + 0.5 * size), deep, 0.0))
+    group.fit()

@@ -29,29 +29,19 @@ def queue_in_lanes(actors: Sequence[Actor], lane_m: float) -> list[Actor]:
         return list(actors)
     moved: dict[int, Actor] = {}
     for queue, way in zip(lanes, (1.0, -1.0), strict=True):
-        lane = _amid_jam(queue)
-        ends = [0.0]
-        for one in lane:
-            ends.append(ends[-1] + one.model.length * (1.0 + GAP))
-        speed = max(_path(one).speed_m_s for one in lane)
-        for one, start in zip(lane, ends, strict=False):
-            x = way * (0.5 * ends[-1] - start - 0.5 * one.model.length)
+        first, *others = queue
+        is_small = bool(others) and first.model.length < others[0].model.length
+        is_jam = _path(first).speed_m_s <= CREEPING_M_S and not is_small
+        half = (len(others) + 1) // 2 if is_jam else 0  # amid a jam, unless others would hide it
+        lane = [*others[:half], first, *others[half:]]
+        rooms = [one.model.length * (1.0 + GAP) for one in lane]
+        speed, end = max(_path(one).speed_m_s for one in lane), 0.5 * sum(rooms)
+        for one, room in zip(lane, rooms, strict=True):
+            x = way * (end - 0.5 * one.model.length)
             path = replace(_path(one), home=(x, -way * lane_m, 0.0), speed_m_s=speed)
             moved[one.instance] = replace(one, trajectory=path)
+            end -= room
     return [moved.get(one.instance, one) for one in actors]
-
-
-def _amid_jam(lane: Sequence[Actor]) -> list[Actor]:
-    """A lane whose first vehicle has others before and behind it, if they hardly move.
-
-    What is smaller stays at the head of its lane, where nothing hides it.
-    """
-    first, *others = lane
-    is_small = bool(others) and first.model.length < others[0].model.length
-    if is_small or _path(first).speed_m_s > CREEPING_M_S:
-        return list(lane)
-    half = (len(others) + 1) // 2
-    return [*others[:half], first, *others[half:]]
 
 
 def find_lanes(actors: Sequence[Actor]) -> tuple[list[Actor], list[Actor]]:
@@ -61,9 +51,8 @@ def find_lanes(actors: Sequence[Actor]) -> tuple[list[Actor], list[Actor]]:
         for one in actors
         if one.noun.motion == "drive" and one.is_mover and isinstance(one.trajectory, Straight)
     ]
-    ways = [math.cos(_path(one).yaw) for one in drivers]
-    rightward = [one for one, way in zip(drivers, ways, strict=True) if way > 0.9]
-    leftward = [one for one, way in zip(drivers, ways, strict=True) if way < -0.9]
+    rightward = [one for one in drivers if math.cos(_path(one).yaw) > 0.9]
+    leftward = [one for one in drivers if math.cos(_path(one).yaw) < -0.9]
     return rightward, leftward
 
 

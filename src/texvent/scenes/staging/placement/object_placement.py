@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,77 +11,51 @@ import numpy as np
 from texvent.scenes.description import AMID, STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.protocol import Model, Noun
-from texvent.scenes.models.wrapped.opening import opening
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.attached import OnEnd, OnPart, Performed
-from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
+from texvent.scenes.staging.acts.attached import OnPart
+from texvent.scenes.staging.acts.perform import perform_acts
+from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
-from texvent.scenes.staging.placement.contents import with_contents
-from texvent.scenes.staging.placement.dressing import (
-    choose_copy,
-    choose_props,
-    dressed,
-    find_waist,
-    hang_rope,
-)
-from texvent.scenes.staging.placement.faced import face
-from texvent.scenes.staging.placement.fitting import fit_contents
-from texvent.scenes.staging.placement.formation import form_up
+from texvent.scenes.staging.placement.dressing import choose_copy, choose_props, dressed, hang_rope
+from texvent.scenes.staging.placement.formation import form_up, part_in_midst, rests, stagger
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
-    go_all_through,
     half_extents_over_clip,
-    hurry_leader,
+    match_pace,
     overlap,
-    part_in_midst,
-    place_copies,
-    rests,
-    slow_overtaken,
-    unturn,
 )
 from texvent.scenes.staging.placement.spatial_relations import (
     INVERSE,
+    ON_TARGET,
     Goal,
     orbit,
     place_at_distance,
     place_by_subject,
     place_on_targets,
-    side_offset,
 )
-from texvent.scenes.staging.placement.tables.at_table import set_before
-from texvent.scenes.staging.placement.tables.tabletop import is_added
-from texvent.scenes.staging.still_life import is_still_life, still_yaw
+from texvent.scenes.staging.still_life import still_yaw
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
-from texvent.scenes.staging.trajectories.manoeuvres import bend_path
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
-from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath
-from texvent.scenes.staging.trajectories.trajectory import (
-    Circle,
-    Riding,
-    Straight,
-    Trajectory,
-    Vector,
-)
+from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath, bend_path
+from texvent.scenes.staging.trajectories.trajectory import Riding, Straight, Trajectory, Vector
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
 _NEARER = 0.35
 """How much nearer, for each metre to the side."""
-_BEFORE = np.array([_NEARER, -1.0, 0.0])
-ON_TARGET = frozenset({"at", "on", "in", "above", "around", "under", "between", "follow"})
-"""Relations in which the subject's place follows from the target's; in the others the target's
-follows from the subject's."""
-_POOL_RAD_S = 1.8
 BELT_M_S = 0.22
-"""Speed of what lies on a conveyor belt."""
+"""Speed of what lies on something that carries it along."""
+_ATTEMPTS = 400
+_SIDES = {"left": -1.0, "right": 1.0}
 
 
 class ObjectPlacer:
-    """Places groups one after the other, each where the prompt wants it or close to it."""
+    """Places groups one after the other, each where the scene wants it or close to it."""
 
     def __init__(
         self,
@@ -93,7 +67,7 @@ class ObjectPlacer:
         level_m: Mapping[str, float],
         travel: TravelPlan | None = None,
     ) -> None:
-        self._description = fit_contents(settle_motions(description, nouns, seed), nouns)
+        self._description = settle_motions(description, nouns, seed)
         self._nouns = nouns
         self._seed = seed
         self._duration_s = duration_s
@@ -147,11 +121,9 @@ class ObjectPlacer:
             )
             for number in range(scene_object.count)
         ]
-        models = with_contents(models, noun.name, self._description, index)
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions = (scene_object.motion or STANDING, *scene_object.then)
-        models = opening(models, noun.name, {one.kind for one in motions})
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
         is_curved = self._description.surroundings.road == "curved" and self._travel is None
         if is_curved and noun.motion == "drive" and plan.is_path:
@@ -160,7 +132,7 @@ class ObjectPlacer:
         plan = replace(plan, yaw=still_yaw(self._description, noun, models[0], plan.yaw))
         if scene_object.heading_deg is not None:
             plan = plan.turned(math.radians(scene_object.heading_deg))
-        offsets = place_copies(models, plan, noun, rng)
+        offsets = stagger(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
         group = ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
         form_up(group)
@@ -173,11 +145,10 @@ class ObjectPlacer:
         group = self.build_group(index)
         related = [r for r in self._description.relations if r.subject == index]
         for relation in related:
-            if relation.kind in ON_TARGET:
-                for target in relation.targets:
-                    self._place(target, waiting | {index})
+            for target in relation.targets if relation.kind in ON_TARGET else ():
+                self._place(target, waiting | {index})
         goal = self._choose_goal(group, related)
-        self._align(group, related)
+        self._match_paces(group)
         group.centre = self._find_free_position(group, goal)
         if self._travel is not None and goal.slide.any():
             push_aside(group, self._travel)
@@ -192,65 +163,63 @@ class ObjectPlacer:
         start = self._choose(group, group.models[0], (x, y, z), 0, rng).at(0.0).position
         group.centre[:2] += np.subtract(place, start[:2])
 
-    def _align(self, group: ObjectGroup, related: list[Relation]) -> None:
-        """Give a follower or companion the heading and speed of its partner.
+    def _match_paces(self, group: ObjectGroup) -> None:
+        """Give a follower, a companion or what is overtaken the pace of its partner."""
+        for one in self._description.relations:
+            if one.kind == "follow" and one.subject == group.index:
+                partner = self.groups.get(one.targets[0])
+            elif one.kind in ("with", "overtake", "past") and group.index in one.targets:
+                partner = self.groups.get(one.subject)
+            else:
+                continue
+            if partner is not None:
+                match_pace(group, partner, one.kind)
 
-        What is overtaken goes the same way at less than half the speed.
-        """
-        for relation in self._description.relations:
-            partner = None
-            faster = self.groups.get(relation.subject)
-            if group.index in relation.targets and relation.kind in ("overtake", "past") and faster:
-                slow_overtaken(group, faster)
-            if relation.subject == group.index and relation.kind == "through":
-                go_all_through(group)
-            if relation.subject == group.index and relation.kind == "follow":
-                partner = self.groups.get(relation.targets[0])
-            elif group.index in relation.targets and relation.kind == "with":
-                partner = self.groups.get(relation.subject)
-            if partner is not None and partner.plan.is_path and group.plan.is_path:
-                if relation.kind == "follow":
-                    hurry_leader(partner, group)
-                group.plan = replace(partner.plan, motion=group.plan.motion)
-                group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
-
-    def _choose_goal(self, group: ObjectGroup, related: list[Relation]) -> Goal:
-        """Where the prompt wants a group."""
+    def _choose_goal(self, group: ObjectGroup, related: Sequence[Relation]) -> Goal:
+        """Where the scene wants a group."""
         height = self._height(group)
         for relation in related:
             targets = [self.groups[t] for t in relation.targets if t in self.groups]
             if relation.kind in ON_TARGET and targets:
-                shared = [
-                    other.subject
-                    for other in self._description.relations
-                    if other.kind == relation.kind and other.targets == relation.targets
-                    for _ in range(self._description.objects[other.subject].count)
-                ]
+                shared = self._list_sharing(relation)
                 return place_on_targets(group, relation.kind, targets, height, shared)
         for relation in related:
             if relation.kind in INVERSE and relation.targets[0] in self.groups:
                 target = self.groups[relation.targets[0]]
-                if is_added(self._description, group.index):
-                    return Goal(set_before(group, target, height), np.zeros(3))
                 goal = place_by_subject(group, INVERSE[relation.kind], target, height)
                 return place_at_distance(goal, relation, target, 1.0)
         for relation in self._description.relations:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
-                goal = _place_for(group, relation, subject, height)
+                goal = place_by_subject(group, relation.kind, subject, height)
                 return place_at_distance(goal, relation, subject, -1.0)
         if self._along is not None:
             is_goal = self._description.shot.target == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
-        offset = side_offset(group, self._description.objects, self.build_group)
+        return self._choose_free_goal(group, height)
+
+    def _list_sharing(self, relation: Relation) -> list[int]:
+        """Index of each copy that has the same relation to the same objects."""
+        return [
+            other.subject
+            for other in self._description.relations
+            if other.kind == relation.kind and other.targets == relation.targets
+            for _ in range(self._description.objects[other.subject].count)
+        ]
+
+    def _choose_free_goal(self, group: ObjectGroup, height: float) -> Goal:
+        """In the middle, or at the side of the image that the scene says."""
+        side = group.scene_object.side or ""
+        offset = _SIDES.get(side, 0.0) * 2.0 * group.size_m
         offset += self._spread_apart(group) + self._stagger(group)
-        depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}
-        wanted = np.array([offset, depth.get(group.scene_object.side or "", 0.0), height])
+        depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}.get(side, 0.0)
+        wanted = np.array([offset, depth, height])
+        sizes = [other.size_m for other in self.groups.values()]
         if group.plan.is_path or group.noun.habitat in ("air", "water"):
             # Smaller objects go nearer to the camera, so that none hides behind a larger one.
-            larger = any(other.size_m > group.size_m for other in self.groups.values())
-            return Goal(wanted, np.array([0.0, -1.0 if larger else 1.0, 0.0]))
-        is_smaller = any(_MUCH_LARGER * group.size_m < one.size_m for one in self.groups.values())
+            is_smaller = group.size_m < max(sizes, default=0.0)
+            return Goal(wanted, np.array([0.0, -1.0 if is_smaller else 1.0, 0.0]))
+        is_smaller = _MUCH_LARGER * group.size_m < max(sizes, default=0.0)
         return Goal(wanted, np.array([1.0, -_NEARER if is_smaller else _NEARER, 0.0]))
 
     def _spread_apart(self, group: ObjectGroup) -> float:
@@ -278,24 +247,20 @@ class ObjectPlacer:
 
     def _height(self, group: ObjectGroup) -> float:
         """Height of the group's origin, m."""
-        kind, said_m = group.plan.motion.kind, group.scene_object.height_m
-        if said_m is not None:
-            return said_m - lowest_point(group.models[0])
-        is_resting = rests(group.noun, kind) and group.noun.name not in self._level_m
-        lifts = kind in ("rise", "sink") and self._level_m.get("air", 0.0) > 0.0
-        if (is_resting or lifts) and is_centred(group.noun) and group.noun.habitat == "air":
+        kind, name, habitat = group.plan.motion.kind, group.noun.name, group.noun.habitat
+        levels, air = self._level_m, self._level_m.get("air", 0.0)
+        if group.scene_object.height_m is not None:
+            return group.scene_object.height_m - lowest_point(group.models[0])
+        is_resting = rests(group.noun, kind) and name not in levels
+        lifts = kind in ("rise", "sink") and air > 0.0
+        if (is_resting or lifts) and is_centred(group.noun) and habitat == "air":
             return -lowest_point(group.models[0])
-        if group.noun.name in self._level_m:
-            return self._level_m[group.noun.name] * group.models[0].height
-        level = self._level_m.get(group.noun.habitat, 0.0)
-        if level == 0.0 and kind == "fly":
-            level = self._level_m.get("air", 0.0)
-        if level == 0.0 and kind == "swing":
-            return max(0.5 * group.size_m, 0.6)
-        if level == 0.0 and kind == "orbit":
-            return 0.0
-        flies = group.noun.habitat == "air" or kind == "fly"
-        clear = self._level_m.get("clear", 0.0) if flies else 0.0
+        if name in levels:
+            return levels[name] * group.models[0].height
+        level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)
+        if level == 0.0:
+            return max(0.5 * group.size_m, 0.6) if kind == "swing" else 0.0
+        clear = levels.get("clear", 0.0) if habitat == "air" or kind == "fly" else 0.0
         return level * max(group.size_m, 1.0) + clear
 
     def _find_free_position(self, group: ObjectGroup, goal: Goal) -> Float64Array:
@@ -308,18 +273,15 @@ class ObjectPlacer:
             return wanted
         largest = max([group.size_m, *(other.size_m for other in self.groups.values())])
         step = 0.25 * float(np.max(group.half[:2])) + min(0.1, 0.1 * largest)
-        for attempt in range(400):
+        for attempt in range(_ATTEMPTS):
             reach = step * ((attempt + 1) // 2) * (1.0 if attempt % 2 else -1.0)
             if slide[0] == 0.0:
                 reach = step * attempt
             # To either side, but always nearer or always further away.
-            way = np.array([reach, abs(reach), reach])
-            may_go_before = slide[1] < 0.0 != slide[0] and not is_still_life(self._description)
-            ways = [slide, _BEFORE] if may_go_before else [slide]
-            for centre in (wanted + way * one for one in ways):
-                if not any(overlap(centre, group, other) for other in self.groups.values()):
-                    return np.asarray(centre)
-        return wanted + 400 * step * np.abs(slide)
+            centre = wanted + np.array([reach, abs(reach), reach]) * slide
+            if not any(overlap(centre, group, other) for other in self.groups.values()):
+                return np.asarray(centre)
+        return wanted + _ATTEMPTS * step * np.abs(slide)
 
     def _populate(self, group: ObjectGroup, before: int) -> list[Actor]:
         """The copies of a group on their trajectories."""
@@ -327,8 +289,8 @@ class ObjectPlacer:
         actors = []
         said = (group.plan.motion, *group.scene_object.then)
         for number, (model, offset) in enumerate(zip(group.models, group.offsets, strict=True)):
-            home = group.centre + np.array(offset)
-            trajectory = self._choose(group, model, (home[0], home[1], home[2]), number, rng)
+            x, y, z = group.centre + np.array(offset)
+            trajectory = self._choose(group, model, (x, y, z), number, rng)
             actors.append(
                 Actor(
                     group.index, group.noun, model, trajectory,
@@ -338,7 +300,6 @@ class ObjectPlacer:
                     choose_props(self._description, group, is_first=number == 0),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
-                    waist_m=find_waist(group, model),
                 )
             )  # fmt: skip
         return actors
@@ -346,52 +307,35 @@ class ObjectPlacer:
     def _choose(
         self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator
     ) -> Trajectory:
+        """The trajectory of a copy that is at `home` in the middle of the clip."""
         if group.orbits is not None:
             return orbit(group, group.orbits, number, self._duration_s)
-        if group.pool_m is not None:
-            phase = 2.0 * math.pi * number / len(group.models)
-            return Circle(home, group.pool_m, _POOL_RAD_S * group.plan.motion.pace, phase)
-        if group.belt is not None:
-            way = self._duration_s * 0.5
-            speed = BELT_M_S * group.belt.plan.motion.pace
-            return Straight(home, group.belt.plan.yaw, speed, way, "stand")
         if group.lag is not None:
             leader, gap = group.lag
-            path = self._choose(leader, leader.models[0], _tuple(leader), 0, rng)
+            path = self._choose(leader, leader.models[0], _tuple(leader.centre), 0, rng)
             if isinstance(path, SteeredPath):
                 return Lagging(path, gap + number * 1.3 * model.length)
         if group.carrier is not None:
-            carrier = self._choose(group.carrier, group.carrier.models[0], _tuple(group.carrier), 0,
-                                   seeded(self._seed, "lead", group.carrier.index,
-                                          group.carrier.noun.name))  # fmt: skip
-            offset = np.array(home) - group.carrier.centre
-            turned = unturn(offset, group.carrier.plan.yaw)
-            activity = group.plan.gesture or "sit"
-            if group.carried_on is not None:
-                on = OnPart(carrier, group.carrier.models[0], group.carried_on, turned, activity)
-                return _gripping(on, group)
-            return _gripping(Riding(carrier, turned, activity), group)
+            return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
-        path = choose_trajectory(plan, model, home, rng, clear_m=group.clear_m)
-        if group.is_stood_up:
-            return OnEnd(path, 0.08 * (number % 3))
-        return _gripping(path, group)
+        return choose_trajectory(plan, model, home, rng, clear_m=group.clear_m)
+
+    def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
+        """On what carries it, which moves as a whole, in a part, or only on its surface."""
+        if below.noun.name in nouns_with("carries along"):
+            speed = BELT_M_S * below.plan.motion.pace
+            return Straight(home, below.plan.yaw, speed, 0.5 * self._duration_s, "stand")
+        rng = seeded(self._seed, "lead", below.index, below.noun.name)
+        carrier = self._choose(below, below.models[0], _tuple(below.centre), 0, rng)
+        (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
+        cosine, sine = math.cos(yaw), math.sin(yaw)
+        place = (x * cosine + y * sine, y * cosine - x * sine, z)
+        activity = group.plan.gesture or "sit"
+        if group.carried_on is not None:
+            return OnPart(carrier, below.models[0], group.carried_on, place, activity)
+        return Riding(carrier, place, activity)
 
 
-def _place_for(group: ObjectGroup, relation: Relation, subject: ObjectGroup, height: float) -> Goal:
-    """Where the target of a relation stands whose subject is placed already."""
-    kind, shift = relation.kind, face(subject, group, relation)
-    if shift is not None:
-        return Goal(np.array([*(subject.centre[:2] + shift), height]), np.zeros(3))
-    if subject.plan.motion.kind == "appear" and kind in ("behind", "from"):
-        kind = "appear"
-    return place_by_subject(group, kind, subject, height)
-
-
-def _gripping(path: Trajectory, group: ObjectGroup) -> Trajectory:
-    return Performed(path, None, group.grips) if group.grips else path
-
-
-def _tuple(group: ObjectGroup) -> Vector:
-    x, y, z = group.centre
+def _tuple(centre: Float64Array) -> Vector:
+    x, y, z = centre
     return (float(x), float(y), float(z))

@@ -10,6 +10,7 @@ import numpy as np
 from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
 from texvent.scenes.models.objects.patterns import FACING
+from texvent.scenes.models.places import Place
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
     Colour,
@@ -19,13 +20,13 @@ from texvent.scenes.scene import (
     Ground,
     Texture,
 )
-from texvent.scenes.staging.surroundings.ground_appearance import GroundAppearance
-from texvent.scenes.staging.surroundings.light.lighting import Lighting
+from texvent.scenes.staging.surroundings.light.lighting import (
+    Lighting,
+    choose_lighting,
+    towards_light,
+)
 from texvent.scenes.staging.surroundings.light.lightning import STROKE_HZ, lightning_level
-from texvent.scenes.staging.surroundings.light.said_light import choose_lighting, towards_light
-from texvent.scenes.staging.surroundings.places import PLACES
 from texvent.scenes.staging.surroundings.road import RoadLine
-from texvent.scenes.staging.surroundings.scenery.scatter_rule import SNOW
 
 FLICKER_DEPTH = 0.8
 """Share of the light that a flicker takes away at its darkest."""
@@ -47,6 +48,7 @@ _SUN_RAD_S = 2.0 * math.pi / 600.0
 """How fast the sun goes in a time lapse, per second of sky time."""
 
 
+SNOW: Colour = (0.78, 0.82, 0.88)
 _SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE)
 """Grounds whose grass is white when snow lies on it."""
 _WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
@@ -122,7 +124,7 @@ def _sun_at(direction: Float64Array, time_s: float) -> Float64Array:
 def build_environment(
     description: SceneDescription,
     *,
-    place: str,
+    place: Place,
     road: RoadLine,
     distance_m: float,
     room_m: float,
@@ -131,36 +133,35 @@ def build_environment(
     """The surroundings of a scene.
 
     Args:
-        description: what the prompt says of place, weather and light.
-        place: key of `PLACES`.
+        description: its weather and light.
+        place: its ground and walls.
         road: centre lines of the roads.
         distance_m: from the camera to what it looks at: fog is scaled to it.
         room_m: half the side of the room, m, where the place is one.
         looking: [3] unit vector that the camera looks along.
     """
-    ground = PLACES[place]
     lighting, said = choose_lighting(place, description.light), description.surroundings
-    colour, second = _ground_colours(ground, said)
-    is_white = said.has_snow and ground.ground in _SNOWED_OVER
-    is_backdrop = place == "plain" and said.sky is None
     has_lightning = any(effect.kind == "lightning" for effect in description.effects)
-    sky_top, horizon, clouds = _choose_sky(description, lighting, has_lightning=has_lightning)
-    if is_backdrop:
+    colour, second = _ground_colours(place, said)
+    ground = place.ground
+    sky_top, horizon = _sky_colours(lighting, said)
+    if place.is_backdrop and said.sky is None:
         # The same all around, without a horizon to speak of.
         sky_top = horizon = mix(colour, second, 0.5)
         if description.objects and all(one.noun in FACING for one in description.objects):
-            ground = replace(ground, ground=Ground.NONE)
+            ground = Ground.NONE
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
+    is_white = said.has_snow and place.ground in _SNOWED_OVER
     base = Environment(
-        ground=ground.ground,
+        ground=ground,
         ground_colour=_array(colour),
         ground_second_colour=_array(second),
         road_angle=road.angle,
-        road_half_width=ground.road_half_width,
+        road_half_width=place.road_m,
         road_offset=np.array(road.offset, dtype=np.float64),
         sky_top=_array(sky_top),
         sky_horizon=_array(horizon),
-        clouds=clouds,
+        clouds=_cloud_share(description, place, lighting, has_lightning=has_lightning),
         wave_height=said.wave_height,
         sun_direction=towards_light(_unit(lighting.sun_direction), looking, description.light),
         sun_colour=_array(_sun_colour(lighting, said.weather)),
@@ -171,15 +172,18 @@ def build_environment(
         exposure=lighting.exposure,
         lamps=np.zeros((0, LAMP_COLUMNS)),
         time_s=0.0,
-        room_half_size=room_m if ground.ground is Ground.FLOOR else NO_ROOM_M,
-        ground_surface=Texture.SNOW if is_white else ground.surface,
-        has_stars=place != "plain",
-        wall_surface=ground.walls,
-        wall_colour=ground.wall_colour,
+        room_half_size=room_m if place.is_room else NO_ROOM_M,
+        ground_surface=Texture.SNOW if is_white else place.surface,
+        has_stars=not place.is_backdrop,
+        wall_surface=place.walls,
+        wall_colour=place.wall_colour,
         road_curvature=road.curvature,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
-    return _animate(base, description, has_lightning=has_lightning)
+    return AnimatedEnvironment(
+        base, description.light.flicker_hz, description.light.wave, has_lightning,
+        TIMELAPSE if description.is_timelapse else 1.0,
+    )  # fmt: skip
 
 
 def _sun_colour(lighting: Lighting, weather: str | None) -> Colour:
@@ -187,53 +191,46 @@ def _sun_colour(lighting: Lighting, weather: str | None) -> Colour:
     return mix(lighting.sun, (0.0, 0.0, 0.0), 0.4) if is_dim else lighting.sun
 
 
-def _animate(
-    base: Environment, description: SceneDescription, *, has_lightning: bool
-) -> AnimatedEnvironment:
-    """The surroundings with the flicker, lightning and pace that the prompt asks for."""
-    light = description.light
-    return AnimatedEnvironment(
-        base, light.flicker_hz, light.wave,
-        has_lightning=has_lightning,
-        time_scale=TIMELAPSE if description.is_timelapse else 1.0,
-    )  # fmt: skip
+def _sky_colours(lighting: Lighting, said: Surroundings) -> tuple[Colour, Colour]:
+    """Colours of the zenith and of the horizon."""
+    if said.sky is None:
+        return lighting.sky_top, lighting.sky_horizon
+    return said.sky.rgb, mix(said.sky.rgb, lighting.sky_horizon, 0.5)
 
 
-def _choose_sky(
-    description: SceneDescription, lighting: Lighting, *, has_lightning: bool
-) -> tuple[Colour, Colour, float]:
-    """Colours of the zenith and of the horizon, and the share of clouds."""
+def _cloud_share(
+    description: SceneDescription, place: Place, lighting: Lighting, *, has_lightning: bool
+) -> float:
+    """Share of the sky that clouds cover."""
     said = description.surroundings
-    top, horizon = lighting.sky_top, lighting.sky_horizon
-    if said.sky is not None:
-        top, horizon = said.sky.rgb, mix(said.sky.rgb, horizon, 0.5)
-    is_backdrop = said.place == "plain" and said.sky is None
-    usual = 0.0 if is_backdrop else lighting.clouds
+    usual = 0.0 if place.is_backdrop and said.sky is None else lighting.clouds
+    if place.ground is Ground.NONE and place.light == "" and not description.objects:
+        usual = max(usual, _CLOUDED)
     least = [usual if said.clouds is None else said.clouds]
     least += [0.5] * description.is_timelapse + [0.9] * has_lightning
     least += [0.8] * (said.weather in ("rain", "snow"))
-    least += [_CLOUDED] * (said.place == "sky" and not description.objects and said.clouds is None)
-    return top, horizon, max(least)
+    return max(least)
 
 
-def _ground_colours(ground: GroundAppearance, said: Surroundings) -> tuple[Colour, Colour]:
-    """Both colours of the ground, under snow or painted as the prompt says."""
-    colour, second = ground.colour, ground.second_colour
-    if said.has_snow and ground.ground in _SNOWED_OVER:
+def _ground_colours(place: Place, said: Surroundings) -> tuple[Colour, Colour]:
+    """Both colours of the ground, under snow or painted as the scene says."""
+    colour, second = place.colours
+    if said.has_snow and place.ground in _SNOWED_OVER:
         colour = SNOW
-        second = SNOW if ground.ground is Ground.GRASS else second
+        second = SNOW if place.ground is Ground.GRASS else second
     if said.colour is not None:
         # Grass is darker than paint: blades shade one another.
-        depth = 0.45 if ground.ground is Ground.GRASS else 0.8
+        depth = 0.45 if place.ground is Ground.GRASS else 0.8
         colour = mix((0.0, 0.0, 0.0), said.colour.rgb, depth)
         second = mix((0.0, 0.0, 0.0), said.colour.rgb, min(1.5 * depth, 1.0))
     return colour, second
 
 
 def _choose_fog(
-    place: str, weather: str | None, horizon: Colour, distance_m: float
+    place: Place, weather: str | None, horizon: Colour, distance_m: float
 ) -> tuple[float, Colour]:
-    if place == "underwater":
+    """Sight to 37 %, m, and the colour that all fades into."""
+    if place.ground is Ground.UNDERWATER:
         return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), _WATER_COLOUR
     if weather == "fog":
         grey = sum(horizon) / 3.0

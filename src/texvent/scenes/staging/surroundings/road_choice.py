@@ -7,19 +7,19 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.places import Place
+from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.scene import Ground
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.holding import is_person
 from texvent.scenes.staging.placement.lanes import FEWEST, find_lanes
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
+from texvent.scenes.staging.trajectories.trajectory import Stationary
 
-BESIDE_ROAD = "beside road"
-"""Value of a claim that things are beside the road."""
 _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
-
-
 _PAVEMENT_M = 1.4
 """From the edge of the road to who walks beside it."""
 _VERGE_M = 0.5
@@ -28,26 +28,26 @@ _ROADSIDE = 1.4
 """Where one walks on a road without pavement, in lanes from its middle."""
 _USUAL_S = 2.0
 _CROSSING_AHEAD_M = 7.0
+_STRIPES_AHEAD_M = 0.6
+"""Between a vehicle and what lies across the road before it."""
 
 
 def find_road(
-    actors: Sequence[Actor],
-    usual_y: float,
-    lane_m: float,
-    shape: str | None = None,
-    *,
-    beside: str = "",
+    description: SceneDescription, place: Place, actors: Sequence[Actor], usual_y: float
 ) -> RoadLine:
     """The road along the path of the first object on the ground that moves.
 
     Args:
-        actors: the objects of the prompt.
+        description: the shape of its road: curved, or with a crossing.
+        place: its road's width, and whether it has pavements.
+        actors: the objects of the scene.
         usual_y: where it runs if nothing stands on the ground, m.
-        lane_m: from its centre line to the middle of a lane.
-        shape: "curved", "crossing" (another road crosses it) or None.
-        beside: who is beside it, not on it: "walkers", "all" or "" (nobody).
     """
-    road = _straight_road(actors, usual_y, lane_m, beside)
+    shape, lane_m = description.surroundings.road, 0.5 * place.road_m
+    has_pavement = place.ground is Ground.CITY and all(
+        one.side != "lane" for one in description.objects
+    )
+    road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
     if shape == "curved" and not road.crossings:
         return replace(road, curvature=_bend_of(actors, lane_m))
     if shape == "crossing" and not road.crossings:
@@ -56,19 +56,9 @@ def find_road(
     return road
 
 
-def find_beside(description: SceneDescription, place: str, actors: Sequence[Actor] = ()) -> str:
-    """Who is beside the road: on the pavement of a city, or as the prompt says."""
-    if any(one.value == BESIDE_ROAD for one in description.claims):
-        return "all"
-    if place != "city":
-        return ""
-    if any(one.side == "lane" for one in description.objects):
-        return ""
-    has_traffic = any(one.noun.motion == "drive" or one.noun.name == "crosswalk" for one in actors)
-    return "walkers" if has_traffic else "all"
-
-
-def _straight_road(actors: Sequence[Actor], usual_y: float, lane_m: float, beside: str) -> RoadLine:
+def _straight_road(
+    actors: Sequence[Actor], usual_y: float, lane_m: float, *, has_pavement: bool
+) -> RoadLine:
     grounded = [actor for actor in actors if actor.noun.habitat == "ground"]
     # Ducks cross a road too.
     movers = [one for one in actors if one.is_mover and (one in grounded or one.goes_across)]
@@ -87,8 +77,8 @@ def _straight_road(actors: Sequence[Actor], usual_y: float, lane_m: float, besid
         x, y, _ = middle.middle(0.5 * _USUAL_S)
         return RoadLine(movers[0].trajectory.at(0.0).yaw + 0.5 * math.pi, (float(x), float(y)))
     if movers:
-        return _road_of(movers, lane_m, has_pavement=bool(beside))
-    if actors and (beside == "all" or _belong_at_kerb(actors)):
+        return _road_of(movers, lane_m, has_pavement=has_pavement)
+    if _are_beside(actors, has_pavement=has_pavement):
         farthest = max(float(one.corners(0.0)[:, 1].max()) for one in actors)
         return RoadLine(offset=(0.0, farthest + 2.0 * lane_m + _VERGE_M))
     if grounded:
@@ -96,22 +86,16 @@ def _straight_road(actors: Sequence[Actor], usual_y: float, lane_m: float, besid
     return RoadLine(offset=(0.0, usual_y))
 
 
-_AT_KERB = frozenset({
-    "street lamp", "traffic light", "park lamp", "fire hydrant", "parking meter", "stop sign",
-    "sign", "mailbox", "dustbin", "dumpster", "bus stop", "phone booth", "bollard", "bench", "tree",
-    "autumn tree", "cherry tree", "bare tree", "pine", "palm", "bush", "vending machine", "statue",
-    "fountain", "fence", "power pylon",
-})  # fmt: skip
-"""What stands beside a road, not on it."""
-_ON_ROAD = frozenset({"crosswalk", "barrier", "traffic cone", "manhole cover", "puddle"})
-
-
-def _belong_at_kerb(actors: Sequence[Actor]) -> bool:
-    """Whether something stands here that no road leads through, and nothing that is on a road."""
+def _are_beside(actors: Sequence[Actor], *, has_pavement: bool) -> bool:
+    """Whether all stand beside the road: none is a vehicle or lies on it."""
     nouns = {actor.noun.name for actor in actors}
+    if not actors or nouns & nouns_with("on a road"):
+        return False
+    if has_pavement and all(actor.noun.motion != "drive" for actor in actors):
+        return True
     others = [one for one in actors if one.noun.habitat != "fixed"]
-    is_quiet = all(is_person(one) and not one.is_mover for one in others)
-    return bool(nouns & _AT_KERB) and not nouns & _ON_ROAD and is_quiet
+    is_quiet = all(one.noun.name in PERSON_NOUNS and not one.is_mover for one in others)
+    return is_quiet and bool(nouns & nouns_with("beside a road"))
 
 
 def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool = False) -> RoadLine:
@@ -151,3 +135,32 @@ def _lane_of(movers: Sequence[Actor], lane_m: float) -> float:
     """How far the first mover is to the right of the centre line, m."""
     is_alone = len(movers) == 1 and movers[0].noun.motion == "drive"
     return lane_m if is_alone and lane_m > 0.6 * movers[0].model.width else 0.0
+
+
+def lay_across(actors: Sequence[Actor], road: RoadLine, duration_s: float) -> list[Actor]:
+    """The actors, with stripes across the road before a vehicle, or under who crosses there.
+
+    Args:
+        actors: all objects.
+        road: from `find_road`.
+        duration_s: of the clip, s.
+    """
+    nouns = nouns_with("across a road")
+    others = [one for one in actors if one.noun.name not in nouns and one.noun.habitat != "air"]
+    if not others or len(others) == len(actors):
+        return list(actors)
+    goal = min(others, key=lambda one: one.noun.motion != "drive")
+    state = goal.trajectory.at(duration_s)
+    x, y, _ = state.position
+    moved = []
+    for one in actors:
+        if one.noun.name in nouns:
+            ahead = 0.5 * (goal.model.length + one.model.width) + _STRIPES_AHEAD_M
+            ahead = ahead if goal.noun.motion == "drive" else 0.0
+            dx = x + ahead * math.cos(state.yaw) - road.offset[0]
+            dy = y + ahead * math.sin(state.yaw) - road.offset[1]
+            at_x, at_y, angle = road.at(dx * math.cos(road.angle) + dy * math.sin(road.angle))
+            path = Stationary((at_x, at_y, 0.0), angle + 0.5 * math.pi)
+            one = replace(one, trajectory=path)
+        moved.append(one)
+    return moved

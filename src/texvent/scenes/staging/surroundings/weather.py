@@ -9,7 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from texvent.scenes.scene import Float64Array, Primitives, Shape
-from texvent.scenes.staging.particles.shapes import SolidEffect, many_shapes
+from texvent.scenes.staging.particles.shapes import ParticleEffect, many_shapes
 
 RAIN_DROPS = 130
 SNOW_FLAKES = 170
@@ -18,7 +18,7 @@ _DEPTH_BELOW_M = 0.6
 
 
 @dataclass(frozen=True)
-class FallingParticles(SolidEffect):
+class FallingParticles(ParticleEffect):
     """Objects that fall through a box around what the camera looks at."""
 
     places: Float64Array

@@ -1,4 +1,4 @@
-"""Motions in one place or under gravity: spin, bounce, climb, swing, jump, hover, sway.
+"""Motions in one place or under gravity: spin, swing, hover, sway, bounce, flight, arc.
 
 Like those of `trajectory`, they are pure, continuous functions of time; angles in radians,
 lengths in metres, times in seconds.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -15,123 +16,35 @@ from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
     Trajectory,
     Vector,
-    ahead,
     rotation,
 )
 
 GRAVITY_M_S2 = 9.81
+Axis = Literal["yaw", "pitch", "roll"]
+"""The vertical, the body's width, or its length."""
 
 
 @dataclass(frozen=True)
 class Spin:
-    """Turns about the vertical through its home."""
+    """Turns about an axis through its home."""
 
     home: Vector
     rate_rad_s: float
     yaw: float = 0.0
     gain_rad_s2: float = 0.0
     """By how much the rate grows, rad/s²."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        turn = (self.rate_rad_s + 0.5 * self.gain_rad_s2 * time_s) * time_s
-        return BodyState(self.home, self.yaw + turn)
-
-
-@dataclass(frozen=True)
-class SpinOnAxle:
-    """Turns about its axle where it stands: a wheel's lies across its heading."""
-
-    home: Vector
-    yaw: float
-    rate_rad_s: float
-    pivot_m: float
-    """Height of the axle above the body's origin, m."""
-    gain_rad_s2: float = 0.0
-    """By how much the rate grows, rad/s²."""
-    is_along: bool = False
-    """Whether the axle lies along its heading, as that of a flat shape seen from the front."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        turn = (self.rate_rad_s + 0.5 * self.gain_rad_s2 * time_s) * time_s
-        pitch, roll = (0.0, turn) if self.is_along else (turn, 0.0)
-        return BodyState(self.home, self.yaw, pitch, roll, pivot_m=self.pivot_m)
-
-
-@dataclass(frozen=True)
-class Bounce:
-    """Free flight between bounces, until the energy is spent; then it lies or rolls on.
-
-    Each bounce keeps `restitution` of the upward speed. Times of contact follow in closed form
-    from the geometric series of the bounces.
-    """
-
-    start: Vector
-    """Where it is at `start_s`; its resting height is `floor_m`."""
-    floor_m: float = 0.0
-    up_m_s: float = 0.0
-    """Upward speed at the start."""
-    along_m_s: float = 0.0
-    yaw: float = 0.0
-    restitution: float = 0.8
-    start_s: float = 0.0
-    tumble_rad_s: float = 0.0
+    axis: Axis = "yaw"
     pivot_m: float = 0.0
+    """Height of the axis above the body's origin, m, unless it is the vertical."""
+    activity: str = "move"
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        elapsed = max(time_s - self.start_s, 0.0)
-        along = self.along_m_s * elapsed
-        return BodyState(
-            ahead(self.start, self.yaw, along, self.floor_m + self.height_m(elapsed)),
-            self.yaw,
-            pitch=self.tumble_rad_s * elapsed,
-            distance_m=abs(along),
-            speed_m_s=abs(self.along_m_s),
-            pivot_m=self.pivot_m,
-        )
-
-    def height_m(self, elapsed_s: float) -> float:
-        """Height above its resting place, m, that long after the start."""
-        drop = max(self.start[2] - self.floor_m, 0.0)
-        impact = math.sqrt(self.up_m_s**2 + 2.0 * GRAVITY_M_S2 * drop)
-        landing = (self.up_m_s + impact) / GRAVITY_M_S2
-        if elapsed_s <= landing:
-            fallen = 0.5 * GRAVITY_M_S2 * elapsed_s**2
-            return max(drop + self.up_m_s * elapsed_s - fallen, 0.0)
-        elapsed = elapsed_s - landing
-        ratio = self.restitution
-        flight = 2.0 * ratio * impact / GRAVITY_M_S2
-        total = flight / (1.0 - ratio)
-        if flight <= 0.0 or elapsed >= total * (1.0 - 1e-9):
-            return 0.0
-        number = math.floor(math.log(1.0 - elapsed / total) / math.log(ratio))
-        into = elapsed - total * (1.0 - ratio**number)
-        speed = impact * ratio ** (number + 1)
-        return max(speed * into - 0.5 * GRAVITY_M_S2 * into**2, 0.0)
-
-
-@dataclass(frozen=True)
-class Climb:
-    """Goes straight up or down at a speed that changes evenly; stops at `lowest_m`."""
-
-    home: Vector
-    speed_m_s: float
-    mid_s: float
-    acceleration_m_s2: float = 0.0
-    lowest_m: float = -math.inf
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        x, y, z = self.home
-        risen = self.speed_m_s * (time_s - self.mid_s)
-        risen += 0.5 * self.acceleration_m_s2 * max(time_s, 0.0) ** 2
-        return BodyState(
-            (x, y, max(z + risen, self.lowest_m)),
-            distance_m=abs(self.speed_m_s) * time_s,
-            speed_m_s=abs(self.speed_m_s),
-        )
+        turn = (self.rate_rad_s + 0.5 * self.gain_rad_s2 * time_s) * time_s
+        state = BodyState(self.home, self.yaw, activity=self.activity, pivot_m=self.pivot_m)
+        if self.axis == "yaw":
+            return replace(state, yaw=self.yaw + turn)
+        return replace(state, pitch=turn) if self.axis == "pitch" else replace(state, roll=turn)
 
 
 @dataclass(frozen=True)
@@ -154,61 +67,24 @@ class Swing:
 
 
 @dataclass(frozen=True)
-class Hop:
-    """Hops: free flight to `height_m`, a short stand, again; moves along while in the air."""
-
-    home: Vector
-    height_m: float
-    pause_s: float = 0.15
-    hop_m: float = 0.0
-    """Metres along per hop."""
-    yaw: float = 0.0
-    mid_s: float = 0.0
-    sway_rad: float = 0.0
-    phase_s: float = 0.0
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        flight = 2.0 * math.sqrt(2.0 * self.height_m / GRAVITY_M_S2)
-        period = flight + self.pause_s
-        clock = time_s + self.phase_s
-        number = math.floor(clock / period)
-        into = min(clock - number * period, flight)
-        height = 0.5 * GRAVITY_M_S2 * into * (flight - into)
-        hops = number + into / flight
-        along = self.hop_m * (hops - (self.mid_s + self.phase_s) / period)
-        swing = self.sway_rad * math.sin(math.pi * clock / period)
-        return BodyState(
-            ahead(self.home, self.yaw, along, self.home[2] + height),
-            self.yaw + swing,
-            distance_m=max(self.hop_m * (hops - self.phase_s / period), 0.0),
-            speed_m_s=self.hop_m / period,
-            activity="move" if self.hop_m else "jump",
-            act_s=into - 0.5 * flight,
-        )
-
-
-@dataclass(frozen=True)
 class Hover:
-    """Stays in one place in the air or on water, drifting a little."""
+    """Drifts a little about where another trajectory has it, in the air or on water."""
 
-    home: Vector
+    path: Trajectory
     amplitude_m: float
-    yaw: float = 0.0
     phase: float = 0.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
+        state = self.path.at(time_s)
         wave = 2.0 * math.pi * time_s + self.phase
-        x, y, z = self.home
-        return BodyState(
-            (
-                x + 0.6 * self.amplitude_m * math.sin(0.23 * wave),
-                y,
-                z + self.amplitude_m * math.sin(0.4 * wave),
-            ),
-            self.yaw + 0.12 * math.sin(0.31 * wave),
-            roll=0.05 * math.sin(0.23 * wave),
+        x, y, z = state.position
+        side = self.amplitude_m * math.sin(0.23 * wave)
+        return replace(
+            state,
+            position=(x + 0.6 * side, y, z + self.amplitude_m * math.sin(0.4 * wave)),
+            yaw=state.yaw + 0.12 * math.sin(0.31 * wave),
+            roll=state.roll + 0.05 * math.sin(0.23 * wave),
         )
 
 
@@ -220,49 +96,119 @@ class Sway:
     amplitude_rad: float
     rate_hz: float
     yaw: float = 0.0
-    is_turning: bool = False
-    """Whether it turns to and fro instead, as what lies flat."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         angle = self.amplitude_rad * math.sin(2.0 * math.pi * self.rate_hz * time_s)
-        if self.is_turning:
-            return BodyState(self.home, self.yaw + angle, activity="stand")
         return BodyState(self.home, self.yaw, roll=angle, activity="stand")
 
 
 @dataclass(frozen=True)
-class RollOver:
-    """Lies and turns about its own length, once in two seconds."""
+class Flight:
+    """Free flight between bounces, until the energy is spent; then it lies or rolls on."""
 
-    home: Vector
-    yaw: float
-    pivot_m: float
-    """Height of that length above the ground, m."""
-    tempo: float = 1.0
+    start: BodyState
+    """Where and how it is let go; it turns about its pivot."""
+    velocity_m_s: Vector = (0.0, 0.0, 0.0)
+    floor_m: float = 0.0
+    """Height of its origin where it bounces."""
+    restitution: float = 0.8
+    """Share of the upward speed that each bounce keeps."""
+    start_s: float = 0.0
+    tumble_rad_s: float = 0.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        turn = math.pi * self.tempo * time_s
-        return BodyState(self.home, self.yaw, roll=turn, pivot_m=self.pivot_m, activity="lie")
+        elapsed = max(time_s - self.start_s, 0.0)
+        x, y, z = self.start.position
+        speed = math.hypot(self.velocity_m_s[0], self.velocity_m_s[1])
+        drop = max(z - self.floor_m, 0.0)
+        height = bounce_height(drop, self.velocity_m_s[2], self.restitution, elapsed)
+        return replace(
+            self.start,
+            position=(
+                x + elapsed * self.velocity_m_s[0],
+                y + elapsed * self.velocity_m_s[1],
+                self.floor_m + height,
+            ),
+            pitch=self.start.pitch + self.tumble_rad_s * elapsed,
+            distance_m=self.start.distance_m + speed * elapsed,
+            speed_m_s=speed,
+        )
+
+
+def bounce_height(drop_m: float, up_m_s: float, restitution: float, elapsed_s: float) -> float:
+    """Height above the floor, m, of what is let go at a height with an upward speed.
+
+    Times of contact follow in closed form from the geometric series of the bounces.
+    """
+    impact = math.sqrt(up_m_s**2 + 2.0 * GRAVITY_M_S2 * drop_m)
+    landing = (up_m_s + impact) / GRAVITY_M_S2
+    if elapsed_s <= landing:
+        fallen = 0.5 * GRAVITY_M_S2 * elapsed_s**2
+        return max(drop_m + up_m_s * elapsed_s - fallen, 0.0)
+    elapsed = elapsed_s - landing
+    flight = 2.0 * restitution * impact / GRAVITY_M_S2
+    total = flight / (1.0 - restitution)
+    if flight <= 0.0 or elapsed >= total * (1.0 - 1e-9):
+        return 0.0
+    number = math.floor(math.log(1.0 - elapsed / total) / math.log(restitution))
+    into = elapsed - total * (1.0 - restitution**number)
+    speed = impact * restitution ** (number + 1)
+    return max(speed * into - 0.5 * GRAVITY_M_S2 * into**2, 0.0)
 
 
 @dataclass(frozen=True)
-class Wheelie:
-    """Rides with its front lifted, about its rear wheel."""
+class Arc:
+    """Free flight from one state to another, both with the same pivot."""
 
-    path: Trajectory
-    rear_m: float
-    """How far the rear wheel's hub is behind the middle, m."""
-    hub_m: float
+    start: BodyState
+    end: BodyState
+    start_s: float
+    end_s: float
+    turns: float = 0.0
+    """Whole turns about its side axis on the way."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        state = self.path.at(time_s)
-        share = min(max(time_s / 0.6, 0.0), 1.0)
-        lift = 0.65 * share**2 * (3.0 - 2.0 * share)
-        hub = np.array([-self.rear_m, 0.0, self.hub_m])
-        turned = rotation(state.yaw, -lift, 0.0) @ hub
-        level = rotation(state.yaw, 0.0, 0.0) @ hub
-        x, y, z = (a + float(b) for a, b in zip(state.position, level - turned, strict=True))
-        return replace(state, position=(x, y, z), pitch=-lift)
+        span, elapsed = self.end_s - self.start_s, time_s - self.start_s
+        share = elapsed / span
+        x, y, z = (
+            a + share * (b - a) for a, b in zip(self.start.position, self.end.position, strict=True)
+        )
+        yaw, pitch, roll = (
+            first + share * math.remainder(last - first, 2.0 * math.pi)
+            for first, last in zip(_angles(self.start), _angles(self.end), strict=True)
+        )
+        return replace(
+            self.end,
+            position=(x, y, z + 0.5 * GRAVITY_M_S2 * elapsed * (span - elapsed)),
+            yaw=yaw,
+            pitch=pitch + 2.0 * math.pi * self.turns * share,
+            roll=roll,
+        )
+
+
+def _angles(state: BodyState) -> Vector:
+    return (state.yaw, state.pitch, state.roll)
+
+
+def about_pivot(state: BodyState, pivot_m: float) -> BodyState:
+    """The same body in the same place, said by a point so high above its origin."""
+    pivot = np.array([0.0, 0.0, pivot_m])
+    turn = rotation(state.yaw, state.pitch, state.roll)
+    x, y, z = state.to_world()[:, 3] + turn @ pivot - pivot
+    return replace(state, position=(float(x), float(y), float(z)), pivot_m=pivot_m)
+
+
+@dataclass(frozen=True)
+class Switched:
+    """One trajectory up to an instant, another from then on."""
+
+    before: Trajectory
+    after: Trajectory
+    at_s: float
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        return (self.before if time_s < self.at_s else self.after).at(time_s)

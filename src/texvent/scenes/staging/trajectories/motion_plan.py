@@ -9,8 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import ObjectMotion
-from texvent.scenes.models.objects.home.screens import PICTURE_FACES
-from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -19,16 +17,16 @@ from texvent.scenes.models.people.activities import (
     PERSON_NOUNS,
 )
 from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.staging.trajectories.action_trajectories import Axis
 from texvent.scenes.staging.trajectories.phases import (
+    GOING,
     PATH_KINDS,
     YAWS,
     build_path,
     needs_steering,
 )
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
-from texvent.scenes.staging.trajectories.stunts import (
-    WINGED,
-)
 
 MAX_LENGTHS_PER_S = 0.95
 """A usual speed is kept below this many of the object's own lengths per second, so that it stays
@@ -44,9 +42,9 @@ _DIAGONAL = 0.6
 """Metres up per metre along a diagonal of the picture."""
 RUN_FACTOR = 2.2
 """Running over walking speed."""
-FLAT, _WIDE, _THIN = 0.62, 0.7, 0.15
+FLAT, _WIDE = 0.62, 0.7
 """Objects whose length is below this share of their width show their front to the camera; the
-second is for what slides: a board, a mirror; the third for a poster that spins."""
+second is for what slides: a board, a mirror."""
 
 
 @dataclass(frozen=True)
@@ -61,18 +59,11 @@ class MotionPlan:
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
     """What a person or a hand does in its place: a name of `people.activities`."""
-    headroom_m: float = math.inf
-    """How high it may jump, m: a cage has a roof."""
-    is_wheel: bool = False
-    """Whether it spins about its axle."""
-    is_swimmer: bool = False
-    """Whether it lives in the water: it leaps out by a good part of its length."""
+    radius_m: float = 0.0
+    """Of what rolls over and over; 0 = it goes on wheels or feet."""
+    spin_axis: Axis = "yaw"
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
-    is_vehicle: bool = False  # rolls on wheels, not over and over
-    is_vessel: bool = False
-    is_winged: bool = False
-    """Whether it takes off and lands along the ground."""
 
     @property
     def is_path(self) -> bool:
@@ -120,38 +111,38 @@ def plan_motion(
         duration_s: length of the clip, s.
         rng: decides between left and right where nothing is said.
     """
-    motion = motions[0]
-    toss = rng.random()
-    default = "left" if toss < 0.5 else "right"
-    later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
-    direction = motion.direction or next(later, None) or default
-    is_steered = needs_steering(motions)
-    goes = motion.kind in PATH_KINDS or any(m.kind in _GOING for m in motions)
-    if motion.kind == "turn":
-        yaw = YAWS[default]  # "turns left" is to its own left
-    elif motion.kind == "change lane" and motion.direction not in YAWS:
-        yaw = YAWS["away"]  # so that it goes from side to side in the picture
-    elif noun.habitat == "fixed" and any(one.kind == "fall" for one in motions[1:]):
-        yaw = YAWS[default]  # what falls over does so to a side of the picture
-    elif not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
-        yaw = _face_camera(noun, model, motion, toss)
-    elif _is_steep(noun, model, motion, direction):
-        yaw = YAWS[default]
-    else:
-        yaw = YAWS.get(direction, YAWS[default])
-    speed = _choose_speed(motions, noun, model)
+    motion, toss = motions[0], rng.random()
+    yaw, speed = _choose_yaw(motions, noun, model, toss), _choose_speed(motions, noun, model)
+    is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
     is_facing = _faces_camera(noun, model, motion)
-    if not is_steered:
-        pace = 1.0 if motion.speed_m_s is not None else motion.pace
-        gesture = choose_gesture(noun, motion)
-        return MotionPlan(
-            motion, yaw, speed * pace, duration_s, gesture=gesture, is_facing=is_facing,
-            is_wheel=noun.name == "wheel", is_swimmer=noun.habitat == "water",
-            is_vehicle=noun.motion == "drive", is_winged=noun.name in WINGED,
-            is_vessel=noun.motion == "sail",
-        )  # fmt: skip
-    path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
-    return MotionPlan(motion, path.yaw, speed, duration_s, path, is_facing=is_facing)
+    axle: Axis = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
+    plan = MotionPlan(
+        motion, yaw, speed, duration_s, is_facing=is_facing,
+        radius_m=0.5 * model.height if motion.kind == "roll" and not is_wheeled else 0.0,
+        spin_axis="roll" if is_facing else axle,
+    )  # fmt: skip
+    if needs_steering(motions):
+        path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
+        return replace(plan, yaw=path.yaw, path=path)
+    pace = 1.0 if motion.speed_m_s is not None else motion.pace
+    return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
+
+
+def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss: float) -> float:
+    motion, default = motions[0], YAWS["left" if toss < 0.5 else "right"]
+    later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
+    direction = motion.direction or next(later, None) or ""
+    goes = motion.kind in PATH_KINDS or any(m.kind in GOING | {"turn", "zigzag"} for m in motions)
+    is_toppling = motion.kind == "topple" or any(one.kind == "fall" for one in motions[1:])
+    if motion.kind == "turn":
+        return default  # "turns left" is to its own left
+    if noun.habitat == "fixed" and is_toppling:
+        return default  # what falls over does so to a side of the picture
+    if not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
+        return _face_camera(noun, model, motion, toss)
+    if _is_steep(noun, model, motion, direction):
+        return default
+    return YAWS.get(direction, default)
 
 
 def _is_steep(noun: Noun, model: Model, motion: ObjectMotion, direction: str) -> bool:
@@ -163,13 +154,12 @@ def _is_steep(noun: Noun, model: Model, motion: ObjectMotion, direction: str) ->
 
 def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
     """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
-    if noun.name in FACING:
+    if noun.name in nouns_with("flat pattern"):
         return motion.kind in PATH_KINDS or motion.kind in ("spin", "rise", "sink")
+    if motion.kind == "spin":
+        return noun.name in nouns_with("flat picture")
     is_wide = model.length < _WIDE * model.width
-    is_picture = noun.name in PICTURE_FACES and model.length < _THIN * model.width
-    return noun.habitat == "fixed" and (
-        (is_wide and motion.kind == "slide") or (is_picture and motion.kind == "spin")
-    )
+    return noun.habitat == "fixed" and is_wide and motion.kind == "slide"
 
 
 def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
@@ -192,9 +182,6 @@ def _is_seen_from_front(noun: Noun, motion: ObjectMotion) -> bool:
         return True
     gesture = choose_gesture(noun, motion)
     return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)
-
-
-_GOING = PATH_KINDS | {"turn", "reverse", "zigzag", "enter", "leave", "appear"}
 
 
 def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> float:
@@ -224,24 +211,22 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
-    if motion.kind == "sway" and noun.habitat != "fixed" and noun.name not in PERSON_NOUNS:
-        return -0.5 * math.pi + math.copysign(0.6, tilt)
-    if (
-        noun.name in PERSON_NOUNS
-        and motion.kind in ACTIVITIES
-        and ACTIVITIES[motion.kind].is_sideways
-    ):
-        return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
-    if noun.name == "conveyor belt":  # it runs from side to side of the picture
-        return math.pi if motion.direction == "left" else 0.0
-    if noun.name in ("bridge", "pier"):  # others go along it, from side to side of the picture
-        return 0.0
-    if noun.name in ("flag", "crane") or motion.kind == "roll over":
-        return 0.3 * tilt
-    if noun.name in FACING:
-        return -0.5 * math.pi
-    if model.length < FLAT * model.width or noun.name in PERSON_NOUNS:
-        return -0.5 * math.pi + 0.5 * tilt
+    front, side, is_person = (
+        -0.5 * math.pi,
+        math.pi if toss < 0.5 else 0.0,
+        noun.name in PERSON_NOUNS,
+    )
+    if motion.kind == "sway" and noun.habitat != "fixed" and not is_person:
+        return front + math.copysign(0.6, tilt)
+    if is_person and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:
+        return side + 0.5 * tilt
+    turned = trait_value("side view", noun.name)
+    if turned is not None:
+        return turned * tilt if motion.direction != "left" else math.pi
+    if noun.name in nouns_with("flat pattern"):
+        return front
+    if model.length < FLAT * model.width or is_person:
+        return front + 0.5 * tilt
     if noun.habitat == "fixed":
-        return -0.5 * math.pi + math.copysign(0.45, tilt) + 0.3 * tilt
-    return (math.pi if toss < 0.5 else 0.0) + tilt
+        return front + math.copysign(0.45, tilt) + 0.3 * tilt
+    return side + tilt

@@ -3,31 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
-from texvent.scenes.staging.trajectories.manoeuvres import (
-    LANE_M,
-    QUARTER,
-    ZIGZAG_RAD,
-    arc,
-    change_lane,
-    park,
-    sample_places,
-    zigzag,
-)
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.staging.trajectories.schedule import Phase, schedule
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
+from texvent.scenes.staging.trajectories.steered_path import (
+    HOP_PAUSE_S,
+    Piece,
+    SteeredPath,
+    arc,
+    centred,
+    flight_s,
+)
 
-PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move",
-                                       "wheelie", "drift"})  # fmt: skip
+PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "slide", "roll", "move", "drift"})
 """Motions from one place to another."""
-_STEERED_KINDS = frozenset({"turn", "reverse", "zigzag", "enter", "leave", "appear", "change lane",
-                            "park"})  # fmt: skip
-_GOING = _STEERED_KINDS - {"turn", "zigzag", "change lane", "park"}
+GOING = PATH_KINDS | {"reverse", "enter", "leave", "appear"}
+"""Those with a direction of travel."""
+_STEERED = GOING | {"turn", "zigzag", "park"}
+_PIECED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
 
 YAWS = {
     "right": 0.0,
@@ -39,11 +36,13 @@ YAWS = {
     "down": -0.5 * math.pi,
 }
 """Direction → heading; up and down are along a slope for what moves on the ground."""
-_STEERED_DIRECTIONS = frozenset({"backward", "around"})
+_STEERED_DIRECTIONS = frozenset({"backward", "around", "eight"})
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
-TURN_SHARE = 0.6
-"""Share of a turn's phase that it turns, where it is all that happens: it comes and goes on."""
+QUARTER, ZIGZAG_RAD = 0.5 * math.pi, 0.55
+_TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
+"""Shares of a phase that a turn takes where it is all that happens, for it comes and goes on; and
+that the turn to another direction takes."""
 ROAD_BEND_PER_M = 1.0 / 50.0
 """Curvature of a road that bends."""
 MOST_HASTE = 2.5
@@ -52,30 +51,32 @@ _RAMP_S = 0.3
 _BRAKING_M_S2 = 6.0
 _LONG = 0.8
 """Share of its height from which the length of what falls lays it onto its side."""
-_CLIMB = 0.45
-"""Metres up per metre along."""
+_CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
+"""Metres up or down per metre along: in general, from a runway, and to it."""
+_LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
+"""Shares of a phase after which wheels leave a runway, or meet it."""
+_SUNK = 0.8
+"""Share of its height that a vessel sinks."""
 _CLOCKWISE = frozenset({"clockwise", "right"})
-_LEANING = frozenset({"bicycle", "motorcycle"})
-_REACHED = {"sit down": "sit", "lie down": "lie", "stand up": "stand", "kneel down": "kneel",
-            "crouch down": "crouch"}  # fmt: skip
+_REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
 
 
 def needs_steering(motions: Sequence[ObjectMotion]) -> bool:
-    """Whether these motions are a path of several pieces, not one simple movement."""
+    """Whether these motions are a path of pieces, not one simple movement."""
     first = motions[0]
     return (
         len(motions) > 1
         or (first.end_pace is not None and first.kind not in ("spin", "work"))
         or bool(first.start_s)
-        or first.kind in _STEERED_KINDS
+        or first.kind in _PIECED
         or (first.kind in PATH_KINDS and first.direction in _STEERED_DIRECTIONS)
     )
 
 
 def least_radius(model: Model, noun: Noun) -> float:
     """The tightest curve, m: people turn on their heel, cars do not."""
-    is_steered = noun.motion in ("drive", "sail") or noun.name == "airplane"
+    is_steered = noun.motion in ("drive", "sail") or noun.name in nouns_with("takes off")
     return 0.9 * model.length if is_steered else 0.0
 
 
@@ -102,44 +103,38 @@ def build_path(
     usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
     if motions[0].kind == "reverse" and motions[0].direction is not None:
         yaw += math.pi
-    builder = _Builder(noun, model, usual_m_s, yaw)
-    builder.is_single = len(phases) == 1
+    builder = _Builder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
     for phase in phases:
         builder.add(phase)
     path = SteeredPath(
-        (0.0, 0.0, 0.0),
+        (0.0, 0.0, builder.initial_height),
         yaw + builder.initial_yaw,
         tuple(builder.pieces),
         builder.initial_speed,
         builder.initial_turn,
-        lean=1.0 if noun.habitat == "air" or noun.name in _LEANING else 0.0,
+        lean=1.0 if noun.habitat == "air" or noun.name in nouns_with("leans") else 0.0,
         usual_speed_m_s=usual_m_s,
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
         side_m=0.5 * model.width if model.length > _LONG * model.height else 0.0,
     )
-    places = sample_places(path, duration_s)
-    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
-    return replace(path, start=(-float(middle[0]), -float(middle[1]), 0.0))
+    return centred(path, duration_s)
 
 
 def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: float) -> float:
     """A usual speed at which every turn is a quarter circle of a plausible radius."""
     needed = usual_m_s
+    radius = max(least_radius(model, noun), 0.3 * model.length)
     for phase in phases:
         motion = phase.motion
         if motion.speed_m_s is not None:
             continue
-        if motion.kind == "change lane":
-            needed = max(needed, 6.0 * LANE_M / phase.duration_s)
         if motion.kind == "park":
-            turning = QUARTER * max(least_radius(model, noun), 0.3 * model.length)
-            needed = max(needed, turning / (0.45 * phase.duration_s))
+            needed = max(needed, QUARTER * radius / (0.45 * phase.duration_s))
         if motion.kind in ("enter", "leave"):
             needed = max(needed, 2.0 * model.length / phase.duration_s)
         if motion.kind == "turn" or motion.direction == "around":
-            turning = phase.duration_s * (TURN_SHARE if len(phases) == 1 else 0.8)
+            turning = phase.duration_s * (_TURN_SHARE if len(phases) == 1 else 0.8)
             angle = math.pi if motion.direction == "around" else QUARTER
-            radius = max(least_radius(model, noun), 0.3 * model.length)
             needed = max(needed, radius * angle / turning)
     return min(needed, MOST_HASTE * usual_m_s)
 
@@ -147,55 +142,47 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
 class _Builder:
     """Collects pieces; knows the speed and height at the end of the last one."""
 
-    def __init__(self, noun: Noun, model: Model, usual_m_s: float, yaw: float) -> None:
+    def __init__(
+        self, noun: Noun, model: Model, usual_m_s: float, yaw: float, *, is_single: bool
+    ) -> None:
         self._noun, self._model, self._usual = noun, model, usual_m_s
-        self.is_single = False
+        self._is_single = is_single
+        self._is_free = noun.habitat in ("air", "water")
+        self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
         self._height = 0.0
         self._heading = yaw
         self.pieces: list[Piece] = []
         self.initial_speed = 0.0
         self.initial_turn = 0.0
         self.initial_yaw = 0.0
+        self.initial_height = 0.0
 
     def add(self, phase: Phase) -> None:
         """Append the pieces of one phase."""
         motion, span = phase.motion, phase.duration_s
-        is_path = motion.kind in PATH_KINDS
-        if motion.kind == "turn" or (is_path and motion.direction == "around"):
-            self._turn(motion, span)
-        elif is_path and motion.direction == "circle":
-            self._circle(motion, span)
-        elif is_path and motion.direction == "eight":
-            self._eight(motion, span)
-        elif is_path or motion.kind in _GOING:
-            self._go(motion, span)
-        elif motion.kind in ("zigzag", "change lane", "park"):
-            self._manoeuvre(motion, span)
+        if motion.kind in _STEERED:
+            self._travel(motion, span)
         elif motion.kind in ("rise", "sink"):
             self._climb(motion, span)
-        else:
-            self._act(motion, span)
-
-    def _act(self, motion: ObjectMotion, span: float) -> None:
-        if motion.kind == "spin":
+        elif motion.kind == "spin":
             turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
             turn = -turn if motion.direction in _CLOCKWISE else turn
             self._start(0.0, turn)
             self._append(span, 0.0, turn, ramp=min(0.4, 0.5 * span))
-        elif motion.kind == "jump":
-            height = max(0.35 * self._model.height, 0.15) * motion.pace
-            speed = self._carried()
-            self._append(span, speed, hop=height, activity="move" if speed else "jump")
-        elif motion.kind == "bounce":
-            self._append(span, self._carried(), hop=max(1.5 * self._model.height, 0.4))
-        elif motion.kind == "fall":
-            self._fall(span)
+        elif motion.kind in ("jump", "bounce"):
+            self._hop(motion, span)
+        elif motion.kind in ("fall", "topple"):
+            self._fall(motion.kind, span)
         else:
             self._rest(motion, span)
 
     def _speed(self, motion: ObjectMotion) -> float:
         """Signed speed at the beginning of a motion, m/s."""
         speed = self._usual * motion.pace if motion.speed_m_s is None else motion.speed_m_s
+        if motion.kind == "turn" and not self._is_mobile:
+            return 0.0
+        if motion.direction == "around" and self._is_mobile and self._noun.motion != "drive":
+            speed *= 0.4
         if motion.kind == "run" and self._noun.motion == "walk" and motion.speed_m_s is None:
             speed *= 1.6 if self.pieces else 1.0
         is_back = motion.direction == "backward" or motion.kind == "reverse"
@@ -227,110 +214,118 @@ class _Builder:
         before = self.pieces[-2].turn_rad_s if len(self.pieces) > 1 else self.initial_turn
         self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
 
-    def _go(self, motion: ObjectMotion, span: float) -> None:
-        speed = self._speed(motion)
-        end = self._end_speed(motion, speed)
+    def _travel(self, motion: ObjectMotion, span: float) -> None:
+        """Along segments, straight or turning, at the end of which it may change its speed."""
+        speed, activity = self._speed(motion), activity_of(motion.kind)
+        end = 0.0 if motion.kind == "park" else self._end_speed(motion, speed)
         slope = {"up": _CLIMB, "down": -_CLIMB}.get(motion.direction or "", 0.0)
-        is_free = self._noun.habitat in ("air", "water")
-        climb = slope * abs(speed) if is_free else 0.0
-        activity = _activity(motion)
-        self._start(speed)
-        span -= self._head_for(motion, speed, span)
-        if end is None:
-            self._append(span, speed, climb=climb, activity=activity)
+        climb = slope * abs(speed) if self._is_free else 0.0
+        if motion.direction == "circle":
+            turn = speed / max(1.3 * max(self._model.length, self._model.width), 0.3)
+            self._start(speed, turn)
+            self._append(span, speed, turn, activity=activity)
             return
-        # What brakes is seen going, and at rest or slow for a while.
-        lead = (0.3 if abs(end) < abs(speed) else 0.12) * span
-        rest = 0.3 * span if abs(end) < abs(speed) else 0.0
-        self._append(lead, speed, climb=climb, activity=activity)
-        self._append(span - lead, end, climb=climb, ramp=span - lead - rest, activity=activity)
+        segments = self._choose_segments(motion, span)
+        self._start(speed)
+        if end is not None and segments[-1][1]:
+            segments = [(0.65 * share, turn) for share, turn in segments] + [(0.35, 0.0)]
+        last_s = segments.pop()[0] * span if end is not None else 0.0
+        for share, turn in segments:
+            if turn:
+                is_weaving = motion.kind == "zigzag"
+                least = 0.0 if is_weaving else least_radius(self._model, self._noun)
+                for one in arc(share * span, speed, turn, least):
+                    self._append(one.duration_s, speed, one.turn_rad_s, ramp=one.ramp_s,
+                                 activity=activity)  # fmt: skip
+            else:
+                self._append(share * span, speed, climb=climb, activity=activity)
+        if end is not None:
+            # What brakes is seen going, and at rest or slow for a while.
+            is_braking = abs(end) < abs(speed)
+            lead, ramp = (0.3, 0.4) if is_braking else (0.12, 0.88)
+            self._append(lead * last_s, speed, climb=climb, activity=activity)
+            self._append((1.0 - lead) * last_s, end, climb=climb, ramp=ramp * last_s,
+                         activity=activity)  # fmt: skip
 
-    def _head_for(self, motion: ObjectMotion, speed: float, span: float) -> float:
-        """Turn to the direction in the picture that a later motion has; s that it takes."""
-        target = YAWS.get(motion.direction or "")
-        if not self.pieces or target is None or motion.direction in ("up", "down"):
-            return 0.0
+    def _choose_segments(self, motion: ObjectMotion, span: float) -> list[tuple[float, float]]:
+        """Shares of the time, and by what angle each one turns, rad."""
+        kind, direction = motion.kind, motion.direction
+        angle = math.pi if direction == "around" else QUARTER
+        angle = -angle if direction in _CLOCKWISE else angle
+        if kind == "zigzag":
+            count = max(2, round(span / 0.8))
+            turns = [2.0 * ZIGZAG_RAD * (-1.0) ** number for number in range(count)]
+            if self.pieces:
+                turns[0] = ZIGZAG_RAD
+            else:
+                self.initial_yaw = -ZIGZAG_RAD
+            return [(1.0 / count, turn) for turn in turns]
+        if kind == "park":
+            return [(0.2, 0.0), (0.45, angle), (0.35, 0.0)]
+        if direction == "eight":
+            return [(0.5, 2.0 * math.pi), (0.5, -2.0 * math.pi)]
+        if kind == "turn" or direction == "around":
+            lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
+            turning = [(1.0 - 2.0 * lead, angle)]
+            return [(lead, 0.0), *turning, (lead, 0.0)] if lead else turning
+        target = YAWS.get(direction or "")
+        if not self.pieces or target is None or direction in ("up", "down"):
+            return [(1.0, 0.0)]
         turn = math.remainder(target - self._heading, 2.0 * math.pi)
         if abs(turn) < 0.05:
-            return 0.0
-        turning = 0.45 * span
-        self._arc(turning, speed, turn, _activity(motion))
-        return turning
-
-    def _eight(self, motion: ObjectMotion, span: float) -> None:
-        """Round to the left, then round to the right."""
-        self._start(self._speed(motion))
-        for sign in (1.0, -1.0):
-            self._arc(0.5 * span, self._speed(motion), sign * 2.0 * math.pi, _activity(motion))
-
-    def _circle(self, motion: ObjectMotion, span: float) -> None:
-        speed = self._speed(motion)
-        turn = speed / max(1.3 * max(self._model.length, self._model.width), 0.3)
-        self._start(speed, turn)
-        self._append(span, speed, turn, activity=_activity(motion))
-
-    def _turn(self, motion: ObjectMotion, span: float) -> None:
-        is_mobile = self._noun.speed_m_s > 0.0 and self._noun.habitat != "fixed"
-        speed = self._speed(motion) if is_mobile else 0.0
-        angle = math.pi if motion.direction == "around" else QUARTER
-        sign = -1.0 if motion.direction in ("right", "clockwise") else 1.0
-        if motion.direction == "around" and is_mobile and self._noun.motion != "drive":
-            speed *= 0.4
-        self._start(speed)
-        activity = _activity(motion)
-        if self.is_single and is_mobile:
-            lead = 0.5 * (1.0 - TURN_SHARE) * span
-            self._append(lead, speed, activity=activity)
-            self._arc(span - 2.0 * lead, speed, sign * angle, activity)
-            self._append(lead, speed, activity=activity)
-        else:
-            self._arc(span, speed, sign * angle, activity)
-        end = self._end_speed(motion, speed)
-        if end is not None:
-            last = self.pieces.pop()
-            self.pieces.append(replace(last, speed_m_s=end, ramp_s=last.duration_s))
-
-    def _arc(self, span: float, speed: float, angle: float, activity: str) -> None:
-        """Turn by an angle, the rate rising and falling smoothly."""
-        least = least_radius(self._model, self._noun)
-        self._extend(arc(span, speed, angle, least, activity))
-
-    def _manoeuvre(self, motion: ObjectMotion, span: float) -> None:
-        """Zigzag, change lanes or park."""
-        speed, activity = self._speed(motion), _activity(motion)
-        self._start(speed)
-        if motion.kind == "zigzag":
-            if not self.pieces:
-                self.initial_yaw = -ZIGZAG_RAD
-            self._extend(zigzag(span, speed, activity, is_first=not self.pieces))
-            return
-        sign = -1.0 if motion.direction == "right" else 1.0
-        make = change_lane if motion.kind == "change lane" else park
-        self._extend(make(span, speed, sign, least_radius(self._model, self._noun), activity))
-
-    def _extend(self, pieces: Iterable[Piece]) -> None:
-        for one in pieces:
-            self._append(
-                one.duration_s, one.speed_m_s, one.turn_rad_s, ramp=one.ramp_s,
-                activity=one.activity,
-            )  # fmt: skip
+            return [(1.0, 0.0)]
+        return [(_HEADING_SHARE, turn), (1.0 - _HEADING_SHARE, 0.0)]
 
     def _climb(self, motion: ObjectMotion, span: float) -> None:
+        """Straight up or down; from a runway, along it first, or last."""
+        is_up = motion.kind == "rise"
+        if self._is_single and self._noun.name in nouns_with("takes off"):
+            speed = self._speed(motion)
+            climb = _TAKE_OFF * speed if is_up else -_LANDING * speed
+            share = _LIFT_SHARE if is_up else _LANDING_SHARE
+            self._start(speed)
+            self._append(share * span, speed, climb=0.0 if is_up else climb, ramp=0.0)
+            self._append(span - share * span, speed, climb=climb if is_up else 0.0, ramp=0.6)
+            self.initial_height = 0.0 if is_up else -climb * (share * span + 0.3)
+            return
         size = max(self._model.length, self._model.height)
         climb = min(max(self._usual, 0.3 * size), size) * motion.pace
-        if motion.kind == "sink":
-            is_free = self._noun.habitat in ("air", "water")
-            climb = -climb if is_free else -min(climb, self._height / span)
-        self._append(span, 0.0, climb=climb, ramp=min(0.6, 0.6 * span))
+        if not is_up and self._noun.motion == "sail":
+            climb = -_SUNK * self._model.height / span
+        elif not is_up and self._is_single:
+            self.initial_height = climb * 0.85 * span
+            climb = -climb
+        elif not is_up:
+            climb = -climb if self._is_free else -min(climb, self._height / span)
+        # What rises alone starts slowly and gets faster all along.
+        ramp = span if is_up and self._is_single else min(0.6, 0.6 * span)
+        self._append(span, 0.0, climb=climb * (2.0 if ramp == span else 1.0), ramp=ramp)
 
-    def _fall(self, span: float) -> None:
-        falls_over = self._height < 0.1 * self._model.height and self._noun.habitat != "air"
-        if not falls_over:
-            self.pieces.append(Piece(span, 0.0, activity="stand", is_dropped=True))
+    def _hop(self, motion: ObjectMotion, span: float) -> None:
+        """Jump or bounce."""
+        model, speed = self._model, self._carried()
+        height = max(1.5 * model.height, 0.4)
+        if motion.kind == "jump":
+            height = min(max(0.35 * model.height, 0.12), 1.5) * motion.pace
+            if self._noun.habitat == "water":
+                height = max(height, 0.7 * model.length)
+            if not self.pieces and motion.direction is not None:
+                speed = model.length / (flight_s(height) + HOP_PAUSE_S)
+                self._start(speed)
+        activity = "jump" if motion.kind == "jump" and not speed else "move"
+        self._append(span, speed, hop=height, activity=activity)
+
+    def _fall(self, kind: str, span: float) -> None:
+        """Drop to the floor; or what stands there falls over."""
+        is_standing = self._height < 0.1 * self._model.height and self._noun.habitat != "air"
+        if kind == "topple" and not self.pieces:
+            self._append(0.15 * span, 0.0, activity="stand")
+            span *= 0.85
+        if kind == "topple" or is_standing:
+            piece = Piece(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
         else:
-            ramp = min(0.6, 0.8 * span)
-            piece = Piece(span, 0.0, ramp_s=ramp, activity="stand", pitch_rad=QUARTER)
-            self.pieces.append(piece)
+            piece = Piece(span, activity="stand", is_dropped=True)
+        self.pieces.append(piece)
         self._height = 0.0
 
     def _rest(self, motion: ObjectMotion, span: float) -> None:
@@ -343,17 +338,16 @@ class _Builder:
             activity = ON_GROUND.get(activity, activity)
         if self.pieces and motion.kind == "stand":
             activity = self.pieces[-1].activity  # wheels and legs go on until it stands
-        if motion.kind == "dance":
-            self._append(span, 0.0, hop=0.08 * self._model.height, activity="move")
-            return
         pitch = self.pieces[-1].pitch_rad if self.pieces else 0.0
         sway = 0.2 if motion.kind == "sway" else 0.0
         ramp = min(braking, 0.9 * span)
-        piece = Piece(span, 0.0, ramp_s=ramp, activity=activity, pitch_rad=pitch, sway_rad=sway)
-        self.pieces.append(piece)
+        self.pieces.append(
+            Piece(span, ramp_s=ramp, activity=activity, pitch_rad=pitch, sway_rad=sway)
+        )
 
 
-def _activity(motion: ObjectMotion) -> str:
-    if motion.kind in TRAVELLING or motion.kind == "fly":
-        return motion.kind
-    return "stand" if motion.kind == "slide" else "move"
+def activity_of(kind: str) -> str:
+    """What a body does that travels so."""
+    if kind in TRAVELLING or kind == "fly":
+        return kind
+    return "stand" if kind == "slide" else "move"

@@ -9,19 +9,20 @@ lines and circular arcs and by Gauss-Legendre quadrature while speed or rate of 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Bounce
-from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector
+from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, bounce_height
+from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector, ahead
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _RADIANS_PER_STEP = 1.0
 """Most heading that one step of the quadrature spans."""
 _STRAIGHT_RAD_S = 1e-9
+_RAMP_S, _SAMPLES = 0.3, 41
 
 
 @dataclass(frozen=True)
@@ -101,9 +102,11 @@ class SteeredPath:
         """State at that instant."""
         number, knot, piece, elapsed = self._find(time_s)
         now = self._advance(knot, piece, elapsed)
-        height, pitch, roll = now.z, now.pitch, 0.0
+        height, pitch, roll, act_s = now.z, now.pitch, 0.0, None
         if 0.0 <= elapsed <= piece.duration_s and number >= 0:
-            height += _hop_height(piece, elapsed)
+            if piece.hop_m > 0.0:
+                hop, act_s = _hop(piece, elapsed)
+                height += hop
             share = elapsed / piece.duration_s
             roll += piece.sway_rad * math.sin(math.pi * share) ** 2 * math.sin(9.0 * elapsed)
         if self.side_m > 0.0:
@@ -120,6 +123,7 @@ class SteeredPath:
             distance_m=now.distance_m,
             speed_m_s=abs(now.speed),
             activity=piece.activity,
+            act_s=act_s,
         )
 
     def distance_at(self, time_s: float) -> float:
@@ -144,8 +148,8 @@ class SteeredPath:
         x, y = _travel(knot, piece, ramp, elapsed)
         z = knot.z + _integral(knot.climb, piece.climb_m_s, ramp, elapsed)
         if piece.is_dropped:
-            drop = Bounce((0.0, 0.0, knot.z), self.floor_m, restitution=self.restitution)
-            z = self.floor_m + drop.height_m(max(elapsed, 0.0))
+            drop = max(knot.z - self.floor_m, 0.0)
+            z = self.floor_m + bounce_height(drop, 0.0, self.restitution, max(elapsed, 0.0))
         pitch = _blend(knot.pitch, piece.pitch_rad, ramp, elapsed)
         return _Knot(
             knot.time_s + elapsed,
@@ -167,19 +171,15 @@ class Lagging:
 
     path: SteeredPath
     gap_m: float
-    shift: Vector = (0.0, 0.0, 0.0)
-    """Added to its place, m."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         way = self.path.distance_at(time_s) - self.gap_m
-        low, high = -(abs(self.gap_m) + 1.0) / max(abs(self.path.initial_speed_m_s), 1e-3), time_s
         if way <= 0.0:
-            x, y, z = self.path.start
-            place = (x + way * math.cos(self.path.yaw), y + way * math.sin(self.path.yaw), z)
+            place = ahead(self.path.start, self.path.yaw, way, self.path.start[2])
             state = BodyState(place, self.path.yaw)
         else:
-            low = 0.0
+            low, high = 0.0, time_s
             for _ in range(60):
                 middle = 0.5 * (low + high)
                 if self.path.distance_at(middle) < way:
@@ -188,10 +188,7 @@ class Lagging:
                     high = middle
             state = self.path.at(high)
         leader = self.path.at(time_s)
-        x, y, z = (a + b for a, b in zip(state.position, self.shift, strict=True))
-        return BodyState(
-            (x, y, z), state.yaw, state.pitch, state.roll, way, leader.speed_m_s, leader.activity
-        )
+        return replace(state, distance_m=way, speed_m_s=leader.speed_m_s, activity=leader.activity)
 
 
 def _ramp(piece: Piece) -> float:
@@ -261,13 +258,60 @@ HOP_PAUSE_S = 0.12
 """Time on the ground between hops."""
 
 
-def _hop_height(piece: Piece, elapsed: float) -> float:
-    """Height above the ground: hops of free flight that fill the piece as often as they fit."""
-    if piece.hop_m <= 0.0:
-        return 0.0
-    flight = 2.0 * math.sqrt(2.0 * piece.hop_m / GRAVITY_M_S2)
+def flight_s(height_m: float) -> float:
+    """How long a hop of that height takes, s."""
+    return 2.0 * math.sqrt(2.0 * height_m / GRAVITY_M_S2)
+
+
+def _hop(piece: Piece, elapsed: float) -> tuple[float, float]:
+    """Height above the ground, m, and time since the highest point, s.
+
+    Hops of free flight fill the piece as often as they fit.
+    """
+    flight = flight_s(piece.hop_m)
     count = max(1, math.floor(piece.duration_s / (flight + HOP_PAUSE_S)))
     period = piece.duration_s / count
     flight = min(flight, period)
     into = min(elapsed % period, flight) if elapsed < piece.duration_s else flight
-    return max(0.5 * GRAVITY_M_S2 * into * (flight - into), 0.0)
+    return max(0.5 * GRAVITY_M_S2 * into * (flight - into), 0.0), into - 0.5 * flight
+
+
+def arc(span: float, speed: float, angle: float, least_m: float) -> list[Piece]:
+    """Turn by an angle, the rate rising and falling smoothly.
+
+    Args:
+        span: how long it takes, s.
+        speed: along the heading, m/s.
+        angle: positive = to the left, radians.
+        least_m: least radius, m; a tighter turn is turned less far.
+    """
+    ramp = min(_RAMP_S, 0.3 * span)
+    turn = angle / (span - ramp)
+    if least_m > 0.0 and speed != 0.0:
+        turn = math.copysign(min(abs(turn), abs(speed) / least_m), turn)
+    return [
+        Piece(span - ramp, speed, turn, ramp_s=ramp),
+        Piece(ramp, speed, 0.0, ramp_s=ramp),
+    ]
+
+
+def bend_path(yaw: float, speed_m_s: float, curvature: float, duration_s: float) -> SteeredPath:
+    """A path along an arc at a steady speed, its box centred over (0, 0); curvature in 1/m."""
+    turn = speed_m_s * curvature
+    yaw -= 0.5 * turn * duration_s
+    piece = Piece(duration_s, speed_m_s, turn, ramp_s=0.0)
+    path = SteeredPath((0.0, 0.0, 0.0), yaw, (piece,), speed_m_s, turn)
+    return centred(path, duration_s)
+
+
+def centred(path: SteeredPath, duration_s: float) -> SteeredPath:
+    """The same path with its box over (0, 0)."""
+    places = sample_places(path, duration_s)
+    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
+    return replace(path, start=(-float(middle[0]), -float(middle[1]), path.start[2]))
+
+
+def sample_places(path: SteeredPath, duration_s: float) -> np.ndarray:
+    """[n, 3] places along a path over the clip, m."""
+    times = np.linspace(0.0, duration_s, _SAMPLES)
+    return np.array([path.at(float(time)).position for time in times])

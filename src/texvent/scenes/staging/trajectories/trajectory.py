@@ -76,6 +76,15 @@ def rotation(yaw: float, pitch: float, roll: float) -> Float64Array:
     return np.asarray(about_z @ about_y @ about_x)
 
 
+def state_of(to_world: Float64Array) -> BodyState:
+    """The state whose map from body to world this is ([3, 4], a rotation and an offset)."""
+    pitch = math.asin(min(max(-float(to_world[2, 0]), -1.0), 1.0))
+    yaw = math.atan2(float(to_world[1, 0]), float(to_world[0, 0]))
+    roll = math.atan2(float(to_world[2, 1]), float(to_world[2, 2]))
+    x, y, z = (float(value) for value in to_world[:, 3])
+    return BodyState((x, y, z), yaw, pitch, roll, activity="stand")
+
+
 class Trajectory(Protocol):
     """A body's state as a function of time."""
 
@@ -222,47 +231,6 @@ class Circle:
         )
 
 
-_EIGHT_SPEED = 0.9704
-"""Mean over a round of the speed along an eight, over that of u times half its length."""
-
-
-@dataclass(frozen=True)
-class FigureEight:
-    """Goes along an eight that lies on its side, at a constant rate, facing along its path.
-
-    The curve is Gerono's lemniscate: x = a sin u, y = a sin u cos u.
-    """
-
-    centre: Vector
-    half_m: float
-    """From its middle to either end."""
-    yaw: float
-    """Heading of its long axis."""
-    rate_rad_s: float
-    """Of u; a round takes 2 pi."""
-    phase: float = 0.0
-    activity: str = "move"
-    lean_rad: float = 0.0
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        u = self.phase + self.rate_rad_s * time_s
-        along, aside = self.half_m * math.sin(u), 0.5 * self.half_m * math.sin(2.0 * u)
-        ahead_m, aside_m = self.half_m * math.cos(u), self.half_m * math.cos(2.0 * u)
-        cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
-        speed = abs(self.rate_rad_s) * math.hypot(ahead_m, aside_m)
-        x, y, z = self.centre
-        return BodyState(
-            (x + along * cosine - aside * sine, y + along * sine + aside * cosine, z),
-            self.yaw + math.atan2(aside_m, ahead_m),
-            # It leans into the bend: to the one side in one half, to the other in the other.
-            roll=self.lean_rad * math.sin(u),
-            distance_m=_EIGHT_SPEED * abs(self.rate_rad_s) * self.half_m * time_s,
-            speed_m_s=speed,
-            activity=self.activity,
-        )
-
-
 @dataclass(frozen=True)
 class Facing:
     """A board or a flat shape that shows its front to the camera all along a path."""
@@ -278,6 +246,20 @@ class Facing:
             (x, y, _), (_, depth, height) = state.position, self.upright
             state = replace(state, position=(x, depth, height + y - depth))
         return replace(state, yaw=TO_CAMERA, pitch=0.0, roll=0.0)
+
+
+@dataclass(frozen=True)
+class Slipping:
+    """Goes along a path, turned into the bend from where it goes."""
+
+    path: Trajectory
+    slip_rad: float
+    """Positive = its front to the left."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        state = self.path.at(time_s)
+        return replace(state, yaw=state.yaw + self.slip_rad)
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,16 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
+from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.variation import fraction
-from texvent.scenes.scene import LAMP_COLUMNS, PUFF_COLUMNS, Float64Array
+from texvent.scenes.scene import LAMP_COLUMNS, PUFF_COLUMNS, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.shapes import along
-from texvent.scenes.staging.surroundings.light.hidden_lamp import hidden_lamp
-from texvent.scenes.staging.surroundings.light.said_light import tint_of
-from texvent.scenes.staging.surroundings.scenery.scatter import SceneryItem
+from texvent.scenes.staging.surroundings.light.lighting import hidden_lamp, tint_of
+from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
 MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""
@@ -27,8 +27,8 @@ FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
 """Sines that make a flame flicker: multiple of its frequency, and amplitude."""
 _FLICKERING = 2.6
 """How much more a flame flickers that is said to."""
-_UNLIT = ("sky", "space", "underwater", "sea")
-"""Places without lamps out of sight."""
+_UNLIT = (Ground.NONE, Ground.UNDERWATER, Ground.SEA)
+"""Grounds of places without lamps out of sight."""
 _LIGHTS_A_ROOM = 0.1
 """A lamp without a beam that is at least this bright lights its surroundings."""
 _DIMMEST_CASTER = 0.5
@@ -51,43 +51,6 @@ _LEVEL_SPAN_S = 6.0
 """Instants and time over which a part's brightest state is looked for."""
 
 
-@dataclass(frozen=True)
-class Switch:
-    """How the lamps of one object are switched."""
-
-    is_lit: bool | None
-    """As `SceneObject.is_lit`."""
-    blink_hz: float | None
-    """As `SceneObject.blink_hz`."""
-    strength: float
-    """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
-    phase: float = 0.0
-    """Head start of flames, periods, so that two candles do not flicker in step."""
-
-    def is_on(self, lamp: Lamp) -> bool:
-        """Whether a lamp is on."""
-        if self.is_lit is not None:
-            return self.is_lit
-        return lamp.always_on or self.strength > lamp.least_dark
-
-    def blink_of(self, lamp: Lamp) -> float | None:
-        """Frequency at which a lamp blinks, Hz; None = it is steady."""
-        return lamp.blink_hz if self.blink_hz is None else self.blink_hz
-
-    def level(self, lamp: Lamp, time_s: float, number: int) -> float:
-        """Light of the object's lamp `number` at that instant, as a share of its usual light."""
-        if not self.is_on(lamp):
-            return 0.0
-        full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
-        rate = self.blink_of(lamp)
-        if rate is None:
-            return full
-        wave = wave_at(lamp, rate, time_s, self.phase, number)
-        if lamp.wave == "flame" and self.blink_hz is not None:
-            wave = max(1.0 + _FLICKERING * (wave - 1.0), 0.05)
-        return full * wave
-
-
 def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int) -> float:
     """Share of its light that a blinking lamp gives off at an instant; at t = 0 it is on."""
     cycles = rate_hz * time_s
@@ -107,29 +70,63 @@ def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int
 
 @dataclass(frozen=True)
 class LitActor:
-    """An object with lamps."""
+    """An object with lamps, and how they are switched."""
 
     actor: Actor
-    switch: Switch
+    is_lit: bool | None
+    """As `SceneObject.is_lit`."""
+    blink_hz: float | None
+    """As `SceneObject.blink_hz`."""
+    strength: float
+    """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
     brightest: tuple[float, ...]
     """Greatest emission of each part over time; 0 = it does not glow."""
-    casts: bool
+    casts: bool = False
     """Whether its lamps cast shadows."""
+
+    def is_on(self, lamp: Lamp) -> bool:
+        """Whether a lamp is on."""
+        if self.is_lit is not None:
+            return self.is_lit
+        return lamp.always_on or self.strength > lamp.least_dark
+
+    def blink_of(self, lamp: Lamp) -> float | None:
+        """Frequency at which a lamp blinks, Hz; None = it is steady."""
+        return lamp.blink_hz if self.blink_hz is None else self.blink_hz
+
+    def level(self, lamp: Lamp, time_s: float, number: int) -> float:
+        """Light of the object's lamp `number` at that instant, as a share of its usual light."""
+        if not self.is_on(lamp):
+            return 0.0
+        full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
+        rate = self.blink_of(lamp)
+        if rate is None:
+            return full
+        # Two candles do not flicker in step.
+        wave = wave_at(lamp, rate, time_s, fraction(self.actor.instance, "flame"), number)
+        if lamp.wave == "flame" and self.blink_hz is not None:
+            wave = max(1.0 + _FLICKERING * (wave - 1.0), 0.05)
+        return full * wave
 
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""
-        parts, number = [], 0
-        for part in placed.parts:
+        parts = list(placed.parts)
+        for index, number, lamp in self.lamps_of(placed):
+            part, level = parts[index], self.level(lamp, time_s, number)
+            if self.is_on(lamp):
+                parts[index] = replace(part, emission=part.emission * lamp.boost * level)
+            elif self.is_lit is not None:
+                parts[index] = replace(part, emission=0.0)
+        return replace(placed, parts=parts)
+
+    def lamps_of(self, placed: PlacedModel) -> list[tuple[int, int, Lamp]]:
+        """Its lamps: index of the part, number among the lamps, and kind."""
+        found: list[tuple[int, int, Lamp]] = []
+        for index, part in enumerate(placed.parts):
             lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
             if lamp is not None:
-                level = self.switch.level(lamp, time_s, number)
-                if self.switch.is_on(lamp):
-                    part = replace(part, emission=part.emission * lamp.boost * level)
-                elif self.switch.is_lit is not None:
-                    part = replace(part, emission=0.0)
-                number += 1
-            parts.append(part)
-        return replace(placed, parts=parts)
+                found.append((index, len(found), lamp))
+        return found
 
     def rows(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
         """Its lamps at that instant, as in `Environment.lamps`: always as many."""
@@ -137,7 +134,7 @@ class LitActor:
 
     def haze(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
         """What is seen of its beams from the side: puffs, as in `Environment.puffs`."""
-        if self.switch.strength <= 0.0:
+        if self.strength <= 0.0:
             return []
         return [
             haze_rows(row, lamp.haze_m, level)
@@ -150,19 +147,15 @@ class LitActor:
     ) -> list[tuple[Lamp, Float64Array, float]]:
         """Its lamps that are on: kind, numbers, and light as a share of the usual."""
         rows: list[tuple[Lamp, Float64Array, float]] = []
-        number, done = 0, set[Lamp]()
-        for part, brightest in zip(placed.parts, self.brightest, strict=True):
-            lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
-            if lamp is None or lamp in done:
-                continue
-            if lamp.is_single:
-                done.add(lamp)
-            level = self.switch.level(lamp, time_s, number) * part.emission / max(brightest, 1e-9)
-            if self.switch.is_on(lamp):
+        for index, number, lamp in self.lamps_of(placed):
+            is_done = lamp.is_single and any(lamp == one for one, _, _ in rows)
+            if self.is_on(lamp) and not is_done:
+                part = placed.parts[index]
+                level = self.level(lamp, time_s, number)
+                level *= part.emission / max(self.brightest[index], 1e-9)
                 casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
                 row = lamp_row(lamp, part, placed.to_world, level, time_s, casts)
                 rows.append((lamp, row, level))
-            number += 1
         return rows
 
 
@@ -262,25 +255,25 @@ class LampPlan:
     @property
     def is_moving(self) -> bool:
         """Whether objects of the scene, which may move, shed light."""
-        return any(one.switch.is_lit is not False for one in self.lit)
+        return any(one.is_lit is not False for one in self.lit)
 
     @property
     def blink_hz(self) -> float | None:
         """Highest frequency at which a lamp goes up and down, Hz; None = all are steady."""
-        rates = []
+        rates = [0.0]
         for one in self.lit:
-            for part in one.actor.place(0.0).parts:
-                lamp = lamp_of(one.actor.noun.name, part.colour)
-                if part.emission > 0.0 and lamp is not None and one.switch.is_on(lamp):
-                    rate = max(one.switch.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
-                    rates.append(rate * (FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0))
-        return max(rates, default=0.0) or None
+            for _, _, lamp in one.lamps_of(one.actor.place(0.0)):
+                rate = max(one.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
+                rate *= FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0
+                rates.append(rate if one.is_on(lamp) else 0.0)
+        return max(rates) or None
 
 
 def plan_lamps(
     description: SceneDescription,
     actors: Sequence[Actor],
     *,
+    place: Place,
     strength: float,
     instant_s: float,
     framing: Framing,
@@ -292,6 +285,7 @@ def plan_lamps(
     Args:
         description: says which are lit and how they blink.
         actors: the objects.
+        place: where they are.
         strength: of artificial light, 0..1; above 0 it is dark.
         instant_s: when the lamps that cast shadows are chosen, s.
         framing: what the camera looks at: the lamps that light it most cast shadows, and where
@@ -299,39 +293,38 @@ def plan_lamps(
         looking: [3] unit vector that the camera looks along.
         items: the scenery, whose lamps are on at night.
     """
-    lit = []
-    for actor in actors:
-        said = description.objects[actor.object_index]
-        brightest = _brightest(actor)
-        if not any(brightest):
-            continue
-        start = fraction(actor.instance, "flame")
-        switch = Switch(said.is_lit, said.blink_hz, strength, start)
-        lamps = [lamp_of(actor.noun.name, part.colour) for part in actor.place(0.0).parts]
-        is_on = any(
-            lamp is not None and level > 0.0 and switch.is_on(lamp)
-            for lamp, level in zip(lamps, brightest, strict=True)
-        )
-        if is_on or said.is_lit is False:
-            lit.append(LitActor(actor, switch, brightest, casts=False))
+    lit = list(filter(None, (_lit_actor(one, description, strength) for one in actors)))
     rows = _still_lamps(items, strength)
-    tint = np.array(tint_of(description.light) or 1.0)
     for row in rows:
-        row[3:6] *= tint
-    place = description.surroundings.place
-    if strength > 0.0 and place not in _UNLIT and not rows and not any(map(_lights_around, lit)):
-        rows.append(hidden_lamp(framing, strength, description.light, looking))
+        row[3:6] *= np.array(tint_of(description.light) or 1.0)
+    focus = np.asarray(framing.target, dtype=np.float64)
+    is_dark = strength > 0.0 and place.ground not in _UNLIT
+    if is_dark and not rows and not any(map(_lights_around, lit)):
+        light, reach = description.light, framing.distance_m
+        rows.append(hidden_lamp(focus, reach, strength, light, looking))
     still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
     if description.light.shadows is not False and description.light.hardness != "soft":
-        focus = np.asarray(framing.target, dtype=np.float64)
-        lit, still = _choose_casters(lit, still, instant_s, focus)
+        _choose_casters(lit, still, instant_s, focus)
     return LampPlan(tuple(lit), still)
+
+
+def _lit_actor(actor: Actor, description: SceneDescription, strength: float) -> LitActor | None:
+    """The lamps of an object; None where it has none that are on or said to be off."""
+    said, brightest = description.objects[actor.object_index], _brightest(actor)
+    lit, placed = LitActor(actor, said.is_lit, said.blink_hz, strength, brightest), actor.place(0.0)
+    is_seen = said.is_lit is False and any(brightest)
+    return lit if is_seen or any(lit.is_on(one) for _, _, one in lit.lamps_of(placed)) else None
+
+
+def _steady_rows(one: LitActor, time_s: float) -> Float64Array:
+    """[m, 15] its lamps as if they did not blink."""
+    steady = replace(one, blink_hz=1e-9)
+    return np.array(steady.rows(one.actor.place(time_s), 0.0)).reshape(-1, LAMP_COLUMNS)
 
 
 def _lights_around(one: LitActor) -> bool:
     """Whether an object has a lamp that lights what is around it."""
-    steady = replace(one, switch=replace(one.switch, blink_hz=1e-9))
-    rows = steady.rows(one.actor.place(0.0), 0.0)
+    rows = _steady_rows(one, 0.0)
     return any(row[10] < -1.0 and row[3:6].max() >= _LIGHTS_A_ROOM for row in rows)
 
 
@@ -362,25 +355,18 @@ def _brightest(actor: Actor) -> tuple[float, ...]:
 
 def _choose_casters(
     lit: list[LitActor], still: Float64Array, instant_s: float, focus: Float64Array
-) -> tuple[list[LitActor], Float64Array]:
-    """Let the lamps that light the focus most cast shadows, all of one object or none."""
+) -> None:
+    """Let the lamps that light the focus most cast shadows, all of one object or none.
 
-    def light_of(rows: Float64Array) -> float:
-        bright = rows[rows[:, 3:6].max(axis=1) >= _DIMMEST_CASTER]
-        square = ((bright[:, :3] - focus) ** 2).sum(axis=1)
-        return float((bright[:, 3:6].max(axis=1) / (square + 1.0)).sum())
-
-    def is_bright(row: Float64Array) -> bool:
-        return bool(row[3:6].max() >= _DIMMEST_CASTER)
-
-    choices: list[tuple[float, int, int]] = []
-    for index, one in enumerate(lit):
-        steady = replace(one, switch=replace(one.switch, blink_hz=1e-9))
-        rows = steady.rows(one.actor.place(instant_s), 0.0)
-        count = sum(is_bright(row) for row in rows)
-        choices.append((light_of(np.array(rows).reshape(-1, LAMP_COLUMNS)), count, index))
-    choices += [(light_of(still[k : k + 1]), 1, len(lit) + k) for k in range(len(still))]
-    left, lit, still = _MOST_CASTERS, list(lit), still.copy()
+    Args:
+        lit: objects with lamps; changed.
+        still: [m, 15] lamps of the scenery; changed.
+        instant_s: when they are compared, s.
+        focus: [3] what the camera looks at, m.
+    """
+    choices = [(*_light_at(focus, _steady_rows(one, instant_s)), n) for n, one in enumerate(lit)]
+    choices += [(*_light_at(focus, still[k : k + 1]), len(lit) + k) for k in range(len(still))]
+    left = _MOST_CASTERS
     least = _FAINTEST_SHARE * max((light for light, _, _ in choices), default=0.0)
     for light, count, index in sorted(choices, key=lambda choice: (-choice[0], choice[2])):
         if light <= least or count > left:
@@ -390,4 +376,10 @@ def _choose_casters(
             lit[index] = replace(lit[index], casts=True)
         else:
             still[index - len(lit), 13] = 1.0
-    return lit, still
+
+
+def _light_at(focus: Float64Array, rows: Float64Array) -> tuple[float, int]:
+    """Light of lamps at a point, and how many of them are bright enough to cast shadows."""
+    bright = rows[rows[:, 3:6].max(axis=1) >= _DIMMEST_CASTER]
+    square = ((bright[:, :3] - focus) ** 2).sum(axis=1)
+    return float((bright[:, 3:6].max(axis=1) / (square + 1.0)).sum()), len(bright)

@@ -1,1 +1,0 @@
-"""Whether the camera moves, stands and looks as its words say."""

@@ -1,1 +1,0 @@
-"""Whether what moves is seen to do what its verbs say."""

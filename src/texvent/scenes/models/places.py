@@ -1,0 +1,135 @@
+"""Places as data: the ground of each, what stands around there, and the words that name it.
+
+`data/places.toml` says what its fields mean; an entry there is all that a new place takes.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib.resources import files
+from types import MappingProxyType
+from typing import Any, Literal
+
+from texvent.scenes.scene import Colour, Ground, Texture
+
+Where = Literal["around", "wall", "under", "both sides", "water", "far", "route"]
+"""Where scenery stands."""
+_SCALES: Mapping[str, tuple[float, float]] = {
+    "wall": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0),
+}  # fmt: skip
+"""Usual multiples of its size, of what does not stand around."""
+ROAD_GROUNDS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
+SHORE_GROUNDS = (Ground.RIVER, Ground.LAKE)
+"""Grounds of water beside land."""
+
+
+@dataclass(frozen=True)
+class Scenery:
+    """Pieces of scenery of one noun, with the region that they are scattered over."""
+
+    noun: str
+    count: int = 1
+    where: Where = "around"
+    reach: tuple[float, float] = (0.0, 0.0)
+    """Nearest and farthest: in camera distances behind what the camera looks at, or metres from
+    the camera of what is far off."""
+    scale: tuple[float, float] = (0.8, 1.2)
+    """Least and greatest multiple of its usual size."""
+    colours: tuple[Colour | None, ...] = (None,)
+    faces: bool = False
+    """Whether its front is turned to the camera."""
+    grows: bool = False
+    """Whether its size follows the distance of the camera, so that it neither towers nor
+    vanishes."""
+    ahead_m: float = 0.0
+    """How far before who would else stand in its middle it lies: a court with a net."""
+
+    @property
+    def is_structure(self) -> bool:
+        """Whether it is part of a place that is empty, too: walls."""
+        return self.where == "both sides"
+
+
+@dataclass(frozen=True)
+class Place:
+    """The ground of a place, its walls, and its scenery."""
+
+    names: tuple[str, ...]
+    ground: Ground
+    colours: tuple[Colour, Colour]
+    """Of the ground's pattern, or of land and of road or water."""
+    surface: Texture | None = None
+    """Material of the ground; None = the usual one of its kind."""
+    walls: Texture = Texture.PLASTER
+    wall_colour: Colour = (0.75, 0.69, 0.61)
+    road_m: float = 3.4
+    """Half the width of its road or river."""
+    light: str = ""
+    """Its daylight, where that is not that of the open air."""
+    flight_m: float = 0.0
+    """How much higher than elsewhere things fly."""
+    is_backdrop: bool = False
+    """Whether it is a background without horizon and stars."""
+    scenery: tuple[Scenery, ...] = field(default=())
+
+    @property
+    def is_room(self) -> bool:
+        """Whether it has walls and a ceiling."""
+        return self.ground is Ground.FLOOR
+
+    @property
+    def has_road(self) -> bool:
+        """Whether a road or a street runs through it."""
+        return self.ground in ROAD_GROUNDS
+
+    @property
+    def has_shore(self) -> bool:
+        """Whether water lies beside land."""
+        return self.ground in SHORE_GROUNDS
+
+
+def _read() -> dict[str, Place]:
+    text = files("texvent.scenes.models").joinpath("data", "places.toml").read_text("utf-8")
+    return {name: _place_of(entry) for name, entry in tomllib.loads(text).items()}
+
+
+def _place_of(entry: dict[str, Any]) -> Place:
+    ground, walls = entry.pop("ground"), entry.pop("walls", None)
+    first, second = (_colour(one) for one in ground["colours"])
+    if "surface" in ground:
+        entry["surface"] = Texture[ground["surface"].upper()]
+    if walls is not None:
+        entry.update(walls=Texture[walls["surface"].upper()], wall_colour=_colour(walls["colour"]))
+    scenery = tuple(_scenery_of(one) for one in entry.pop("scenery", ()))
+    kind = Ground[ground["kind"].upper().replace(" ", "_")]
+    names = tuple(entry.pop("names"))
+    return Place(names, kind, (first, second), scenery=scenery, **entry)
+
+
+def _scenery_of(entry: dict[str, Any]) -> Scenery:
+    entry.setdefault("scale", _SCALES.get(entry.get("where", "around"), (0.8, 1.2)))
+    for name in ("reach", "scale"):
+        entry[name] = tuple(entry.get(name, (0.0, 0.0)))
+    if "colours" in entry:
+        entry["colours"] = tuple(_colour(one) for one in entry["colours"])
+    return Scenery(**entry)
+
+
+def _colour(values: list[float]) -> Colour:
+    red, green, blue = values
+    return red, green, blue
+
+
+PLACES: Mapping[str, Place] = MappingProxyType(_read())
+
+
+def place_names() -> Mapping[str, tuple[str, ...]]:
+    """Place → words for it, in the singular."""
+    return {name: place.names for name, place in PLACES.items()}
+
+
+def is_room(place: str) -> bool:
+    """Whether a place has walls and a ceiling."""
+    return PLACES[place].is_room

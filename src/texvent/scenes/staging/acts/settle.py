@@ -1,0 +1,178 @@
+"""What the acts of a scene imply before anything is placed: further acts, and motions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from texvent.scenes.description import (
+    RIDES,
+    STANDING,
+    ObjectMotion,
+    Relation,
+    SceneDescription,
+    SceneObject,
+)
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.props import list_props
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.staging.actors import seeded
+from texvent.scenes.staging.acts.acts import ACTS, SINGLE, hides_riders
+
+_IDLE = frozenset({"stand", "sit", "sail", "drive"})
+_ACT_OF_ACTIVITY = {
+    "kick": "kick", "throw": "throw", "catch": "catch", "swing bat": "hit", "swing racket": "hit",
+    "swing club": "hit",
+}  # fmt: skip
+
+
+def settle_motions(
+    description: SceneDescription, nouns: Mapping[str, Noun], seed: int
+) -> SceneDescription:
+    """The description with the motions that its acts imply.
+
+    Who pushes walks; what is ridden moves and its rider sits; who kicks faces left or right.
+    """
+    objects = list(description.objects)
+    relations = [
+        _mounted(replace(one, targets=targets), objects, nouns)
+        for one in description.relations
+        for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
+    ]
+    relations = [_thrown_to(relation, relations) for relation in relations]
+    relations += _implied_acts(objects, relations)
+    relations = _hit_with(objects, relations)
+    for relation in relations:
+        if relation.kind in ACTS and relation.targets:
+            pair = relation.subject, relation.targets[0]
+            way = _choose_way(objects, pair, seed)
+            settled = _settle(relation.kind, objects[pair[0]], objects[pair[1]], nouns, way)
+            for index, one in zip(pair, settled, strict=True):
+                objects[index] = one
+    return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _settle(
+    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], way: str
+) -> tuple[SceneObject, SceneObject]:
+    """Who acts and on what, with the motions that the act leaves them."""
+    motion, still = subject.motion or STANDING, replace(target, motion=None, then=())
+    if kind in RIDES:
+        sitting = replace(subject, motion=ObjectMotion("sit"), then=())
+        return sitting, _give_motion(subject, target, nouns)
+    if kind == "collide":
+        # What rolls there does not fly.
+        first, second = (
+            one if one.motion is not None and one.motion.kind == "roll"
+            else replace(one, motion=None, then=())
+            for one in (subject, target)
+        )  # fmt: skip
+        return first, second
+    if kind in SINGLE:
+        return replace(subject, motion=ObjectMotion(kind, way), then=()), still
+    if kind in ("push", "pull"):
+        if motion.kind in ("push", "pull", "stand"):
+            subject = replace(subject, motion=ObjectMotion("walk", motion.direction))
+        return subject, still
+    if kind == "wear":
+        is_shirt = target.noun in nouns_with("gives the shirt its colour")
+        if is_shirt and subject.noun in PERSON_NOUNS:
+            subject = replace(subject, colour=target.colour or subject.colour)
+        return subject, still
+    size = trait_value("carried size", target.noun) or 1.0
+    return subject, replace(still, scale=size * target.scale)
+
+
+def _mounted(
+    relation: Relation, objects: Sequence[SceneObject], nouns: Mapping[str, Noun]
+) -> Relation:
+    """A person on a horse or a skateboard rides it; so do idle people in a boat or a vehicle."""
+    person, target = objects[relation.subject], objects[relation.targets[0]].noun
+    if relation.kind not in ("on", "in") or person.noun not in PERSON_NOUNS:
+        return relation
+    is_mount = trait_value("ridden", target) is not None and relation.kind == "on"
+    is_carrier = trait_value("seats", target) is not None or target in nouns_with("paddled")
+    is_closed = relation.kind == "in" and hides_riders(nouns[target])
+    is_idle = (person.motion or STANDING).kind in _IDLE
+    if is_mount or (is_idle and (is_carrier or is_closed)):
+        return replace(relation, kind="ride")
+    return relation
+
+
+def _thrown_to(relation: Relation, relations: Sequence[Relation]) -> Relation:
+    """A throw towards something is for that to catch."""
+    if relation.kind != "throw" or len(relation.targets) != 1:
+        return relation
+    own = (relation.subject, relation.targets[0])
+    goals = [each.targets for each in relations if each.kind == "towards" and each.subject in own]
+    return replace(relation, targets=relation.targets + goals[0][:1]) if goals else relation
+
+
+def _hit_with(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
+    """Who holds a racket and hits a ball hits it with the racket."""
+    found = list(relations)
+    for hit in relations:
+        if hit.kind != "hit" or len(hit.targets) != 1:
+            continue
+        tool = next(
+            (r for r in found if r.subject == hit.subject and _holds_tool(r, objects)), None
+        )
+        if tool is not None:
+            found.remove(tool)
+            found[found.index(hit)] = replace(hit, targets=hit.targets + tool.targets[:1])
+    return found
+
+
+def _holds_tool(relation: Relation, objects: Sequence[SceneObject]) -> bool:
+    noun = objects[relation.targets[0]].noun
+    is_tool = trait_value("struck with", noun) is not None
+    return relation.kind == "hold" and is_tool and noun not in nouns_with("played with")
+
+
+def _implied_acts(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
+    """Who plays a guitar that the prompt names holds that one; who kicks kicks its ball."""
+    acts = [one for one in relations if one.kind in ACTS]
+    bound = {target for one in acts for target in one.targets}
+    found: list[Relation] = []
+
+    def bind(kind: str, index: int, names: Sequence[str] | frozenset[str]) -> None:
+        free = [n for n, one in enumerate(objects) if one.noun in names and n not in bound]
+        if free:
+            found.append(Relation(kind, index, (free[0],)))
+            bound.add(free[0])
+
+    for index, person in enumerate(objects):
+        if person.noun not in PERSON_NOUNS or person.motion is None:
+            continue
+        act = _ACT_OF_ACTIVITY.get(person.motion.kind)
+        own = [one for one in acts if one.subject == index and one.kind != "wear"]
+        if act is not None and all(_holds_tool(one, objects) for one in own):
+            bind(act, index, nouns_with("played with"))
+        for motion in (person.motion, *person.then):
+            for prop in list_props(motion.kind):
+                if prop.anchor != "ground" and not prop.is_own:
+                    bind("hold", index, prop.nouns)
+    return found
+
+
+def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, Noun]) -> SceneObject:
+    """What is ridden, with the motion that the prompt gives to it or to its rider."""
+    said = ridden.motion if ridden.motion is not None and ridden.motion.is_moving else rider.motion
+    usual = nouns[ridden.noun].motion
+    if nouns[ridden.noun].habitat == "fixed" or usual == "roll":
+        usual = "slide"
+    if said is None:
+        return replace(ridden, motion=ObjectMotion(usual))
+    if said.kind in ("sit", "stand"):
+        return ridden
+    kind = said.kind if said.kind in ("run", "jump", "turn", "fly", "swim") else usual
+    return replace(ridden, motion=replace(said, kind=kind), then=ridden.then or rider.then)
+
+
+def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int) -> str:
+    """Where a single act goes in the picture."""
+    for motion in (objects[index].motion for index in pair):
+        if motion is not None and motion.direction in ("left", "right", "towards", "away"):
+            return str(motion.direction)
+    return "left" if seeded(seed, "act", pair[0]).random() < 0.5 else "right"

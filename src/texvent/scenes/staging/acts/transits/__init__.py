@@ -1,1 +1,0 @@
-"""Ways off, onto, into, out of, through, up and down things."""

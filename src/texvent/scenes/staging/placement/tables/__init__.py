@@ -1,1 +1,0 @@
-"""What is on a table, a desk or a dish, and who sits at it."""

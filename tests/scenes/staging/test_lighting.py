@@ -1,0 +1,60 @@
+"""How words change the light of a place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from texvent.scenes.description import Illumination, NamedColour
+from texvent.scenes.models.places import PLACES
+from texvent.scenes.staging.surroundings.light.lighting import (
+    choose_lighting,
+    tint_of,
+    towards_light,
+    usual_lighting,
+)
+
+AHEAD = np.array((0.0, 1.0, 0.0))
+USUAL = np.array((0.0, 0.6, 0.8))
+
+
+@pytest.mark.parametrize("place", ["road", "kitchen", "underwater"])
+def test_light_of_which_nothing_is_said_is_the_usual_one(place: str) -> None:
+    assert choose_lighting(PLACES[place], Illumination()) == usual_lighting(PLACES[place], "day")
+    assert towards_light(USUAL, AHEAD, Illumination()) is USUAL
+
+
+@pytest.mark.parametrize(
+    ("direction", "axis", "sign"), [("left", 0, -1), ("right", 0, 1), ("back", 1, 1),
+                                    ("front", 1, -1), ("above", 2, 1)]
+)  # fmt: skip
+def test_light_comes_from_where_it_is_said_to(direction: str, axis: int, sign: int) -> None:
+    towards = towards_light(USUAL, AHEAD, Illumination(direction=direction))
+    assert np.linalg.norm(towards) == pytest.approx(1.0)
+    assert towards[2] > 0.0
+    assert sign * towards[axis] > 0.8
+    low = towards_light(USUAL, AHEAD, Illumination(direction=direction, is_low=True))
+    assert 0.0 < low[2] < 0.3
+
+
+def test_a_tint_has_its_colour() -> None:
+    def tint(name: str, rgb: tuple[float, float, float]) -> tuple[float, float, float]:
+        found = tint_of(Illumination(tint=NamedColour(name, rgb)))
+        assert found is not None
+        return found
+
+    red, _, blue = tint("warm", (1.0, 0.8, 0.5))
+    assert red > blue
+    red, _, blue = tint("cold", (0.6, 0.8, 1.0))
+    assert red < blue
+    assert tint("blue", (0.0, 0.1, 0.5)) == pytest.approx((0.15, 0.32, 1.0))
+
+
+def test_soft_light_casts_no_shadow_and_hard_light_darkens_them() -> None:
+    usual = usual_lighting(PLACES["road"], "day")
+    soft = choose_lighting(PLACES["road"], Illumination(hardness="soft"))
+    hard = choose_lighting(PLACES["road"], Illumination(hardness="hard"))
+    assert not soft.shadows
+    assert soft.sun[0] / soft.ambient[0] < usual.sun[0] / usual.ambient[0]
+    assert hard.shadows
+    assert hard.sun[0] / hard.ambient[0] > usual.sun[0] / usual.ambient[0]
