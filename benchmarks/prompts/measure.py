@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from texvent.brightness import luma_bt601
 from texvent.errors import TexventWarning
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator, ProceduralVideo
+from texvent.generate.scene_input import list_nouns, understand
 from texvent.pipeline import video_to_events
 from texvent.run.settings import resolve
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS
@@ -60,7 +60,7 @@ def measure_prompt(
         in_view = measure_view(video, times)
         facts: dict[str, Any] = {
             REPORT_KEY: video.metadata[REPORT_KEY],
-            "is_camera_moving": parse_prompt(prompt).shot.is_moving,
+            "is_camera_moving": understand(prompt, list_nouns()).shot.is_moving,
             "in_view": in_view,
             "hardly_in_view": sorted(
                 {

@@ -3,7 +3,7 @@
 import pytest
 
 from texvent.batch.list_files import ListEntry, read_list
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError
 
 
 def written(tmp_path, name, text):
@@ -33,6 +33,31 @@ def test_videos_count_from_the_folder_of_the_list(tmp_path):
     first, second = read_list(path)
     assert (first.video, first.prompt) == (tmp_path / "clips" / "a.mp4", "a dog runs")
     assert (str(second.video), second.prompt) == ("/tmp/b.mp4", None)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("s.txt", "scenes/car.toml\na dog\n"),
+        ("s.csv", "scene,text\nscenes/car.toml,\n,a dog\n"),
+        ("s.jsonl", '{"prompt": "scenes/car.toml"}\n"a dog"\n'),
+    ],
+)
+def test_a_line_may_name_a_scene_file(tmp_path, name, text):
+    (tmp_path / "scenes").mkdir()
+    written(tmp_path / "scenes", "car.toml", 'prompt = "a car"\n[[objects]]\nnoun = "car"\n')
+    scene, dog = read_list(written(tmp_path, name, text))
+    assert (scene.prompt, scene.name) == ("a car", "car")
+    assert scene.scene.objects[0].noun == "car"
+    assert (dog.prompt, dog.scene) == ("a dog", None)
+
+
+def test_a_wrong_scene_file_and_a_scene_with_a_prompt_are_refused(tmp_path):
+    written(tmp_path, "car.toml", '[[objects]]\nnoun = "car"\nsiz = 2\n')
+    with pytest.raises(ConfigError, match=r"car\.toml: objects\[0\] has no field 'siz'"):
+        read_list(written(tmp_path, "s.txt", "car.toml\n"))
+    with pytest.raises(FileFormatError, match="line 2 has a scene and a prompt"):
+        read_list(written(tmp_path, "s.csv", "scene,prompt\ncar.toml,a car\n"))
 
 
 @pytest.mark.parametrize("column", ["text", "caption"])

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import tomli_w
 import yaml
+from tests.scenes.sentences import parse_prompt
 
 from texvent._registry import FILTERS
 from texvent.batch.list_files import read_list
@@ -25,7 +26,6 @@ from texvent.io.files import load
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
 from texvent.options.parts import make_part
 from texvent.run.settings import resolve
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import load_scene, scene_text
 from texvent.scenes.staging.compose import compose_scene

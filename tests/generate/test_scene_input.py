@@ -71,6 +71,24 @@ def test_the_command_line_writes_a_scene_and_takes_it(tmp_path, capsys, monkeypa
     assert load_scene("cat.json") == load_scene("car.toml")
 
 
+def test_a_rig_records_a_scene(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "car.toml").write_text('[[objects]]\nnoun = "car"')
+    assert main(["rig", "car.toml", "--stereo", "0.12", *FLAGS[:-2], "-q"]) == 0
+    assert '"noun": "car"' in (tmp_path / "car" / "rig.json").read_text()
+
+
+def test_a_batch_takes_scene_files(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for noun in ("car", "cra"):
+        (tmp_path / f"{noun}.toml").write_text(f'[[objects]]\nnoun = "{noun}"')
+    assert main(["batch", "car.toml", "-o", "out", *FLAGS]) == 0
+    assert texvent.open("out/car.h5").metadata["scene"]["objects"] == [{"noun": "car"}]
+    assert main(["batch", "car.toml", "cra.toml", "-o", "two", *FLAGS]) == 2
+    assert "cra.toml: objects[0].noun is 'cra'" in capsys.readouterr().err
+    assert not (tmp_path / "two").exists()
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [

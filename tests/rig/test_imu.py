@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, turned
+from tests.scenes.sentences import parse_prompt
 
 from texvent.errors import TexventWarning
 from texvent.rig.description import IMU_NOISES, ImuNoise
@@ -19,7 +20,6 @@ from texvent.rig.imu import (
     warn_of_corners,
     with_noise,
 )
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.scene import Camera, Scene
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize

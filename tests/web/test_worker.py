@@ -53,6 +53,20 @@ def test_a_prompt_that_names_a_file_of_the_server_is_refused(tmp_path: Path) -> 
         run(tmp_path, prompt="a poster of /home/somebody/holiday.png", options=SCENE)
 
 
+def test_the_text_of_a_scene_file_is_a_scene(tmp_path: Path) -> None:
+    text = '[[objects]]\nnoun = "ball"\nmotions = [{ kind = "bounce" }]\n'
+    done, _ = run(tmp_path, prompt=text, options=SCENE)
+    metadata = texvent.load(done.files["events"]).metadata
+    assert metadata["scene"]["objects"][0]["noun"] == "ball"
+    for wrong, message in (
+        (text.replace("ball", "bal"), r"objects\[0\].noun is 'bal'; did you mean 'ball'"),
+        ("[[objects]]\nnoun =", "the scene is not valid"),
+        ('{"objects": [{"noun": "x", "model": "/etc/x.glb"}]}', "shows no files in scenes"),
+    ):
+        with pytest.raises(TexventError, match=message):
+            run(tmp_path / "wrong", prompt=wrong, options=SCENE)
+
+
 def test_the_same_events_as_the_command_and_the_api_give(tmp_path: Path) -> None:
     done, _ = run(tmp_path, prompt="a red ball bounces", options=SCENE)
     again = texvent.generate("a red ball bounces", **SCENE)

@@ -1,4 +1,4 @@
-"""Lists of prompts or videos: one per line, CSV, or JSON lines."""
+"""Lists of prompts, scene files or videos: one per line, CSV, or JSON lines."""
 
 from __future__ import annotations
 
@@ -12,14 +12,18 @@ from typing import Any
 
 from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.runtime.file_names import usable_path
+from texvent.scenes.spec.files import is_scene_file, load_scene
+from texvent.scenes.spec.scene import Scene
 
 PROMPT_COLUMNS = ("prompt", "text", "caption")
 """Names under which a column or key holds the prompt; the first that is there counts."""
 VIDEO_COLUMN = "video"
+SCENE_COLUMN = "scene"
 NAME_COLUMNS = ("name", "id")
 """Names of the column or key with the name of a sample."""
 LABEL_COLUMNS = ("label", "class")
 """Names of the column or key with the class of a sample."""
+_COLUMNS = f"{', '.join((*PROMPT_COLUMNS, SCENE_COLUMN))} or {VIDEO_COLUMN}"
 LIST_EXTENSIONS = (".txt", ".csv", ".jsonl")
 COMMENT = "#"
 MAX_NAME_BYTES = 200
@@ -27,7 +31,7 @@ MAX_NAME_BYTES = 200
 
 @dataclass(frozen=True)
 class ListEntry:
-    """One prompt or video of a list."""
+    """One prompt, scene or video of a list."""
 
     where: str
     """File and line, for messages."""
@@ -35,6 +39,8 @@ class ListEntry:
     """What to show, or what the video shows."""
     video: Path | None = None
     """The video; None: one is generated."""
+    scene: Scene | None = None
+    """The scene to show; None: that of the prompt."""
     name: str | None = None
     """Name for its results, without extension; None lets the caller make one."""
     seed: int | None = None
@@ -47,14 +53,16 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
     """All entries of a list.
 
     Args:
-        path: `.txt`, one prompt per line, empty lines and those that begin with # skipped; `.csv`
-            with a column `prompt` (or `text`, `caption`) or `video`, and perhaps `name` (or
-            `id`), `seed` and `label` (or `class`); `.jsonl`, on each line a prompt or an object
-            with those keys. Paths of videos count from the folder of the list.
+        path: `.txt`, one prompt or scene file per line, empty lines and those that begin with #
+            skipped; `.csv` with a column `prompt` (or `text`, `caption`), `scene` or `video`, and
+            perhaps `name` (or `id`), `seed` and `label` (or `class`); `.jsonl`, on each line a
+            prompt or an object with those keys. Paths of scene files and videos count from the
+            folder of the list.
 
     Raises:
         InputError: there is no such file, or it holds no entry.
         FileFormatError: a line cannot be read; the message names it.
+        ConfigError: a field of a scene file is wrong.
     """
     usable_path(path)
     readers = {".txt": _read_text, ".csv": _read_csv, ".jsonl": _read_jsonl}
@@ -76,17 +84,30 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
 def _read_text(path: Path, text: str) -> Iterator[ListEntry]:
     for number, line in enumerate(io.StringIO(text, newline=None), start=1):
         if line.strip() and not line.lstrip().startswith(COMMENT):
-            yield ListEntry(_where(path, number), line.strip())
+            yield _from_text(path, number, line.strip())
+
+
+def scene_entry(where: str, path: Path, **known: Any) -> ListEntry:
+    """The entry of a scene file, named after it unless it has a name; errors as `load_scene`."""
+    scene = load_scene(path)
+    name = known.pop("name", None) or path.stem
+    return ListEntry(where, scene.prompt or None, scene=scene, name=name, **known)
+
+
+def _from_text(path: Path, number: int, text: str) -> ListEntry:
+    where = _where(path, number)
+    if is_scene_file(text):
+        return scene_entry(where, path.parent / text)
+    return ListEntry(where, text)
 
 
 def _read_csv(path: Path, text: str) -> Iterator[ListEntry]:
     reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     try:
         columns = tuple(reader.fieldnames or ())
-        if not set(columns) & {*PROMPT_COLUMNS, VIDEO_COLUMN}:
+        if not set(columns) & {*PROMPT_COLUMNS, SCENE_COLUMN, VIDEO_COLUMN}:
             raise FileFormatError(
-                f"{path} has no column {', '.join(PROMPT_COLUMNS)} or {VIDEO_COLUMN}; it has: "
-                f"{', '.join(columns)[:100]}"
+                f"{path} has no column {_COLUMNS}; it has: {', '.join(columns)[:100]}"
             )
         for row in reader:
             _check_width(path, reader.line_num, row, len(columns))
@@ -131,21 +152,35 @@ def _read_jsonl(path: Path, text: str) -> Iterator[ListEntry]:
 def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntry:
     where = _where(path, number)
     prompt = next((entry[name] for name in PROMPT_COLUMNS if entry.get(name)), None)
-    video = entry.get(VIDEO_COLUMN) or None
-    if video is not None and not isinstance(video, str):
-        raise FileFormatError(f"{where}: video is {shown(video)}; it must be a path")
+    video, scene = (_path_of(where, entry, column) for column in (VIDEO_COLUMN, SCENE_COLUMN))
     if prompt is not None and not (isinstance(prompt, str) and prompt.strip()):
         raise FileFormatError(f"{where}: prompt is {shown(prompt)}; it must be a text")
-    if prompt is None and video is None:
-        raise FileFormatError(f"{where} has no {', '.join(PROMPT_COLUMNS)} or {VIDEO_COLUMN}")
+    if scene is not None and (prompt is not None or video is not None):
+        raise FileFormatError(f"{where} has a scene and a prompt or video; leave one of them out")
+    if prompt is None and scene is None and video is None:
+        raise FileFormatError(f"{where} has no {_COLUMNS}")
+    known: dict[str, Any] = {
+        "name": _name(where, next((entry[one] for one in NAME_COLUMNS if entry.get(one)), None)),
+        "seed": _seed(where, entry.get("seed")),
+        "label": _label(where, entry),
+    }
+    if scene is None and video is None and prompt is not None and is_scene_file(prompt.strip()):
+        scene = prompt.strip()
+    if scene is not None:
+        return scene_entry(where, path.parent / scene, **known)
     return ListEntry(
         where,
         prompt.strip() if prompt else None,
         path.parent / video if video else None,
-        _name(where, next((entry[one] for one in NAME_COLUMNS if entry.get(one)), None)),
-        _seed(where, entry.get("seed")),
-        _label(where, entry),
+        **known,
     )
+
+
+def _path_of(where: str, entry: Mapping[Any, Any], column: str) -> str | None:
+    path = entry.get(column) or None
+    if path is not None and not isinstance(path, str):
+        raise FileFormatError(f"{where}: {column} is {shown(path)}; it must be a path")
+    return path
 
 
 def _name(where: str, value: Any) -> str | None:

@@ -123,11 +123,25 @@ def find_refused(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[Outcome
         return
     for sample in samples:
         try:
-            report_prompt(sample.prompt or "", plan.settings_of(sample))
+            report_prompt(sample.subject, plan.settings_of(sample))
         except ENDING_ALL:
             raise
         except InputError as error:
             yield Outcome(sample, failure=str(error))
+
+
+def check_scenes(plan: BatchPlan, samples: Sequence[Sample]) -> None:
+    """Check the words of all scenes, before any sample is made.
+
+    Raises:
+        ConfigError, InputError: a scene cannot be shown; the message names its file.
+    """
+    for sample in samples:
+        if sample.scene is not None:
+            try:
+                report_prompt(sample.scene, plan.settings, is_staged=False)
+            except (ConfigError, InputError) as error:
+                raise type(error)(f"{sample.where}: {error}") from error
 
 
 def make_sample(
@@ -154,7 +168,7 @@ def make_sample(
                 simulation = prepare_source(sample.video, settings, prompt=sample.prompt)
             else:
                 simulation = prepare_prompt(
-                    sample.prompt or "", settings, upsample=plan.upsample, progress=progress
+                    sample.subject, settings, upsample=plan.upsample, progress=progress
                 )
             report = PromptReport.of_metadata(simulation.video.metadata)
             facts = {**simulation.provenance, BATCH_KEY: sample.key}

@@ -11,9 +11,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent.batch.identity import derived_seed, digest
-from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list
+from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list, scene_entry
 from texvent.errors import ConfigError, InputError, shown
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
+from texvent.scenes.spec.data import scene_to_data
+from texvent.scenes.spec.files import is_scene_file
+from texvent.scenes.spec.scene import Scene
 
 FOLDER_VIDEOS = VIDEO_EXTENSIONS | {".npy"}
 """Files of these names are the videos of a folder."""
@@ -35,6 +38,12 @@ class Sample:
     """Where it comes from, for messages."""
     prompt: str | None = None
     video: Path | None = None
+    scene: Scene | None = None
+
+    @property
+    def subject(self) -> str | Scene:
+        """What is shown: its scene, or else its prompt."""
+        return self.scene or self.prompt or ""
 
 
 def read_samples(
@@ -46,8 +55,8 @@ def read_samples(
     and a line that is inserted changes no other sample.
 
     Args:
-        sources: lists of prompts or videos (`.txt`, `.csv`, `.jsonl`), video files, folders of
-            videos or of image folders, an image folder, patterns such as `clips/*.mp4`.
+        sources: lists of prompts or videos (`.txt`, `.csv`, `.jsonl`), scene files, video files,
+            folders of videos or of image folders, an image folder, patterns such as `clips/*.mp4`.
         seed: of the batch.
         of_stills: every image of a folder is a sample, not the folder.
 
@@ -84,6 +93,8 @@ def entries_of(source: str, of_stills: bool = False) -> Iterator[ListEntry]:
         yield from _folder_stills(path) if of_stills else _folder_entries(path)
     elif path.suffix.lower() in LIST_EXTENSIONS:
         yield from read_list(path)
+    elif is_scene_file(source) and (path.exists() or not glob.has_magic(source)):
+        yield scene_entry(source, path)
     elif path.exists():
         yield ListEntry(where=source, video=path)
     elif glob.has_magic(source):
@@ -134,7 +145,9 @@ def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
     seen: Counter[str] = Counter()
     for entry in entries:
         video = moved_together(entry.video)
-        what = [entry.prompt, video, entry.name, entry.seed]
+        what: list[object] = [entry.prompt, video, entry.name, entry.seed]
+        if entry.scene is not None:
+            what.append(scene_to_data(entry.scene))
         seen[json.dumps(what)] += 1
         key = digest([*what, seen[json.dumps(what)]])
         yield Sample(
@@ -144,6 +157,7 @@ def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
             where=entry.where,
             prompt=entry.prompt,
             video=entry.video,
+            scene=entry.scene,
         )
 
 

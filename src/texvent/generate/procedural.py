@@ -22,7 +22,7 @@ from texvent._version import __version__
 from texvent.brightness import luma_bt601
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
-from texvent.generate.scene_input import Subject, describe_subject, list_nouns, understand
+from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
@@ -320,7 +320,7 @@ class ProceduralGenerator:
         """
         if is_staged:
             return self._stage(prompt)[1]
-        return self._accepted(understand(prompt, self._nouns).report())
+        return self._accepted(understand(prompt, nouns_of(prompt, self._nouns)).report())
 
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
@@ -328,7 +328,8 @@ class ProceduralGenerator:
         from texvent.scenes.in_view import find_unseen
         from texvent.scenes.staging.compose import compose_scene
 
-        description = understand(prompt, self._nouns)
+        named = nouns_of(prompt, self._nouns)
+        description = understand(prompt, named)
         self._accepted(description.report())  # before the scene is built
         duration_s = self.config.duration
         scene = compose_scene(
@@ -336,7 +337,7 @@ class ProceduralGenerator:
             seed=self.seed,
             size=self.size,
             duration_s=duration_s,
-            nouns=self._shown_nouns(description),
+            nouns=_shown_nouns(description, named),
         )
         unseen = find_unseen(scene, description, scene.object_of, self.size, duration_s)
         report = replace(
@@ -346,18 +347,12 @@ class ProceduralGenerator:
             too_small=unseen.too_small,
         )
         scene = replace(scene, has_highlights=self.config.hdr, is_grey=description.is_grey)
-        return scene, self._accepted(report), list_files(description, self._nouns)
+        return scene, self._accepted(report), list_files(description, named)
 
     @cached_property
     def _nouns(self) -> Mapping[str, Noun]:
         """What prompts can name."""
         return list_nouns(self.config.assets)
-
-    def _shown_nouns(self, description: SceneDescription) -> Mapping[str, Noun]:
-        """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""
-        from texvent.scenes.models.nouns import NOUNS
-
-        return {**NOUNS, **{one.noun: self._nouns[one.noun] for one in description.objects}}
 
     def _accepted(self, report: PromptReport) -> PromptReport:
         """The report, unless `strict` refuses the prompt."""
@@ -365,3 +360,10 @@ class ProceduralGenerator:
         if refusal is not None:
             raise InputError(refusal)
         return report
+
+
+def _shown_nouns(description: SceneDescription, named: Mapping[str, Noun]) -> Mapping[str, Noun]:
+    """The nouns that a scene is made of: assets where the prompt names them, not as scenery."""
+    from texvent.scenes.models.nouns import NOUNS
+
+    return {**NOUNS, **{one.noun: named[one.noun] for one in description.objects}}

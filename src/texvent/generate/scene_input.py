@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from texvent.errors import ConfigError, InputError, shown
-from texvent.scenes.report import Substitution
+from texvent.errors import MOST_WORDS, ConfigError, InputError, few, shown
 from texvent.scenes.spec.data import checked_scene, scene_from_data, scene_to_data
 from texvent.scenes.spec.limits import Vocabulary
 from texvent.scenes.spec.scene import Scene
@@ -16,6 +15,7 @@ from texvent.scenes.spec.scene import Scene
 if TYPE_CHECKING:
     from texvent.scenes.description import SceneDescription
     from texvent.scenes.models.protocol import Noun
+    from texvent.scenes.read import Reading
 
 SCENE_KEY = "scene"
 """Name of a scene's plain values in the metadata of videos and events."""
@@ -23,23 +23,11 @@ Subject: TypeAlias = str | Scene
 """A prompt, or the scene itself."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Reading:
-    """The scene that a sentence describes, and what became of its words."""
-
-    scene: Scene
-    shown: tuple[str, ...]
-    """Words that the scene shows."""
-    substituted: tuple[Substitution, ...]
-    """Words that are shown as something else."""
-    not_understood: tuple[str, ...]
-    """Words without effect on the scene."""
-
-
 def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """The scene that a sentence describes.
 
-    Nothing is drawn: what a scene hides or has no room for is not found here.
+    What the sentence leaves open stays open: place, motions and light are decided when the scene
+    is generated. Nothing is drawn: what is out of view is not found here.
 
     Args:
         prompt: an English sentence, such as "a red car drives left past two trees at dusk".
@@ -53,20 +41,27 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
         >>> reading.scene.objects[0].colour, reading.not_understood
         ('red', ())
     """
-    # Imported here and below: the vocabulary and all models are only needed to make a scene.
-    from texvent.scenes.language.parser import parse_prompt
-    from texvent.scenes.spec.description import from_description
-
     if not isinstance(prompt, str):
         raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
-    description = parse_prompt(prompt, list_nouns(assets))
-    report = description.report()
-    return Reading(
-        scene=from_description(description),
-        shown=report.shown,
-        substituted=report.substituted,
-        not_understood=report.not_understood,
-    )
+    return _read(prompt, list_nouns(assets))
+
+
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
+    # Imported here and below: the vocabulary and all models are only needed to make a scene.
+    from texvent.scenes import read as reader
+
+    if not prompt.strip():
+        raise InputError(
+            "the prompt is empty; describe a scene, such as 'a red car drives left past two trees'"
+        )
+    reading = reader.read(prompt, nouns)
+    if reading.is_empty:
+        raise InputError(
+            f"nothing in the prompt was understood: {few(reading.not_understood, MOST_WORDS)}; "
+            "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
+            "models that take any text"
+        )
+    return reading
 
 
 def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
@@ -75,6 +70,22 @@ def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
     from texvent.scenes.models.nouns import NOUNS
 
     return NOUNS if assets is None else merge_nouns(read_folder(Path(assets)))
+
+
+def nouns_of(subject: Subject, nouns: Mapping[str, Noun]) -> Mapping[str, Noun]:
+    """The nouns that a subject can name: those of a scene's own models too.
+
+    Raises:
+        ConfigError: a field of the scene is wrong.
+        InputError: a model does not exist.
+    """
+    from texvent.scenes.assets import with_models
+
+    if not isinstance(subject, Scene):
+        return nouns
+    scene = checked_scene(subject, {})
+    models = {one.noun: one.model for one in scene.objects if one.model is not None}
+    return with_models(nouns, models) if models else nouns
 
 
 def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
@@ -137,11 +148,16 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         InputError: the prompt is empty or not understood, or a picture cannot be shown.
         ConfigError: a field of the scene is wrong, or a word of it is not shown.
     """
-    from texvent.scenes.language.parser import parse_prompt
-
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
-    return parse_prompt(subject, nouns)
+    reading = _read(subject, nouns)
+    description = describe_scene(reading.scene, nouns)
+    return replace(
+        description,
+        shown=reading.shown,
+        substituted=reading.substituted,
+        not_understood=reading.not_understood,
+    )
 
 
 def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -151,21 +167,12 @@ def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
         ConfigError: a field is wrong, or a word is not shown.
         InputError: a picture cannot be shown.
     """
-    from texvent.scenes.description import STANDING
-    from texvent.scenes.language.defaults import complete_description
+    from texvent.scenes.defaults import complete
     from texvent.scenes.spec.description import to_description
 
     scene = checked_scene(scene, list_words(nouns))
     _check_pictures(scene)
-    said = to_description(scene)
-    found = complete_description(said, nouns)
-    # A sentence may say "stand" of what sits or runs, and name a place for its surroundings.
-    objects = tuple(
-        one if told.motion != STANDING else replace(one, motion=told.motion)
-        for one, told in zip(found.objects, said.objects, strict=True)
-    )
-    place = scene.place.name or found.surroundings.place
-    return replace(found, objects=objects, surroundings=replace(found.surroundings, place=place))
+    return complete(to_description(scene), nouns)
 
 
 def _check_pictures(scene: Scene) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from texvent.generate.scene_input import Subject
 from texvent.io.atomic import atomic_folder, check_output_folder
 from texvent.options.fields import option_names
 from texvent.options.values import with_options
@@ -38,7 +39,7 @@ LAYOUTS: dict[str, LayoutWriter] = {
 
 
 def record(
-    prompt: str,
+    prompt: Subject,
     out: str | Path,
     *,
     overwrite: bool = False,
@@ -46,10 +47,11 @@ def record(
     progress: ProgressOption = None,
     **options: Any,
 ) -> Path:
-    """Events, frames and IMU samples of a rig in the scene that a prompt describes.
+    """Events, frames and IMU samples of a rig in the scene that a prompt describes, or in a scene.
 
     Args:
-        prompt: what to show, such as "a red car drives left past two trees, handheld camera".
+        prompt: what to show, such as "a red car drives left past two trees, handheld camera"; or a
+            `texvent.scenes.Scene`.
         out: folder to write.
         overwrite: whether a folder that a rig was recorded into may be replaced.
         config: a TOML or YAML file with options of the simulation.
@@ -76,7 +78,7 @@ def record(
 
 
 def record_rig(
-    prompt: str,
+    prompt: Subject,
     settings: Settings,
     config: RigConfig,
     out: Path,

@@ -15,6 +15,7 @@ from texvent._registry import SIMULATORS
 from texvent.batch.identity import derived_seed
 from texvent.errors import ConfigError, shown, warn
 from texvent.generate.procedural import ProceduralVideo
+from texvent.generate.scene_input import Subject, prompt_of
 from texvent.options.fields import option_names
 from texvent.options.values import plain
 from texvent.pipeline import Simulation, text_to_video
@@ -47,7 +48,7 @@ POSE_RATE_HZ = 200.0
 class Recording:
     """A rig in a scene; nothing is rendered before it is asked for."""
 
-    prompt: str
+    prompt: str | None
     settings: Settings
     config: RigConfig
     rig: Rig
@@ -157,12 +158,12 @@ class Recording:
 
 
 def prepare_recording(
-    prompt: str, settings: Settings, config: RigConfig, *, progress: Progress
+    prompt: Subject, settings: Settings, config: RigConfig, *, progress: Progress
 ) -> Recording:
     """A recording with everything about it checked.
 
     Args:
-        prompt: what to show.
+        prompt: what to show: a sentence or a scene.
         settings: of the simulation, as those of `texvent generate`.
         config: what is recorded.
         progress: told how the generator gets on.
@@ -191,7 +192,7 @@ def prepare_recording(
             )
         cameras.append(replace(camera, lens=lens))
     recording = Recording(
-        prompt=prompt,
+        prompt=prompt_of(prompt),
         settings=settings,
         config=config,
         rig=replace(rig, cameras=tuple(cameras)),

@@ -222,6 +222,24 @@ class Shot:
 
 
 @dataclass(frozen=True)
+class SceneLamp:
+    """A point light at a fixed position, itself out of sight."""
+
+    position_m: tuple[float, float, float]
+    """x, y, z, m."""
+    strength: float = 1.0
+    """Light on a white surface that faces it at 1 m; 1 is full daylight."""
+    colour: NamedColour | None = None
+    """None = white."""
+    frequency_hz: float | None = None
+    """Frequency of its modulation, Hz; None = steady."""
+    wave: str = "sine"
+    """As `Illumination.wave`."""
+    has_shadows: bool = False
+    """Whether it casts shadows."""
+
+
+@dataclass(frozen=True)
 class Illumination:
     """Time of day and lamps."""
 
@@ -246,6 +264,8 @@ class Illumination:
     the light's default."""
     is_low: bool = False
     """Whether it comes from near the horizon."""
+    lamps: tuple[SceneLamp, ...] = ()
+    """Lamps beside those of the objects."""
 
 
 @dataclass(frozen=True)

@@ -168,7 +168,17 @@ class WebPage:
         with gr.Tabs() as parts["tabs"]:
             with gr.Tab("Prompt", id="prompt"):
                 parts["prompt"] = gr.Textbox(
-                    examples()[0][1], label="Prompt", lines=2, elem_id="prompt"
+                    examples()[0][1],
+                    label="Prompt, or the text of a scene file",
+                    lines=2,
+                    elem_id="prompt",
+                )
+                parts["scene_file"] = gr.UploadButton(
+                    "Open a scene file",
+                    file_types=[".toml", ".json"],
+                    type="binary",
+                    size="sm",
+                    elem_id="scene-file",
                 )
                 with gr.Row():
                     parts["generator"] = _choice(gr, "Generator", self._generators)
@@ -250,6 +260,12 @@ class WebPage:
             (blocks.load, self.reopen, []),
         ):
             listen(_with_session(gr, run), [outputs["tab"], *values], shown, **at_once)
+        inputs["scene_file"].upload(
+            lambda content: content.decode("utf-8", errors="replace"),
+            inputs["scene_file"],
+            inputs["prompt"],
+            **private,
+        )
         outputs["preview"].change(None, js=REST_IF_UNWANTED, **private)
         inputs["simulator"].change(
             lambda name, sensor: gr.Dropdown(

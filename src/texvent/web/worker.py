@@ -14,21 +14,25 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent.capture.open import open_frames
-from texvent.errors import InputError, TexventError, shown, warnings_to
+from texvent.errors import FileFormatError, InputError, TexventError, shown, warnings_to
 from texvent.events import EventStream
+from texvent.generate.scene_input import Subject
 from texvent.io.files import extension_of, open_events, save
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_video
 from texvent.run.settings import resolve
-from texvent.scenes.language.words.literals import find_literals
+from texvent.scenes.read.literals import find_literals
 from texvent.scenes.report import PromptReport
+from texvent.scenes.spec.files import parse_scene
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
 from texvent.web.job import Answer, ConvertJob, Job, SimulateJob, answer_line, read_job
 from texvent.web.limits import Limits
 from texvent.web.process_limits import bound_memory, bounded_probe
 
+SCENE_MARK = "[[objects]]"
+"""What no sentence holds, and nearly every scene file in TOML does."""
 OWN_GENERATOR = next(iter(GENERATORS.builtin))
 SendAnswer = Callable[[Answer], None]
 
@@ -126,7 +130,7 @@ def _prepare(job: SimulateJob, progress: _JobProgress) -> Simulation:
         _check_size(settings.size or SensorSize(1, 1), job.limits)
         if settings.generator == OWN_GENERATOR:
             _refuse_files(job.prompt or "")
-        return prepare_prompt(job.prompt or "", settings, progress=progress)
+        return prepare_prompt(_subject(job.prompt or ""), settings, progress=progress)
     settings = resolve("simulate", options)
     # A damaged or crafted file shows itself here, before it can take the time of a whole job.
     with bounded_probe():
@@ -134,6 +138,27 @@ def _prepare(job: SimulateJob, progress: _JobProgress) -> Simulation:
     video = open_frames(job.video, settings.source, size=settings.size)
     _check_length(video, job.limits)
     return prepare_video(video, settings, progress=progress)
+
+
+def _subject(text: str) -> Subject:
+    """The prompt, or the scene of a text that is written as a scene file.
+
+    Raises:
+        FileFormatError, ConfigError: it is a wrong scene.
+        InputError: the scene names files: they would be those of this machine.
+    """
+    if not text.lstrip().startswith("{") and SCENE_MARK not in text:
+        return text
+    try:
+        scene = parse_scene(text, ".json" if text.lstrip().startswith("{") else ".toml")
+    except FileFormatError as error:
+        raise FileFormatError(f"the scene {error}") from error
+    for one in scene.objects:
+        picture = one.picture.value if one.picture and one.picture.kind == "file" else None
+        for file in (picture, one.model):
+            if file is not None:
+                raise InputError(f"{shown(file)}: this page shows no files in scenes")
+    return scene
 
 
 def _refuse_files(prompt: str) -> None:

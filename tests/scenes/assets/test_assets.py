@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from tests.scenes.assets.glb_writer import GlbWriter, write_bar, write_slider
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.assets import check_files, load_model, merge_nouns, read_folder
 from texvent.scenes.assets.index import Asset, name_of
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
+from texvent.scenes.spec.files import load_scene
 from texvent.sensor import SensorSize
 
 
@@ -39,6 +40,32 @@ def corners_at(asset: Asset, time_s: float, activity: str = "move") -> np.ndarra
 )
 def test_names_come_from_file_names(name: str, noun: str) -> None:
     assert name_of(Path(name)) == noun
+
+
+def test_a_scene_brings_models_by_path(tmp_path: Path) -> None:
+    write_bar(tmp_path / "bar.glb")
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        '[[objects]]\nnoun = "weathercock"\nmodel = "bar.glb"\n[[objects]]\nnoun = "car"'
+    )
+    scene = load_scene(path)
+    assert scene.objects[0].model == str(tmp_path.resolve() / "bar.glb")
+    config = ProceduralConfig(duration=0.1)
+    generator = ProceduralGenerator(config, size=SensorSize(48, 36))
+    video = generator.generate(scene)
+    assert set(video.class_names.values()) == {"weathercock", "car"}
+    assert video.metadata["files"][0]["file"] == scene.objects[0].model
+    assert {part.mesh is not None for part in video.scene.actors[0].place(0.0).parts} == {True}
+    for model, message in (("no.glb", "does not exist"), ("bar.stl", r"must end in \.glb")):
+        path.write_text(f'[[objects]]\nnoun = "bar"\nmodel = "{model}"')
+        with pytest.raises(InputError, match=message):
+            generator.generate(load_scene(path))
+    two = '[[objects]]\nnoun = "car"\n'
+    path.write_text(f'{two}{two}model = "bar.glb"')
+    with pytest.raises(
+        ConfigError, match=r"objects\[1\]\.model is .*, but objects\[0\] is 'car' too"
+    ):
+        load_scene(path)
 
 
 def test_a_skin_bends_with_its_joint(tmp_path: Path) -> None:

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numba
 import numpy as np
 import pytest
+from tests.scenes.sentences import parse_prompt
 
-from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.raycast.records import INSTANT_RECORD
 from texvent.scenes.raycast.render import render
 from texvent.scenes.raycast.shading.road import _foam_share

@@ -90,6 +90,7 @@ def describe_contents(recipe: Recipe) -> list[str]:
     """What a specification gives, one line each."""
     specification, items = recipe.specification, recipe.items
     kind = "videos" if items.are_videos else "prompts"
+    kind = "scenes" if all(item.scene is not None for item in items.all) else kind
     counts = recipe.clips.counts
     clips = sum(counts.values())
     samples = sum(clips * variant.seeds for variant in specification.variants)

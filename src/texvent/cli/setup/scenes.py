@@ -25,7 +25,7 @@ ACTIONS = ("list", "show", "--schema")
 LIST_HELP = """List what prompts of the embedded generator can name: nouns by family, with
 their other names; models of a folder of your own come first."""
 SHOW_HELP = """Draw one noun as a PNG image: four views around it, or one with --views 1."""
-SCHEMA_HELP = """Print the JSON Schema of scene files (docs/scene-files.md), by which editors
+SCHEMA_HELP = """Print the JSON Schema of scene files (docs/scenes.md), by which editors
 complete and check them."""
 SIZE = SensorSize(320, 240)
 _TURN_S = 2.0
@@ -143,15 +143,14 @@ def _show(options: ShowOptions) -> int:
 
 def _find(said: str, nouns: Mapping[str, Noun]) -> Noun:
     """The noun of a name or synonym, or the one that shows a kind."""
-    from texvent.scenes.models.kinds import find_kind
+    from texvent.scenes.read import find_noun
 
     wanted = said.lower().strip()
-    for noun in nouns.values():
-        if wanted == noun.name or wanted in noun.synonyms or wanted in noun.plurals:
-            return noun
-    kind = find_kind(wanted)
-    if kind is not None:
-        return nouns[kind]
+    if wanted in nouns:
+        return nouns[wanted]
+    found = find_noun(wanted, nouns)
+    if found is not None:
+        return nouns[found]
     raise InputError(f"{shown(said)} is no noun; {suggest(wanted, tuple(nouns), longest=220)}")
 
 

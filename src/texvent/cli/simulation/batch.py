@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.batch.manifest import Manifest
-from texvent.batch.runner import BatchPlan, find_refused, run_batch
+from texvent.batch.runner import BatchPlan, check_scenes, find_refused, run_batch
 from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
 from texvent.cli.estimate import describe_estimate, estimate_run
@@ -33,10 +33,10 @@ from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import ReportTally
 from texvent.truth.parts import check_generator
 
-DESCRIPTION = """Events for many prompts or videos. A list is a .txt (one prompt per line, # begins
-a comment), .csv or .jsonl (prompt or video, and perhaps name and seed). Each sample has a seed of
-its own, derived from --seed and its text. What is done is noted in the folder: the same command
-goes on where it was stopped.
+DESCRIPTION = """Events for many prompts, scene files or videos. A list is a .txt (one prompt or
+scene file per line, # begins a comment), .csv or .jsonl (prompt, scene or video, and perhaps name
+and seed). Each sample has a seed of its own, derived from --seed and its text. What is done is
+noted in the folder: the same command goes on where it was stopped.
 
   texvent batch prompts.csv --generator wan-1.3b -o events
   texvent batch clips/ --simulator v2e --jobs 4 -o events"""
@@ -54,8 +54,8 @@ class BatchOptions(UpsampleConfig):
     )  # fmt: skip
 
     sources: tuple[str, ...] = REQUIRED
-    """Lists (.txt, .csv, .jsonl), videos, folders of videos, patterns such as 'clips/*.mp4'; with
-    --camera, images and folders of images."""
+    """Lists (.txt, .csv, .jsonl), scene files, videos, folders of videos, patterns such as
+    'clips/*.mp4'; with --camera, images and folders of images."""
     jobs: int = 1
     """Samples made at once, each in a process of its own; they share the cores. A learned model is
     loaded once per process."""
@@ -105,6 +105,7 @@ def run(arguments: Sequence[str]) -> int:
         raise ConfigError("name the videos first: texvent batch VIDEOS ... [OPTIONS]")
     plan = _plan(settings, own, output)
     manifest = Manifest(plan.folder)
+    check_scenes(plan, samples)
     if output.dry_run:
         return _describe(plan, samples, manifest)
     _refuse_prompts(plan, samples)
@@ -188,7 +189,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
         if first.video is not None:
             simulation = prepare_source(first.video, settings, prompt=first.prompt)
         else:
-            simulation = prepare_prompt(first.prompt or "", settings, upsample=plan.upsample)
+            simulation = prepare_prompt(first.subject, settings, upsample=plan.upsample)
         write_out(f"the first, {first.name}:\n")
         write_out(describe_estimate(estimate_run(simulation, plan.files_of(first))) + "\n")
     return 0
@@ -200,7 +201,7 @@ def _read_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[str]:
     if plan.upsample is None and samples[0].video is None:
         for sample in samples:
             try:
-                report = report_prompt(sample.prompt or "", plan.settings, is_staged=False)
+                report = report_prompt(sample.subject, plan.settings, is_staged=False)
             except InputError:
                 tally.add(None)
                 continue

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
@@ -15,19 +15,20 @@ from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import execute, print_settings, run_source
 from texvent.cli.simulation.preview import check_preview, write_preview
+from texvent.cli.subject import read_subject, subject_name
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.generate.scene_input import Subject
+from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
-from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, make_scene, make_video, prepare_prompt
 from texvent.run.settings import Settings, default_settings
 from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.scenes.spec.files import is_scene_file, load_scene, save_scene
+from texvent.scenes.spec.files import is_scene_file, save_scene
+from texvent.scenes.spec.scene import Scene
 from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 
@@ -53,7 +54,7 @@ class PromptOptions(UpsampleConfig):
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show: a quoted sentence, or a scene file. See docs/scene-files.md."""
+    """What to show: a quoted sentence, or a scene file. See docs/scenes.md."""
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator: see texvent generators, ./folder or hub:org/name. A folder holds a
     saved diffusers pipeline; hub: names a repository of the model hub."""
@@ -64,6 +65,13 @@ class PromptOptions(UpsampleConfig):
     the estimate follows."""
     write_scene: Path | None = None
     """Write the scene of the prompt as a file (.toml, .json) instead of events, and stop."""
+    reader: Literal["words", "llm"] = "words"
+    """What makes a scene of the prompt: the embedded reader's words, or a language model behind
+    --llm-url. See docs/scenes.md."""
+    llm_url: str | None = None
+    """OpenAI-compatible server of the language model, such as http://localhost:8080/v1."""
+    llm_model: str | None = None
+    """Name of the model on that server."""
     from_video: Path | None = None
     """Take this video for the prompt's instead of generating one; all further options are then
     those of texvent simulate, which does the same: texvent simulate VIDEO --prompt TEXT."""
@@ -90,7 +98,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
-    prompt = _read_prompt(own.prompt)
+    prompt = _written(own, settings) if own.reader == "llm" else read_subject(own.prompt)
     if own.write_scene is not None:
         return _write_scene(prompt, own, settings, output)
     if own.video_only:
@@ -107,7 +115,7 @@ def run(arguments: Sequence[str]) -> int:
         if not output.dry_run:
             return 0
     check_run(settings)
-    files = output.files(_name(own.prompt))
+    files = output.files(subject_name(own.prompt))
     if files.truth:
         check_generator(own.generator)
     warn_low_fps(own.generator)
@@ -119,17 +127,25 @@ def run(arguments: Sequence[str]) -> int:
     return execute(simulation, output, files)
 
 
-def _read_prompt(prompt: str) -> Subject:
-    """The prompt, or the scene of a file, which no output may replace."""
-    if not is_scene_file(prompt):
-        return prompt
-    protect_inputs([prompt])
-    return load_scene(prompt)
+def _written(own: PromptOptions, settings: Settings) -> Scene:
+    """The scene that a language model writes for the prompt.
 
+    Warns:
+        TexventWarning: words of the prompt that nothing stands for, and what the model added.
+    """
+    from texvent.scenes.llm.endpoint import Endpoint  # an extra that most runs do not need
+    from texvent.scenes.llm.writer import write_scene
 
-def _name(prompt: str) -> str:
-    """What files are named after: the words of a prompt, or the name of a scene file."""
-    return Path(prompt).stem if is_scene_file(prompt) else prompt
+    if own.llm_url is None or is_scene_file(own.prompt):
+        raise ConfigError("--reader llm takes a sentence, and --llm-url with the model's server")
+    name = str(settings.generator)
+    check_takes(Scene(), GENERATORS.load(name), name)
+    scene, report = write_scene(
+        own.prompt, Endpoint(url=own.llm_url, model=own.llm_model or Endpoint.model)
+    )
+    for line in (*report.faults(), *report.notes):
+        warn(f"prompt {line}")
+    return scene
 
 
 def _plan(prompt: Subject, settings: Settings) -> str | None:
@@ -191,7 +207,7 @@ def _write_video(
     """Write the video of a prompt and print its path."""
     from texvent.generate.videos.stored_video import write_stream  # brings PyAV
 
-    named = default_event_file(_name(own.prompt)).with_suffix(VIDEO_EXTENSION)
+    named = default_event_file(subject_name(own.prompt)).with_suffix(VIDEO_EXTENSION)
     path, *more = output.out or (named,)
     if more or output.format:
         raise ConfigError("--video-only writes one video; give one -o, and no --format")

@@ -13,6 +13,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import peek_options
 from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
+from texvent.cli.subject import read_subject, subject_name
 from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.options.values import plain
@@ -39,7 +40,7 @@ class RigOptions(RigConfig):
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show, quoted; "handheld camera" makes it move."""
+    """What to show: a quoted sentence ("handheld camera" makes it move), or a scene file."""
 
     @property
     def config(self) -> RigConfig:
@@ -79,12 +80,13 @@ def run(arguments: Sequence[str]) -> int:
     if output.print_config:
         return print_settings(settings)
     _refuse_sensor(settings, own, arguments)
-    out = output.out or default_event_file(own.prompt).with_suffix("")
+    out = output.out or default_event_file(subject_name(own.prompt)).with_suffix("")
     from texvent.rig.recorder import record_rig  # brings what writes HDF5 and bags
 
+    subject = read_subject(own.prompt)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         tally = record_rig(
-            own.prompt, settings, own.config, out, overwrite=output.overwrite, progress=progress
+            subject, settings, own.config, out, overwrite=output.overwrite, progress=progress
         )
         for camera, count in tally.events.items():
             frames = f", {tally.frames[camera]} frames" if camera in tally.frames else ""

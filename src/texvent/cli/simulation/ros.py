@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 from texvent.cli.command import resolve_command
 from texvent.cli.options import peek_options
 from texvent.cli.run import print_settings
+from texvent.cli.subject import read_subject
 from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.ros.config import RosConfig
@@ -82,7 +83,7 @@ def run(arguments: Sequence[str]) -> int:
     with ConsoleProgress(is_quiet=config.quiet) as progress:
         simulation: Any
         if own.prompt is not None:
-            simulation = prepare_prompt(own.prompt, settings, progress=progress)
+            simulation = prepare_prompt(read_subject(own.prompt), settings, progress=progress)
         else:
             simulation = prepare_source(own.source, settings, progress=progress)
     return run_source_node(ros, simulation, config, ros_words)

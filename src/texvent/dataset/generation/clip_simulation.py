@@ -20,7 +20,7 @@ def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
     prompt = clip.item.prompt
     if recipe.items.are_videos:
         return prepare_source(clip.item.video, settings, prompt=prompt, video_seed=clip.seed)
-    video = text_to_video(prompt or "", with_seed(settings, clip.seed))
+    video = text_to_video(clip.item.subject, with_seed(settings, clip.seed))
     return prepare_video(video, settings, prompt=prompt)
 
 

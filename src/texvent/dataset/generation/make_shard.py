@@ -177,7 +177,7 @@ def _video_job(recipe: Recipe, clip: Clip, scratch: Path) -> _Job:
     settings = video_settings(recipe.specification, clip, recipe.command)
 
     def make() -> tuple[Members, dict[str, Any]]:
-        video = make_video(clip.item.prompt or "", settings)
+        video = make_video(clip.item.subject, settings)
         path = scratch / f"{clip.key}{EXTENSION}"
         stored = write_stream(video, path, overwrite=True)
         content = path.read_bytes()

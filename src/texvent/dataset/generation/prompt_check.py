@@ -38,7 +38,7 @@ def tally_prompts(recipe: Recipe) -> ReportTally | None:
 
 
 def refuse_prompts(recipe: Recipe, folder: Path) -> None:
-    """Refuse a data set with prompts that `strict` refuses, before any work.
+    """Refuse a data set with wrong scenes, or with prompts that `strict` refuses, before any work.
 
     All prompts are read, about a millisecond for each. What only the built scene can tell fails
     its sample later.
@@ -48,23 +48,23 @@ def refuse_prompts(recipe: Recipe, folder: Path) -> None:
         folder: of the data set; one that was begun is not read again.
 
     Raises:
-        InputError: there are such prompts.
+        InputError: there are such prompts, or scenes that name files that are not there.
+        ConfigError: a field of a scene is wrong.
     """
     if recipe.items.are_videos or (folder / SPECIFICATION_FILE).exists():
         return
     settings = _settings(recipe)
-    if not is_strict(settings):
-        return
+    items = [item for item in recipe.items.all if item.scene is not None or is_strict(settings)]
     refused = {
         item.prompt or "": str(result)
-        for item, result in _read(recipe.items.all, settings)
+        for item, result in _read(items, settings)
         if isinstance(result, InputError)
     }
     if refused:
         prompt, reason = next(iter(refused.items()))
         raise InputError(
             f"{len(refused):,} of {len(recipe.items.all):,} prompts are refused, such as "
-            f"{shown(prompt)}: {reason}"
+            f"{shown(prompt) if prompt else 'a scene'}: {reason}"
         )
 
 
@@ -73,7 +73,7 @@ def _read(
 ) -> Iterator[tuple[Item, PromptReport | InputError | None]]:
     for item in items:
         try:
-            yield item, report_prompt(item.prompt or "", settings, is_staged=False)
+            yield item, report_prompt(item.subject, settings, is_staged=False)
         except InputError as error:
             yield item, error
 

@@ -6,7 +6,7 @@ import functools
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -91,7 +91,7 @@ class Recipe:
     @property
     def _facts(self) -> dict[str, Any]:
         tables = self.specification.tables
-        items = [asdict(item) for item in self.items.all]
+        items = [item.facts for item in self.items.all]
         return {name: one for name, one in tables.items() if name != "sources"} | {"items": items}
 
     @property
@@ -138,7 +138,7 @@ class Recipe:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise OutputError(f"cannot make {folder}: {one_line(error)}") from error
-        lines = (json.dumps(asdict(item), ensure_ascii=False) for item in self.items.all)
+        lines = (json.dumps(item.facts, ensure_ascii=False) for item in self.items.all)
         with atomic_file(folder / ITEMS_FILE, overwrite=True) as part:
             part.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
         facts = {

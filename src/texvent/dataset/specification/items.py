@@ -1,4 +1,4 @@
-"""The prompts or videos that the sources of a specification give."""
+"""The prompts, scenes or videos that the sources of a specification give."""
 
 from __future__ import annotations
 
@@ -6,15 +6,19 @@ import itertools
 import math
 import random
 import string
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from texvent.batch.identity import derived_seed, digest
 from texvent.batch.list_files import ListEntry
 from texvent.batch.samples import entries_of, moved_together
 from texvent.dataset.specification.specification import SampleSource, Specification
+from texvent.dataset.specification.varied_scenes import read_scenes
 from texvent.errors import ConfigError, InputError, shown
+from texvent.scenes.spec.data import scene_from_data, scene_to_data
+from texvent.scenes.spec.scene import Scene
 
 MAX_ITEMS = 10_000_000
 KEY_DIGITS = 16
@@ -22,10 +26,10 @@ KEY_DIGITS = 16
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A prompt or a video, of which `repeats` videos and all variants are made."""
+    """A prompt, a scene or a video, of which `repeats` videos and all variants are made."""
 
     key: str
-    """What makes it this item, wherever it stands: a digest of its prompt or video and label."""
+    """What makes it this item, wherever it stands: a digest of what it shows and its label."""
     prompt: str | None = None
     video: str | None = None
     """Path of the video; None: it is generated."""
@@ -34,6 +38,19 @@ class Item:
     """The split that its source asks for."""
     seed: int | None = None
     """Seed that its list gives."""
+    scene: Mapping[str, Any] | None = None
+    """Plain values of the scene that is shown; None: that of the prompt."""
+
+    @property
+    def subject(self) -> str | Scene:
+        """What is shown: its scene, or else its prompt."""
+        return (self.prompt or "") if self.scene is None else scene_from_data(self.scene)
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """Plain values; without a scene where there is none, as data sets of old store them."""
+        named = asdict(self)
+        return named if self.scene is not None else {n: v for n, v in named.items() if n != "scene"}
 
 
 @dataclass(frozen=True)
@@ -94,11 +111,15 @@ def _items_of(source: SampleSource, specification: Specification) -> Iterator[It
     if source.template is not None:
         yield from _of_template(source, specification.seed)
         return
+    if source.scene:
+        for scene, label in read_scenes(source, specification.seed):
+            yield _item(scene.prompt or None, None, label, source.split, scene=scene)
+        return
     variants = (variant.options for variant in specification.variants)
     of_stills = any("camera" in options for options in (specification.options, *variants))
     for entry in _entries(source, of_stills):
         label = entry.label if entry.label is not None else _label(source, entry.video)
-        yield _item(entry.prompt, entry.video, label, source.split, entry.seed)
+        yield _item(entry.prompt, entry.video, label, source.split, entry.seed, entry.scene)
 
 
 def _entries(source: SampleSource, of_stills: bool) -> Iterable[ListEntry]:
@@ -117,9 +138,14 @@ def _item(
     label: str | None,
     split: str | None,
     seed: int | None = None,
+    scene: Scene | None = None,
 ) -> Item:
-    key = digest([prompt, moved_together(video), label, seed])[:KEY_DIGITS]
-    return Item(key, prompt, None if video is None else str(video), label, split, seed)
+    what: list[object] = [prompt, moved_together(video), label, seed]
+    data = None if scene is None else scene_to_data(scene)
+    if data is not None:
+        what.append(data)
+    key = digest(what)[:KEY_DIGITS]
+    return Item(key, prompt, None if video is None else str(video), label, split, seed, data)
 
 
 def _label(source: SampleSource, video: Path | None) -> str | None:

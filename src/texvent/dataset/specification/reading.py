@@ -142,7 +142,9 @@ def _part(name: str, value: Any, folder: Path, where: str) -> Any:
         return {word: _words(one, folder, f"{where}: {word}") for word, one in words.items()}
     if name == "prompts":
         return _texts(value, place)
-    if name == "videos":
+    if name == "vary":
+        return _table(value, place)
+    if name in ("videos", "scene"):
         return tuple(str(folder / one) for one in _texts(value, place))
     if name == "file":
         return folder / _text(value, place)

@@ -19,12 +19,12 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 DEFAULT_VARIANT = "events"
 FEWEST_SIGNAL = 200
 """At 64×48 pixels most clips with as many show what they are of, hardly any with half as many."""
-SOURCE_KINDS = ("prompts", "file", "videos", "template")
+SOURCE_KINDS = ("prompts", "file", "videos", "template", "scene")
 
 
 @dataclass(frozen=True, kw_only=True)
 class SampleSource:
-    """Where prompts or videos come from: exactly one of prompts, file, videos and template.
+    """Where samples come from: exactly one of prompts, file, videos, template and scene.
 
     Raises:
         ConfigError: none or several of them, or a field that does not belong to the one.
@@ -41,11 +41,18 @@ class SampleSource:
     """A prompt with words to fill in, such as "a {colour} {thing} drives {direction}"."""
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Name in the template → its words."""
+    scene: tuple[str, ...] = ()
+    """Scene files, or patterns such as "scenes/*.toml"."""
+    vary: Mapping[str, Any] = field(default_factory=dict)
+    """Path of a field, such as "objects[0].colour", in every scene → a list of its values, or a
+    range to draw from, as in `Specification.options`."""
     count: int | None = None
-    """How many combinations of words are drawn, without repetition; None: all of them."""
+    """How many combinations of words are drawn, without repetition; None: all of them. For a
+    scene, how many of each file: combinations of its lists, with values drawn from its ranges."""
     label: str | None = None
-    """Class of the samples. In a template, "{thing}" is that word; for videos, "{folder}" is the
-    name of the folder that a video lies in."""
+    """Class of the samples. In a template, "{thing}" is that word; for a scene,
+    "{objects[0].noun}" is that field and "{name}" its file; for videos, "{folder}" is the name of
+    the folder that a video lies in."""
     split: str | None = None
     """The split that all of these belong to; None: they are shared out."""
 
@@ -56,8 +63,21 @@ class SampleSource:
                 f"a source has {' and '.join(given) or 'nothing'}; give one of "
                 f"{', '.join(SOURCE_KINDS)}"
             )
-        if self.template is None and (self.words or self.count is not None):
-            raise ConfigError("words and count belong to a template; this source has none")
+        if self.template is None and (self.words or (self.count is not None and not self.vary)):
+            raise ConfigError(
+                "words and count belong to a template, and count to a scene that varies; this "
+                "source has none"
+            )
+        if self.vary and not self.scene:
+            raise ConfigError("vary belongs to a scene; this source has none")
+        for path, values in self.vary.items():
+            if is_range(values):
+                range_values(path, values)
+            elif not isinstance(values, list | tuple) or not values:
+                raise ConfigError(
+                    f"vary: {path} is {shown(values)}; it must be a list of values, or a range "
+                    f"such as {{uniform = [1.0, 2.0]}}"
+                )
         check_range("count", self.count, 1)
 
 

@@ -1,7 +1,7 @@
 """Models of one's own: folders of GLB, OBJ and PLY files as nouns."""
 
 from texvent.scenes.assets.index import Asset, read_folder
-from texvent.scenes.assets.nouns import load_model, merge_nouns
+from texvent.scenes.assets.nouns import load_model, merge_nouns, with_models
 from texvent.scenes.assets.provenance import check_files, describe_file, list_files
 
 __all__ = [
@@ -12,4 +12,5 @@ __all__ = [
     "load_model",
     "merge_nouns",
     "read_folder",
+    "with_models",
 ]

@@ -11,13 +11,12 @@ from types import MappingProxyType
 
 import numpy as np
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, shown
 from texvent.scenes.assets.figure import Figure, RigidFigure
 from texvent.scenes.assets.gltf_figure import GltfFigure
-from texvent.scenes.assets.index import Asset
+from texvent.scenes.assets.index import ENDINGS, Asset
 from texvent.scenes.assets.trimesh_files import load_with_trimesh
 from texvent.scenes.mesh import Colour, Float64Array
-from texvent.scenes.models.kinds import find_kind
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
@@ -187,9 +186,6 @@ def usual_noun(name: str) -> Noun | None:
         for noun in NOUNS.values():
             if said in noun.synonyms:
                 return noun
-        kind = find_kind(said)
-        if kind is not None:
-            return NOUNS[kind]
     return None
 
 
@@ -223,6 +219,21 @@ def merge_nouns(assets: Iterable[Asset]) -> Mapping[str, Noun]:
         if name not in own
     }
     return MappingProxyType(own | embedded)
+
+
+def with_models(nouns: Mapping[str, Noun], models: Mapping[str, str]) -> Mapping[str, Noun]:
+    """All nouns, some of them as the model of a file: noun → path.
+
+    Raises:
+        InputError: a path is no model, or there is no such file.
+    """
+    for noun, path in models.items():
+        if Path(path).suffix.lower() not in ENDINGS:
+            raise InputError(f"the model {path} of {shown(noun)} must end in {', '.join(ENDINGS)}")
+        if not Path(path).is_file():
+            raise InputError(f"the model {path} of {shown(noun)} does not exist")
+    own = {noun: _noun(noun, (Asset(Path(path), noun),)) for noun, path in models.items()}
+    return MappingProxyType({**nouns, **own})
 
 
 def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:

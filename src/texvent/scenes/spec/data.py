@@ -15,7 +15,7 @@ from texvent._registry import suggest
 from texvent.errors import MAX_WORD, ConfigError, few, shown
 from texvent.options.values import convert
 from texvent.scenes.spec.limits import Vocabulary
-from texvent.scenes.spec.scene import MAX_BODIES, Scene, object_ids
+from texvent.scenes.spec.scene import MAX_BODIES, MAX_LAMPS, Scene, object_ids
 
 PLACING = frozenset(
     {"on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
@@ -167,6 +167,23 @@ def _check_objects(scene: Scene) -> None:
     _check_circles(scene, ids)
     _check_metres(scene)
     _check_moves(scene)
+    _check_models(scene)
+    if len(scene.light.lamps) > MAX_LAMPS:
+        raise ConfigError(
+            f"light.lamps are {len(scene.light.lamps)}; a scene has {MAX_LAMPS} at most"
+        )
+
+
+def _check_models(scene: Scene) -> None:
+    """Refuse two models of one noun."""
+    first: dict[str, int] = {}
+    for n, one in enumerate(scene.objects):
+        other = scene.objects[first.setdefault(one.noun, n)]
+        if one.model != other.model:
+            raise ConfigError(
+                f"objects[{n}].model is {shown(one.model)}, but objects[{first[one.noun]}] is "
+                f"{shown(one.noun)} too and has {shown(other.model)}; give one of them another noun"
+            )
 
 
 def _references(scene: Scene) -> Iterator[tuple[str, str]]:

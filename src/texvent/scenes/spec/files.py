@@ -6,12 +6,11 @@ import json
 import tomllib
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
 from texvent.runtime.file_names import usable_path
 from texvent.scenes.spec.data import scene_from_data, scene_to_data
-from texvent.scenes.spec.scene import Scene
+from texvent.scenes.spec.scene import Scene, SceneObject
 from texvent.scenes.spec.toml_text import toml_text
 
 ENDINGS = (".toml", ".json")
@@ -21,7 +20,7 @@ ENDINGS = (".toml", ".json")
 def load_scene(path: str | Path) -> Scene:
     """The scene of a file.
 
-    Paths of pictures are relative to the file's folder; the scene has absolute ones.
+    Paths of pictures and models are relative to the file's folder; the scene has absolute ones.
 
     Args:
         path: a .toml or .json file, as `save_scene` writes it or as written by hand.
@@ -32,12 +31,29 @@ def load_scene(path: str | Path) -> Scene:
         ConfigError: a field is wrong; the message names the file and the path of the field.
     """
     path = usable_path(path)
-    document = _parse(path, _read(path))
+    if path.suffix.lower() not in ENDINGS:
+        raise ConfigError(f"{path} is no scene file; its name must end in {' or '.join(ENDINGS)}")
     try:
-        scene = scene_from_data(document)
+        scene = parse_scene(_read(path), path.suffix)
+    except FileFormatError as error:
+        raise FileFormatError(f"scene file {path} {error}") from error
     except ConfigError as error:
         raise ConfigError(f"{path}: {error}") from None
-    return _with_pictures_of(path.parent.resolve(), scene)
+    return _with_files_of(path.parent.resolve(), scene)
+
+
+def parse_scene(text: str, ending: str) -> Scene:
+    """The scene of the text of a file whose name ends so: ".toml" or ".json".
+
+    Raises:
+        FileFormatError: it is no valid TOML or JSON.
+        ConfigError: a field is wrong; the message begins with the path of the field.
+    """
+    try:
+        document = json.loads(text) if ending.lower() == ".json" else tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError(f"is not valid: {one_line(error)}") from error
+    return scene_from_data(document)
 
 
 def save_scene(path: str | Path, scene: Scene, *, overwrite: bool = False) -> None:
@@ -89,21 +105,14 @@ def _read(path: Path) -> str:
         raise FileFormatError(f"scene file {path} is not UTF-8 text: {one_line(error)}") from error
 
 
-def _parse(path: Path, text: str) -> Any:
-    if path.suffix.lower() not in ENDINGS:
-        raise ConfigError(f"{path} is no scene file; its name must end in {' or '.join(ENDINGS)}")
-    try:
-        return json.loads(text) if path.suffix.lower() == ".json" else tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise FileFormatError(f"scene file {path} is not valid: {one_line(error)}") from error
+def _with_files_of(folder: Path, scene: Scene) -> Scene:
+    """The scene with absolute paths of the pictures and models that lie in a folder."""
 
+    def absolute(one: SceneObject) -> SceneObject:
+        picture = one.picture
+        if picture is not None and picture.kind == "file":
+            picture = replace(picture, value=str(folder / picture.value))
+        model = None if one.model is None else str(folder / one.model)
+        return replace(one, picture=picture, model=model)
 
-def _with_pictures_of(folder: Path, scene: Scene) -> Scene:
-    """The scene with absolute paths of the pictures that lie in a folder."""
-    objects = tuple(
-        replace(one, picture=replace(one.picture, value=str(folder / one.picture.value)))
-        if one.picture is not None and one.picture.kind == "file"
-        else one
-        for one in scene.objects
-    )
-    return replace(scene, objects=objects)
+    return replace(scene, objects=tuple(map(absolute, scene.objects)))

@@ -23,6 +23,8 @@ from texvent.scenes.spec.limits import Between, Colour, Word
 
 MAX_BODIES = 60
 """Most bodies in a scene: objects with all their copies."""
+MAX_LAMPS = 16
+"""Most lamps at positions of their own."""
 
 Count: TypeAlias = Annotated[int, Between(1, MAX_BODIES)]
 Seconds: TypeAlias = Annotated[float, Between(0.0, 86_400.0)]
@@ -41,12 +43,12 @@ RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
     "between", "around", "surround", "among",
     "past", "overtake", "through", "towards", "away from", "from", "follow", "with", "look at",
-    "hold", "carry", "wear", "ride", "ride along", "push", "pull", "on head", "on shoulder",
-    "on back", "on lap", "work on", "give", "kick", "hit", "throw", "catch", "collide",
+    "hold", "carry", "wear", "ride", "ride along", "push", "pull", "kick", "hit", "throw", "catch",
+    "collide",
 ]  # fmt: skip
 Way: TypeAlias = Literal[
     "into", "onto", "out of", "off", "against", "across", "along", "opposite", "at", "up", "down",
-    "not on", "lead",
+    "lead",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
@@ -63,6 +65,7 @@ MoveDirection: TypeAlias = Literal[
     "left", "right", "up", "down", "in", "out", "clockwise", "counter-clockwise", "forward",
     "backward", "behind", "front", "side", "above", "slower", "all axes",
 ]  # fmt: skip
+Waveform: TypeAlias = Literal["sine", "strobe", "switch"]
 View: TypeAlias = Literal[
     "aerial", "top", "high", "low", "level", "side", "front", "back", "shoulder", "first person"
 ]
@@ -124,7 +127,11 @@ class SceneObject:
     """A body of the scene, or several copies of it."""
 
     noun: Annotated[str, Word("noun")]
-    """Model: a noun of `texvent scenes list`, or of a folder of your own models."""
+    """Model: a noun of `texvent scenes list`, or of a folder of your own models; any word beside
+    `model`."""
+    model: str | None = None
+    """Path of a model of your own (GLB, OBJ, PLY), which a scene file may give relative to its own
+    folder; all objects of one noun share it."""
     id: str = ""
     """Name for relations; left out: the noun, and a number from its second object on ("tree 2")."""
     count: Count = 1
@@ -217,6 +224,25 @@ class Camera:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Lamp:
+    """A point light at a fixed position, itself out of sight."""
+
+    position_m: tuple[Coordinate, Coordinate, Metres]
+    """Position x, y, z, m."""
+    strength: Annotated[float, Between(0.0, 10_000.0)] = 1.0
+    """Light on a white surface that faces it at 1 m, as a multiple of that surface in full
+    daylight; it falls with the square of the distance."""
+    colour: Annotated[str, Colour("light")] | None = None
+    """Colour: "warm", "cold", a name or an sRGB code; left out: white."""
+    frequency_hz: Hertz | None = None
+    """Frequency of modulation, Hz; left out: steady."""
+    wave: Waveform = "sine"
+    """Waveform of the modulation: "strobe" is short flashes, "switch" on and off."""
+    has_shadows: bool = False
+    """Whether objects cast shadows in its light; four lamps of a scene can at most."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Light:
     """Illumination of the scene."""
 
@@ -226,7 +252,7 @@ class Light:
     """Time of day or main light source; left out: day, or what the place has."""
     flicker_hz: Hertz | None = None
     """Frequency at which all light is modulated, Hz."""
-    wave: Literal["sine", "strobe", "switch"] = "sine"
+    wave: Waveform = "sine"
     """Waveform of the flicker: "strobe" is short flashes, "switch" on and off."""
     shadows: bool | None = None
     """Whether the sun or moon casts shadows."""
@@ -240,6 +266,8 @@ class Light:
     """Position of the light source, seen from the camera."""
     is_low: bool = False
     """Whether the light source is near the horizon."""
+    lamps: tuple[Lamp, ...] = ()
+    """Lamps beside those of the objects; at most 16."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.description import AMID, SceneDescription
+from texvent.scenes.description import AMID, SceneDescription, SceneLamp
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, Place, Scenery
 from texvent.scenes.models.protocol import Noun
@@ -39,6 +39,7 @@ from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.light.lighting import choose_lighting
+from texvent.scenes.staging.surroundings.light.scene_lamps import fastest_hz, scene_lamp_rows
 from texvent.scenes.staging.surroundings.road_choice import find_road, lay_across
 from texvent.scenes.staging.surroundings.roadside import is_placed_by_view, line_route
 from texvent.scenes.staging.surroundings.scenery import (
@@ -77,6 +78,8 @@ class ComposedScene:
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
     is_grey: bool = False  # filmed in black and white
+    scene_lamps: tuple[SceneLamp, ...] = ()
+    """Lamps at positions that the scene gives."""
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -101,11 +104,14 @@ class ComposedScene:
         """Surroundings and light at that instant."""
         effects = self.particles.effects
         lamps = np.concatenate(
-            [self.lamps.rows(time_s), *(effect.lamps(time_s) for effect in effects)]
+            [
+                scene_lamp_rows(self.scene_lamps, time_s),  # first: four at most cast shadows
+                self.lamps.rows(time_s),
+                *(effect.lamps(time_s) for effect in effects),
+            ]
         )
         lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
-        puffs = [np.zeros((0, PUFF_COLUMNS)), *self.lamps.puffs(time_s)]
-        puffs += [effect.puffs(time_s) for effect in effects]
+        puffs = [np.zeros((0, PUFF_COLUMNS)), *(effect.puffs(time_s) for effect in effects)]
         surroundings = self.animated_environment.at(time_s)
         return replace(
             surroundings,
@@ -117,7 +123,11 @@ class ComposedScene:
     @property
     def flicker_hz(self) -> float | None:
         """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
-        rates = (self.animated_environment.fastest_hz, self.lamps.blink_hz)
+        rates = (
+            self.animated_environment.fastest_hz,
+            self.lamps.blink_hz,
+            fastest_hz(self.scene_lamps),
+        )
         return max((rate for rate in rates if rate is not None), default=None)
 
     @property
@@ -182,6 +192,7 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), still_nouns, object_of,
+        scene_lamps=description.light.lamps,
     )  # fmt: skip
 
 

@@ -31,8 +31,6 @@ _IN_VIEW = 0.42
 """Half of what the image shows, but for its edges, as a multiple of the distance at focal 1."""
 ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
-_FROM_NET_M = 1.2
-"""Who is nearer to the middle of a court than that stands in its net."""
 _WIDTHS = (1.0, 1.4, 2.0)
 """Walls on both sides of the view are wider where what goes there needs it."""
 _GAP_M = 0.35
@@ -174,7 +172,7 @@ def _lay_out(
         if rule.where == "both sides":
             spot = _stand_along(model, view.cameras, bodies)
         else:
-            spot = (*_middle_of(bodies, actors, rule.ahead_m), view.road.angle)
+            spot = (*_middle_of(bodies, actors, rule.reach[0]), view.road.angle)
         if spot is not None:
             return SceneryItem(rule.noun, model, spot[:2], spot[2], is_flat=True)
     return None
@@ -183,14 +181,12 @@ def _lay_out(
 def _middle_of(
     bodies: Float64Array, actors: Sequence[Actor], ahead_m: float
 ) -> tuple[float, float]:
-    """The middle of all, x and y, m; so far ahead of the first one where one stands there."""
+    """The middle of all, x and y, m, and so far on as the first one looks."""
     if not len(bodies):
         return 0.0, 0.0
     x, y = bodies[:, :2].mean(axis=0)
-    if ahead_m and np.hypot(bodies[:, 0] - x, bodies[:, 1] - y).min() <= _FROM_NET_M:
-        yaw = actors[0].trajectory.at(0.0).yaw
-        x, y = x + ahead_m * math.cos(yaw), y + ahead_m * math.sin(yaw)
-    return float(x), float(y)
+    yaw = actors[0].trajectory.at(0.0).yaw
+    return float(x) + ahead_m * math.cos(yaw), float(y) + ahead_m * math.sin(yaw)
 
 
 def _stand_along(

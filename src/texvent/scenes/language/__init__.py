@@ -1,1 +1,0 @@
-"""Sentence → scene description: tokens, phrases with roles, objects and relations."""

@@ -1,1 +1,0 @@
-"""Clauses to the scene description."""

@@ -1,1 +1,0 @@
-"""What a clause says besides subject, verb and object: where, which way, how fast, when."""

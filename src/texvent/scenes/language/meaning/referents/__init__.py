@@ -1,1 +1,0 @@
-"""What noun groups mean: things, people, parts, crowds; what pronouns mean, whose they are."""

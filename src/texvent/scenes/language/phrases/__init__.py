@@ -1,1 +1,0 @@
-"""Tokens of set phrases, names and styles, before words get their parts of speech."""

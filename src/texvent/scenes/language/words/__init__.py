@@ -1,1 +1,0 @@
-"""Tokens to words with a part of speech."""

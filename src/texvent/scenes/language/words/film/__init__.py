@@ -1,1 +1,0 @@
-"""Language of film: moves of the camera, and views, framings and styles."""

@@ -1,0 +1,1 @@
+"""Scenes written by a language model behind an OpenAI-compatible endpoint."""

@@ -1,0 +1,12 @@
+"""Sentences to scenes: a small reader of short English prompts.
+
+Words become tokens (`tokens`) by the phrases that are known (`lexicon`), tokens become clauses
+(`clauses`) of noun groups, one verb each, and clauses become a scene (`scenes`). What is not
+understood changes nothing and is reported.
+"""
+
+from texvent.scenes.read.lexicon import find_noun
+from texvent.scenes.read.literals import find_literals
+from texvent.scenes.read.scenes import Reading, read
+
+__all__ = ["Reading", "find_literals", "find_noun", "read"]

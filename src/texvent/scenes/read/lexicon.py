@@ -1,0 +1,272 @@
+"""Lexicon: phrases in all their forms, and the senses that each may have."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from types import MappingProxyType
+from typing import Any
+
+from texvent.scenes.colours import SURFACES
+from texvent.scenes.inflection import list_plurals, list_verb_forms
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS
+from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
+from texvent.scenes.models.places import place_names
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.read.kept import kept
+
+_UNSAID = ("parked ", "flying ", "upright ")
+"""Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
+
+
+@cache
+def read_table(name: str) -> Mapping[str, Any]:
+    """Table of words, from a TOML file of `data/`."""
+    text = (files("texvent.scenes.read") / "data" / f"{name}.toml").read_text(encoding="utf-8")
+    return MappingProxyType(tomllib.loads(text))
+
+
+@cache
+def word_set(table: str, key: str) -> frozenset[str]:
+    """Words of an entry of words.toml."""
+    return frozenset(read_table("words")[table][key])
+
+
+@dataclass(frozen=True)
+class NounSense:
+    """Noun that a word names."""
+
+    noun: str
+    is_plural: bool = False
+    is_kind: bool = False
+    """Whether the word means a kind that is shown as this noun: "terrier", a dog."""
+    usual: str = ""
+    """What who is named so does if nothing else is said: "dancer"."""
+
+
+@dataclass(frozen=True)
+class VerbSense:
+    """Verb, and what it asks for of its subject and its object."""
+
+    who: str = "plain"
+    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "mover" (a person whose
+    object moves), "source" (of an effect) or "plain" (anything)."""
+    kind: str = ""
+    """Motion, activity, camera move or effect."""
+    pace: float = 1.0
+    end_pace: float | None = None
+    direction: str | None = None
+    relation: str | None = None
+    """Relation to its object."""
+    object: str | None = None
+    """Motion of its object."""
+    is_near: bool = False
+    """Whether it is reported as shown by another one."""
+
+
+@dataclass(frozen=True)
+class Sense:
+    """Meaning that a phrase may have."""
+
+    kind: str
+    """Part of the grammar: "noun", "place", "verb", "relation", "shot", "pose", "effect"; "field"
+    (of an object), "adverb" (of a motion) and "scene" (of the camera, the light or the place),
+    whose values are names with values; "unit"; "other" (nothing that is shown); or of words.toml's
+    [grammar]."""
+    value: Any
+    form: str = ""
+    """Of a verb "base", "s", "ing" or "ed"; of a relation its way."""
+
+
+@dataclass(frozen=True)
+class Lexicon:
+    """Phrases, as words in lower case without articles, and their senses."""
+
+    senses: Mapping[tuple[str, ...], tuple[Sense, ...]]
+    longest: Mapping[str, int]
+    """First word of phrases → most words of one."""
+
+
+def lexicon_of(nouns: Mapping[str, Noun] | None) -> Lexicon:
+    """Lexicon of nouns; None: the embedded ones."""
+    from texvent.scenes.models.nouns import NOUNS
+
+    return _embedded() if nouns is None or nouns is NOUNS else _make(nouns)
+
+
+@cache
+def _embedded() -> Lexicon:
+    from texvent.scenes.models.nouns import NOUNS
+
+    return _make(NOUNS)
+
+
+def _make(nouns: Mapping[str, Noun]) -> Lexicon:
+    found: dict[tuple[str, ...], dict[Sense, None]] = {}
+    articles = word_set("grammar", "articles")
+    for text, sense in (*_list_nouns(nouns), *_list_verbs(), *_list_effects(), *_list_words()):
+        words = text.replace("-", " ").split()
+        phrase = tuple(one for one in words if one not in articles) or (text,)
+        found.setdefault(phrase, {})[sense] = None
+    for word in word_set("ambiguous", "words"):
+        for form in (word, *list_plurals(word)):
+            found.pop((form,), None)
+    senses = {phrase: tuple(one) for phrase, one in found.items()}
+    longest: dict[str, int] = {}
+    for phrase in senses:
+        longest[phrase[0]] = max(len(phrase), longest.get(phrase[0], 0))
+    return Lexicon(MappingProxyType(senses), MappingProxyType(longest))
+
+
+def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
+    """The noun that a word names, or shows as a kind; None: none.
+
+    Example:
+        >>> from texvent.scenes.models.nouns import NOUNS
+        >>> find_noun("fire truck", NOUNS), find_noun("wug", NOUNS)
+        ('fire engine', None)
+    """
+    phrase = tuple(word.casefold().replace("-", " ").split())
+    senses = lexicon_of(nouns).senses.get(phrase, ())
+    return next((one.value.noun for one in senses if one.kind == "noun"), None)
+
+
+def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
+    said = [one for one in kept("nouns", nouns).values() if not one.name.startswith(_UNSAID)]
+    names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
+    plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
+    doers = {
+        doer: activity
+        for activity, phrases in read_table("words")["doers"].items()
+        for doer in phrases
+    }
+    for noun, kinds in read_table("kinds").items():
+        for kind in kinds if noun in nouns else ():
+            if kind not in names and kind not in plurals:
+                is_mass = kind in word_set("things", "plurals")
+                names[kind] = NounSense(noun, is_mass, is_kind=True, usual=doers.get(kind, ""))
+    for name, sense in names.items():
+        yield name, Sense("noun", sense)
+    for name, one in names.items():
+        for plural in set(list_plurals(name)) - {name}:
+            yield plural, Sense("noun", NounSense(one.noun, True, one.is_kind, one.usual))
+    for name, sense in plurals.items():
+        yield name, Sense("noun", sense)
+
+
+def _list_verbs() -> Iterator[tuple[str, Sense]]:
+    for phrase, sense in (*_list_plain_verbs(), *_list_activities()):
+        base, _, rest = phrase.replace("-", " ").partition(" ")
+        written = read_table("words")["irregular"].get(base, "")
+        for word, form in list_verb_forms(base, written):
+            yield f"{word} {rest}".strip(), Sense("verb", sense, form)
+
+
+def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
+    words = read_table("words")
+    for table in ("motions", "near"):
+        for kind, verbs in words[table].items():
+            for verb in verbs:
+                base, _, pace = verb.partition("*")
+                yield base, VerbSense("plain", kind, float(pace or 1), is_near=table == "near")
+    for base, fields in words["verbs"].items():
+        yield base, VerbSense(**fields)
+    for motion, verbs in words["moved"].items():
+        yield from ((base, VerbSense("mover", object=motion)) for base in verbs)
+    for move, verbs in words["camera_verbs"].items():
+        yield from ((base, VerbSense("camera", move)) for base in verbs)
+    for who, verbs in words["more_verbs"].items():
+        yield from ((base, VerbSense(who)) for base in verbs)
+
+
+_SHOWING = ("show", "make", "do", "give")
+_PERFORMERS = (
+    ("person", kept("activities", ACTIVITIES)),
+    ("hand", kept("hand_gestures", HAND_GESTURES)),
+)
+
+
+def _list_activities() -> Iterator[tuple[str, VerbSense]]:
+    for who, table in _PERFORMERS:
+        for name, activity in table.items():
+            yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
+            yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
+            for phrase in activity.named:  # "a hand shows a thumbs up"
+                yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
+    for name, verbs in ANIMAL_ACTS.items():
+        yield from ((verb, VerbSense("animal", name)) for verb in verbs)
+    for name, effect in kept("effects", EFFECTS).items():
+        yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
+
+
+def _list_effects() -> Iterator[tuple[str, Sense]]:
+    """Nouns of effects, and activities and gestures that are named by a noun."""
+    for name, effect in kept("effects", EFFECTS).items():
+        for phrase in effect.nouns:
+            yield from _with_plurals(phrase, Sense("effect", name))
+        yield from ((phrase, Sense("field", ("effect", name))) for phrase in effect.adjectives)
+    for name, phrases in read_table("words")["effects"]["phrases"].items():
+        yield from ((phrase, Sense("effect", name)) for phrase in phrases)
+    for who, table in _PERFORMERS:
+        for name, activity in table.items():
+            yield from ((phrase, Sense("pose", (who, name))) for phrase in activity.named)
+    yield from ((phrase, Sense("pose", ("person", name))) for phrase, name in DVS_GESTURES.items())
+
+
+def _list_words() -> Iterator[tuple[str, Sense]]:
+    """Words of places, of fields of the scene, and of grammar."""
+    words = read_table("words")
+    for place, names in (*place_names().items(), *words["place_names"].items()):
+        for name in names:
+            yield from _with_plurals(name, Sense("place", place))
+    for kind, part in (("field", "fields"), ("adverb", "adverbs")):
+        for field, table in words[part].items():
+            for value, phrases in table.items():
+                sense = Sense(kind, (field, _plain(value)))
+                yield from ((phrase, sense) for phrase in phrases)
+    yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
+    yield from _list_settings()
+    yield from _list_grammar()
+
+
+def _list_grammar() -> Iterator[tuple[str, Sense]]:
+    words = read_table("words")
+    for kind in ("relations", "shots"):
+        for value, phrases in words[kind].items():
+            yield from ((phrase, Sense(kind[:-1], value)) for phrase in phrases)
+    for preposition, meaning in words["ways"].items():
+        yield preposition, Sense("relation", *meaning.split())
+    for quantity, units in words["units"].items():
+        yield from ((unit, Sense("unit", (quantity, each))) for unit, each in units.items())
+    for kind, phrases in (*words["grammar"].items(), *words["other"].items()):
+        yield from ((phrase, Sense(kind, phrase)) for phrase in phrases)
+
+
+def _list_settings() -> Iterator[tuple[str, Sense]]:
+    words = read_table("words")
+    for part, tables in words["scene"].items():
+        for field, table in tables.items():
+            for value, phrases in table.items():
+                sense = Sense("scene", (part, ((field, _plain(value)),)))
+                yield from ((phrase, sense) for phrase in phrases)
+    for phrase, parts in words["phrases"].items():
+        for part, fields in parts.items():
+            values = tuple((k, tuple(v) if isinstance(v, list) else v) for k, v in fields.items())
+            yield phrase, Sense("scene", (part, values))
+    for word in word_set("things", "crossings"):
+        yield word, Sense("scene", ("place", (("road", "crossing"),)))
+
+
+def _with_plurals(phrase: str, sense: Sense) -> Iterator[tuple[str, Sense]]:
+    yield from ((form, sense) for form in {phrase, *list_plurals(phrase)})
+
+
+def _plain(value: str) -> str | float | bool:
+    """As "true" = True, "0.5" = 0.5."""
+    if value in ("true", "false"):
+        return value == "true"
+    return float(value) if value.replace(".", "").isdigit() else value

@@ -1,0 +1,189 @@
+"""Tokens of a prompt: the longest phrases that the lexicon has, numbers, pictures and signs."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from texvent.scenes.read.lexicon import Lexicon, Sense, word_set
+from texvent.scenes.read.literals import find_literals
+
+MOST_WORDS = 2000
+"""Words of a prompt that are read; later ones are not understood."""
+MAX_COUNT = 24
+"""Most copies of one object."""
+_RANGES = {"speed_m_s": (0.0, 1000.0), "rate_hz": (0.001, 100_000.0)}
+"""Least and most of a quantity of scenes."""
+_WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
+_IS = re.compile(r"(?i)(it|that|there|he|she|camera)['’]s$")
+_OWNER = re.compile(r"['’]s?$")
+
+
+@dataclass(frozen=True)
+class Token:
+    """Phrase of a prompt, with all its senses."""
+
+    text: str
+    """In lower case; of a picture as the prompt has it."""
+    at: int
+    """Number in the prompt, from 0."""
+    senses: tuple[Sense, ...] = ()
+
+    @property
+    def is_sign(self) -> bool:
+        """Whether it only separates words."""
+        return not self.senses and not any(map(str.isalnum, self.text))
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether it is a word that the reader does not know."""
+        return not self.is_sign and (not self.senses or self.has("other"))
+
+    @property
+    def is_manner(self) -> bool:
+        """Whether it looks like an adverb of manner: "happily"."""
+        return self.text.endswith("ly")
+
+    def all(self, kind: str) -> tuple[Sense, ...]:
+        """Senses of a kind."""
+        return tuple(one for one in self.senses if one.kind == kind)
+
+    def first(self, *kinds: str) -> Sense | None:
+        """The first sense of one of the kinds."""
+        return next((one for one in self.senses if one.kind in kinds), None)
+
+    def has(self, *kinds: str) -> bool:
+        """Whether it may be of one of the kinds."""
+        return any(one.kind in kinds for one in self.senses)
+
+    def verbs(self, *forms: str) -> tuple[Sense, ...]:
+        """Its senses as a verb in one of the forms."""
+        return tuple(one for one in self.senses if one.kind == "verb" and one.form in forms)
+
+
+NO_TOKEN = Token(".", -1)
+"""Stands before the first token and after the last one."""
+
+
+def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
+    """Tokens of a prompt, in order.
+
+    Example:
+        >>> from texvent.scenes.read.lexicon import lexicon_of
+        >>> [token.text for token in split_prompt("Two fire engines, 5 m/s", lexicon_of(None))]
+        ['two', 'fire engines', ',', '5 m / s']
+    """
+    text = unicodedata.normalize("NFKC", prompt)
+    found: list[Token] = []
+    start = 0
+    for begin, end, picture in find_literals(text):
+        _read_words(_list_words(text[start:begin]), lexicon, found)
+        sense = Sense("picture", ("picture", picture))
+        found.append(Token(picture.value, len(found), (sense,)))
+        start = end
+    _read_words(_list_words(text[start:]), lexicon, found)
+    return tuple(found)
+
+
+def _list_words(text: str) -> list[str]:
+    words: list[str] = []
+    for word in _WORD.findall(text):
+        short = _IS.match(word)
+        if short:
+            words.extend((short[1], "is"))
+        elif word[0].isalnum() or word in ".,;:!?/()":
+            words.append(word)
+    return words[:MOST_WORDS]
+
+
+def _read_words(words: Sequence[str], lexicon: Lexicon, found: list[Token]) -> None:
+    at = 0
+    while at < len(words):
+        length, senses = _read_phrase(words, at, lexicon, found)
+        if length == 1 and words[at][0].isdecimal():
+            length, senses = _read_quantity(words, at, lexicon)
+        text = " ".join(words[at : at + length]).casefold()
+        found.append(Token(text, len(found), senses))
+        at += length
+
+
+def _read_phrase(
+    words: Sequence[str], at: int, lexicon: Lexicon, before: Sequence[Token]
+) -> tuple[int, tuple[Sense, ...]]:
+    """Number of words of the longest phrase at a word, and its senses."""
+    length = 1
+    senses: tuple[Sense, ...] = ()
+    phrase: list[str] = []
+    skipped: set[str] = set()
+    for end in range(at, len(words)):
+        word = words[end].casefold()
+        if end > at and word in word_set("grammar", "articles"):
+            skipped.add(word)
+            continue
+        phrase.append(_OWNER.sub("", word))
+        if len(phrase) > max(1, lexicon.longest.get(phrase[0], 0)):
+            break
+        found = lexicon.senses.get(tuple(phrase), ())
+        if end == at and _OWNER.search(word):
+            found = ()  # "the cat's" alone: whose, not what
+        if skipped:
+            not_cut = _UNCUT if skipped & {"a", "an"} else _UNCUT[:2]
+            found = tuple(one for one in found if one.kind not in not_cut)
+        if len(phrase) > 1:
+            found = _without_chance(found, words, end, before)
+        if found:
+            length, senses = end + 1 - at, found
+    return length, senses
+
+
+_UNCUT = ("noun", "place", "scene")
+"""Senses of phrases that no article stands in; "in the dark", but not "in a dark"."""
+
+
+def _without_chance(
+    senses: tuple[Sense, ...], words: Sequence[str], end: int, before: Sequence[Token]
+) -> tuple[Sense, ...]:
+    """Senses of several words that do not stand together by chance.
+
+    As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
+    (no things).
+    """
+    after = words[end + 1].casefold() if end + 1 < len(words) else ""
+    is_verb = words[end].endswith("ing") and after in word_set("grammar", "articles")
+    is_single = bool(before) and before[-1].text in ("a", "an")
+
+    def stands(one: Sense) -> bool:
+        if one.kind == "verb" and one.value.who == "camera":
+            return _is_of_camera(before)
+        return one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural))
+
+    return tuple(filter(stands, senses))
+
+
+def _is_of_camera(before: Sequence[Token]) -> bool:
+    """Whether the camera was named since the last sign, or nothing was."""
+    for token in reversed(before):
+        if token.has("camera"):
+            return True
+        if token.is_sign:
+            break
+    return not before or before[-1].is_sign
+
+
+def _read_quantity(
+    words: Sequence[str], at: int, lexicon: Lexicon
+) -> tuple[int, tuple[Sense, ...]]:
+    """A number of things, or a speed or frequency with its unit, in the range of scenes."""
+    number = float(words[at].replace(",", ""))
+    for length in (3, 2, 1):
+        unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
+        for sense in lexicon.senses.get(unit, ()):
+            if sense.kind == "unit":
+                field, factor = sense.value
+                least, most = _RANGES[field]
+                is_shown = least <= number * factor <= most
+                said = Sense("adverb", (field, number * factor))
+                return 1 + length, (said,) if is_shown else ()
+    return 1, (Sense("field", ("count", max(1, min(round(number), MAX_COUNT)))),)

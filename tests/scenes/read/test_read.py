@@ -1,0 +1,104 @@
+"""Sentences become scenes, and every word of them is accounted for."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from tests.scenes.read.facts import PROMPTS, grade
+from tests.scenes.read.saying import say, sentences
+
+from texvent.errors import InputError
+from texvent.generate.scene_input import list_words, read
+from texvent.scenes import read as reader
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.read import find_noun
+from texvent.scenes.read.draft import is_grammar
+from texvent.scenes.read.lexicon import lexicon_of
+from texvent.scenes.read.tokens import split_prompt
+from texvent.scenes.spec.data import checked_scene
+
+MOST_WRONG, MOST_SILENT = 0.07, 0.03
+"""Share of facts that are wrong, and of prompts that are wrong without a word in the report."""
+MOST_SECONDS = 0.001
+"""Mean time to read a prompt."""
+WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None).senses)
+VOCABULARY = list_words(NOUNS)
+SIGNS = [
+    ",",
+    ".",
+    "and",
+    "the",
+    "a",
+    "then",
+    "of",
+    "it",
+    "wug",
+    "7",
+    "2 Hz",
+    "1e9",
+    "99999999 m/s",
+    '"STOP"',
+    "a.png",
+]
+
+
+def test_facts_of_short_prompts_are_right():
+    graded = [(prompt["text"], *grade(prompt)) for prompt in PROMPTS]
+    facts = sum(len(prompt["facts"]) for prompt in PROMPTS)
+    wrong = [fact for _, faults, _ in graded for fact in faults]
+    silent = [text for text, faults, is_reported in graded if faults and not is_reported]
+    assert len(wrong) <= MOST_WRONG * facts, wrong
+    assert len(silent) <= MOST_SILENT * len(PROMPTS), silent
+
+
+@settings(max_examples=300, deadline=None)
+@given(
+    st.lists(st.sampled_from(WORDS) | st.sampled_from(SIGNS), max_size=14).map(" ".join)
+    | st.text(max_size=80)
+)
+@example("a the and of")
+@example("the camera. camera camera moves moves it")
+@example("without a of the no of")
+@example("a dog behind a cat. the cat is behind the dog. the dog follows the dog")
+@example("24 dogs, 24 cats, 24 cars, 24 trees")
+def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
+    reading = reader.read(text, NOUNS)
+    lists = (reading.shown, [one.said for one in reading.substituted], reading.not_understood)
+    listed = [word for one in lists for word in one]
+    assert len(listed) == len(set(listed))
+    for token in split_prompt(text, lexicon_of(None)):
+        assert token.is_sign or is_grammar(token) or token.text in listed
+    assert checked_scene(reading.scene, VOCABULARY) == reading.scene
+
+
+def test_a_prompt_is_read_in_less_than_a_millisecond():
+    prompts = [prompt["text"] for prompt in PROMPTS]
+    reader.read(prompts[0], NOUNS)  # the lexicon is made once
+    started = time.process_time()
+    for prompt in prompts:
+        reader.read(prompt, NOUNS)
+    assert (time.process_time() - started) / len(prompts) < MOST_SECONDS
+
+
+@pytest.mark.parametrize("prompt", ["", " \n", "wug", "the of and", "xyz!?"])
+def test_a_prompt_without_a_known_word_is_refused(prompt):
+    with pytest.raises(InputError, match="prompt"):
+        read(prompt)
+
+
+def test_nouns_are_found_by_their_names():
+    found = [find_noun(one, NOUNS) for one in ("Automobiles", "terrier", "wug")]
+    assert found == ["car", "dog", None]
+
+
+def test_ambiguous_words_are_in_no_scene():
+    for word in ("bat", "track", "crane"):
+        assert word in read(f"a {word} and a dog").not_understood
+
+
+@pytest.mark.parametrize(("prompt", "expected"), sentences())
+def test_sentences_say(prompt, expected):
+    assert say(reader.read(prompt, NOUNS)) == expected

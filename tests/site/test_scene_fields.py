@@ -1,0 +1,28 @@
+"""The table of fields on the page of scene files has every field of every class."""
+
+import dataclasses
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> str:
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
+    import scene_fields  # type: ignore[import-not-found, unused-ignore]
+
+    page: str = scene_fields.with_tables((ROOT / "docs" / "scenes.md").read_text())
+    for owner in scene_fields.TABLES.values():
+        assert all(f"| `{one.name}` |" in page for one in dataclasses.fields(owner))
+    del sys.modules["scene_fields"]
+    return page
+
+
+def test_rows_have_ranges_words_and_texts(made: str) -> None:
+    assert "| `frequency_hz` | number, 0.001 to 100000 | Frequency of modulation, Hz;" in made
+    assert "| `weather` | fog, rain, snow | Weather; left out: fair. |" in made
+    assert "| `position_m` | 3 numbers | Position x, y, z, m. |" in made
+    assert "<!--" not in made
