@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
+    Axis,
     Flight,
     Oscillating,
     Spin,
@@ -43,6 +45,10 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTS})
 """What bodies without hands do in their place."""
+_STUNTS: Mapping[str, tuple[Axis, float, str, float]] = {
+    "flip": ("pitch", 0.8, "stand", 0.6), "roll over": ("roll", 0.5, "lie", 0.0),
+}  # fmt: skip
+"""Motion → axis, turns per second, what limbs do meanwhile, and how high it is, in its sizes."""
 _LARGEST_AFLOAT_M = 2.5
 """What is larger bobs no more than that: a moon, a cloud."""
 _DRIFT_TURN_RAD, _SLIP_RAD = 1.3, 0.62
@@ -190,6 +196,11 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     if kind == "spin":
         usual = 2.0 * math.pi * (-SPIN_RATE_HZ if is_clockwise else SPIN_RATE_HZ)
         return _spin(plan, model, home, usual, phase)
+    if kind in _STUNTS:
+        axis, hz, doing, raised = _STUNTS[kind]
+        place = _raised(home, raised * max(model.length, model.height))
+        rate, pivot = 2.0 * math.pi * hz * pace, 0.5 * min(model.width, model.height)
+        return Spin(place, rate, plan.yaw, axis=axis, pivot_m=pivot, activity=doing)
     if kind == "swing":
         return Swing(home, max(1.6 * model.height, 0.6), 0.5, pace)
     if kind in ("hover", "float"):
