@@ -17,9 +17,8 @@ from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
 from texvent.scenes.models.places import place_names
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.read.kept import kept
 
-_UNSAID = ("parked ", "flying ", "upright ")
+_UNSAID = ("parked ", "flying ")
 """Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
 
 
@@ -136,7 +135,12 @@ def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
 
 
 def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
-    said = [one for one in kept("nouns", nouns).values() if not one.name.startswith(_UNSAID)]
+    from texvent.scenes.models.nouns import DRESSING
+
+    said = [
+        one for one in nouns.values()
+        if one.name not in DRESSING and not one.name.startswith(_UNSAID)
+    ]  # fmt: skip
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
     doers = {
@@ -184,10 +188,7 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
 
 
 _SHOWING = ("show", "make", "do", "give")
-_PERFORMERS = (
-    ("person", kept("activities", ACTIVITIES)),
-    ("hand", kept("hand_gestures", HAND_GESTURES)),
-)
+_PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
 
 
 def _list_activities() -> Iterator[tuple[str, VerbSense]]:
@@ -199,13 +200,13 @@ def _list_activities() -> Iterator[tuple[str, VerbSense]]:
                 yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
     for name, verbs in ANIMAL_ACTS.items():
         yield from ((verb, VerbSense("animal", name)) for verb in verbs)
-    for name, effect in kept("effects", EFFECTS).items():
+    for name, effect in EFFECTS.items():
         yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
 
 
 def _list_effects() -> Iterator[tuple[str, Sense]]:
     """Nouns of effects, and activities and gestures that are named by a noun."""
-    for name, effect in kept("effects", EFFECTS).items():
+    for name, effect in EFFECTS.items():
         for phrase in effect.nouns:
             yield from _with_plurals(phrase, Sense("effect", name))
         yield from ((phrase, Sense("field", ("effect", name))) for phrase in effect.adjectives)
