@@ -12,9 +12,9 @@ from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.motions import MOTIONS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.activities import ACTIVITIES
+from texvent.scenes.models.places import PLACES
 from texvent.scenes.spec import scene as spec
 from texvent.scenes.spec.data import field_types, inner_type
-from texvent.scenes.staging.surroundings.places import PLACES
 
 
 def resolve(word: str, kind: str) -> str | None:

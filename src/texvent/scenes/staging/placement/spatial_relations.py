@@ -69,6 +69,8 @@ def place_on_targets(
         height: of its origin where the relation does not decide it, m.
         neighbours: for "on", "in" and "at", the indices of all objects there, one for each copy.
     """
+    if kind == "at" and targets[0].noun.name not in nouns_with("table"):
+        return place_by_subject(group, "beside", targets[0], height)
     rest = {"on": rest_on, "in": rest_in, "at": place_at}.get(kind)
     if rest is not None:
         return Goal(rest(group, targets[0], neighbours), _FIXED)
