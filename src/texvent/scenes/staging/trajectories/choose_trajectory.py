@@ -168,7 +168,7 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
         0.5 * plan.duration_s,
         activity_of(kind),
         climb=plan.climb,
-        bob_m=0.04 * model.height if is_air or kind == "sail" else 0.0,
+        bob_m=0.04 * model.height if is_air or kind in ("sail", "paddle") else 0.0,
         weave_rad=0.08 if kind == "swim" else 0.0,
         phase=phase,
         facing_rad=TO_CAMERA + 0.35 * is_air if is_flat else None,

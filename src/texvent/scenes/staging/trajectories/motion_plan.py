@@ -111,6 +111,7 @@ def plan_motion(
         duration_s: length of the clip, s.
         rng: decides between left and right where nothing is said.
     """
+    motions = [_spun(noun, one) for one in motions]
     motion, toss = motions[0], rng.random()
     yaw, speed = _choose_yaw(motions, noun, model, toss), _choose_speed(motions, noun, model)
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
@@ -126,6 +127,12 @@ def plan_motion(
         return replace(plan, yaw=path.yaw, path=path)
     pace = 1.0 if motion.speed_m_s is not None else motion.pace
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
+
+
+def _spun(noun: Noun, motion: ObjectMotion) -> ObjectMotion:
+    """A hand turns over at the wrist; all else that rotates spins."""
+    is_spinning = motion.kind == "rotate" and noun.name not in HAND_NOUNS
+    return replace(motion, kind="spin") if is_spinning else motion
 
 
 def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss: float) -> float:
