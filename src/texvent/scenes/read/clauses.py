@@ -408,8 +408,9 @@ class _Parser:
         """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
         after, third = self._token(), self._token(1)
         if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
-            return not (after.text.endswith("s") and third.has("articles"))
-        is_verb = bool(third.verbs("s")) or third.text == "is"
+            return not (after.text.endswith(("s", "ing")) and third.has("articles"))
+        follows = third.verbs("s") or (third.verbs("ing") and not after.text.endswith("s"))
+        is_verb = bool(follows) or third.text == "is"
         is_end = is_phrase and third.is_sign
         return after.is_unknown and not after.is_manner and (is_verb or is_end)
 

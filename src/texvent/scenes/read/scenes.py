@@ -26,7 +26,8 @@ BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 _BACKDROPS = ("mountain", "forest", "city")
 _POSITIONS = frozenset({"behind", "front", "beside", "left of", "right of", "between", "around",
-                        "towards", "away from", "surround", "among", "past", "under"})  # fmt: skip
+                        "towards", "away from", "surround", "among", "past", "under", "from",
+                        "with"})  # fmt: skip
 """Relations to a thing, where a word is both thing and place: "behind a mountain"."""
 _OF_PEOPLE = frozenset({"hold", "wear", "ride", "kick", "hit", "throw", "catch"})
 """Relations that need hands, or legs."""
@@ -85,7 +86,7 @@ class _Reader:
         """Objects that the last clause was about."""
         self._nearest: list[int] = []
         """Objects of the last noun group."""
-        self._was_camera = self._was_lost = False
+        self._was_camera = False
         self._phase = 0
 
     def apply(self, clause: Clause) -> None:
@@ -107,7 +108,7 @@ class _Reader:
     def _apply_to_things(self, clause: Clause, *, goes_on: bool) -> None:
         subjects, is_lost = self._nearest, False
         if goes_on:
-            subjects, is_lost = self._subjects, self._was_lost and clause.is_joined
+            subjects = self._subjects
         elif not clause.is_nearest:
             subjects = [index for group in clause.subjects for index in self._name(group)]
             is_lost = not subjects and any(group.head is None for group in clause.subjects)
@@ -127,7 +128,7 @@ class _Reader:
                 self._relate(one, subjects, moved, is_lost=is_lost, is_of_verb=bool(objects))
             elif not self._set_scene(one) and not is_lost:
                 self._say(one, moved)
-        self._subjects, self._was_lost = list(subjects), is_lost
+        self._subjects = list(subjects)
 
     def _goes_nearest(self, clause: Clause) -> bool:
         """Whether the last group before the verb does it: "a boat with dolphins jumping"."""
@@ -283,6 +284,8 @@ class _Reader:
             return has_object and is_acting
         if verb.who in ("source", "lamp"):
             return not has_object and not is_acting
+        if verb.kind == "drive" and names & PERSON_NOUNS:
+            return False
         if verb.who != "plain" or has_object != bool(verb.relation):
             meets = verb.relation == "collide" and sum(one.count for one in things) > 1
             is_alone = meets or (bool(verb.kind) and not verb.object)
@@ -327,7 +330,8 @@ class _Reader:
         for group in phrase.groups:
             head = group.head
             if head is not None and head.has("effect") and not head.has("noun", "place", "scene"):
-                self._add_effect(head, subjects[0] if subjects else None)
+                if kind in ("with", "in", "on"):  # "a car in flames"
+                    self._add_effect(head, subjects[0] if subjects else None)
             else:
                 targets += self._name(group, kind or token.text)
         done = [one["kind"] for index in subjects for one in draft.things[index].relations]
