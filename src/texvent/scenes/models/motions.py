@@ -9,7 +9,7 @@ MOTIONS = frozenset(
     {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide", "drift", "float",
      "hover", "blow", "turn", "reverse", "zigzag", "park", "enter", "leave", "appear",
      "spin", "rotate", "orbit", "swing", "sway", "bounce", "jump", "fall", "rise", "sink", "throw",
-     "topple", "work", "hang", "stand", "sit", "lie"}
+     "topple", "flip", "roll over", "work", "hang", "stand", "sit", "lie"}
 )  # fmt: skip
 """Travel, manoeuvres, and motions in place; "move" is the usual motion of a noun, "work" that of a
 machine, "stand" rest."""
