@@ -373,16 +373,13 @@ class _Reader:
 
     def _set_scene(self, token: Token) -> bool:
         """Apply a word of light, weather, place or camera, wherever it stands."""
-        sense = token.first("shot", "scene")
-        if sense is None:
-            return False
-        if sense.kind == "shot":
-            add_move(self._draft, split_move(sense.value), self._phase)
-        else:
-            part, fields = sense.value
-            self._draft.parts[part].update(fields)
-        self._draft.show(token)
-        return True
+        draft = self._draft
+        for sense in token.all("shot"):
+            add_move(draft, split_move(sense.value), self._phase)
+        for part, field, value in (sense.value for sense in token.all("scene")):
+            draft.parts[part][field] = value
+        draft.show(*([token] if token.has("shot", "scene") else []))
+        return token.has("shot", "scene")
 
     def _set_place(self, group: Group, head: Token, relation: str) -> None:
         """As "on a snowy road", "a red sky", "a mountain road"."""

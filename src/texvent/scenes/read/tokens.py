@@ -119,7 +119,7 @@ def _read_phrase(
     skipped: set[str] = set()
     for end in range(at, len(words)):
         word = words[end].casefold()
-        if end > at and word in word_set("grammar", "articles"):
+        if end > at and word in word_set("senses", "articles"):
             skipped.add(word)
             continue
         phrase.append(_OWNER.sub("", word))
@@ -151,7 +151,7 @@ def _without_chance(
     (no things).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
-    is_verb = words[end].endswith("ing") and after in word_set("grammar", "articles")
+    is_verb = words[end].endswith("ing") and after in word_set("senses", "articles")
     is_single = bool(before) and before[-1].text in ("a", "an")
 
     def stands(one: Sense) -> bool:
