@@ -50,9 +50,6 @@ class ObjectMotion:
     """When it begins, s; None = at once, or when the motion before it ends."""
     rate_hz: float | None = None
     """How often it goes there and back, 1/s, where the prompt states that."""
-    shore: str | None = None
-    """Where it goes with respect to the water of the place: "into", "out of", "towards",
-    "away from" or "in"; None = not stated."""
     is_stuck: bool = False
     """Whether it creeps along in traffic."""
 

@@ -42,7 +42,9 @@ from texvent.scenes.scene import Colour
 
 _KEYS = frozenset({"names", "plurals", "place", "habitat", "speed", "motion", "works", "colours",
                    "varied", "surfaces", "parts", "moving", "laid", "variants",
-                   "rider"})  # fmt: skip
+                   "rider", "like"})  # fmt: skip
+_OWN = ("names", "plurals")
+"""Keys that no noun takes from the one that it is like."""
 _HABITATS = ("ground", "air", "water", "fixed")
 _GREY = "(.4 .4 .4)"
 
@@ -228,14 +230,18 @@ def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise FileFormatError(f"{file}: {error}") from error
     usual = {key: value for key, value in tables.items() if not isinstance(value, Mapping)}
+    nouns = {name: table for name, table in tables.items() if name not in usual}
+    for table in nouns.values():
+        model = nouns.get(table.get("like", ""), {})
+        table |= {key: value for key, value in model.items() if key not in {*_OWN, *table}}
     return tuple(
-        _noun(f"{file.name}, {name!r}", name, {**usual, **table})
-        for name, table in tables.items()
-        if name not in usual
+        _noun(f"{file.name}, {name!r}", name, {**usual, **table}) for name, table in nouns.items()
     )
 
 
 def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
+    if "like" in table and "parts" not in table:
+        raise FileFormatError(f"{where}: there is no noun with parts named {table['like']!r}")
     for key in table:
         if key not in _KEYS:
             raise FileFormatError(
@@ -254,5 +260,5 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         tuple(table.get("names", ())),
         tuple(table.get("plurals", ())),
         place=table.get("place", ""),
-        is_working=bool(table.get("works", False)),
+        is_working=bool(table.get("works", habitat == "fixed" and "moving" in table)),
     )
