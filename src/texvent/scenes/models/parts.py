@@ -12,7 +12,7 @@
     ball paint   0 0 .32   .2 .2 .2
     '''
 
-`data/nouns/README.md` describes the format.
+docs/nouns.md describes the format.
 """
 
 from __future__ import annotations
