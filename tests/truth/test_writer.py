@@ -384,5 +384,5 @@ def test_a_run_that_ends_early_keeps_its_truth_only_if_asked(tmp_path, keeps):
 
 
 def test_every_noun_has_a_class_id_that_stays():
-    assert set(CLASS_IDS) == set(NOUNS)
+    assert set(CLASS_IDS) >= set(NOUNS)
     assert [CLASS_IDS[name] for name in ("airplane", "car", "man", "zebra")] == [1, 24, 67, 117]

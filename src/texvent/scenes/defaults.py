@@ -142,7 +142,9 @@ def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
     for one in description.relations:
         motions.update(_rest_of(one, description.objects, nouns))
     is_plain = description.surroundings.place is None and not description.shot.is_moving
-    resting = nouns_with("lies still") | (nouns_with("has a rider") if is_plain else frozenset())
+    resting = nouns_with("lies still") | (
+        nouns_with("parked unless ridden") if is_plain else frozenset()
+    )
     ridden = _list_ridden(description)
     for n, thing in enumerate(description.objects):
         if thing.noun in resting and n not in ridden:

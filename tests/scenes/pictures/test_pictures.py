@@ -14,8 +14,8 @@ import pytest
 from texvent.errors import FileFormatError, InputError
 from texvent.scenes.description import Picture, SceneDescription, SceneObject, Surroundings
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.objects.home.screens import PICTURE_FACES
 from texvent.scenes.models.protocol import Pose
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.pictures import PicturedModel, can_show, check_picture, load_picture
 from texvent.scenes.pictures.source import draw_text
 from texvent.scenes.pictures.video import PlayedVideo
@@ -105,12 +105,12 @@ def test_damaged_files_are_one_clear_line(tmp_path: Path) -> None:
 
 
 def test_nouns_with_a_face_for_pictures_say_so() -> None:
-    assert all(can_show(name) for name in PICTURE_FACES)
-    assert PICTURE_FACES.keys() <= NOUNS.keys()
+    assert all(can_show(name) for name in nouns_with("shows a picture"))
+    assert nouns_with("shows a picture") <= NOUNS.keys()
     assert not can_show("car")
 
 
-@pytest.mark.parametrize("noun", sorted(PICTURE_FACES))
+@pytest.mark.parametrize("noun", sorted(nouns_with("shows a picture")))
 def test_a_picture_takes_the_place_of_what_is_usually_printed(noun: str) -> None:
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     pictured = PicturedModel(model, noun, Picture("checkerboard", "9x6"))

@@ -20,6 +20,7 @@ from tests.scenes.golden.golden import read_lines, stored_scenes
 from texvent.errors import ConfigError
 from texvent.generate.scene_input import describe_scene, list_nouns, list_words
 from texvent.scenes.colours import PALETTES
+from texvent.scenes.defaults import complete
 from texvent.scenes.spec.data import (
     checked_scene,
     field_types,
@@ -40,11 +41,11 @@ SCHEMA = jsonschema.Draft202012Validator(json_schema(WORDS))
 EVERY_FIELD = Path(__file__).parent / "every_field.toml"
 
 
-def test_what_a_sentence_decided_stays_as_it_is():
+def test_what_is_decided_stays_as_it_is():
     for sentence in read_lines("filmed.txt"):
         scene = scene_from_data(stored_scenes()[sentence])
-        decided = describe_scene(scene, list_nouns())
-        assert dataclasses.replace(decided, notes=()) == to_description(scene)
+        decided = dataclasses.replace(describe_scene(scene, list_nouns()), notes=())
+        assert dataclasses.replace(complete(decided, list_nouns()), notes=()) == decided
 
 
 def strategy(hint: Any) -> st.SearchStrategy[Any]:

@@ -16,8 +16,19 @@ from texvent.scenes.staging.trajectories.schedule import left_out, schedule
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 
 KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "zigzag", "spin", "rise", "sink",
-         "jump", "bounce", "fall", "stand", "sit", "sway", "dance", "hover")  # fmt: skip
-DIRECTIONS = (None, "left", "right", "towards", "away", "backward", "around", "circle", "up")
+         "jump", "bounce", "fall", "topple", "park", "stand", "sit", "sway", "hover")  # fmt: skip
+DIRECTIONS = (
+    None,
+    "left",
+    "right",
+    "towards",
+    "away",
+    "backward",
+    "around",
+    "circle",
+    "eight",
+    "up",
+)
 motions = st.builds(
     ObjectMotion,
     st.sampled_from(KINDS),
@@ -126,3 +137,42 @@ def test_what_falls_over_lies_on_the_ground() -> None:
     path = path_of(ObjectMotion("walk"), ObjectMotion("fall"), noun="man", speed=1.4)
     assert path.at(4.0).pitch == pytest.approx(0.5 * math.pi)
     assert path.at(1.9).pitch == 0.0
+
+
+def test_a_domino_topples_to_its_front_and_stays_down() -> None:
+    path = path_of(ObjectMotion("topple"), noun="domino")
+    assert path.at(0.1).pitch == 0.0
+    assert path.at(4.0).pitch == pytest.approx(0.5 * math.pi)
+
+
+@pytest.mark.parametrize(("noun", "rises"), [("balloon", 1.0), ("balloon", -1.0), ("boat", -1.0)])
+def test_what_rises_or_sinks_goes_straight_up_or_down(noun: str, rises: float) -> None:
+    path = path_of(ObjectMotion("rise" if rises > 0.0 else "sink"), noun=noun, speed=1.0)
+    first, last = path.at(0.0).position, path.at(4.0).position
+    assert first[:2] == pytest.approx(last[:2])
+    assert rises * (last[2] - first[2]) > 0.3
+
+
+def test_an_airplane_takes_off_along_a_runway_and_lands_on_it() -> None:
+    off = path_of(ObjectMotion("rise"), noun="airplane", speed=20.0)
+    assert off.at(1.0).position[2] == 0.0
+    assert off.at(4.0).position[2] > 5.0
+    assert off.at(4.0).pitch < -0.1
+    down = path_of(ObjectMotion("sink"), noun="airplane", speed=20.0)
+    assert down.at(0.0).position[2] > 3.0
+    assert down.at(4.0).position[2] == pytest.approx(0.0, abs=0.1)
+
+
+def test_an_eight_comes_back_and_bends_both_ways() -> None:
+    path = path_of(ObjectMotion("walk", "eight"), noun="man", speed=1.4)
+    assert path.at(4.0).position == pytest.approx(path.at(0.0).position, abs=0.9)
+    assert path.at(1.0).yaw > path.at(0.0).yaw
+    assert path.at(3.0).yaw < path.at(2.0).yaw
+
+
+def test_a_zigzag_goes_on_in_its_direction() -> None:
+    path = path_of(ObjectMotion("zigzag"), noun="man", speed=1.4)
+    yaws = [path.at(float(time_s)).yaw for time_s in np.linspace(0.0, 4.0, 81)]
+    assert min(yaws) < -0.4 < 0.4 < max(yaws)
+    start, end = path.at(0.0).position, path.at(4.0).position
+    assert abs(end[1] - start[1]) < 0.3 * (end[0] - start[0])

@@ -187,8 +187,15 @@ def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count: int) -> No
         inwards = (table.middle(0.0) - one.middle(0.0))[:2]
         assert state.activity == "sit"
         assert state.to_world()[:2, 0] @ inwards > 0.4 * np.linalg.norm(inwards)
-        assert any(prop.furniture == "chair" for prop in one.props)
+        assert any(prop.anchor == "ground" for prop in one.props)
         assert overlap(one, table, 0.0) < 0.5
+
+
+def test_who_is_at_what_is_no_table_stands_beside_it() -> None:
+    man, bus_stop = stage(thing("man"), thing("bus stop"),
+                          relations=(Relation("at", 0, (1,)),)).actors  # fmt: skip
+    assert man.trajectory.at(0.0).activity == "stand"
+    assert overlap(man, bus_stop, 0.0) == 0.0
 
 
 def test_who_is_on_a_seat_sits_unless_they_stand() -> None:

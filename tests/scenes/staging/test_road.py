@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.scenes.sentences import parse_prompt
 
 from texvent.scenes.description import (
     ObjectMotion,

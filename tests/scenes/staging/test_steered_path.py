@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.scenes.staging.trajectories.steered_path import Lagging, Piece, SteeredPath
+from texvent.scenes.staging.trajectories.steered_path import (
+    Lagging,
+    Piece,
+    SteeredPath,
+    bend_path,
+)
 
 pieces = st.builds(
     Piece,
@@ -88,3 +94,19 @@ def test_a_follower_stays_the_gap_behind_on_the_same_line() -> None:
         for t in np.linspace(0.0, 1.9, 4000)
     )
     assert earlier < 3e-3
+
+
+def test_a_hop_rises_to_its_height_and_says_when_it_is_there() -> None:
+    path = SteeredPath((0.0, 0.0, 0.0), 0.0, (Piece(0.8, hop_m=0.4, activity="jump"),))
+    states = [path.at(float(time_s)) for time_s in np.linspace(0.0, 0.8, 801)]
+    highest = max(states, key=lambda one: one.position[2])
+    assert highest.position[2] == pytest.approx(0.4, rel=1e-3)
+    assert highest.act_s == pytest.approx(0.0, abs=1e-3)
+    assert min(one.position[2] for one in states) == 0.0
+
+
+def test_what_slips_points_into_the_bend() -> None:
+    path = bend_path(0.0, 5.0, 0.05, 2.0)
+    slipping = replace(path, slip_rad=0.6)
+    assert slipping.at(1.0).position == path.at(1.0).position
+    assert slipping.at(1.0).yaw - path.at(1.0).yaw == pytest.approx(0.6)

@@ -1,5 +1,6 @@
 """Which models a folder holds, and what they are called: by file names, or by an index.
 
+Any other `.toml` file has nouns as lists of parts; see `models/data/nouns/README.md`.
 An index is `assets.toml` in the folder, a table for each file, or the catalogue
 `PluginFurnitureCatalog.properties` of Sweet Home 3D's libraries.
 """
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import FileFormatError, InputError, few, shown
+from texvent.scenes.models.parts import read_nouns
 
 ENDINGS = (".glb", ".obj", ".ply")
 INDEX_NAME = "assets.toml"
@@ -70,8 +72,10 @@ def read_folder(folder: Path) -> tuple[Asset, ...]:
     if not folder.is_dir():
         raise InputError(f"the folder of assets {folder} does not exist")
     files = sorted(path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS)
-    if not files:
-        raise InputError(f"{folder} holds no model; assets are {', '.join(ENDINGS)} files")
+    lists = sorted(path for path in folder.rglob("*.toml") if path.name != INDEX_NAME)
+    if not files and not lists:
+        known = ", ".join(ENDINGS)
+        raise InputError(f"{folder} holds no model; assets are {known} files, or .toml with parts")
     if len(files) > MOST_FILES:
         raise InputError(f"{folder} holds {len(files)} models; {MOST_FILES} are the most")
     found = {path: Asset(path, name_of(path)) for path in files}
@@ -79,7 +83,8 @@ def read_folder(folder: Path) -> tuple[Asset, ...]:
         found.update(_read_catalogue(catalogue, found))
     for index in sorted(folder.rglob(INDEX_NAME)):
         found.update(_read_index(index, found))
-    return tuple(found.values())
+    parts = [Asset(path, one.name, one.synonyms) for path in lists for one in read_nouns(path)]
+    return (*found.values(), *parts)
 
 
 def name_of(path: Path) -> str:

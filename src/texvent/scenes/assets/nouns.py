@@ -18,6 +18,7 @@ from texvent.scenes.assets.index import ENDINGS, Asset
 from texvent.scenes.assets.trimesh_files import load_with_trimesh
 from texvent.scenes.mesh import Colour, Float64Array
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
+from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.variation import choose
 from texvent.scenes.scene import Shape, Texture
@@ -81,6 +82,19 @@ class AssetModel:
                 ModelPart(Shape.MESH, to_body, (1.0, 1.0, 1.0), texture=Texture.PLAIN, mesh=mesh)
             )
         return found
+
+
+@lru_cache(maxsize=KEPT_FILES)
+def _read_parts(path: Path, changed_ns: int) -> Mapping[str, Noun]:
+    del changed_ns
+    return {noun.name: noun for noun in read_nouns(path)}
+
+
+def _part_noun(asset: Asset) -> Noun | None:
+    """The noun of an asset that is a list of parts; None: it is a mesh."""
+    if asset.path.suffix.lower() != ".toml":
+        return None
+    return _read_parts(asset.path, asset.path.stat().st_mtime_ns)[asset.noun]
 
 
 def load_model(
@@ -186,6 +200,9 @@ class _Builder:
         if not (math.isfinite(scale) and scale > 0.0):
             raise InputError(f"scale must be a positive number but got {scale!r}")
         asset = choose(seed, "asset", self.assets)
+        listed = _part_noun(asset)
+        if listed is not None:
+            return listed.build(colour=colour, scale=scale, seed=seed)
         return load_model(asset, colour=colour, scale=scale, is_centred=self.is_centred)
 
 
@@ -220,6 +237,9 @@ def with_models(nouns: Mapping[str, Noun], models: Mapping[str, str]) -> Mapping
 
 
 def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:
+    listed = _part_noun(assets[0])
+    if listed is not None:
+        return replace(listed, build=_Builder(assets, is_centred=False))
     first, usual = assets[0], usual_noun(name)
     habitat = first.habitat or (usual.habitat if usual is not None else "fixed")
     is_fixed = habitat == "fixed"

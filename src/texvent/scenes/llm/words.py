@@ -52,5 +52,5 @@ def _meanings(sense: Sense) -> Iterator[tuple[str, object]]:
             yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
             yield from (("direction", value.direction), ("relation", value.relation))
         case "scene":
-            part, fields = value
-            yield from ((FIELDS.get((part, field), field), each) for field, each in fields)
+            part, field, each = value
+            yield FIELDS.get((part, field), field), each

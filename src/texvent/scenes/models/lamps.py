@@ -49,8 +49,6 @@ class Lamp:
     """The glowing part is drawn this much brighter when the lamp is on."""
     is_single: bool = False
     """Whether only the first of its parts sheds light: the parts of one flame are one lamp."""
-    haze_m: float = 0.0
-    """How far its beam is seen from the side in the dark, m; 0 = it is not."""
     own_hz: float = 0.0
     """How often the model itself lets its part shine up and down each second."""
     turns_hz: float = 0.0

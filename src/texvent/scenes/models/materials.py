@@ -54,36 +54,6 @@ def fur(colour: Colour, *, scale: float = 1.0) -> Material:
     return made_of(Texture.FUR, colour, scale=scale)
 
 
-def feathers(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Rows of feathers."""
-    return made_of(Texture.FEATHERS, colour, scale=scale)
-
-
-def foliage(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Leaves of trees and bushes."""
-    return made_of(Texture.FOLIAGE, colour, scale=scale)
-
-
-def needles(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Needles of pines."""
-    return made_of(Texture.NEEDLES, colour, scale=scale)
-
-
-def grass_like(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Blades of a meadow or of grain."""
-    return made_of(Texture.GRASS, colour, shade(colour, 1.7), scale=scale)
-
-
-def stone(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Rock with cracks and lichen."""
-    return made_of(Texture.STONE, colour, scale=scale)
-
-
-def wood(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Grain along the part's local z."""
-    return made_of(Texture.WOOD, colour, scale=scale)
-
-
 def cloth(colour: Colour, *, scale: float = 1.0) -> Material:
     """Woven, with folds."""
     return made_of(Texture.CLOTH, colour, scale=scale)
@@ -92,36 +62,6 @@ def cloth(colour: Colour, *, scale: float = 1.0) -> Material:
 def skin(colour: Colour, *, scale: float = 1.0) -> Material:
     """Skin of people."""
     return made_of(Texture.SKIN, colour, scale=scale)
-
-
-def brick(colour: Colour, *, scale: float = 1.0) -> Material:
-    """A wall of bricks."""
-    return made_of(Texture.BRICK, colour, (0.42, 0.40, 0.36), scale=scale)
-
-
-def plaster(colour: Colour, *, scale: float = 1.0) -> Material:
-    """A rendered wall."""
-    return made_of(Texture.PLASTER, colour, scale=scale)
-
-
-def roofing(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Rows of roof tiles."""
-    return made_of(Texture.ROOFING, colour, scale=scale)
-
-
-def metal(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Brushed metal."""
-    return made_of(Texture.METAL, colour, scale=scale)
-
-
-def leather(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Creased leather, rough skin."""
-    return made_of(Texture.LEATHER, colour, scale=scale)
-
-
-def scales(colour: Colour, *, scale: float = 1.0) -> Material:
-    """Scales of fish and reptiles."""
-    return made_of(Texture.SCALES, colour, scale=scale)
 
 
 @dataclass(frozen=True)
@@ -169,24 +109,24 @@ MATERIALS: dict[str, NamedMaterial] = {
 }
 
 
-def mottled(colour: Colour, *, contrast: float = 0.45, scale: float = 3.0) -> Material:
-    """Soft patches of a darker shade, `scale` to half the part's size."""
-    return Material(colour, shade(colour, 1.0 - contrast), Texture.MOTTLED, scale)
-
-
 def striped(colour: Colour, second_colour: Colour, scale: float) -> Material:
     """Bands along the part's local z."""
     return Material(colour, second_colour, Texture.STRIPES, scale)
 
 
-def checked(colour: Colour, second_colour: Colour, scale: float) -> Material:
-    """A 3-D checker pattern."""
-    return Material(colour, second_colour, Texture.CHECKS, scale)
+def decode_hex(code: str) -> Colour:
+    """Linear-light RGB of an sRGB code such as "ff8000" (IEC 61966-2-1).
+
+    Example:
+        >>> decode_hex("ffffff")
+        (1.0, 1.0, 1.0)
+    """
+    red, green, blue = (_linearise(int(code[i : i + 2], 16) / 255.0) for i in (0, 2, 4))
+    return (red, green, blue)
 
 
-def glowing(colour: Colour, emission: float) -> Material:
-    """A lamp: gives off `emission` times its colour."""
-    return Material(colour, texture=Texture.PLAIN, emission=emission)
+def _linearise(value: float) -> float:
+    return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)
 
 
 def shade(colour: Colour, factor: float) -> Colour:
@@ -203,23 +143,13 @@ def mix(first: Colour, second: Colour, weight: float) -> Colour:
 
 WHITE: Colour = (0.80, 0.80, 0.78)
 BLACK: Colour = (0.015, 0.015, 0.017)
-GREY: Colour = (0.22, 0.22, 0.23)
 RED: Colour = (0.55, 0.03, 0.02)
 ORANGE: Colour = (0.75, 0.18, 0.01)
 YELLOW: Colour = (0.75, 0.45, 0.02)
-GREEN: Colour = (0.05, 0.30, 0.05)
 BLUE: Colour = (0.03, 0.10, 0.45)
 
-RUBBER = leather((0.018, 0.018, 0.020))
-STEEL = metal((0.32, 0.33, 0.35))
-CHROME = metal((0.52, 0.53, 0.55))
-GLASS = Material((0.035, 0.050, 0.065))
+STEEL = made_of(Texture.METAL, (0.32, 0.33, 0.35))
 DARK = Material((0.030, 0.030, 0.033))
-WOOD = wood((0.30, 0.15, 0.06))
-BARK = made_of(Texture.BARK, (0.11, 0.065, 0.035))
-CONCRETE = made_of(Texture.CONCRETE, (0.38, 0.37, 0.35))
-HEADLIGHT = glowing((0.95, 0.92, 0.75), 1.2)
-TAILLIGHT = glowing((0.70, 0.02, 0.02), 0.6)
 SKIN_TONES: tuple[Colour, ...] = (
     (0.66, 0.42, 0.31),
     (0.50, 0.28, 0.17),
@@ -239,11 +169,4 @@ CLOTH_COLOURS: tuple[Colour, ...] = (
     (0.06, 0.26, 0.12),
     (0.62, 0.33, 0.03),
     (0.25, 0.05, 0.25),
-)
-CAR_COLOURS: tuple[Colour, ...] = (
-    (0.50, 0.03, 0.03),
-    (0.04, 0.13, 0.42),
-    (0.55, 0.56, 0.58),
-    (0.03, 0.20, 0.12),
-    (0.68, 0.67, 0.63),
 )

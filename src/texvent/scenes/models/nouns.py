@@ -8,168 +8,34 @@ middle, except that what floats (`AFLOAT`) has it on the waterline: put it at th
 from __future__ import annotations
 
 from collections.abc import Mapping
+from importlib.resources import files
 from types import MappingProxyType
 
-from texvent.scenes.models import solids
-from texvent.scenes.models.animals import (
-    breeds,
-    coloured_birds,
-    crawlers,
-    flying_birds,
-    more_quadrupeds,
-    night_animals,
-    other_bodies,
-    quadrupeds,
-    rare_quadrupeds,
-    sea_life,
-    small_animals,
-    walking_birds,
-)
-from texvent.scenes.models.objects import (
-    buildings,
-    furniture,
-    household,
-    nature,
-    patterns,
-    plants,
-    street,
-    tales,
-    toys,
-)
-from texvent.scenes.models.objects.home import (
-    belongings,
-    electronics,
-    furnishing,
-    house_and_games,
-    lights,
-    personal,
-    screens,
-    small_things,
-)
-from texvent.scenes.models.objects.kitchen import appliances, dishes, food, helpings, tableware
-from texvent.scenes.models.objects.outdoors import (
-    estates,
-    flowing,
-    landmarks,
-    street_furniture,
-    structures,
-    vegetation,
-    wild,
-)
-from texvent.scenes.models.objects.places import enclosures, grounds, halls, interiors, rooms
-from texvent.scenes.models.objects.play import music, toppling
-from texvent.scenes.models.objects.play import toys as playthings
-from texvent.scenes.models.objects.sport import balls, equipment, gear
-from texvent.scenes.models.objects.work import (
-    escalator,
-    experiments,
-    machines,
-    rare_vehicles,
-    robots,
-    targets,
-    tools,
-)
-from texvent.scenes.models.people import hand, person, wearables
-from texvent.scenes.models.people.creatures import nouns as creatures
-from texvent.scenes.models.people.roles import clothes
-from texvent.scenes.models.people.roles import nouns as roles
+from texvent.scenes.models.bodies.nouns import BODY_FAMILIES
+from texvent.scenes.models.parts import read_nouns
+from texvent.scenes.models.people import hand, person
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.vehicles import (
-    aircraft,
-    boats,
-    cars,
-    construction,
-    cycles,
-    heavy,
-    ships_and_planes,
-    trucks_and_carriages,
-)
 
-_MODULES = (
-    cars,
-    heavy,
-    cycles,
-    aircraft,
-    boats,
-    construction,
-    person,
-    roles,
-    hand,
-    wearables,
-    clothes,
-    quadrupeds,
-    more_quadrupeds,
-    breeds,
-    rare_quadrupeds,
-    other_bodies,
-    night_animals,
-    crawlers,
-    walking_birds,
-    flying_birds,
-    sea_life,
-    small_animals,
-    plants,
-    nature,
-    buildings,
-    street,
-    toys,
-    solids,
-    furniture,
-    household,
-    food,
-    appliances,
-    screens,
-    electronics,
-    furnishing,
-    lights,
-    personal,
-    balls,
-    music,
-    tools,
-    machines,
-    robots,
-    toppling,
-    escalator,
-    flowing,
-    street_furniture,
-    structures,
-    wild,
-    patterns,
-    playthings,
-    gear,
-    tableware,
-    small_things,
-    rare_vehicles,
-    trucks_and_carriages,
-    ships_and_planes,
-    coloured_birds,
-    vegetation,
-    experiments,
-    targets,
-    dishes,
-    house_and_games,
-    rooms,
-    grounds,
-    belongings,
-    equipment,
-    landmarks,
-    tales,
-    halls,
-    enclosures,
-    interiors,
-    estates,
-    helpings,
-    creatures,
-)
+
+def _read_families() -> dict[str, tuple[Noun, ...]]:
+    """Nouns of the files of `data/nouns`, by the files' names."""
+    folder = files("texvent.scenes.models") / "data" / "nouns"
+    found = {one.name: one for one in folder.iterdir() if one.name.endswith(".toml")}
+    return {name.removesuffix(".toml"): read_nouns(found[name]) for name in sorted(found)}
+
+
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
-    {" ".join(one.__name__.split(".")[3:]).replace("_", " "): one.NOUNS for one in _MODULES}
+    {"people": (*person.NOUNS, *hand.NOUNS), **BODY_FAMILIES, **_read_families()}
 )
-"""Nouns by family, such as "vehicles cars"."""
+"""Nouns by family, such as "vehicles"."""
 
 NOUNS: Mapping[str, Noun] = MappingProxyType(
     {noun.name: noun for family in FAMILIES.values() for noun in family}
 )
 """Every noun by its singular name."""
+
+DRESSING: frozenset[str] = frozenset(noun.name for noun in FAMILIES["dressing"])
+"""Set dressing of places: no prompt means it."""
 
 AFLOAT: frozenset[str] = frozenset(
     name for name, noun in NOUNS.items() if noun.motion in ("sail", "paddle")

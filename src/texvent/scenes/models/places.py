@@ -14,10 +14,10 @@ from typing import Any, Literal
 
 from texvent.scenes.scene import Colour, Ground, Texture
 
-Where = Literal["around", "wall", "under", "both sides", "water", "far", "route"]
+Where = Literal["around", "walls", "under", "both sides", "water", "far", "route"]
 """Where scenery stands."""
 _SCALES: Mapping[str, tuple[float, float]] = {
-    "wall": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0),
+    "walls": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0),
 }  # fmt: skip
 """Usual multiples of its size, of what does not stand around."""
 ROAD_GROUNDS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
@@ -34,7 +34,7 @@ class Scenery:
     where: Where = "around"
     reach: tuple[float, float] = (0.0, 0.0)
     """Nearest and farthest: in camera distances behind what the camera looks at, or metres from
-    the camera of what is far off."""
+    the camera of what is far off; of what lies under all, how far before the first of them."""
     scale: tuple[float, float] = (0.8, 1.2)
     """Least and greatest multiple of its usual size."""
     colours: tuple[Colour | None, ...] = (None,)
@@ -43,8 +43,6 @@ class Scenery:
     grows: bool = False
     """Whether its size follows the distance of the camera, so that it neither towers nor
     vanishes."""
-    ahead_m: float = 0.0
-    """How far before who would else stand in its middle it lies: a court with a net."""
 
     @property
     def is_structure(self) -> bool:
@@ -92,7 +90,13 @@ class Place:
 
 def _read() -> dict[str, Place]:
     text = files("texvent.scenes.models").joinpath("data", "places.toml").read_text("utf-8")
-    return {name: _place_of(entry) for name, entry in tomllib.loads(text).items()}
+    found = {}
+    for name, entry in tomllib.loads(text).items():
+        try:
+            found[name] = _place_of(entry)
+        except (KeyError, TypeError, ValueError) as error:
+            raise ValueError(f"data/places.toml, place {name!r}: {error}") from error
+    return found
 
 
 def _place_of(entry: dict[str, Any]) -> Place:

@@ -7,7 +7,7 @@ An object that flies, swims or is thrown has its origin at its middle instead (`
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal, Protocol
 
 import numpy as np
@@ -69,8 +69,7 @@ class Pose:
     """Time since the instant of contact of a single act such as a kick, s; None = it repeats."""
     grips: tuple[tuple[str, tuple[float, float, float]], ...] = ()
     """Where "left hand", "right hand", "left foot", "right foot" or "hips" are held, m, in body
-    coordinates; with "neck" (base of the neck), "tip" (where what the right hand holds points to)
-    and "gaze" (what is looked at) the torso bends to its work."""
+    coordinates."""
 
 
 class Model(Protocol):
@@ -118,17 +117,3 @@ class Noun:
     """What an animal's model shows besides moving: names of `animals.acts.ANIMAL_ACTS`."""
     is_working: bool = False
     """Whether it stays in place and moves by itself, as a metronome does."""
-
-
-def fixed_noun(
-    name: str, build: ModelBuilder, synonyms: tuple[str, ...] = (), plurals: tuple[str, ...] = ()
-) -> Noun:
-    """A noun that stays where it is."""
-    return Noun(name, build, "fixed", 0.0, "stand", synonyms, plurals)
-
-
-def working_noun(
-    name: str, build: ModelBuilder, synonyms: tuple[str, ...] = (), plurals: tuple[str, ...] = ()
-) -> Noun:
-    """A noun that stays where it is and moves by itself: a windmill, a fan."""
-    return replace(fixed_noun(name, build, synonyms, plurals), is_working=True)

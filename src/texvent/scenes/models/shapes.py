@@ -48,17 +48,17 @@ def box(material: Material, centre: Point, size: Point, *, lean: float = 0.0) ->
 
 def ball(material: Material, centre: Point, size: Point) -> ModelPart:
     """An ellipsoid with axes along x, y, z."""
-    return part(Shape.ELLIPSOID, material, _upright(centre, size))
+    return part(Shape.ELLIPSOID, material, placed_upright(centre, size))
 
 
 def post(material: Material, centre: Point, size: Point) -> ModelPart:
     """An upright cylinder."""
-    return part(Shape.CYLINDER, material, _upright(centre, size))
+    return part(Shape.CYLINDER, material, placed_upright(centre, size))
 
 
 def peak(material: Material, centre: Point, size: Point) -> ModelPart:
     """An upright cone."""
-    return part(Shape.CONE, material, _upright(centre, size))
+    return part(Shape.CONE, material, placed_upright(centre, size))
 
 
 def rod(
@@ -66,7 +66,7 @@ def rod(
 ) -> ModelPart:
     """A cylinder from one point to another; `side_radius` is its half thickness along y."""
     side = radius if side_radius is None else side_radius
-    return part(Shape.CYLINDER, material, _between(start, end, radius, side, 0.0))
+    return part(Shape.CYLINDER, material, placed_between(start, end, radius, side, 0.0))
 
 
 def limb(
@@ -85,12 +85,12 @@ def limb(
         The part; its local z runs from start to end, so stripes ring the limb.
     """
     side = radius if side_radius is None else side_radius
-    return part(Shape.ELLIPSOID, material, _between(start, end, radius, side, 0.6 * radius))
+    return part(Shape.ELLIPSOID, material, placed_between(start, end, radius, side, 0.6 * radius))
 
 
 def spike(material: Material, base: Point, tip: Point, radius: float) -> ModelPart:
     """A cone from the middle of its base to its tip."""
-    return part(Shape.CONE, material, _between(base, tip, radius, radius, 0.0))
+    return part(Shape.CONE, material, placed_between(base, tip, radius, radius, 0.0))
 
 
 def fin(
@@ -108,52 +108,21 @@ def fin(
     Returns:
         The part.
     """
-    return part(Shape.CONE, material, _spanned(base, tip, chord, thickness))
-
-
-def upright_fin(
-    material: Material, base: Point, tip: Point, chord: float, thick: float
-) -> ModelPart:
-    """A fin whose root runs along x, such as a tail plane: chord and thickness in m."""
-    return fin(material, base, tip, chord=(chord, 0.0, 0.0), thickness=(0.0, thick, 0.0))
+    return part(Shape.CONE, material, placed_spanned(base, tip, chord, thickness))
 
 
 def plank(
     material: Material, start: Point, end: Point, *, chord: Point, thickness: Point
 ) -> ModelPart:
     """A slanted box spanned by three vectors: wings, roofs, blades."""
-    return part(Shape.BOX, material, _spanned(start, end, chord, thickness))
-
-
-def gable(material: Material, base: Point, size: Point) -> ModelPart:
-    """The triangle under a roof whose ridge runs along y: a diamond, its lower half in the wall.
-
-    Args:
-        material: its surface.
-        base: middle of the triangle's foot, m.
-        size: full extents of the triangle: along x, along y, and its height, m.
-
-    Returns:
-        The part.
-    """
-    x, y, z = base
-    half, width, rise = 0.5 * size[0], size[1], size[2]
-    start, end = (x + 0.5 * half, y, z - 0.5 * rise), (x - 0.5 * half, y, z + 0.5 * rise)
-    return plank(material, start, end, chord=(half, 0.0, rise), thickness=(0.0, width, 0.0))
-
-
-def level_wing(
-    material: Material, start: Point, end: Point, chord: float, thick: float
-) -> ModelPart:
-    """A level plank whose chord runs along x; chord and thickness in m."""
-    return plank(material, start, end, chord=(chord, 0.0, 0.0), thickness=(0.0, 0.0, thick))
+    return part(Shape.BOX, material, placed_spanned(start, end, chord, thickness))
 
 
 def blade(
     material: Material, start: Point, end: Point, *, chord: Point, thickness: Point
 ) -> ModelPart:
     """A flat ellipsoid spanned by three vectors: feathered wings, leaves."""
-    return part(Shape.ELLIPSOID, material, _spanned(start, end, chord, thickness))
+    return part(Shape.ELLIPSOID, material, placed_spanned(start, end, chord, thickness))
 
 
 def part_way(start: Point, end: Point, share: float) -> Point:
@@ -199,6 +168,11 @@ def turn_z(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
     return _about(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), pivot)
 
 
+def turn_about(axis: str, angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
+    """A turn about an axis along "x", "y" or "z"."""
+    return {"x": turn_x, "y": turn_y, "z": turn_z}[axis](angle, pivot)
+
+
 def bounds(parts: Iterable[ModelPart]) -> tuple[Affine, Affine]:
     """Two arrays [3]: least and greatest x, y, z of all parts, m."""
     maps: dict[Shape, list[Affine]] = {}
@@ -235,7 +209,8 @@ def half_extents(shape: Shape, to_body: Affine) -> tuple[Affine, Affine]:
     return np.minimum(base - round_reach, tip), np.maximum(base + round_reach, tip)
 
 
-def _upright(centre: Point, size: Point) -> Affine:
+def placed_upright(centre: Point, size: Point) -> Affine:
+    """The map of a unit shape with a middle and full extents along x, y, z."""
     x, y, z = centre
     half_x, half_y, half_z = (0.5 * extent for extent in size)
     return np.array([[half_x, 0.0, 0.0, x], [0.0, half_y, 0.0, y], [0.0, 0.0, half_z, z]])
@@ -246,8 +221,11 @@ def _about(rotation: Affine, pivot: Point) -> Affine:
     return np.column_stack([rotation, centre - rotation @ centre])
 
 
-def _between(start: Point, end: Point, radius: float, side: float, overlap: float) -> Affine:
-    """Local z from start to end; local y as near to body y as it can be."""
+def placed_between(start: Point, end: Point, radius: float, side: float, overlap: float) -> Affine:
+    """The map of a unit shape between two points.
+
+    Its local z runs from start to end; its local y is as near to body y as it can be.
+    """
     dx, dy, dz = end[0] - start[0], end[1] - start[1], end[2] - start[2]
     length = max(math.sqrt(dx * dx + dy * dy + dz * dz), 1e-9)
     dx, dy, dz = dx / length, dy / length, dz / length
@@ -269,8 +247,11 @@ def _between(start: Point, end: Point, radius: float, side: float, overlap: floa
     )
 
 
-def _spanned(start: Point, end: Point, chord: Point, thickness: Point) -> Affine:
-    """Columns: half chord, half thickness, half span; flipped if they were left-handed."""
+def placed_spanned(start: Point, end: Point, chord: Point, thickness: Point) -> Affine:
+    """The map of a unit shape spanned by three vectors.
+
+    Columns: half chord, half thickness, half span; flipped if they were left-handed.
+    """
     a, b = np.array(start), np.array(end)
     columns = 0.5 * np.column_stack([np.array(chord), np.array(thickness), b - a])
     if np.linalg.det(columns) < 0.0:

@@ -9,7 +9,7 @@ import cv2
 
 from texvent.errors import InputError, shown
 from texvent.scenes.description import Picture
-from texvent.scenes.models.objects.home.screens import PICTURE_FACES
+from texvent.scenes.models.traits import nouns_with
 
 VIDEO_ENDINGS = frozenset({".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm", ".gif", ".mpg", ".ts"})
 """Endings of files that play; any other file is read as an image."""
@@ -62,7 +62,7 @@ def is_video(path: Path) -> bool:
 
 def can_show(noun: str) -> bool:
     """Whether a noun of the embedded generator has a face for pictures."""
-    return noun in PICTURE_FACES
+    return noun in nouns_with("shows a picture")
 
 
 def _check_text(text: str) -> None:

@@ -4,35 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from texvent.scenes.description import Picture
-from texvent.scenes.models.objects.home.screens import PICTURE_FACES
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
-from texvent.scenes.models.wrapped.wrapped_model import WrappedModel
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.pictures.source import PAPER, load_picture
 from texvent.scenes.scene import Colour, Shape, Texture
 
-DISPLAYS = frozenset({"tv", "monitor", "laptop", "tablet", "cell phone"})
-"""Nouns whose pictures shine."""
 _DISPLAY_GLOW = 0.9
 """Light of a display, as a multiple of the picture's."""
 _DARK: Colour = (0.01, 0.01, 0.01)
-_FACES = {"-x": 0, "+x": 1, "-y": 2, "+y": 3, "-z": 4, "+z": 5}
+_FACE = 1
+"""The side of the first part that shows the picture, +x; see `data/traits/pictures.toml`."""
 _BESIDE = 1.001
 """What reaches farther than this from the middle of a face, in half sides, is no print on it."""
 
 
-class PicturedModel(WrappedModel):
+class PicturedModel:
     """A model with a picture where its noun shows one; all else is the model's own.
 
     What is usually printed on that face is left out.
 
     Args:
         model: a model of the noun.
-        noun: key of `PICTURE_FACES`.
+        noun: one that shows a picture.
         picture: what it shows.
 
     Raises:
@@ -40,29 +39,31 @@ class PicturedModel(WrappedModel):
     """
 
     def __init__(self, model: Model, noun: str, picture: Picture) -> None:
-        super().__init__(model)
+        self._model = model
+        self.length, self.width, self.height = model.length, model.width, model.height
         self._source = load_picture(picture)
         self._margin: Colour | None = None if picture.kind == "file" else (PAPER, PAPER, PAPER)
-        place = PICTURE_FACES[noun]
-        self._part, self._face = place.part, _FACES[place.face]
-        self._shines = noun in DISPLAYS
+        self._shines = noun in nouns_with("lit screen")
         if self._shines and self._margin is None:
             self._margin = _DARK
 
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):  # not yet set, as in a copy that is being made
+            raise AttributeError(name)
+        return getattr(self._model, name)
+
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose, the picture on one of them."""
-        parts = self._model.parts(pose)
-        face = parts[self._part]
+        face, *others = self._model.parts(pose)
         shown = replace(
             face,
             image=self._source(pose.time_s),
-            image_face=self._face,
+            image_face=_FACE,
             texture=Texture.PLAIN,
             colour=face.colour if self._margin is None else self._margin,
             emission=_DISPLAY_GLOW if self._shines else 0.0,
         )
-        others = (part for index, part in enumerate(parts) if index != self._part)
-        return [shown, *(part for part in others if not _is_print(part, face, self._face))]
+        return [shown, *(part for part in others if not _is_print(part, face, _FACE))]
 
 
 def _is_print(part: ModelPart, face: ModelPart, number: int) -> bool:

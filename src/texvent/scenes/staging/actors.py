@@ -12,7 +12,7 @@ import numpy as np
 from texvent.scenes.models.anchors import has_places, locate
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import AFLOAT
-from texvent.scenes.models.people.acts.prop_shapes import Prop
+from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import bounds, compose, moved, rod
 from texvent.scenes.scene import Float64Array
@@ -96,8 +96,6 @@ class Actor:
     """Whether it crosses the road."""
     headroom_m: float = 0.0
     """Room above it that the image should show too: for smoke, m."""
-    waist_m: float = 0.0
-    """Height below which the image need not show it: of who works at a table, m."""
     _boxes: dict[float, tuple[Float64Array, Float64Array]] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -117,17 +115,20 @@ class Actor:
     def _has_limbs(self) -> bool:
         return has_places(self.model)
 
-    def place(self, time_s: float) -> PlacedModel:
-        """Its parts in the world at that instant."""
-        state = self.trajectory.at(time_s)
-        pose = self.pose(time_s)
-        parts = [*self.model.parts(pose), *self.extras]
+    def own_parts(self, pose: Pose) -> list[ModelPart]:
+        """Parts of its model and of what its activity needs, body coordinates."""
+        parts = [*self.model.parts(pose)]
         for prop in self.props:
-            axes = locate(self.model, prop.anchor, pose)
-            parts += moved(prop.draw(pose.time_s), axes)
+            parts += moved(prop.draw(pose.time_s), locate(self.model, prop.anchor, pose))
+        return parts
+
+    def place(self, time_s: float) -> PlacedModel:
+        """All that is drawn of it in the world at that instant."""
+        to_world = self.trajectory.at(time_s).to_world()
+        parts = [*self.own_parts(self.pose(time_s)), *self.extras]
         if self.tether is not None:
-            parts.append(self.tether.draw(state.to_world(), time_s))
-        return PlacedModel(parts, state.to_world(), self.instance)
+            parts.append(self.tether.draw(to_world, time_s))
+        return PlacedModel(parts, to_world, self.instance)
 
     def pose(self, time_s: float) -> Pose:
         """What moves its limbs at that instant."""
@@ -179,24 +180,18 @@ class Actor:
         low, high = self._boxes[time_s]
         high = high.copy()
         high[2] += self.headroom_m
-        if self.waist_m > 0.0:
-            low = np.array([low[0], low[1], self.waist_m])
         middle = 0.5 * (low + high)
         middle[:2] = np.where(high[:2] - low[:2] > limit_m, 0.0, middle[:2])
         half = 0.5 * np.minimum(high - low, limit_m)
         middle[2] = low[2] + half[2]
-        points = middle + _CORNERS * half
         to_world = self.trajectory.at(time_s).to_world()
-        return np.asarray(points @ to_world[:, :3].T + to_world[:, 3])
+        return np.asarray((middle + _CORNERS * half) @ to_world[:, :3].T + to_world[:, 3])
 
     def _box(self, time_s: float) -> tuple[Float64Array, Float64Array]:
         """Least and greatest body coordinates: of a body with limbs, at that instant."""
         pose = self.pose(time_s)
         if self._has_limbs or pose.activity in self.noun.acts:
-            parts = [*self.model.parts(pose)]
-            for prop in self.props:
-                parts += moved(prop.draw(pose.time_s), locate(self.model, prop.anchor, pose))
-            return bounds(parts)
+            return bounds(self.own_parts(pose))
         half = 0.5 * np.array([self.model.length, self.model.width, self.model.height])
         lift = np.array([0.0, 0.0, 0.0 if self.is_centred else half[2]])
         return lift - half, lift + half

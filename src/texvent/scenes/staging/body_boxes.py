@@ -7,10 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import moved
-from texvent.scenes.models.support_surface import top_heights
 from texvent.scenes.scene import Float64Array, Shape
 from texvent.scenes.staging.actors import Actor
 
@@ -38,11 +35,7 @@ def part_boxes(actor: Actor, time_s: float) -> Boxes:
 
 def own_parts(actor: Actor, time_s: float) -> list[ModelPart]:
     """The parts of an actor's model and props at an instant, body coordinates."""
-    pose = actor.pose(time_s)
-    parts = [*actor.model.parts(pose)]
-    for prop in actor.props:
-        parts += moved(prop.draw(pose.time_s), locate(actor.model, prop.anchor, pose))
-    return parts
+    return actor.own_parts(actor.pose(time_s))
 
 
 def boxes_of(parts: Sequence[ModelPart], to_world: Float64Array) -> Boxes:
@@ -70,11 +63,3 @@ def gap(first: Boxes, second: Boxes) -> float:
         first.low[:, None] - second.high[None], second.low[None] - first.high[:, None]
     )
     return float(np.linalg.norm(np.maximum(apart, 0.0), axis=2).min())
-
-
-def top_below(actor: Actor, time_s: float, spot: Float64Array) -> float:
-    """Height of an upright body's highest surface over a ground point [2], m; -inf: none."""
-    to_world = actor.trajectory.at(time_s).to_world()
-    own = to_world[:, :3].T @ (np.array([*spot, 0.0]) - to_world[:, 3])
-    top = top_heights(own_parts(actor, time_s), own[:1], own[1:2])[0]
-    return float(top + to_world[2, 3])

@@ -111,8 +111,7 @@ class ComposedScene:
             ]
         )
         lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
-        puffs = [np.zeros((0, PUFF_COLUMNS)), *self.lamps.puffs(time_s)]
-        puffs += [effect.puffs(time_s) for effect in effects]
+        puffs = [np.zeros((0, PUFF_COLUMNS)), *(effect.puffs(time_s) for effect in effects)]
         surroundings = self.animated_environment.at(time_s)
         return replace(
             surroundings,
@@ -323,6 +322,6 @@ def _set_up(
     """Scenery in view, and along the route of a camera that travels."""
     if view.travel is None:
         return scatter(rules, view, actors, nouns, rng=rng, taken=taken)
-    lined = line_route(rules, view.travel, actors, nouns, rng=rng, road_half_m=view.road_half_width)
+    lined = line_route(rules, view, view.travel, actors, nouns, rng)
     far = [rule for rule in rules if is_placed_by_view(rule)]
     return lined + scatter(far, view, actors, nouns, rng=rng, taken=taken)

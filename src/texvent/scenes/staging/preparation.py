@@ -30,40 +30,41 @@ def prepare(
     """
     if not (math.isfinite(duration_s) and duration_s > 0.0):
         raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
-    missing: list[str] = []
-    for scene_object in description.objects:
-        said = [*filter(None, [scene_object.motion]), *scene_object.then]
-        for motion in left_out(said, duration_s):
-            text = (
-                f"the {scene_object.noun}'s {motion.kind} after {motion.start_s:g} s "
-                f"(the clip ends at {duration_s:g} s)"
-            )
-            missing.append(text)
-    description = _shade(_face_passages(description))
-    follows = any(move.kind == "follow" for move in description.shot.moves)
-    if not follows or not description.objects:
-        return description, missing
-    index = description.shot.target
+    missing = [
+        f"the {one.noun}'s {motion.kind} after {motion.start_s:g} s "
+        f"(the clip ends at {duration_s:g} s)"
+        for one in description.objects
+        for motion in left_out([*filter(None, [one.motion]), *one.then], duration_s)
+    ]
+    description = _face_passages(description)
+    index = _find_followed(description)
     if index is None:
-        movers = [n for n, one in enumerate(description.objects) if _moves_on(one.motion)]
-        index = movers[0] if movers else 0
-    subject = description.objects[index]
-    if _moves_on(subject.motion) or subject.then:
         return description, missing
-    if subject.motion is not None and subject.motion.kind not in ("stand", "move"):
-        return description, missing
-    usual = nouns[subject.noun].motion
-    if usual in _PLACES_TO_GO:
-        objects = list(description.objects)
-        objects[index] = replace(subject, motion=ObjectMotion(usual))
-        shot = replace(description.shot, target=index)
+    objects = list(description.objects)
+    noun, shot = nouns[objects[index].noun], description.shot
+    if noun.motion in _PLACES_TO_GO:
+        objects[index] = replace(objects[index], motion=ObjectMotion(noun.motion))
+        shot = replace(shot, target=index)
         return replace(description, objects=tuple(objects), shot=shot), missing
     moves = tuple(
         replace(move, kind="truck", direction="right") if move.kind == "follow" else move
-        for move in description.shot.moves
+        for move in shot.moves
     )
-    missing.append(f"following the {subject.noun}, which does not move")
-    return replace(description, shot=replace(description.shot, moves=moves)), missing
+    missing.append(f"following the {noun.name}, which does not move")
+    return replace(description, shot=replace(shot, moves=moves)), missing
+
+
+def _find_followed(description: SceneDescription) -> int | None:
+    """Index of what the camera follows, if that rests; None if there is no such thing."""
+    objects, index = description.objects, description.shot.target
+    if not objects or not any(move.kind == "follow" for move in description.shot.moves):
+        return None
+    if index is None:
+        moving = [n for n, one in enumerate(objects) if one.motion and one.motion.is_moving]
+        index = moving[0] if moving else 0
+    motion = objects[index].motion
+    rests = motion is None or motion.kind in ("stand", "hang")
+    return index if rests and not objects[index].then else None
 
 
 def _face_passages(description: SceneDescription) -> SceneDescription:
@@ -78,24 +79,3 @@ def _face_passages(description: SceneDescription) -> SceneDescription:
             turned = replace(motion, direction="towards")
             objects[relation.subject] = replace(objects[relation.subject], motion=turned)
     return replace(description, objects=tuple(objects))
-
-
-def _shade(description: SceneDescription) -> SceneDescription:
-    """With parasols for umbrellas that nobody holds: over people, or on a beach."""
-    objects = list(description.objects)
-    relations = description.relations
-    held = {i for one in relations if one.kind in _IN_HANDS for i in one.targets}
-    over = {i for one in relations if one.kind == "under" for i in one.targets}
-    is_beach = description.surroundings.place in _BEACHES
-    for index, one in enumerate(objects):
-        if one.noun == "umbrella" and index not in held and (is_beach or index in over):
-            objects[index] = replace(one, noun="parasol")
-    return replace(description, objects=tuple(objects))
-
-
-_IN_HANDS = frozenset({"hold", "carry"})
-_BEACHES = frozenset({"sand", "beach", "swimming pool"})
-
-
-def _moves_on(motion: ObjectMotion | None) -> bool:
-    return motion is not None and motion.is_moving

@@ -55,7 +55,7 @@ def test_bodies_that_collide_touch_at_one_instant(
 
 
 def test_a_front_is_turned_to_what_comes_and_an_arrow_stays_in_it() -> None:
-    arrow, target = stage(SceneObject("arrow"), SceneObject("archery target"), target=1)
+    arrow, target = stage(SceneObject("arrow"), SceneObject("wall"), target=1)
     contact_s = contact_time(DURATION_S, 0.5)
     assert apart((arrow, target), 0.0) > arrow.model.length
     assert apart((arrow, target), contact_s + 0.1) == 0.0
@@ -69,12 +69,12 @@ def test_a_front_is_turned_to_what_comes_and_an_arrow_stays_in_it() -> None:
 
 def test_what_cannot_go_flies_and_falls_off_but_a_ball_that_rolls_stays_down() -> None:
     contact_s = contact_time(DURATION_S, 0.5)
-    stone, window = stage(SceneObject("stone"), SceneObject("window"), target=1)
-    heights = [middle(stone, time_s)[2] for time_s in (0.0, contact_s, DURATION_S)]
+    rock, window = stage(SceneObject("rock"), SceneObject("window"), target=1)
+    heights = [middle(rock, time_s)[2] for time_s in (0.0, contact_s, DURATION_S)]
     assert heights[0] == pytest.approx(heights[1])
     assert heights[1] > 0.5
-    assert heights[2] == pytest.approx(0.5 * stone.model.height, abs=0.12)
-    assert apart((stone, window), DURATION_S) > 0.0
+    assert heights[2] == pytest.approx(0.5 * rock.model.height, abs=0.12)
+    assert apart((rock, window), DURATION_S) > 0.0
     thrown, _ = stage(SceneObject("ball"), SceneObject("wall"), target=1)
     rolling = SceneObject("ball", motion=ObjectMotion("roll"))
     rolled, wall = stage(rolling, SceneObject("wall"), target=1)

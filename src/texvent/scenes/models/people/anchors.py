@@ -17,7 +17,7 @@ def locate_anchor(name: str, joints: Skeleton, head: float = 1.0) -> Affine:
     Args:
         name: "right hand" (z along what it holds), "left hand", "hands" (between both),
             "crown" (top of the head), "face", "mouth", "neck", "torso" (origin at the hips),
-            "back", "chest", "seat", "ground", "right foot" or "left foot" (tip of the shoe).
+            "seat", "ground", "right foot" or "left foot" (tip of the shoe).
         joints: the body.
         head: size of its head relative to an adult's.
 
@@ -46,8 +46,7 @@ _ON_HEAD: dict[str, Point] = {
 }  # fmt: skip
 """Places in multiples of the head's height above the middle of the neck."""
 _ON_TORSO: dict[str, Point] = {
-    "torso": (0.0, 0.0, 0.0), "seat": (0.0, 0.0, -0.10), "back": (-0.13, 0.0, 0.30),
-    "chest": (0.14, 0.0, 0.32), "neck": (0.0, 0.0, NECK),
+    "torso": (0.0, 0.0, 0.0), "seat": (0.0, 0.0, -0.10), "neck": (0.0, 0.0, NECK),
 }  # fmt: skip
 
 

@@ -7,8 +7,9 @@ import math
 import numpy as np
 
 from texvent.scenes.models.limb_kinematics import bend
-from texvent.scenes.models.materials import BLACK, WHITE, YELLOW, Material, shade
+from texvent.scenes.models.materials import BLACK, WHITE, Material, shade
 from texvent.scenes.models.people.outfit import Outfit, PersonKind
+from texvent.scenes.models.people.part_table import draw_parts
 from texvent.scenes.models.people.posture import (
     FOREARM,
     LOWER_ARM,
@@ -17,14 +18,11 @@ from texvent.scenes.models.people.posture import (
     THIGH,
     Skeleton,
 )
-from texvent.scenes.models.people.roles.garments import GARMENTS
-from texvent.scenes.models.people.roles.hats import HATS, HEAD_SIZE
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import Point, ball, limb, moved, part_way, shift, spike
+from texvent.scenes.models.shapes import Point, ball, limb, moved, part_way, spike
 
-__all__ = ["HEAD_SIZE", "draw_arm", "draw_figure", "draw_head", "draw_leg", "draw_torso",
-           "foot_point"]  # fmt: skip
-
+HEAD_SIZE = 0.23
+"""Height of an adult's head, m."""
 _KNEE: Point = (1.0, 0.0, 0.35)
 
 
@@ -38,10 +36,8 @@ def draw_figure(kind: PersonKind, outfit: Outfit, joints: Skeleton) -> list[Mode
         parts += draw_arm(outfit, joints.shoulders[side], joints.elbows[side], joints.hands[side])
     for side in (0, 1):
         parts += _leg(outfit, joints, side)
-    if kind.creature is not None:
-        parts += kind.creature.draw_body(kind, outfit, joints)
-    for name, material in outfit.garments:
-        parts += GARMENTS[name](material, joints)
+    for name in kind.garments:
+        parts += moved(draw_parts("outfits", "garments", name), joints.torso)
     return parts
 
 
@@ -62,12 +58,9 @@ def draw_head(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
     """Neck, head, face, hair and hat above the base of the neck."""
     x, y, z = neck
     size = HEAD_SIZE * kind.head
-    if kind.creature is not None and outfit.coat is not None:
-        parts = moved(kind.creature.draw_head(outfit.coat, size), shift(x, y, z))
-        return [*parts, *_draw_hat(kind, outfit, neck)]
     middle = z + 0.09 + 0.5 * size
     front = x + 0.02 + 0.41 * size
-    hair = 0.92 if kind.hat != "helmet" else 0.80
+    hair = 0.80 if kind.hat else 0.92
     lips = Material(shade(outfit.skin.colour, 0.45))
     parts = [
         limb(outfit.skin, (x, y, z - 0.02), (x + 0.01, y, z + 0.12), 0.055),
@@ -89,56 +82,34 @@ def draw_head(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
         parts.append(ball(outfit.skin, ear, (0.05, 0.025, 0.07)))
     if kind.long_hair:
         parts.append(ball(outfit.hair, (x - 0.07, y, z + 0.06), (0.13, 0.20, 0.36)))
-    return [*parts, *_draw_hat(kind, outfit, neck)]
-
-
-def _draw_hat(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
-    """A hat in its place on the head, or what else its kind has there."""
-    x, y, z = neck
-    size = HEAD_SIZE * kind.head
-    middle = z + 0.09 + 0.5 * size
-    if kind.hat == "helmet":
-        yellow = Material(YELLOW)
-        return [
-            ball(yellow, (x + 0.01, y, middle + 0.30 * size), (0.28, 0.25, 0.22)),
-            ball(yellow, (x + 0.05, y, middle + 0.34 * size), (0.38, 0.30, 0.05)),
-        ]
-    if not kind.hat or outfit.hat is None:
-        return []
-    material = outfit.hair if kind.hat in _OF_HAIR else outfit.hat
-    return moved(HATS[kind.hat](material, size), shift(x, y, z))
-
-
-_OF_HAIR = ("beard", "bun", "pigtails", "ponytail")
+    if kind.hat:
+        # From multiples of the head's height to metres.
+        to_head = np.column_stack([size * np.eye(3), [x + 0.01, y, middle]])
+        parts += moved(draw_parts("outfits", "hats", kind.hat, outfit.hat), to_head)
+    return parts
 
 
 def draw_torso(kind: PersonKind, outfit: Outfit, hips: Point, neck: Point) -> list[ModelPart]:
-    """Pelvis, chest, shoulders, and a skirt or a vest's stripes."""
-    waist = (0.6 * hips[0] + 0.4 * neck[0], hips[1], 0.6 * hips[2] + 0.4 * neck[2])
+    """Pelvis, chest and shoulders."""
     collar = (neck[0], neck[1], neck[2] - 0.10)
     low = (hips[0], hips[1], hips[2] + 0.02)
     pelvis = outfit.shirt if kind.dress == "skirt" else outfit.legs
-    belt, b = part_way(hips, neck, 0.22), outfit.bulk
-    parts = [
-        limb(pelvis, (low[0], low[1], low[2] - 0.06), belt, 0.115 * b, side_radius=0.165 * b),
-        limb(outfit.shirt, low, collar, 0.128 * b, side_radius=0.178 * b),
+    belt = part_way(hips, neck, 0.22)
+    return [
+        limb(pelvis, (low[0], low[1], low[2] - 0.06), belt, 0.115, side_radius=0.165),
+        limb(outfit.shirt, low, collar, 0.128, side_radius=0.178),
         ball(outfit.shirt, (neck[0], neck[1], neck[2] - 0.12), (0.22, 0.43, 0.24)),
     ]
-    if kind.hat == "helmet":
-        band = Material((0.75, 0.75, 0.3), emission=0.2)
-        parts.append(ball(band, (waist[0], waist[1], waist[2] + 0.04), (0.265, 0.36, 0.09)))
-    return parts
 
 
 def draw_arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list[ModelPart]:
     """Sleeve, forearm and hand; `palm` is the middle of the palm."""
     wrist = part_way(elbow, palm, FOREARM / LOWER_ARM)
     tips = part_way(elbow, palm, 1.16)
-    thick = outfit.bulk
     return [
-        limb(outfit.sleeves or outfit.shirt, shoulder, elbow, 0.055 * thick),
-        limb(outfit.forearms or outfit.skin, elbow, wrist, 0.040 * thick),
-        limb(outfit.hands or outfit.skin, wrist, tips, 0.042, side_radius=0.034),
+        limb(outfit.shirt, shoulder, elbow, 0.055),
+        limb(outfit.forearms, elbow, wrist, 0.040),
+        limb(outfit.hands, wrist, tips, 0.042, side_radius=0.034),
     ]
 
 
@@ -159,10 +130,9 @@ def _draw_leg(
     hip, knee, ankle = chain
     heel = foot_point(ankle, pitch, heading, -0.05)
     toe = foot_point(ankle, pitch, heading, 0.13)
-    thick = outfit.bulk
     return [
-        limb(outfit.legs, hip, knee, 0.085 * thick),
-        limb(outfit.shins, knee, ankle, 0.058 * thick),
+        limb(outfit.legs, hip, knee, 0.085),
+        limb(outfit.shins, knee, ankle, 0.058),
         limb(outfit.shoes, heel, toe, 0.044),
     ]
 

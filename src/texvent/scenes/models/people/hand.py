@@ -8,7 +8,8 @@ import numpy as np
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import CLOTH_COLOURS, SKIN_TONES, Material, cloth, mix, skin
-from texvent.scenes.models.people.hand_gestures import HAND_MOVEMENTS, HandShape, mix_shapes
+from texvent.scenes.models.people.hand_gestures import HandShape, find_shape, mix_shapes
+from texvent.scenes.models.people.tables import read_table
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,
@@ -75,12 +76,10 @@ def build_hand(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 
 def _shape_at(pose: Pose) -> HandShape:
-    still = HAND_MOVEMENTS["stand"]
-    shape = HAND_MOVEMENTS.get(pose.activity, still)(pose.time_s)
+    shape = find_shape(pose.activity, pose.time_s)
     if pose.before is None:
         return shape
-    first = HAND_MOVEMENTS.get(pose.before, still)(pose.time_s)
-    return mix_shapes(first, shape, pose.share)
+    return mix_shapes(find_shape(pose.before, pose.time_s), shape, pose.share)
 
 
 def _turned(shape: HandShape) -> Affine:
@@ -128,4 +127,7 @@ def _draw_thumb(shape: HandShape, surface: Material) -> list[ModelPart]:
     return parts
 
 
-NOUNS = (Noun("hand", build_hand, "air", 0.3, "float", ("palm of a hand",)),)
+NOUNS = tuple(
+    Noun(name, build_hand, "air", 0.3, "float", tuple(row["names"]))
+    for name, row in read_table("outfits")["hands"].items()
+)

@@ -3,40 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import partial
-from types import MappingProxyType
+from typing import Any
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
-from texvent.scenes.models.people.activities import SEATED
-from texvent.scenes.models.people.acts.at_head import AT_HEAD_MOVEMENTS
-from texvent.scenes.models.people.acts.chores import CHORE_MOVEMENTS
-from texvent.scenes.models.people.acts.everyday import EVERYDAY_MOVEMENTS
-from texvent.scenes.models.people.acts.exercises import EXERCISE_MOVEMENTS
-from texvent.scenes.models.people.acts.getting import GETTING_MOVEMENTS
-from texvent.scenes.models.people.acts.music import MUSIC_MOVEMENTS
-from texvent.scenes.models.people.acts.pairs import PAIR_MOVEMENTS
-from texvent.scenes.models.people.acts.play import PLAY_MOVEMENTS
+from texvent.scenes.models.people.activities import SEATED, SINGLE_ACTS
 from texvent.scenes.models.people.anchors import locate_anchor
-from texvent.scenes.models.people.daily import DAILY
 from texvent.scenes.models.people.figure import draw_figure
-from texvent.scenes.models.people.gestures import GESTURES, Movement
-from texvent.scenes.models.people.outfit import (
-    ADULT,
-    CHILD,
-    GIRL,
-    RUNNER,
-    WOMAN,
-    WORKER,
-    PersonKind,
-    dress_person,
-)
-from texvent.scenes.models.people.pastimes.care import CARE_MOVEMENTS
-from texvent.scenes.models.people.pastimes.crafts import CRAFT_MOVEMENTS
-from texvent.scenes.models.people.pastimes.feats import FEAT_MOVEMENTS
-from texvent.scenes.models.people.pastimes.meals import MEAL_MOVEMENTS
+from texvent.scenes.models.people.movements import find_posture
+from texvent.scenes.models.people.outfit import KINDS, PersonKind, dress_person, put_on
 from texvent.scenes.models.people.posture import (
     ANKLE,
     HIP,
@@ -49,12 +27,10 @@ from texvent.scenes.models.people.posture import (
     fill,
     solve,
 )
-from texvent.scenes.models.people.sports import SINGLE_ACTS, SPORTS
+from texvent.scenes.models.people.tables import read_table
 from texvent.scenes.models.people.timing import ease
-from texvent.scenes.models.people.work.bench import list_grips, usual_bench
-from texvent.scenes.models.people.work.verbs import HANDWORK
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import Affine, Point
+from texvent.scenes.models.shapes import Affine
 from texvent.scenes.scene import Colour
 
 WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
@@ -62,33 +38,6 @@ RUN = Gait(stride=2.40, duty=0.34, lift=0.32)
 CRAWL = Gait(stride=0.60, duty=0.60, lift=0.07)
 RUN_UP = WALK
 """Gait of a run-up."""
-
-MOVEMENTS: Mapping[str, Movement] = MappingProxyType(
-    {
-        **GESTURES,
-        **SPORTS,
-        **DAILY,
-        **GETTING_MOVEMENTS,
-        **CHORE_MOVEMENTS,
-        "mop": DAILY["sweep"],
-        "climb down": lambda t: SPORTS["climb"](-t),
-        **AT_HEAD_MOVEMENTS,
-        **EXERCISE_MOVEMENTS,
-        **PLAY_MOVEMENTS,
-        **MUSIC_MOVEMENTS,
-        **PAIR_MOVEMENTS,
-        **EVERYDAY_MOVEMENTS,
-        **FEAT_MOVEMENTS,
-        **CARE_MOVEMENTS,
-        **CRAFT_MOVEMENTS,
-        **MEAL_MOVEMENTS,
-    }
-)
-"""Activity → posture over time; what is not here walks or runs."""
-
-
-_LEANING = {"push along": 0.30, "pull along": 0.16}
-"""How far who pushes or pulls while walking leans forward, radians."""
 
 
 def build_person(
@@ -108,13 +57,6 @@ def build_person(
 
 def choose_posture(kind: PersonKind, pose: Pose) -> Posture:
     """The complete posture at an instant: of an activity, or between two."""
-    posture = _choose_over_time(kind, pose)
-    if kind.stoop == 0.0 or posture.lean > kind.stoop or posture.lean < -0.2:
-        return posture
-    return replace(posture, lean=kind.stoop, nod=posture.nod - 0.6 * kind.stoop)
-
-
-def _choose_over_time(kind: PersonKind, pose: Pose) -> Posture:
     if pose.before is None:
         return _choose_posture(kind, pose)
     first = _choose_posture(kind, replace(pose, activity=pose.before, before=None))
@@ -130,23 +72,17 @@ def _choose_posture(kind: PersonKind, pose: Pose) -> Posture:
     base = step(RUN if runs else WALK, pose.distance_m, amount)
     if activity == "jump":
         return _grip(fill(_jump(pose.act_s), base), pose)
-    if pose.act_s is not None and activity in SINGLE_ACTS:
-        act = fill(SINGLE_ACTS[activity](pose.act_s), base)
-        share = ease(pose.act_s, -0.50, -0.20) if amount > 0.0 else 1.0
-        return _grip(blend(base, act, share), pose)
-    if activity in _LEANING:
-        return _grip(fill(Posture(lean=_LEANING[activity]), base), pose)
+    act_s = pose.act_s if activity in SINGLE_ACTS else None
     if activity.startswith(SEATED):
-        base = fill(MOVEMENTS["sit"](pose.time_s), base)
+        base = fill(find_posture("sit", pose.time_s) or base, base)
         activity = activity.removeprefix(SEATED)
-    movement = MOVEMENTS.get(activity)
-    if movement is None and activity in HANDWORK:
-        work = HANDWORK[activity]
-        grips = list_grips(work, usual_bench(work), pose.time_s)
-        return _grip(base, replace(pose, grips=grips + pose.grips))
-    if movement is None:
+    posture = find_posture(activity, pose.time_s, act_s)
+    if posture is None:
         return _grip(base, pose)
-    return _grip(fill(movement(pose.time_s), base), pose)
+    posture = fill(posture, base)
+    if act_s is not None and amount > 0.0:
+        posture = blend(base, posture, ease(act_s, -0.50, -0.20))
+    return _grip(posture, pose)
 
 
 def step(gait: Gait, distance: float, amount: float) -> Posture:
@@ -215,54 +151,30 @@ def _grip(posture: Posture, pose: Pose) -> Posture:
             changes[f"{name}_leg"] = Leg((x, side * y, z), knee)
     if "hips" in held:
         changes["hips"] = held["hips"]
-    gripped = Posture(**{**posture.__dict__, **changes})
-    return _bow_to(gripped, held) if "neck" in held else gripped
+    return replace(posture, **changes)  # type: ignore[arg-type]
 
 
-def _bow_to(posture: Posture, held: Mapping[str, Point]) -> Posture:
-    """The torso bends to where its neck is held; the tool and the head point to their places."""
-    (x, _, z), (neck_x, _, neck_z) = held["hips"], held["neck"]
-    lean = math.atan2(neck_x - x, neck_z - z)
-    c, s = math.cos(lean), math.sin(lean)
-    ahead, left, up = (a - b for a, b in zip(held["tip"], held["right hand"], strict=True))
-    look_x, look_y, look_z = held["gaze"]
-    head_x, head_z = x + 0.70 * s, z + 0.70 * c
-    down = math.atan2(head_z - look_z, max(look_x - head_x, 0.15))
-    return replace(
-        posture,
-        lean=lean,
-        turn=0.0,
-        tilt=0.0,
-        tool=(c * ahead - s * up, -left, s * ahead + c * up),
-        nod=min(max(0.8 * down - lean, -0.6), 0.6),
-        look=min(max(math.atan2(look_y, max(look_x, 0.2)), -0.6), 0.6),
+def dress(noun: Noun, worn: Iterable[tuple[str, Colour | None]]) -> Noun:
+    """The noun of a person in what it wears.
+
+    Args:
+        noun: a person; its builder is made of its `PersonKind`.
+        worn: nouns of `outfit.CLOTHES` with their colours; None = the usual one.
+    """
+    build: Any = noun.build
+    return replace(noun, build=partial(build.func, put_on(build.args[0], worn)))
+
+
+def _read_noun(name: str, row: Mapping[str, Any]) -> Noun:
+    return Noun(
+        name,
+        partial(build_person, KINDS[name]),
+        "ground",
+        row.get("speed", 1.3),
+        row.get("motion", "walk"),
+        tuple(row.get("names", ())),
+        tuple(row.get("plurals", ())),
     )
 
 
-NOUNS = (
-    Noun(
-        "person", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("pedestrian", "human", "walker", "somebody"), ("people",),
-    ),
-    Noun(
-        "man", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("guy", "gentleman", "father", "dad", "husband", "brother", "uncle", "young man",
-         "dude", "bloke"),
-    ),
-    Noun("woman", partial(build_person, WOMAN), "ground", 1.3, "walk",
-         ("lady", "mother", "mom", "mum", "aunt", "wife", "young woman"), ("ladies", "wives")),
-    Noun(
-        "child", partial(build_person, CHILD), "ground", 1.1, "walk",
-        ("kid", "boy", "son", "little boy", "young boy", "youngster"), ("children",),
-    ),
-    Noun("girl", partial(build_person, GIRL), "ground", 1.1, "walk",
-         ("daughter", "sister", "little girl", "young girl")),
-    Noun(
-        "runner", partial(build_person, RUNNER), "ground", 3.5, "run",
-        ("jogger", "sprinter", "marathon runner"),
-    ),
-    Noun(
-        "worker", partial(build_person, WORKER), "ground", 1.2, "walk",
-        ("construction worker", "builder", "workman"),
-    ),
-)  # fmt: skip
+NOUNS = tuple(_read_noun(name, row) for name, row in read_table("outfits")["people"].items())

@@ -27,7 +27,9 @@ def ease(time_s: float, start_s: float, stop_s: float) -> float:
 
 
 def follow_keys(time_s: float, keys: Sequence[Key], period_s: float = 0.0) -> tuple[float, ...]:
-    """Values that pass through keys with a continuous slope (cubic Hermite, Catmull-Rom slopes).
+    """Values that pass through keys with a continuous slope, and do not overshoot them much.
+
+    Cubic Hermite curves with Catmull-Rom slopes, which are level at the extremes.
 
     Args:
         time_s: the instant.
@@ -48,12 +50,13 @@ def follow_keys(time_s: float, keys: Sequence[Key], period_s: float = 0.0) -> tu
     before, here, there, after = (_key(keys, index + step, period_s) for step in (-1, 0, 1, 2))
     span = there[0] - here[0]
     s = (time_s - here[0]) / span
+    slopes = zip(_slope(here, before, there), _slope(there, here, after), strict=True)
     return tuple(
         (1.0 + 2.0 * s) * (1.0 - s) ** 2 * b
-        + s * (1.0 - s) ** 2 * span * _slope(a, c, there[0] - before[0])
+        + s * (1.0 - s) ** 2 * span * start
         + s * s * (3.0 - 2.0 * s) * c
-        + s * s * (s - 1.0) * span * _slope(b, d, after[0] - here[0])
-        for a, b, c, d in zip(before[1], here[1], there[1], after[1], strict=True)
+        + s * s * (s - 1.0) * span * stop
+        for b, c, (start, stop) in zip(here[1], there[1], slopes, strict=True)
     )
 
 
@@ -71,5 +74,10 @@ def _key(keys: Sequence[Key], index: int, period_s: float) -> Key:
     return keys[index]
 
 
-def _slope(first: float, last: float, span: float) -> float:
-    return (last - first) / span
+def _slope(here: Key, before: Key, after: Key) -> tuple[float, ...]:
+    """Slopes of the values at a key: none where a value turns round or stays."""
+    span = after[0] - before[0]
+    return tuple(
+        (c - a) / span if (b - a) * (c - b) > 0.0 else 0.0
+        for a, b, c in zip(before[1], here[1], after[1], strict=True)
+    )

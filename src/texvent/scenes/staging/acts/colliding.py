@@ -17,7 +17,6 @@ from texvent.scenes.staging.trajectories.action_trajectories import Flight, Swit
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
-    Rolling,
     Stationary,
     Trajectory,
     Vector,
@@ -100,12 +99,12 @@ def _run_into(mover: Actor, still: Actor, contact_s: float) -> tuple[Actor, Acto
 
 def _comes_flying(mover: Actor, still: Actor) -> bool:
     """Whether it comes through the air; a ball does against what is tall, but not if it rolls."""
-    if getattr(mover.model, "is_wheeled", False):
-        return False
     if mover.noun.motion == "roll":
-        is_tall = still.model.height > _TALL * mover.model.height
-        return is_tall and not isinstance(mover.trajectory, Rolling)
-    return mover.noun.habitat in ("air", "fixed")  # what cannot go by itself was thrown
+        is_thrown = isinstance(mover.trajectory, Stationary)
+        return is_thrown and still.model.height > _TALL * mover.model.height
+    is_wheeled = getattr(mover.model, "is_wheeled", False)
+    # What cannot go by itself was thrown.
+    return not is_wheeled and mover.noun.habitat in ("air", "fixed")
 
 
 def _find_contact(mover: Actor, still: Actor, goal: Float64Array, yaw: float) -> Vector:

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import Relation
-from texvent.scenes.models.traits import trait_value
+from texvent.scenes.models.people.activities import PAIR_GAPS
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import Cast, is_person, size_of
 from texvent.scenes.staging.body_boxes import part_boxes
@@ -36,7 +36,7 @@ def face_each_other(cast: Cast, numbers: Sequence[int]) -> None:
         path = actor.trajectory
         if not isinstance(path, Stationary) or not is_person(actor):
             continue
-        apart_m = trait_value("distance of two who", path.activity)
+        apart_m = PAIR_GAPS.get(path.activity)
         if apart_m is None:
             continue
         first = waiting.pop(path.activity, None)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from texvent.scenes.models.people.outfit import CLOTHES
 from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import Affine
 from texvent.scenes.models.support_surface import top_heights
@@ -22,7 +23,7 @@ from texvent.scenes.staging.acts.acts import (
     size_of,
 )
 from texvent.scenes.staging.acts.attached import HeldAt, Performed
-from texvent.scenes.staging.trajectories.action_trajectories import Hover
+from texvent.scenes.staging.trajectories.action_trajectories import hover
 from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector, rotation
 
 Grips = tuple[tuple[str, Vector], ...]
@@ -83,7 +84,7 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         subject, way.anchor, way.offset, way.is_upright, activity, turns=not is_flown
     )  # fmt: skip
     if is_flown:
-        held = Hover(held, _SWAY_M)
+        held = hover(held, _SWAY_M)
         tether = Tether(subject, "right hand", (0.0, 0.0, 0.0), _STRING_M)
         target = replace(target, tether=tether)
     return subject, carried(target, held, subject)
@@ -91,7 +92,7 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
 
 def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     """Both, the thing at its place on the body; None for clothes, which the body has on."""
-    if target.noun.name in nouns_with("clothes of the body"):
+    if target.noun.name in CLOTHES:
         return subject, None
     worn = trait_value("worn", target.noun.name) or {"place": "crown"}
     turn = rotation(worn.get("yaw", 0.0), worn.get("pitch", 0.0), 0.0)

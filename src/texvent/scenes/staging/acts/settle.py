@@ -76,9 +76,6 @@ def _settle(
             subject = replace(subject, motion=ObjectMotion("walk", motion.direction))
         return subject, still
     if kind == "wear":
-        is_shirt = target.noun in nouns_with("gives the shirt its colour")
-        if is_shirt and subject.noun in PERSON_NOUNS:
-            subject = replace(subject, colour=target.colour or subject.colour)
         return subject, still
     size = trait_value("carried size", target.noun) or 1.0
     return subject, replace(still, scale=size * target.scale)
@@ -92,7 +89,7 @@ def _mounted(
     if relation.kind not in ("on", "in") or person.noun not in PERSON_NOUNS:
         return relation
     is_mount = trait_value("ridden", target) is not None and relation.kind == "on"
-    is_carrier = trait_value("seats", target) is not None or target in nouns_with("paddled")
+    is_carrier = trait_value("seats", target) or trait_value("ridden", target)
     is_closed = relation.kind == "in" and hides_riders(nouns[target])
     is_idle = (person.motion or STANDING).kind in _IDLE
     if is_mount or (is_idle and (is_carrier or is_closed)):

@@ -7,10 +7,11 @@ that touches the thing then, and lets the thing fly from there, or to there.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from texvent.scenes.models.people.activities import ACTIVITIES
 from texvent.scenes.models.people.person import RUN_UP
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.shapes import Affine
@@ -43,8 +44,6 @@ _LOFT = {"kick": 0.45, "throw": 0.35, "hit": 0.45}
 """Upward speed of what flies off, as a share of its speed along the ground."""
 _STOP_BEFORE_S, _SLOWING_S, _RUN_UP_M_S = 0.25, 0.5, 1.7
 """A run-up ends so long before the kick, and slows down so long before that."""
-_SWING_REACH_M = {"swing racket": 0.48, "swing bat": 0.66, "swing club": 0.80}
-"""Activity → from the right palm to where what it swings meets the ball, m."""
 
 
 def contact_time(duration_s: float, share: float = 0.45) -> float:
@@ -60,13 +59,10 @@ def heading_of(yaw: float) -> Float64Array:
 def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
     """A run-up, the foot meets the thing, the thing flies."""
     contact_s, home = contact_time(duration_s), subject.trajectory.at(0.0)
-    path: Trajectory = Stationary(home.position, home.yaw, "stand")
     if is_person(subject):
-        # The standing foot is in the middle of its stance, the other one in the air.
-        way = RUN_UP.stride * size_of(subject.model) * (40.0 + 0.05)
-        path = RunUp(home.position, home.yaw, contact_s - _STOP_BEFORE_S, way)
-        path = Performed(path, "kick", contact_s=contact_s)
-    subject = _acting(subject, path)
+        subject = _run_up(subject, home, contact_s)
+    else:
+        subject = _acting(subject, Stationary(home.position, home.yaw, "stand"))
     tip, heading = subject.anchor("right foot", contact_s)[:, 3], heading_of(home.yaw)
     radius, low = 0.5 * thing.model.length, home.position[2]
     inset = 0.0
@@ -132,7 +128,7 @@ def hit(
         props = list_props(activity, size_of(subject.model))
         subject = replace(subject, props=tuple(props))
     axes, heading = subject.anchor("right hand", contact_s), heading_of(home.yaw)
-    spot = axes[:, 3] + _SWING_REACH_M[activity] * axes[:, 2]
+    spot = axes[:, 3] + ACTIVITIES[activity].reach_m * axes[:, 2]
     spot = spot + (0.5 * thing.model.length + 0.02) * heading
     low = home.position[2]
     lying = low + 0.5 * thing.model.height
@@ -147,6 +143,21 @@ def hit(
     if tool is not None:
         tool = _flying(tool, HeldAt(subject, "right hand", along_tool(tool)))
     return subject, _flying(thing, whole), tool
+
+
+def _run_up(subject: Actor, home: BodyState, contact_s: float) -> Actor:
+    """Walks up to its home, slows down, stands, and kicks.
+
+    The standing foot is in the middle of its stance then, the other one in the air.
+    """
+    walking_s = max(contact_s - _STOP_BEFORE_S - _SLOWING_S, 1e-3)
+    way = _RUN_UP_M_S * (walking_s + 0.5 * _SLOWING_S)
+    pieces = (Piece(walking_s, _RUN_UP_M_S), Piece(_SLOWING_S, ramp_s=_SLOWING_S), Piece(0.1))
+    start = ahead(home.position, home.yaw, -way, home.position[2])
+    path = SteeredPath(start, home.yaw, pieces, _RUN_UP_M_S, floor_m=home.position[2])
+    stance = RUN_UP.stride * size_of(subject.model) * (40.0 + 0.05)
+    subject = _acting(subject, Performed(path, "kick", contact_s=contact_s))
+    return replace(subject, lead_m=stance - way)
 
 
 def _acting(subject: Actor, path: Trajectory) -> Actor:
@@ -195,27 +206,3 @@ def _catching(catcher: Actor, thing: Actor) -> tuple[str, Affine]:
     if is_person(catcher):
         return "hands", shifted(0.4 * thing.model.length, 0.0, low)
     return "mouth", shifted(0.35 * thing.model.length, 0.0, low)
-
-
-@dataclass(frozen=True)
-class RunUp:
-    """Walks up to its home, slows down and stands; the standing foot is under it then."""
-
-    home: Vector
-    yaw: float
-    stop_s: float
-    end_distance_m: float
-    """Distance covered at the end, which decides where in their cycle the legs are."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        left = max(self.stop_s - time_s, 0.0)
-        behind = _RUN_UP_M_S * (left - 0.5 * _SLOWING_S)
-        if left < _SLOWING_S:
-            behind = 0.5 * _RUN_UP_M_S / _SLOWING_S * left**2
-        return BodyState(
-            ahead(self.home, self.yaw, -behind, self.home[2]),
-            self.yaw,
-            distance_m=self.end_distance_m - behind,
-            speed_m_s=_RUN_UP_M_S,
-        )

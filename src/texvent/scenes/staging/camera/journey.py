@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,24 +22,26 @@ _ROAD_RADIUS_M = 27.0
 """Least radius of a bend of a road, m."""
 _LEAST_CLEAR_M = 1.1
 _FREE_RADIUS_M = 4.0
+_ON_FOOT_M_S = 4.0
+"""Speed below which a camera keeps to the pavement of a city."""
 _BEND_S = 4.5
 """Seconds that a quarter circle takes in a bend: its radius follows from the speed."""
 
 
-@dataclass(frozen=True)
-class Means:
+class Means(NamedTuple):
     """How a camera travels."""
 
     speed_m_s: float
     height_m: float
-    pitch_rad: float = 0.03
+    pitch_rad: float
     step_m: float = 0.0
+    """Length of a step; 0 = it rolls, flies or swims."""
     is_on_road: bool = False
     """Whether it keeps to its lane."""
 
 
-MEANS: dict[str, Means] = {
-    "drive": Means(9.0, 1.35, is_on_road=True),
+_MEANS: dict[str, Means] = {
+    "drive": Means(9.0, 1.35, 0.03, is_on_road=True),
     "cycle": Means(5.0, 1.6, 0.06, is_on_road=True),
     "walk": Means(1.5, 1.65, 0.04, 0.75),
     "run": Means(3.4, 1.6, 0.04, 1.1),
@@ -47,13 +50,13 @@ MEANS: dict[str, Means] = {
     "swim": Means(1.0, 1.4, 0.0),
 }
 """`CameraMove.means` → speed, height above the ground, pitch."""
-_BY_PLACE = {
-    "road": "drive", "dirt road": "drive", "city": "drive", "sea": "sail", "lake": "sail",
-    "river": "sail", "underwater": "swim", "sky": "fly", "space": "fly",
+_BY_GROUND = {
+    Ground.ROAD: "drive", Ground.DIRT_ROAD: "drive", Ground.CITY: "drive", Ground.SEA: "sail",
+    Ground.LAKE: "sail", Ground.RIVER: "sail", Ground.UNDERWATER: "swim", Ground.NONE: "fly",
 }  # fmt: skip
-_ROADS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
-_AERIAL_HEIGHT_M = 16.0
-_AERIAL_PITCH = 0.5
+"""What is usual on a ground; elsewhere one walks."""
+_LOW_M, _AERIAL_M, _AERIAL_PITCH, _TOP_PITCH = 0.5, 16.0, 0.5, 1.4
+"""Heights and pitches of low, aerial and top views."""
 
 
 @dataclass(frozen=True)
@@ -119,36 +122,32 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     moves = [move for move in description.shot.moves if move.kind == "travel"]
     if not moves:
         return None
-    is_aerial = description.shot.view in ("aerial", "top")
-    usual = "fly" if is_aerial else _BY_PLACE.get(place, "walk")
-    means = MEANS[moves[0].means or usual] if (moves[0].means or usual) in MEANS else MEANS["walk"]
+    ground, view = PLACES[place].ground, description.shot.view
+    is_aerial = view in ("aerial", "top")
+    usual = _BY_GROUND.get(ground, "walk")
+    means = _MEANS[moves[0].means or ("fly" if is_aerial else usual)]
     height, pitch = means.height_m, means.pitch_rad
     if is_aerial:
-        height, pitch = max(height, _AERIAL_HEIGHT_M), _AERIAL_PITCH
-    if description.shot.view == "top":
-        pitch = 1.4
-    if description.shot.view == "low":
-        height = min(height, 0.5)
+        height, pitch = max(height, _AERIAL_M), _TOP_PITCH if view == "top" else _AERIAL_PITCH
+    height = min(height, _LOW_M) if view == "low" else height
     last = max(move.phase for move in description.shot.moves)
     phases = [[move for move in moves if move.phase == number] for number in range(last + 1)]
-    speed = moves[0].speed_m_s
-    speed = means.speed_m_s * moves[0].pace if speed is None else speed
-    has_road = PLACES[place].ground in _ROADS
+    speed = moves[0].speed_m_s or means.speed_m_s * moves[0].pace
+    has_road, kind = PLACES[place].has_road, description.surroundings.road
     tightest = _ROAD_RADIUS_M if has_road else _FREE_RADIUS_M
-    is_curved = description.surroundings.road == "curved"
-    route, bends, corner = _steer(phases, speed, duration_s, tightest, is_curved=is_curved)
-    lane, road_half = 0.0, 0.0
-    if has_road:
-        road_half = PLACES[place].road_m
-        if means.is_on_road:
-            lane = 0.5 * road_half
-        elif place == "city" and not is_aerial and means.speed_m_s < 4.0:
-            lane = road_half + 1.0
-    route = _centre(route, duration_s)
-    length = _length(route, duration_s)
+    route, bends, corner = _steer(phases, speed, duration_s, tightest, kind == "curved")
+    road_half = PLACES[place].road_m if has_road else 0.0
+    is_on_pavement = ground is Ground.CITY and not is_aerial and means.speed_m_s < _ON_FOOT_M_S
+    lane = 0.5 * road_half if means.is_on_road else road_half + 1.0 if is_on_pavement else 0.0
+    times = np.linspace(0.0, duration_s, 33)
+    places = np.array([route.at(float(time)).position for time in times])
+    x, y, _ = -0.5 * (places.min(axis=0) + places.max(axis=0))
+    route = replace(route, start=(float(x), float(y), 0.0))
+    ways = [route.distance_at(float(time)) for time in times]
+    length = max(ways) - min(ways)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
     road = _road_beside(route, lane, bends, corner)
-    if description.surroundings.road == "crossing" and not road.crossings and not bends:
+    if kind == "crossing" and not road.crossings and not bends:
         x, y, angle = road.at(0.6 * length + 4.0)
         road = replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
     return TravelPlan(Journey(route, height, pitch, means.step_m), length, clear, road)
@@ -159,7 +158,6 @@ def _steer(
     speed: float,
     duration_s: float,
     tightest_m: float,
-    *,
     is_curved: bool,
 ) -> tuple[SteeredPath, float, float | None]:
     """The route from the origin northwards, its steady rate of turning, and where a corner ends.
@@ -189,21 +187,6 @@ def _steer(
             pieces.append(Piece(span, way, ramp_s=ramp))
     route = SteeredPath((0.0, 0.0, 0.0), 0.5 * math.pi, tuple(pieces), initial, bend)
     return route, bend, corner
-
-
-def _centre(route: SteeredPath, duration_s: float) -> SteeredPath:
-    """The route shifted so that its middle is the origin."""
-    places = np.array([route.at(float(t)).position for t in np.linspace(0.0, duration_s, 33)])
-    x, y, _ = 0.5 * (places.min(axis=0) + places.max(axis=0))
-    return SteeredPath(
-        (-float(x), -float(y), 0.0), route.yaw, route.pieces, route.initial_speed_m_s,
-        route.initial_turn_rad_s,
-    )  # fmt: skip
-
-
-def _length(route: SteeredPath, duration_s: float) -> float:
-    ways = [route.distance_at(float(time)) for time in np.linspace(0.0, duration_s, 33)]
-    return max(ways) - min(ways)
 
 
 def _road_beside(

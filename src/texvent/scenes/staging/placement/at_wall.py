@@ -16,11 +16,8 @@ from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 
-_ELSEWHERE = frozenset({"on", "in", "above", "under", "between", "behind", "around", "through",
-                        "hold", "carry", "follow", "push", "pull"})  # fmt: skip
-"""Relations whose subject is where its target is, not at the wall."""
-_BOUND = frozenset({"on", "in", "above", "under", "behind", "at", "beside", "with"})
-"""Relations whose subject goes to the wall with its target."""
+_BESIDE = frozenset({"at", "beside", "with", "left of", "right of", "front"})
+"""Relations that leave their subject at the wall."""
 _APART_M, _BEFORE_M = 0.22, 0.45
 """Room between what stands at the wall, and before it."""
 _CEILING = 0.6
@@ -34,7 +31,7 @@ def list_at_wall(description: SceneDescription, place: str) -> tuple[int, ...]:
     is_free = any(move.kind in ("travel", "orbit") for move in shot.moves)
     if not is_room(place) or is_free or shot.view not in (None, "front", "level", "low"):
         return ()
-    elsewhere = {one.subject for one in description.relations if one.kind in _ELSEWHERE}
+    elsewhere = {one.subject for one in description.relations if one.kind not in _BESIDE}
     for one in description.relations:
         elsewhere |= set(one.targets) if one.kind in AMID | {"through"} else set()
     return tuple(
@@ -86,7 +83,7 @@ def _line_up(
         shifts[index] = (goal - groups[index].centre) * [1.0, 1.0, 0.0]
         left += wide + _APART_M
     for one in (*description.relations, *description.relations):
-        if one.kind in _BOUND and one.subject in groups and one.targets[0] in shifts:
+        if one.subject in groups and one.targets[0] in shifts:
             shifts.setdefault(one.subject, shifts[one.targets[0]])
     rest = [i for i in groups if i not in shifts]
     deep = max(groups[i].models[0].length for i in row)

@@ -11,10 +11,10 @@ from texvent.scenes.description import STANDING, SceneDescription
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.acts.prop_shapes import Prop
-from texvent.scenes.models.people.daily import SEAT
-from texvent.scenes.models.people.props import list_props
-from texvent.scenes.models.people.roles.dressing import DRESSED, dress
+from texvent.scenes.models.people.outfit import CLOTHES
+from texvent.scenes.models.people.person import dress
+from texvent.scenes.models.people.posture import SEAT
+from texvent.scenes.models.people.props import HOLDS, Prop, list_props
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import moved, post
 from texvent.scenes.models.support_surface import find_support
@@ -37,7 +37,7 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
         if one.kind == "wear" and one.subject == index
         for target in one.targets
         for colour in (objects[target].colour,)
-        if objects[target].noun in DRESSED
+        if objects[target].noun in CLOTHES
     ]
     return dress(noun, worn) if worn and noun.name in PERSON_NOUNS else noun
 
@@ -50,13 +50,8 @@ def choose_copy(noun: Noun, number: int, nouns: Mapping[str, Noun]) -> Noun:
     return replace(noun, build=nouns[other].build)
 
 
-def choose_props(
-    description: SceneDescription, group: ObjectGroup, *, is_first: bool = True
-) -> tuple[Prop, ...]:
-    """What a person's activities need and the scene does not show as an object.
-
-    Of several who share one thing the first has it.
-    """
+def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Prop, ...]:
+    """What a person's activities need, or else it has with it, and the scene does not show."""
     if group.noun.name not in PERSON_NOUNS:
         return ()
     shown = {scene_object.noun for scene_object in description.objects}
@@ -64,7 +59,7 @@ def choose_props(
     kinds = dict.fromkeys(motion.kind for motion in said)
     size = float(getattr(group.models[0], "scale", 1.0))
     props = [prop for kind in kinds for prop in list_props(kind, size)]
-    props = [prop for prop in props if is_first or not prop.is_shared]
+    props = props or list(HOLDS.get(group.noun.name, ()))
     if group.on_chairs and not shown & nouns_with("seat at a table"):
         props.append(_draw_chair(size))
     return tuple(
@@ -82,7 +77,7 @@ def _draw_chair(scale: float) -> Prop:
     low = SEAT * (1.0 - min(scale, 1.0))
     axes = np.column_stack([np.eye(3), np.array([-_SEAT_BACK_M * scale, 0.0, -low])])
     placed = moved(model.parts(Pose(0.0, 0.0, 0.0, "stand")), axes)
-    return Prop("ground", lambda _: placed, furniture=name)
+    return Prop("ground", lambda _: placed)
 
 
 def hang_rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:

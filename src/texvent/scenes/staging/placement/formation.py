@@ -19,8 +19,6 @@ _RESTING = frozenset({"stand", "sit", "lie", "slide"})
 _SHOULDERS_M, _BUSY_M = 0.56, 0.95
 """Room from shoulder to shoulder, and of who does something with the arms, m."""
 _AT_EASE = frozenset({"stand", "sit", "talk", "walk", "run"})
-_ONE_ROW = 6
-"""Most copies side by side that stand together."""
 _TO_CAMERA_RAD = 0.35
 """How far who faces another is turned to the camera."""
 _APART = 0.3
@@ -86,10 +84,8 @@ def form_up(group: ObjectGroup) -> None:
     is_person = group.noun.name in PERSON_NOUNS
     if len(group.models) < 2:
         return
-    if side == "row":
-        _stand_in_row(group)
-    elif side == "together":
-        _stand_together(group)
+    if side in ("row", "together"):
+        _stand_in_row(group, is_close=side == "together")
     elif side == "ring":
         model = group.models[0]
         size = max(model.length, model.width)
@@ -101,39 +97,24 @@ def form_up(group: ObjectGroup) -> None:
     group.fit()
 
 
-def _stand_in_row(group: ObjectGroup) -> None:
-    """Side by side across the image; what goes away from the camera or comes, one by one."""
-    count, model, is_path = len(group.models), group.models[0], group.plan.is_path
-    goes_away = is_path and abs(math.sin(group.plan.yaw)) > 0.7
-    step = 1.25 * (model.length if is_path else max(model.length, model.width)) + 0.15
-    places = [step * (number - 0.5 * (count - 1)) for number in range(count)]
-    group.offsets = [(0.0, at, 0.0) if goes_away else (at, 0.0, 0.0) for at in places]
-
-
-def _stand_together(group: ObjectGroup) -> None:
-    """Shoulder to shoulder, in two rows where they are many; who goes along, nearly abreast."""
-    count, model, turn = len(group.models), group.models[0], group.plan.yaw
+def _stand_in_row(group: ObjectGroup, *, is_close: bool) -> None:
+    """Side by side across the image; who goes along, one by one or, if close, nearly abreast."""
+    count, model, plan = len(group.models), group.models[0], group.plan
     long, wide = model.length, model.width
-    if group.noun.name in PERSON_NOUNS and group.plan.motion.kind != "lie":
-        room = _SHOULDERS_M if group.plan.motion.kind in _AT_EASE else _BUSY_M
+    cosine, sine = math.cos(plan.yaw), math.sin(plan.yaw)
+    if is_close and group.noun.name in PERSON_NOUNS and plan.motion.kind != "lie":
+        room = _SHOULDERS_M if plan.motion.kind in _AT_EASE else _BUSY_M
         long = wide = room * float(getattr(model, "scale", 1.0))
-    cosine, sine = math.cos(turn), math.sin(turn)
-    if group.plan.is_path:
-        step, abreast = 0.75 * long, 1.25 * wide
-        places = [number - 0.5 * (count - 1) for number in range(count)]
-        group.offsets = [
-            (at * (step * cosine - abreast * sine), at * (step * sine + abreast * cosine), 0.0)
-            for at in places
-        ]
-        return
-    across = abs(cosine) * long + abs(sine) * wide
-    deep = abs(sine) * long + abs(cosine) * wide
-    columns = count if count <= _ONE_ROW else math.ceil(count / 2)
-    group.offsets = []
-    for number in range(count):
-        row, column = divmod(number, columns)
-        at = column - 0.5 * (columns - 1) + 0.5 * row
-        group.offsets.append((1.12 * across * at, 1.1 * deep * row, 0.0))
+    if is_close and plan.is_path:
+        ahead, aside = 0.75 * long, 1.25 * wide
+        step = (ahead * cosine - aside * sine, ahead * sine + aside * cosine)
+    elif is_close:
+        step = (1.12 * (abs(cosine) * long + abs(sine) * wide), 0.0)
+    else:
+        apart = 1.25 * (long if plan.is_path else max(long, wide)) + 0.15
+        step = (0.0, apart) if plan.is_path and abs(sine) > 0.7 else (apart, 0.0)
+    places = [number - 0.5 * (count - 1) for number in range(count)]
+    group.offsets = [(step[0] * at, step[1] * at, 0.0) for at in places]
 
 
 def stand_in_ring(group: ObjectGroup, radius_m: float, *, is_open: bool = False) -> None:

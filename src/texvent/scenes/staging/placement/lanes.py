@@ -30,9 +30,8 @@ def queue_in_lanes(actors: Sequence[Actor], lane_m: float) -> list[Actor]:
     moved: dict[int, Actor] = {}
     for queue, way in zip(lanes, (1.0, -1.0), strict=True):
         first, *others = queue
-        is_small = bool(others) and first.model.length < others[0].model.length
-        is_jam = _path(first).speed_m_s <= CREEPING_M_S and not is_small
-        half = (len(others) + 1) // 2 if is_jam else 0  # amid a jam, unless others would hide it
+        is_jam = bool(others) and _path(first).speed_m_s <= CREEPING_M_S
+        half = (len(others) + 1) // 2 if is_jam else 0  # amid a jam
         lane = [*others[:half], first, *others[half:]]
         rooms = [one.model.length * (1.0 + GAP) for one in lane]
         speed, end = max(_path(one).speed_m_s for one in lane), 0.5 * sum(rooms)

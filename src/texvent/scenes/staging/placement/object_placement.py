@@ -37,7 +37,6 @@ from texvent.scenes.staging.placement.spatial_relations import (
     place_by_subject,
     place_on_targets,
 )
-from texvent.scenes.staging.still_life import still_yaw
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
@@ -51,6 +50,8 @@ _NEARER = 0.35
 BELT_M_S = 0.22
 """Speed of what lies on something that carries it along."""
 _ATTEMPTS = 400
+_STICK, _TURNED_RAD = 2.0, 0.4
+"""How much longer than wide and high is what lies across the view; how far it is turned there."""
 _SIDES = {"left": -1.0, "right": 1.0}
 
 
@@ -129,7 +130,10 @@ class ObjectPlacer:
         if is_curved and noun.motion == "drive" and plan.is_path:
             path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
             plan = replace(plan, path=path, yaw=path.yaw)
-        plan = replace(plan, yaw=still_yaw(self._description, noun, models[0], plan.yaw))
+        related = {i for r in self._description.relations for i in (r.subject, *r.targets)}
+        is_still = noun.habitat == "fixed" and not motions[0].is_moving and index not in related
+        if is_still and _is_long(models[0]):
+            plan = plan.turned(math.copysign(_TURNED_RAD, math.cos(plan.yaw)))
         if scene_object.heading_deg is not None:
             plan = plan.turned(math.radians(scene_object.heading_deg))
         offsets = stagger(models, plan, noun, rng)
@@ -297,7 +301,7 @@ class ObjectPlacer:
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     hang_rope(trajectory, model),
-                    choose_props(self._description, group, is_first=number == 0),
+                    choose_props(self._description, group),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
                 )
@@ -334,6 +338,11 @@ class ObjectPlacer:
         if group.carried_on is not None:
             return OnPart(carrier, below.models[0], group.carried_on, place, activity)
         return Riding(carrier, place, activity)
+
+
+def _is_long(model: Model) -> bool:
+    """Whether it lies across the view, so that it is seen whole: a bat, a spoon."""
+    return model.length > _STICK * max(model.width, model.height)
 
 
 def _tuple(centre: Float64Array) -> Vector:

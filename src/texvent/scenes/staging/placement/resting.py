@@ -14,7 +14,7 @@ from texvent.scenes.models.people.activities import (
     SEATED,
     TO_AND_FROM_SEATS,
 )
-from texvent.scenes.models.people.daily import SEAT
+from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.support_surface import Support, find_support, top_heights
 from texvent.scenes.models.traits import nouns_with

@@ -69,6 +69,8 @@ def place_on_targets(
         height: of its origin where the relation does not decide it, m.
         neighbours: for "on", "in" and "at", the indices of all objects there, one for each copy.
     """
+    if kind == "at" and targets[0].noun.name not in nouns_with("table"):
+        return place_by_subject(group, "beside", targets[0], height)
     rest = {"on": rest_on, "in": rest_in, "at": place_at}.get(kind)
     if rest is not None:
         return Goal(rest(group, targets[0], neighbours), _FIXED)
@@ -135,15 +137,13 @@ def _place_between(group: ObjectGroup, targets: Sequence[ObjectGroup], height: f
 def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     """Behind its target, on the same path."""
     target, own = targets[0], group.models[0]
-    sizes = target.half[:2] + group.half[:2]
-    reach = 0.5 * (target.models[0].length + own.length)
-    back = -min(1.6 * reach + 0.4, float(sizes.max()) + reach)
+    reach, yaw = 0.5 * (target.models[0].length + own.length), target.plan.yaw
+    back = 1.6 * reach + 0.4
     group.half = 0.5 * np.array([own.length, own.width, own.height])
     if target.plan.path is not None:
         group.lag = (target, 1.3 * reach + 0.4)
-    yaw = target.plan.yaw
     base = _on_ground(target, height)
-    return Goal(_shift(base, back * math.cos(yaw), back * math.sin(yaw)), _FIXED)
+    return Goal(_shift(base, -back * math.cos(yaw), -back * math.sin(yaw)), _FIXED)
 
 
 _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float], Goal]] = {
@@ -178,28 +178,35 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     yaw, here = subject.plan.yaw, _on_ground(subject, height)
     along = (math.cos(yaw), math.sin(yaw))
     goes = subject.plan.is_path or subject.plan.path is not None
-    goes_sideways = abs(along[0]) > 0.5
+    is_aside = goes and abs(along[0]) > 0.5
+    # Beside what goes across the image is behind it; else at its right, and smaller things nearer.
+    beside = (0.0, y + _CLEAR_M, _AWAY) if is_aside else (x + _CLEAR_M, 0.0, _ALONG_X)
+    level = 0.0 if goes else float(group.half[1] - subject.half[1])
     ahead = 0.55 * (subject.models[0].length + group.models[0].length) + 0.2
-    beside = (0.0, y + _CLEAR_M, _AWAY) if goes_sideways else (x + _CLEAR_M, 0.0, _ALONG_X)
-    abreast = (ahead * along[0], y + 0.1, _AWAY) if goes_sideways else (x, 0.0, _ALONG_X)
-    away = (-x * along[0], -y * along[1], _AWAY)
-    # What is smaller stands nearer to the camera, and looks larger.
-    level = float(group.half[1] - subject.half[1])
     goals = {
-        "from": away,
-        "away from": away,
+        "from": (-x * along[0], -y * along[1], _AWAY),
+        "away from": (-x * along[0], -y * along[1], _AWAY),
         "towards": (x * along[0], y * along[1], _AWAY),
         "overtake": (0.0, y + _CLEAR_M, _AWAY),
-        "past": beside if goes else (x + _CLEAR_M, 0.0, _ALONG_X),
-        "beside": beside if goes else (x, level, _ALONG_X),
-        "with": abreast if goes else (x, level, _ALONG_X),
-        "left of": (x, 0.0 if goes else level, _ALONG_X),
-        "right of": (-x, 0.0 if goes else level, -_ALONG_X),
+        "past": beside,
+        "beside": (_stop_m(subject), *beside[1:]) if is_aside else (x, level, _ALONG_X),
+        "with": (ahead * along[0], y + 0.1, _AWAY) if is_aside else (x, level, _ALONG_X),
+        "left of": (x, level, _ALONG_X),
+        "right of": (-x, level, -_ALONG_X),
         "behind": (-_look_past(subject, near, y), -y, -_AWAY),
         "front": (_look_past(group, near, y), y, _AWAY),
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
+
+
+def _stop_m(subject: ObjectGroup) -> float:
+    """How far to the right of its middle the nose of what comes to rest gets, m; 0 = it goes on."""
+    last = (subject.plan.motion, *subject.scene_object.then)[-1]
+    if last.end_pace != 0.0 and (last.kind != "stand" or not subject.scene_object.then):
+        return 0.0
+    reach = float(subject.half[0]) - 0.1 * subject.models[0].length
+    return math.copysign(reach, math.cos(subject.plan.yaw))
 
 
 def _hide_before(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:

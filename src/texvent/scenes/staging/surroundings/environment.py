@@ -9,8 +9,8 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
-from texvent.scenes.models.objects.patterns import FACING
 from texvent.scenes.models.places import Place
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
     Colour,
@@ -44,10 +44,6 @@ NO_ROOM_M = 9.0
 """Half the side of a room where there is none, m; nothing shows it."""
 LOOKING = np.array((0.0, 1.0, 0.0))
 """Where a camera looks that nothing turns."""
-_SUN_RAD_S = 2.0 * math.pi / 600.0
-"""How fast the sun goes in a time lapse, per second of sky time."""
-
-
 SNOW: Colour = (0.78, 0.82, 0.88)
 _SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE)
 """Grounds whose grass is white when snow lies on it."""
@@ -71,7 +67,7 @@ class AnimatedEnvironment:
     """As `Illumination.wave`."""
     has_lightning: bool = False
     time_scale: float = 1.0
-    """How much faster than in life clouds, waves and the sun go."""
+    """How much faster than in life clouds and waves go."""
 
     def at(self, time_s: float) -> Environment:
         """The surroundings at that instant."""
@@ -82,8 +78,6 @@ class AnimatedEnvironment:
             sun_colour=self.base.sun_colour * factor,
             ambient=self.base.ambient * factor,
         )
-        if self.time_scale != 1.0:
-            base = replace(base, sun_direction=_sun_at(base.sun_direction, base.time_s))
         level = lightning_level(time_s) if self.has_lightning else 0.0
         if self.wave == "strobe" and self.flicker(time_s) >= 1.0:
             return replace(base, ambient=base.ambient + np.float32(STROBE) * _FLASH)
@@ -113,14 +107,6 @@ class AnimatedEnvironment:
         return 1.0 - 0.5 * FLICKER_DEPTH * (1.0 - wave)
 
 
-def _sun_at(direction: Float64Array, time_s: float) -> Float64Array:
-    """The sun's direction [3] after so many seconds of sky time: it goes around, ever higher."""
-    angle = _SUN_RAD_S * time_s
-    cosine, sine = math.cos(angle), math.sin(angle)
-    x, y, z = direction
-    return np.array([cosine * x - sine * y, sine * x + cosine * y, z])
-
-
 def build_environment(
     description: SceneDescription,
     *,
@@ -144,12 +130,18 @@ def build_environment(
     has_lightning = any(effect.kind == "lightning" for effect in description.effects)
     colour, second = _ground_colours(place, said)
     ground = place.ground
-    sky_top, horizon = _sky_colours(lighting, said)
-    if place.is_backdrop and said.sky is None:
+    sky_top, horizon = lighting.sky_top, lighting.sky_horizon
+    if said.sky is not None:
+        sky_top, horizon = said.sky.rgb, mix(said.sky.rgb, horizon, 0.5)
+    elif place.is_backdrop:
         # The same all around, without a horizon to speak of.
         sky_top = horizon = mix(colour, second, 0.5)
-        if description.objects and all(one.noun in FACING for one in description.objects):
+        if description.objects and all(
+            one.noun in nouns_with("flat pattern") for one in description.objects
+        ):
             ground = Ground.NONE
+    is_dim = said.weather in ("rain", "snow")
+    sun = mix(lighting.sun, (0.0, 0.0, 0.0), 0.4) if is_dim else lighting.sun
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
     is_white = said.has_snow and place.ground in _SNOWED_OVER
     base = Environment(
@@ -164,7 +156,7 @@ def build_environment(
         clouds=_cloud_share(description, place, lighting, has_lightning=has_lightning),
         wave_height=said.wave_height,
         sun_direction=towards_light(_unit(lighting.sun_direction), looking, description.light),
-        sun_colour=_array(_sun_colour(lighting, said.weather)),
+        sun_colour=_array(sun),
         ambient=_array(lighting.ambient),
         shadows=lighting.shadows,
         fog_distance=fog_distance,
@@ -184,18 +176,6 @@ def build_environment(
         base, description.light.flicker_hz, description.light.wave, has_lightning,
         TIMELAPSE if description.is_timelapse else 1.0,
     )  # fmt: skip
-
-
-def _sun_colour(lighting: Lighting, weather: str | None) -> Colour:
-    is_dim = weather in ("rain", "snow")
-    return mix(lighting.sun, (0.0, 0.0, 0.0), 0.4) if is_dim else lighting.sun
-
-
-def _sky_colours(lighting: Lighting, said: Surroundings) -> tuple[Colour, Colour]:
-    """Colours of the zenith and of the horizon."""
-    if said.sky is None:
-        return lighting.sky_top, lighting.sky_horizon
-    return said.sky.rgb, mix(said.sky.rgb, lighting.sky_horizon, 0.5)
 
 
 def _cloud_share(

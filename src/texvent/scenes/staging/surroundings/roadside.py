@@ -13,10 +13,15 @@ import numpy as np
 from texvent.scenes.models.places import Scenery
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.traits import nouns_with, trait_value
-from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.journey import VIEW_M, TravelPlan
-from texvent.scenes.staging.surroundings.scenery import SceneryItem, build, list_bodies
+from texvent.scenes.staging.surroundings.scenery import (
+    SceneryItem,
+    ViewClearance,
+    build,
+    is_free,
+    list_bodies,
+)
 
 _USUAL_SPACING_M = 12.0
 """From one to the next on a side of the route."""
@@ -47,25 +52,24 @@ class _Strip:
 
 def line_route(
     rules: Sequence[Scenery],
+    view: ViewClearance,
     travel: TravelPlan,
     actors: Sequence[Actor],
     nouns: Mapping[str, Noun],
-    *,
     rng: np.random.Generator,
-    road_half_m: float | None = None,
 ) -> list[SceneryItem]:
     """Scenery along a route, on both sides, from behind its beginning to beyond its end.
 
     Args:
         rules: what belongs to the place; those that say metres stand far off and are left out.
+        view: the camera over the clip, and the road, which stays free.
         travel: the route.
         actors: the objects of the scene, which nothing may stand in.
         nouns: table of models; a noun that is missing is left out.
         rng: decides places, sizes and turns.
-        road_half_m: half width of the road, which stays free; None = there is none.
     """
     known = [rule for rule in rules if rule.noun in nouns and not is_placed_by_view(rule)]
-    half = road_half_m or 0.0
+    half = view.road_half_width or 0.0
     strips = [_Strip(travel.point, travel.length_m + VIEW_M, travel.clear_m)]
     strips += [_Strip(partial(_on_line, one), _BRANCH_M, (half, half)) for one in travel.branches()]
     reach = sum(strip.length_m + _BEFORE_M for strip in strips)
@@ -81,7 +85,8 @@ def line_route(
             if nouns[rule.noun].habitat == "air":
                 height = travel.journey.height_m + float(rng.uniform(-5.0, 4.0))
                 item = replace(item, height_m=height)
-            if _is_free(item, travel, line, bodies, items, road_half_m):
+            away = float(np.min(np.hypot(*(line - item.position).T))) - item.radius_m
+            if away >= min(travel.clear_m) and is_free(item, rule, view, bodies, items):
                 items.append(item)
     return items
 
@@ -116,23 +121,3 @@ def _place(
     if rule.noun not in nouns_with("parallel to road"):
         yaw = float(rng.uniform(0.0, 2.0 * math.pi))
     return SceneryItem(rule.noun, model, (x, y), yaw)
-
-
-def _is_free(
-    item: SceneryItem,
-    travel: TravelPlan,
-    line: Float64Array,
-    bodies: Float64Array,
-    items: Sequence[SceneryItem],
-    road_half_m: float | None,
-) -> bool:
-    """Whether an item has room beside the route, the roads, the actors and other items."""
-    spot, radius = np.array(item.position), item.radius_m
-    if float(np.min(np.hypot(*(line - spot).T))) < min(travel.clear_m) + radius:
-        return False
-    away = float(travel.road.distance(spot[None])[0])
-    if road_half_m is not None and away < road_half_m + radius:
-        return False
-    if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < bodies[:, 2] + radius + 0.2):
-        return False
-    return all(np.hypot(*(spot - one.position)) >= 0.8 * (radius + one.radius_m) for one in items)

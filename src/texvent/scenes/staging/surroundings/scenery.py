@@ -31,8 +31,6 @@ _IN_VIEW = 0.42
 """Half of what the image shows, but for its edges, as a multiple of the distance at focal 1."""
 ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
-_FROM_NET_M = 1.2
-"""Who is nearer to the middle of a court than that stands in its net."""
 _WIDTHS = (1.0, 1.4, 2.0)
 """Walls on both sides of the view are wider where what goes there needs it."""
 _GAP_M = 0.35
@@ -124,7 +122,7 @@ def scatter(
             item = _lay_out(rule, noun, view, actors, bodies, rng)
             items += [item] if item is not None else []
             continue
-        must_show = number == 0 and rule.where == "wall"
+        must_show = number == 0 and rule.where == "walls"
         for copy in range(rule.count):
             model = build(rule, noun, copy, rng, _fit_scale(rule, view))
             item = _find_place(rule, model, view, bodies, items, rng, must_show=must_show)
@@ -174,7 +172,7 @@ def _lay_out(
         if rule.where == "both sides":
             spot = _stand_along(model, view.cameras, bodies)
         else:
-            spot = (*_middle_of(bodies, actors, rule.ahead_m), view.road.angle)
+            spot = (*_middle_of(bodies, actors, rule.reach[0]), view.road.angle)
         if spot is not None:
             return SceneryItem(rule.noun, model, spot[:2], spot[2], is_flat=True)
     return None
@@ -183,14 +181,12 @@ def _lay_out(
 def _middle_of(
     bodies: Float64Array, actors: Sequence[Actor], ahead_m: float
 ) -> tuple[float, float]:
-    """The middle of all, x and y, m; so far ahead of the first one where one stands there."""
+    """The middle of all, x and y, m, and so far on as the first one looks."""
     if not len(bodies):
         return 0.0, 0.0
     x, y = bodies[:, :2].mean(axis=0)
-    if ahead_m and np.hypot(bodies[:, 0] - x, bodies[:, 1] - y).min() <= _FROM_NET_M:
-        yaw = actors[0].trajectory.at(0.0).yaw
-        x, y = x + ahead_m * math.cos(yaw), y + ahead_m * math.sin(yaw)
-    return float(x), float(y)
+    yaw = actors[0].trajectory.at(0.0).yaw
+    return float(x) + ahead_m * math.cos(yaw), float(y) + ahead_m * math.sin(yaw)
 
 
 def _stand_along(
@@ -235,13 +231,13 @@ def _find_place(
     """A free place for a piece; one that must show is in view, if it can be."""
     for attempt in range(ATTEMPTS):
         camera = view.cameras[int(rng.integers(len(view.cameras)))]
-        if rule.where == "wall":
+        if rule.where == "walls":
             item = _stand_at_wall(rule, model, camera, view.room_m, rng)
             if must_show and 2 * attempt < ATTEMPTS and not _is_in_view(item, camera):
                 continue
         else:
             item = _stand_around(rule, model, camera, view, rng)
-        if _is_free(item, rule, view, bodies, items):
+        if is_free(item, rule, view, bodies, items):
             return item
     return None
 
@@ -304,7 +300,7 @@ def _draw_reach(
     return flat * (1.0 + float(rng.uniform(near, far)))
 
 
-def _is_free(
+def is_free(
     item: SceneryItem,
     rule: Scenery,
     view: ViewClearance,

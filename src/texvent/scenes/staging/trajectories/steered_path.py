@@ -81,6 +81,8 @@ class SteeredPath:
     restitution: float = 0.3
     side_m: float = 0.0
     """Half the width of what falls onto its side; 0 = it falls forwards."""
+    slip_rad: float = 0.0
+    """From where it goes to where it points, as of a car that drifts; positive = to its left."""
 
     @property
     def duration_s(self) -> float:
@@ -117,7 +119,7 @@ class SteeredPath:
         roll -= math.atan(self.lean * now.speed * now.turn / GRAVITY_M_S2)
         return BodyState(
             (now.x, now.y, height),
-            now.heading,
+            now.heading + self.slip_rad,
             pitch,
             roll,
             distance_m=now.distance_m,

@@ -121,11 +121,6 @@ class Straight:
     activity: str = "move"
     climb: float = 0.0
     """Metres up per metre along."""
-    bob_m: float = 0.0
-    """Amplitude of a slow up and down."""
-    weave_rad: float = 0.0
-    """Amplitude of swaying about its heading, as fish do."""
-    phase: float = 0.0
     facing_rad: float | None = None
     """Where its front points if not along its heading (a kite's face)."""
 
@@ -133,11 +128,9 @@ class Straight:
         """State at that instant."""
         facing = self.yaw if self.facing_rad is None else self.facing_rad
         along = self.speed_m_s * (time_s - self.mid_s)
-        wave = 2.0 * math.pi * 0.4 * time_s + self.phase
-        height = self.home[2] + along * self.climb + self.bob_m * math.sin(wave)
         return BodyState(
-            ahead(self.home, self.yaw, along, height),
-            facing + self.weave_rad * math.sin(1.7 * wave),
+            ahead(self.home, self.yaw, along, self.home[2] + along * self.climb),
+            facing,
             -math.atan(self.climb),
             distance_m=self.speed_m_s * time_s,
             speed_m_s=self.speed_m_s,
@@ -246,20 +239,6 @@ class Facing:
             (x, y, _), (_, depth, height) = state.position, self.upright
             state = replace(state, position=(x, depth, height + y - depth))
         return replace(state, yaw=TO_CAMERA, pitch=0.0, roll=0.0)
-
-
-@dataclass(frozen=True)
-class Slipping:
-    """Goes along a path, turned into the bend from where it goes."""
-
-    path: Trajectory
-    slip_rad: float
-    """Positive = its front to the left."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        state = self.path.at(time_s)
-        return replace(state, yaw=state.yaw + self.slip_rad)
 
 
 @dataclass(frozen=True)

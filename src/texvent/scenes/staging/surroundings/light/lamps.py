@@ -13,11 +13,10 @@ from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.variation import fraction
-from texvent.scenes.scene import LAMP_COLUMNS, PUFF_COLUMNS, Float64Array, Ground
+from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
-from texvent.scenes.staging.particles.shapes import along
 from texvent.scenes.staging.surroundings.light.lighting import hidden_lamp, tint_of
 from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
@@ -35,10 +34,6 @@ _DIMMEST_CASTER = 0.5
 """Lamps whose light at 1 m is less than this cast no shadows."""
 _LONG = 3.0
 """A part longer than this many thicknesses, such as a tube, is no spot of light."""
-_HAZE = 0.16
-"""Optical depth of a beam in hazy air near its lamp."""
-_HAZE_PUFFS = 7
-_HAZE_ALBEDO = 1e-3
 _MOST_CASTERS = 3
 """Each costs time: see docs/design/speed.md."""
 _FAINTEST_SHARE = 0.05
@@ -130,57 +125,19 @@ class LitActor:
 
     def rows(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
         """Its lamps at that instant, as in `Environment.lamps`: always as many."""
-        return [row for _, row, _ in self._shining(placed, time_s)]
-
-    def haze(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
-        """What is seen of its beams from the side: puffs, as in `Environment.puffs`."""
-        if self.strength <= 0.0:
-            return []
-        return [
-            haze_rows(row, lamp.haze_m, level)
-            for lamp, row, level in self._shining(placed, time_s)
-            if lamp.haze_m > 0.0
-        ]
-
-    def _shining(
-        self, placed: PlacedModel, time_s: float
-    ) -> list[tuple[Lamp, Float64Array, float]]:
-        """Its lamps that are on: kind, numbers, and light as a share of the usual."""
-        rows: list[tuple[Lamp, Float64Array, float]] = []
+        rows: list[Float64Array] = []
+        done: set[Lamp] = set()
         for index, number, lamp in self.lamps_of(placed):
-            is_done = lamp.is_single and any(lamp == one for one, _, _ in rows)
-            if self.is_on(lamp) and not is_done:
-                part = placed.parts[index]
-                level = self.level(lamp, time_s, number)
-                level *= part.emission / max(self.brightest[index], 1e-9)
-                casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
-                row = lamp_row(lamp, part, placed.to_world, level, time_s, casts)
-                rows.append((lamp, row, level))
+            if lamp in done or not self.is_on(lamp):
+                continue
+            if lamp.is_single:
+                done.add(lamp)
+            part = placed.parts[index]
+            level = self.level(lamp, time_s, number) * part.emission
+            level /= max(self.brightest[index], 1e-9)
+            casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
+            rows.append(lamp_row(lamp, part, placed.to_world, level, time_s, casts))
         return rows
-
-
-def haze_rows(row: Float64Array, reach_m: float, level: float) -> Float64Array:
-    """[7, 19] what dust and damp in the air show of a beam: ever wider puffs along it.
-
-    Args:
-        row: the lamp, as in `Environment.lamps`.
-        reach_m: how far it is seen, m.
-        level: light as a share of its usual light.
-    """
-    edges = reach_m * np.linspace(0.0, 1.0, _HAZE_PUFFS + 1) ** 1.5
-    middle, half = 0.5 * (edges[1:] + edges[:-1]), edges[1:] - edges[:-1]
-    width = row[12] + 0.7 * math.tan(math.acos(row[11])) * middle
-    extents = np.stack([width, width, half], axis=1)
-    maps = along(
-        row[:3] + middle[:, None] * row[7:10], np.tile(row[7:10], (_HAZE_PUFFS, 1)), extents
-    )
-    rows = np.zeros((_HAZE_PUFFS, PUFF_COLUMNS))
-    rows[:, :12] = maps.reshape(-1, 12)
-    # Nearly black, so that it does not scatter the lamp's light once more.
-    rows[:, 12:15] = _HAZE_ALBEDO * row[3:6] / max(row[3:6].max(), 1e-9)
-    rows[:, 15] = _HAZE * level * np.linspace(1.0, 0.3, _HAZE_PUFFS)
-    rows[:, 16] = 1.0 / _HAZE_ALBEDO
-    return rows
 
 
 def lamp_row(
@@ -234,23 +191,17 @@ class LampPlan:
     still: Float64Array
     """[m, 15] lamps of the scenery, and light whose lamp is out of sight."""
 
-    def of(self, actor: Actor) -> LitActor | None:
-        """The lamps of one object, if it has any."""
-        return next((one for one in self.lit if one.actor.instance == actor.instance), None)
-
     def place(self, actor: Actor, time_s: float) -> PlacedModel:
         """An object in the world, with its lamps as bright as they are at that instant."""
-        placed, lit = actor.place(time_s), self.of(actor)
+        placed = actor.place(time_s)
+        own = (one for one in self.lit if one.actor.instance == actor.instance)
+        lit = next(own, None)
         return placed if lit is None else lit.glow(placed, time_s)
 
     def rows(self, time_s: float) -> Float64Array:
         """[m, 15] all lamps at that instant."""
         rows = [row for one in self.lit for row in one.rows(one.actor.place(time_s), time_s)]
         return np.concatenate([np.array(rows).reshape(-1, LAMP_COLUMNS), self.still])
-
-    def puffs(self, time_s: float) -> list[Float64Array]:
-        """What is seen of beams from the side, as in `Environment.puffs`."""
-        return [rows for one in self.lit for rows in one.haze(one.actor.place(time_s), time_s)]
 
     @property
     def is_moving(self) -> bool:

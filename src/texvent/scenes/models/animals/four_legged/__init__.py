@@ -1,1 +1,0 @@
-"""Bodies of four-legged animals: proportions, trunk and legs, head."""

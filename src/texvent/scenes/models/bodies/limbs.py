@@ -1,0 +1,167 @@
+"""Limbs of bodies given as data: legs that step without sliding, and chains of links that wave."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise, product
+from typing import Any
+
+from texvent.scenes.models.bodies.joints import read_cycle
+from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
+from texvent.scenes.models.materials import Material
+from texvent.scenes.models.protocol import ModelPart, Pose
+from texvent.scenes.models.shapes import (
+    Point,
+    limb,
+    moved,
+    plank,
+    shift,
+    turn_z,
+)
+from texvent.scenes.models.variation import fraction
+
+
+@dataclass(frozen=True)
+class Steps:
+    """How far a body is in its cycle of steps at one instant."""
+
+    gait: Gait
+    strides: float
+    amount: float
+    """How fully it steps, 0 to 1."""
+
+
+def steps_at(gait: Gait, pose: Pose, seed: int) -> Steps:
+    """The steps of a gait at one instant; the seed chooses the first."""
+    strides = pose.distance_m / gait.stride + fraction(seed, "step")
+    return Steps(gait, strides, step_amount(pose.activity, pose.speed_m_s, 0.35 * gait.stride))
+
+
+DrawLegs = Callable[[Steps, float], list[ModelPart]]
+"""Steps, and how far the body is lifted, m → all legs."""
+
+
+@dataclass(frozen=True)
+class Legs:
+    """Pairs of legs of one make; lengths in m."""
+
+    surface: str
+    pairs: tuple[tuple[float, ...], ...]
+    """Of each left leg: its root x y z, its foot x y on the ground, and how far it is ahead,
+    cycles."""
+    bones: tuple[float, float]
+    """Lengths of the upper and the lower part."""
+    radii: tuple[float, float]
+    """Half thicknesses of them."""
+    towards: Point
+    """Where its knee points."""
+    ankle: float = 0.0
+    """Height of the ankle above the ground."""
+    foot: str = ""
+    """Part lines around the ankle."""
+    apart: float = 0.5
+    """How far the right legs are ahead of the left ones, cycles: 0 = it hops."""
+
+    def drawn_in(self, material: Material, foot: Sequence[ModelPart]) -> DrawLegs:
+        """Draws all legs; `foot` are the parts around an ankle."""
+
+        def draw(steps: Steps, rise: float) -> list[ModelPart]:
+            parts: list[ModelPart] = []
+            for (x, y, z, foot_x, foot_y, ahead), side in product(self.pairs, (1.0, -1.0)):
+                cycle = steps.strides + ahead + (0.0 if side > 0.0 else self.apart)
+                step, lift = foot_path(steps.gait, cycle * steps.gait.stride, 0.0, steps.amount)
+                root: Point = (x, side * y, z + rise)
+                ankle: Point = (foot_x + step, side * foot_y, self.ankle + lift)
+                out: Point = (self.towards[0], side * self.towards[1], self.towards[2])
+                knee = bend(root, ankle, *self.bones, out)
+                parts += [
+                    limb(material, root, knee, self.radii[0]),
+                    limb(material, knee, ankle, self.radii[1]),
+                    *moved(foot, shift(*ankle)),
+                ]
+            return parts
+
+        return draw
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Links from joint to joint along which a wave runs: a tail, a cord, an arm, a cloth."""
+
+    surface: str
+    start: Point
+    step: Point
+    """From one joint to the next at rest, m."""
+    links: int
+    radii: tuple[float, float]
+    """Of the first and the last link, m."""
+    wave: str
+    """Axis along which it waves, reach at its end, m, and the words of its rate."""
+    lag: float
+    """How much later each joint waves than the one before, cycles."""
+    grows: float = 1.0
+    """Power of the share of the length with which the reach grows; 0 = the same all along."""
+    curl: float = 0.0
+    """How much more upwards each link points than the one before, rad."""
+    tall: float = 0.0
+    """Height of upright planks, m; 0 = the links are round."""
+    around: int = 1
+    """Number of such chains around the upright axis."""
+    beads: str = ""
+    """Part lines around each joint but the first."""
+    head: str = ""
+    """Part lines around the first joint."""
+
+    def drawn_in(
+        self, material: Material, beads: Sequence[ModelPart], head: Sequence[ModelPart]
+    ) -> Callable[[Pose, int], list[ModelPart]]:
+        """Draws all links; `beads` and `head` are the parts around joints."""
+        axis, reach, *rate = self.wave.split()
+        cycle = read_cycle(rate)
+
+        def draw(pose: Pose, seed: int) -> list[ModelPart]:
+            parts: list[ModelPart] = []
+            for turn in range(self.around):
+                cycles = cycle(pose, seed) + 2.0 * turn / self.around
+                joints = self._joints(axis, float(reach), cycles)
+                drawn = moved(head, shift(*joints[0]))
+                for index, (a, b) in enumerate(pairwise(joints)):
+                    drawn += [self._link(material, a, b, index), *moved(beads, shift(*b))]
+                parts += moved(drawn, turn_z(2.0 * math.pi * turn / self.around))
+            return parts
+
+        return draw
+
+    def _link(self, material: Material, start: Point, end: Point, index: int) -> ModelPart:
+        share = index / max(self.links - 1, 1)
+        radius = self.radii[0] + share * (self.radii[1] - self.radii[0])
+        if self.tall:
+            upright, thick = (0.0, 0.0, self.tall), (0.0, 2.0 * radius, 0.0)
+            return plank(material, start, end, chord=upright, thickness=thick)
+        return limb(material, start, end, radius)
+
+    def _joints(self, axis: str, reach: float, cycles: float) -> list[Point]:
+        across, up = math.hypot(*self.step[:2]), self.step[2]
+        long, rise = math.hypot(across, up), math.atan2(up, across)
+        ahead = (self.step[0] / across, self.step[1] / across) if across > 0.0 else (0.0, 0.0)
+        x, y, z = self.start
+        joints: list[Point] = []
+        for index in range(self.links + 1):
+            swing = math.sin(2.0 * math.pi * (cycles - self.lag * index))
+            off = reach * (index / self.links) ** self.grows * swing
+            joints.append(
+                (x + off * (axis == "x"), y + off * (axis == "y"), z + off * (axis == "z"))
+            )
+            tilt = rise + self.curl * index
+            x += long * math.cos(tilt) * ahead[0]
+            y += long * math.cos(tilt) * ahead[1]
+            z += long * math.sin(tilt)
+        return joints
+
+
+def read_legs(table: Mapping[str, Any]) -> Legs:
+    """Legs from a table of their fields; pairs are lines of six numbers."""
+    rows = (row.split() for row in table["pairs"].splitlines() if row.strip())
+    return Legs(**{**table, "pairs": tuple(tuple(float(one) for one in row) for row in rows)})

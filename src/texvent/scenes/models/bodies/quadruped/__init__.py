@@ -1,0 +1,1 @@
+"""Four-legged animals: their tables, trunk and legs, and head."""

@@ -1,1 +1,0 @@
-"""Models of buildings, plants, furniture, toys and street furniture."""

@@ -1,1 +1,0 @@
-"""Models of what is found in a kitchen."""

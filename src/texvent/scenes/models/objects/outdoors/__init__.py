@@ -1,1 +1,0 @@
-"""Models of what stands in streets, gardens and landscapes, and in the sky."""

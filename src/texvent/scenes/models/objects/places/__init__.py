@@ -1,1 +1,0 @@
-"""What places are known by: furniture of rooms, structures of grounds, lines of courts."""

@@ -1,1 +1,0 @@
-"""Models of toys, playgrounds and musical instruments."""

@@ -1,1 +1,0 @@
-"""Models of what is used in sports and games."""

@@ -1,1 +1,0 @@
-"""Models of tools, machines, robots and what goods are moved with."""

@@ -1,1 +1,0 @@
-"""Animals and toys that stand upright and do what people do, on a person's joints."""

@@ -1,0 +1,98 @@
+"""Surfaces of nouns in text: "paint*.7", "paint:cloth", "(.3 .15 .06) wood", "#e8c020 glow 3"."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from importlib.resources import files
+
+from texvent.scenes.models.materials import Material, decode_hex, made_of, shade
+from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture
+
+PAINT = "paint"
+"""Name of the colour that a prompt may say."""
+_WORDS = re.compile(r"\([^)]*\)(?:\*[\d.]+)*|\S+")
+_TEXTURES = {one.name.lower(): one for one in Texture}
+
+
+@cache
+def shared_surfaces() -> Mapping[str, Material]:
+    """Surfaces that all nouns may name, from `data/surfaces.toml`."""
+    file = files("texvent.scenes.models") / "data" / "surfaces.toml"
+    table: dict[str, str] = tomllib.loads(file.read_text(encoding="utf-8"))
+    return {name: read_surface(text, {}) for name, text in table.items()}
+
+
+def read_colour(text: str, hues: Mapping[str, Colour]) -> Colour:
+    """Linear-light RGB of "#rrggbb", "(r g b)" or a name of `hues`, each perhaps with "*factor".
+
+    Raises:
+        ValueError: it is none of these.
+    """
+    first, *factors = text.split("*")
+    if re.fullmatch("#[0-9a-fA-F]{6}", first):
+        colour = decode_hex(first[1:])
+    elif first.startswith("("):
+        channels = [float(one) for one in first.strip("()").split()]
+        if len(channels) != 3 or not all(0.0 <= one <= 1.0 for one in channels):
+            raise ValueError(f"colour {text!r} must be three numbers from 0 to 1")
+        colour = (channels[0], channels[1], channels[2])
+    elif first in hues:
+        colour = hues[first]
+    else:
+        known = ", ".join([*hues, "#rrggbb", "(r g b)"])
+        raise ValueError(f"unknown colour {text!r}; known: {known}")
+    for factor in factors:
+        colour = shade(colour, float(factor))
+    return colour
+
+
+def read_surface(text: str, hues: Mapping[str, Colour]) -> Material:
+    """A surface: its colour, its texture, a second colour, "scale" and "glow" with numbers.
+
+    A ":" stands for a blank, so that a line of parts can name a surface in one word: "paint:wood".
+
+    Args:
+        text: such as "paint cloth", "stripes", or a name of `shared_surfaces`.
+        hues: colours by name.
+
+    Raises:
+        ValueError: a word is not understood.
+    """
+    first, *rest = _WORDS.findall(text.replace(":", " "))
+    base, *factors = first.split("*")
+    if base[0] not in "#(" and base not in hues:
+        shared = shared_surfaces() if hues else {}
+        if base not in shared:
+            raise ValueError(f"unknown surface {text!r}; known: {', '.join([*hues, *shared])}")
+        return _toned(shared[base], factors)
+    colour, second = read_colour(first, hues), None
+    texture, values = Texture.WORN, {"scale": 1.0, "glow": 0.0}
+    for word, following in zip(rest, [*rest, ""][1:], strict=True):
+        if word in values:
+            values[word] = float(following)
+        elif word in _TEXTURES:
+            texture = _TEXTURES[word]
+        elif not re.fullmatch(r"[\d.]+", word):
+            second = read_colour(word, hues)
+    is_material = texture >= FIRST_SURFACE and texture is not Texture.WORN
+    if second is None and not is_material:
+        second = (0.0, 0.0, 0.0)
+    made = made_of(texture, colour, second, scale=values["scale"])
+    return replace(made, emission=values["glow"])
+
+
+def _toned(surface: Material, factors: list[str]) -> Material:
+    """The same surface, darker or lighter."""
+    factor = math.prod(float(one) for one in factors)
+    if factor == 1.0:
+        return surface
+    return replace(
+        surface,
+        colour=shade(surface.colour, factor),
+        second_colour=shade(surface.second_colour, factor),
+    )

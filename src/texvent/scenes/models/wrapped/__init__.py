@@ -1,1 +1,0 @@
-"""Models drawn by another model and changed: opened, hanging, pulsing."""

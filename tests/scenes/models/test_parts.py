@@ -1,0 +1,252 @@
+"""Nouns as lists of parts: what lines, surfaces and joints mean; and that no noun has changed."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import FileFormatError
+from texvent.scenes.models.class_ids import CLASS_IDS, FIRST_OTHER
+from texvent.scenes.models.joints import read_joint, read_light
+from texvent.scenes.models.materials import Material
+from texvent.scenes.models.nouns import DRESSING, FAMILIES, NOUNS
+from texvent.scenes.models.part_lines import read_parts
+from texvent.scenes.models.parts import PartsBuilder, read_nouns
+from texvent.scenes.models.protocol import Model, Noun, Pose
+from texvent.scenes.models.surfaces import read_surface, shared_surfaces
+from texvent.scenes.scene import Shape, Texture
+
+DIGEST = Path(__file__).with_name("noun_digest.txt")
+AT_REST = Pose(0.0, 0.0, 0.0, "stand")
+
+
+def describe(noun: Noun) -> str:
+    """Number of parts, size and mean colour of a noun: what a wrong edit of its data changes."""
+    model = noun.build(colour=None, scale=1.0, seed=1)
+    parts = model.parts(Pose(0.4, 0.7, 1.0))
+    places = np.array([part.to_body for part in parts])
+    volumes = np.abs(np.linalg.det(places[:, :, :3])) ** (1 / 3)
+    middle = volumes @ places[:, :, 3] / volumes.sum()
+    hue = volumes @ np.array([part.colour for part in parts]) / volumes.sum()
+    numbers = [model.length, model.width, model.height, *middle, *hue]
+    return f"{noun.name}: {len(parts)} {' '.join(f'{one + 0.0:.3g}' for one in numbers)}"
+
+
+def listed() -> list[Noun]:
+    return [noun for noun in NOUNS.values() if isinstance(noun.build, PartsBuilder)]
+
+
+def numbers(line: str) -> list[float]:
+    return [float(word) for word in line.split(": ", 1)[1].split()]
+
+
+def test_every_noun_of_the_files_is_as_it_was() -> None:
+    stored = {line.split(":")[0]: line for line in DIGEST.read_text("utf-8").splitlines()}
+    found = {noun.name: describe(noun) for noun in listed()}
+    assert sorted(found) == sorted(stored)
+    for name, line in found.items():
+        # Processors differ in the last digit of a sum.
+        np.testing.assert_allclose(numbers(line), numbers(stored[name]), rtol=0.02, atol=2e-3,
+                                   err_msg=name)  # fmt: skip
+
+
+def test_every_noun_has_a_class_id() -> None:
+    assert set(NOUNS) <= set(CLASS_IDS)
+    assert (CLASS_IDS["airplane"], CLASS_IDS["zebra"], CLASS_IDS["hand"]) == (1, 117, 118)
+    # Numbers from `FIRST_OTHER` on are of names that are no nouns.
+    assert max(CLASS_IDS.values()) < FIRST_OTHER
+
+
+def test_set_dressing_has_no_other_names() -> None:
+    assert {noun.name for noun in FAMILIES["dressing"]} == DRESSING
+    assert "pitch lines" in DRESSING
+
+
+def one(line: str) -> np.ndarray:
+    parts, _ = read_parts(line)
+    assert len(parts) == 1
+    return parts[0].to_body
+
+
+def test_lines_of_single_shapes_by_hand() -> None:
+    np.testing.assert_allclose(
+        one("box red  1 2 3  2 4 6"), [[1, 0, 0, 1], [0, 2, 0, 2], [0, 0, 3, 3]]
+    )
+    np.testing.assert_allclose(one("box red  0 0 0  2 2 2  lean .5")[0], [1, 0, 0.5, 0])
+    # Turned a quarter about z: what was along x is along y.
+    turned = one("post red  0 0 1  2 4 6  turn 0 0 90")
+    np.testing.assert_allclose(turned, [[0, -2, 0, 0], [1, 0, 0, 0], [0, 0, 3, 1]], atol=1e-12)
+    rod = one("rod red  1 0 0  1 0 4  .5")
+    np.testing.assert_allclose(rod @ [0, 0, 1, 1], [1, 0, 4])
+    np.testing.assert_allclose(rod @ [0, 0, -1, 1], [1, 0, 0])
+    disc = one("disc red  1 0 2  .5 .2")
+    np.testing.assert_allclose(np.linalg.norm(disc[:, :3], axis=0), [0.5, 0.5, 0.1])
+    plank = one("plank red  0 0 0  2 0 0  0 1 0  0 0 .5")
+    np.testing.assert_allclose(np.abs(plank[:, :3]).max(axis=0), [0.5, 0.25, 1.0])
+
+
+def places(text: str) -> list[tuple[float, ...]]:
+    parts, _ = read_parts(text)
+    return [tuple(np.round(part.to_body[:, 3], 6) + 0.0) for part in parts]
+
+
+def test_one_line_may_be_many_parts() -> None:
+    assert places("ball red  ±1 ±2 3  1 1 1") == [(1, 2, 3), (1, -2, 3), (-1, 2, 3), (-1, -2, 3)]
+    assert places("ball red  0 0 0  1 1 1  times 3 0 .5 1") == [(0, 0, 0), (0, 0.5, 1), (0, 1, 2)]
+    assert places("ball red  0 0 1  1 1 1  also 0 2 1  3 0 0") == [(0, 0, 1), (0, 2, 1), (3, 0, 0)]
+    around = places("ball red  1 0 0  1 1 1  turned 4 z 90 0 0 0")
+    assert around == [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+    assert places("bits red  0 0 0  2 2 1  rows ##/.#") == [(0, 0, 0.5), (0, 0.5, -0.5)]
+    assert len(places("ring red  0 0 1  1 1  .1  about x 0 360 12")) == 12
+    assert len(places("chain red  .1  0 0 0  1 0 0\n    1 1 0  # goes on")) == 2
+    assert places("lathe red  0 0 1  2  0 1  4 1") == [(0, 0, 2), (0, 0, 4)]
+    assert len(places("frame red  0 0 1  2 1  .1 .1")) == 4
+
+
+def test_a_wheel_does_not_slip() -> None:
+    _, (wheel,) = read_parts("wheel 1 0 .4  .4 .2")
+    step = 1e-5
+    turn = wheel[1].motion(Pose(0.0, step, 1.0), 0)
+    foot = np.array([1.0, 0.0, 0.0, 1.0])
+    np.testing.assert_allclose(turn @ foot, [1.0 - step, 0.0, 0.0], atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("bax red 0 0 0 1 1 1", "unknown shape 'bax'"),
+        ("box red 0 0 0 1 1", "6 numbers are needed but there are 5"),
+        ("box red 0 0 0 1 1 0", "sizes must be positive"),
+        ("box red 0 0 x 1 1 1", "could not convert"),
+        ("box red 0 0 nan 1 1 1", "finite"),
+        ("box red 0 0 0 1 1 1 twist 3", "could not convert"),
+        ("box", "a line is a shape"),
+    ],
+)
+def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(f'[thing]\nparts = "{line}"\n')
+    (noun,) = read_nouns(file)
+    with pytest.raises(FileFormatError, match=message) as caught:
+        noun.build(colour=None, scale=1.0, seed=0)
+    assert "mine.toml, 'thing'" in str(caught.value)
+    assert repr(line) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[a]\nsize = 3", "unknown key 'size'"),
+        ('[a]\nhabitat = "moon"', "habitat must be one of"),
+        ("[a\n", "mine.toml"),
+    ],
+)
+def test_a_bad_file_is_one_clear_line(tmp_path: Path, text: str, message: str) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(text)
+    with pytest.raises(FileFormatError, match=message) as caught:
+        read_nouns(file)
+    assert "\n" not in str(caught.value)
+
+
+def test_surfaces_by_hand() -> None:
+    hues = {"paint": (0.2, 0.4, 0.6)}
+    assert read_surface("paint", hues) == Material((0.2, 0.4, 0.6))
+    assert read_surface("paint*.5", hues).colour == pytest.approx((0.1, 0.2, 0.3))
+    lit = read_surface("#ffffff plain glow 3", hues)
+    assert (lit.colour, lit.texture, lit.emission) == ((1.0, 1.0, 1.0), Texture.PLAIN, 3.0)
+    wood = read_surface("(.4 .2 .1) wood scale 2", hues)
+    assert (wood.texture, wood.scale) == (Texture.WOOD, 2.0)
+    assert wood.second_colour == pytest.approx((0.26, 0.13, 0.065))
+    striped = read_surface("paint stripes (1 1 1) scale 3", hues)
+    assert (striped.second_colour, striped.scale) == ((1.0, 1.0, 1.0), 3.0)
+    assert read_surface("steel", hues) == shared_surfaces()["steel"]
+    for bad in ("tartan", "(1 2)", "paint tartan"):
+        with pytest.raises(ValueError, match=r"unknown|must be"):
+            read_surface(bad, hues)
+
+
+def turned(text: str, pose: Pose, point: tuple[float, ...], seed: int = 0) -> list[float]:
+    where: list[float] = (read_joint(text).motion(pose, seed) @ [*point, 1.0]).round(6).tolist()
+    return where
+
+
+def test_joints_by_hand() -> None:
+    quarter = Pose(0.25, 0.0, 0.0)
+    assert turned("spin z 0 0 0 1hz", quarter, (1, 0, 0)) == [0, 1, 0]
+    assert turned("swing z 1 0 0 90deg 1hz", quarter, (2, 0, 0)) == [1, 1, 0]
+    assert turned("swing z 0 0 0 90deg 1hz below 0deg", quarter, (1, 0, 0)) == [1, 0, 0]
+    assert turned("slide y .5m 1hz", quarter, (0, 0, 0)) == [0, 0.5, 0]
+    assert turned("belt x 2m 1m/s", Pose(1.5, 0, 0), (0, 0, 0)) == [0.5, 0, 0]
+    assert turned("roll y 0 0 1 1m", Pose(0, math.pi, 1), (0, 0, 0)) == [0, 0, 2]
+    assert turned("lie y 0 0 0 90deg", Pose(0, 0, 1, "move"), (1, 0, 0)) == [1, 0, 0]
+    assert turned("lie y 0 0 0 90deg", AT_REST, (1, 0, 0)) == [0, 0, -1]
+    spins = {tuple(turned("spin z 0 0 0 1hz start here", AT_REST, (1, 0, 0), k)) for k in range(4)}
+    assert len(spins) == 4
+    light = read_light("switched at .5hz between 0 .5")
+    assert [light.level(time_s, 0) for time_s in (0.5, 1.5)] == [1.0, 0.0]
+    for bad in ("spin q 0 0 0 1hz", "whirl x 0 0 0 1hz", "spin x 0 0 0 1", "spin x 0"):
+        with pytest.raises(ValueError, match="joint"):
+            read_joint(bad)
+
+
+def _model(text: str, tmp_path: Path, *, colour: tuple[float, float, float] | None) -> Model:
+    file = tmp_path / "mine.toml"
+    file.write_text(text)
+    return read_nouns(file)[0].build(colour=colour, scale=1.0, seed=0)
+
+
+def test_a_file_of_ones_own(tmp_path: Path) -> None:
+    text = """
+place = "indoor"
+[mobile]
+colours = ["#ff0000"]
+varied.cord = ["(.1 .1 .1)"]
+parts = "rod cord  0 0 1  0 0 2  .01"
+[[mobile.moving]]
+name = "arm"
+joint = "spin z 0 0 0 .25hz"
+parts = "bar paint  0 -1 1 1 1 .1 .1"
+[[mobile.moving]]
+on = "arm"
+joint = "swing x 0 1 1 10deg 1hz"
+parts = "ball paint*.5  0 1 .5  .2 .2 .2"
+"""
+    model = _model(text, tmp_path, colour=(0.2, 0.2, 0.8))
+    first, second = (model.parts(Pose(time_s, 0.0, 0.0)) for time_s in (0.0, 1.0))
+    assert [part.shape for part in first] == [Shape.CYLINDER, Shape.BOX, Shape.ELLIPSOID]
+    assert [part.colour for part in first[1:]] == [(0.2, 0.2, 0.8), (0.1, 0.1, 0.4)]
+    # The ball hangs from the arm, which has made a quarter turn.
+    np.testing.assert_allclose(first[2].to_body[:, 3], [0, 1, 0.5], atol=1e-9)
+    np.testing.assert_allclose(second[2].to_body[:, 3], [-1, 0, 0.5], atol=1e-9)
+
+
+def test_a_noun_may_be_like_another(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(
+        '[stool]\nnames = ["seat"]\nplace = "indoor"\nparts = "box red 0 0 1 1 1 1"\n'
+        '[perch]\nlike = "stool"\nplace = "garden"\n'
+    )
+    stool, perch = read_nouns(file)
+    assert (perch.place, perch.synonyms) == ("garden", ())
+    heights = {one.build(colour=None, scale=1.0, seed=0).height for one in (stool, perch)}
+    assert heights == {1.5}
+    file.write_text('[perch]\nlike = "stool"\n')
+    with pytest.raises(FileFormatError, match="no noun with parts named 'stool'"):
+        read_nouns(file)
+
+
+@pytest.mark.parametrize("step_s", [0.2, 0.4])
+@pytest.mark.parametrize("noun", ["fan", "propeller", "pinwheel", "wind turbine", "windmill"])
+def test_blades_stand_elsewhere_in_the_next_still(noun: str, step_s: float) -> None:
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=3)
+    first, second = (
+        np.array([part.to_body[:, 3] for part in model.parts(Pose(time_s, 0.0, 0.0))])
+        for time_s in (0.0, step_s)
+    )
+    # Each blade is apart from where any blade was, by some share of the whole.
+    moved = np.linalg.norm(first - second, axis=1) > 1e-6
+    apart = np.linalg.norm(second[moved][:, None] - first[moved][None], axis=2).min(axis=1)
+    assert apart.max() > 0.02 * model.height
