@@ -232,10 +232,6 @@ class InterpolateConfig:
     deflicker: bool = False
     """Divide fast changes of the whole image's brightness out of the frames, before they are
     counted and simulated: generated video flickers. Fades stay, a little later."""
-    lamp_hz: float | None = None
-    """Frequency of a lamp in the video, Hz: 100 or 120 on mains of 50 or 60 Hz. Its light is taken
-    off the frames where they follow it, and put back on intermediate frames: frames alone show a
-    slower beat."""
     detect_cuts: bool = True
     """Detect scene cuts and flashes and let them happen at one instant instead of smearing them
     over the frame interval."""
@@ -262,14 +258,6 @@ class InterpolateConfig:
                 "deflicker corrects the frames of a video, and exact frames are rendered; "
                 "leave it out, or choose another interpolate"
             )
-        check_range("lamp_hz", self.lamp_hz, 1e-3, 1e6)
-        if self.lamp_hz is not None and self.interpolate in ("none", "exact"):
-            raise ConfigError(
-                f"lamp_hz is for intermediate frames made from others, and interpolate is "
-                f"{self.interpolate}; leave it out, or choose another interpolate"
-            )
-        if self.lamp_hz is not None and self.deflicker:
-            raise ConfigError("deflicker removes what lamp_hz puts back; choose one of the two")
         check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)
         check_range("frames_per_pixel", self.frames_per_pixel, 0.0, 100.0)
         check_range("fixed_count", self.fixed_count, 0, 10_000)

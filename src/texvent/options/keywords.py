@@ -51,7 +51,6 @@ class InterpolateOptions(TypedDict, total=False):
     frames_per_pixel: float | None
     max_frames_per_second: float | None
     deflicker: bool | None
-    lamp_hz: float | None
     detect_cuts: bool | None
     interpolator_weights: str | Path | None
     interpolator_device: Literal["auto", "cpu", "cuda"] | None
