@@ -190,8 +190,6 @@ class GeneratorOptions(TypedDict, total=False):
     quantize: Literal["auto", "none", "8bit", "4bit"] | None
     decoder: str | Path | None
     motion_adapter: str | Path | None
-    refine: int | None
-    temporal_upsampler: str | Path | None
     generator_device: str | None
     upsample: str | None
     upsample_model: str | None
