@@ -95,7 +95,6 @@ class Visitor:
         call = {"data": ["tab", *values], "fn_index": handler, "session_hash": self._session}
         return str(self.post("gradio_api/run/predict", call)["data"][0])
 
-
     def open_scene(self, text: str) -> str:
         """The text in the prompt's field once a scene file was opened."""
         handler = next(one["id"] for one in self._handlers if one["targets"][0][1] == "upload")
