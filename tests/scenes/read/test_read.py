@@ -83,6 +83,14 @@ def test_a_prompt_is_read_in_less_than_a_millisecond():
     assert (time.process_time() - started) / len(prompts) < MOST_SECONDS
 
 
+@pytest.mark.parametrize("text", ["a dog, ", "a dog behind a cat ", "a bowl of ", "x y, and "])
+def test_long_texts_are_read_too(text):
+    started = time.process_time()
+    reading = reader.read(text * 1000, NOUNS)
+    assert checked_scene(reading.scene, VOCABULARY) == reading.scene
+    assert time.process_time() - started < 2.0
+
+
 @pytest.mark.parametrize("prompt", ["", " \n", "wug", "the of and", "xyz!?"])
 def test_a_prompt_without_a_known_word_is_refused(prompt):
     with pytest.raises(InputError, match="prompt"):

@@ -18,7 +18,7 @@ from texvent.scenes.read.draft import SceneDraft, Thing
 from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.report import Substitution
-from texvent.scenes.spec.scene import Scene
+from texvent.scenes.spec.scene import MAX_BODIES, Scene
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
@@ -170,6 +170,8 @@ class _Reader:
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
         draft, noun = self._draft, head.first("noun")
+        if len(draft.things) == MAX_BODIES:
+            return []
         draft.show(head)
         known = [n for n, one in enumerate(draft.things) if noun and one.noun == noun.value.noun]
         if known and group.is_definite and not group.modifiers and not group.unknown:
