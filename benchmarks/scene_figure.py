@@ -19,7 +19,7 @@ from texvent.scenes.raycast.ground_truth import GroundTruth
 PROMPTS = (
     "tracking shot of a red car driving left past two trees",
     "a woman plays the guitar",
-    "a dog runs through a hoop",
+    "a dog runs through a hula hoop",
     "a hand shows a victory sign",
 )
 SIZE = (240, 180)

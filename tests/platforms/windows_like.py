@@ -23,7 +23,7 @@ OS_NAMES = (
 SIGNALS = ("SIGALRM", "SIGHUP", "SIGKILL", "SIGQUIT", "SIGUSR1", "SIGUSR2", "SIGXCPU")
 FIRST = ("cv2", "h5py", "av", "numba", "lz4.frame", "yaml", "rich.console", "tyro", "requests",
          "tempfile", "shutil", "subprocess", "multiprocessing.pool", "asyncio", "pypi_simple",
-         "concurrent.futures.process", "lemminflect", "pandas", "rosbags.highlevel", "OpenEXR",
+         "concurrent.futures.process", "pandas", "rosbags.highlevel", "OpenEXR",
          "trimesh", "PIL.Image", "curses")  # fmt: skip
 OPTIONAL = ("torch", "triton", "gradio", "ray", "rerun", "diffusers", "matplotlib", "safetensors")
 """Packages of extras: a module that needs one of them is passed over where it is missing."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import MOST_WORDS, ConfigError, InputError, few, shown
 from texvent.scenes.spec.data import checked_scene, scene_from_data, scene_to_data
 from texvent.scenes.spec.limits import Vocabulary
 from texvent.scenes.spec.scene import Scene
@@ -41,12 +41,27 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
         >>> reading.scene.objects[0].colour, reading.not_understood
         ('red', ())
     """
+    if not isinstance(prompt, str):
+        raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
+    return _read(prompt, list_nouns(assets))
+
+
+def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     # Imported here and below: the vocabulary and all models are only needed to make a scene.
     from texvent.scenes import read as reader
 
-    if not isinstance(prompt, str):
-        raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
-    return reader.read(prompt, list_nouns(assets))
+    if not prompt.strip():
+        raise InputError(
+            "the prompt is empty; describe a scene, such as 'a red car drives left past two trees'"
+        )
+    reading = reader.read(prompt, nouns)
+    if reading.is_empty:
+        raise InputError(
+            f"nothing in the prompt was understood: {few(reading.not_understood, MOST_WORDS)}; "
+            "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
+            "models that take any text"
+        )
+    return reading
 
 
 def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
@@ -133,11 +148,9 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         InputError: the prompt is empty or not understood, or a picture cannot be shown.
         ConfigError: a field of the scene is wrong, or a word of it is not shown.
     """
-    from texvent.scenes.read import read
-
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
-    reading = read(subject, nouns)
+    reading = _read(subject, nouns)
     description = describe_scene(reading.scene, nouns)
     return replace(
         description,

@@ -32,6 +32,8 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
                       "around", "look at"})  # fmt: skip
 """Relations that an object would undo by moving off."""
 _AT_HAND = frozenset({"hold", "carry", "wear"})
+_PACES = {"walk": 0.7, "run": 1.0}
+"""Pace of running in place that looks as walking and running do."""
 _AFLOAT = ("sail", "paddle")
 _IN_WATER = ("swim", "surf", *_AFLOAT)
 _ALOFT = frozenset({"fly", "hover", "float", "fall", "rise", "sink", "throw", "blow", "orbit"})
@@ -49,11 +51,12 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     first object that can move does what it usually does; when none can, the camera sways.
     """
     description = _rest(_set_far(description), nouns)
-    objects = tuple(
-        replace(one, motion=_decide_motion(one.motion, nouns[one.noun]))
-        for one in description.objects
+    objects = description.objects
+    decided = [_decide_motion(one.motion, nouns[one.noun]) for one in objects]
+    description = _change(
+        description, {n: replace(objects[n], motion=motion) for n, motion in enumerate(decided)}
     )
-    description = _move_others(replace(description, objects=objects), nouns)
+    description = _move_others(description, nouns)
     description = _darken(description)
     place = _choose_place(description, nouns)
     if description.surroundings.place is None:
@@ -142,7 +145,9 @@ def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
     for one in description.relations:
         motions.update(_rest_of(one, description.objects, nouns))
     is_plain = description.surroundings.place is None and not description.shot.is_moving
-    resting = nouns_with("lies still") | (nouns_with("parked unless ridden") if is_plain else frozenset())
+    resting = nouns_with("lies still") | (
+        nouns_with("parked unless ridden") if is_plain else frozenset()
+    )
     ridden = _list_ridden(description)
     for n, thing in enumerate(description.objects):
         if thing.noun in resting and n not in ridden:
@@ -180,25 +185,18 @@ def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
         if one.kind in ("follow", "overtake") and kinds[target].speed_m_s > 0.0:
             pace = 0.5 if one.kind == "overtake" else 1.0
             motions[target] = ObjectMotion(kinds[target].motion, pace=pace)
-        if one.kind == "on":
-            new.update(_carry(one, description.objects))
+        rider = description.objects[one.subject]
+        is_treadmill = description.objects[target].noun in nouns_with("moves under feet")
+        if one.kind == "on" and is_treadmill and rider.motion and rider.motion.kind in _PACES:
+            pace = rider.motion.pace * _PACES[rider.motion.kind]
+            done = replace(rider.motion, kind="run in place", pace=pace, direction=None)
+            new[one.subject] = replace(rider, motion=done)
     if any(move.kind == "follow" for move in description.shot.moves):
         movers = [n for n, noun in enumerate(kinds) if noun.speed_m_s > 0.0]
         aim = description.shot.target
         for n in movers[:1] if aim is None else {aim}.intersection(movers):
             motions[n] = ObjectMotion(kinds[n].motion)
     return _move(_change(description, new), motions)
-
-
-def _carry(relation: Relation, objects: Sequence[SceneObject]) -> dict[int, SceneObject]:
-    """Who walks or runs on a treadmill stays in place."""
-    rider, target = objects[relation.subject], objects[relation.targets[0]]
-    motion = rider.motion or STANDING
-    if target.noun not in nouns_with("moves under feet") or motion.kind not in ("walk", "run"):
-        return {}
-    pace = motion.pace * (0.7 if motion.kind == "walk" else 1.0)
-    done = replace(motion, kind="run in place", pace=pace, direction=None)
-    return {relation.subject: replace(rider, motion=done)}
 
 
 def _has_motion(description: SceneDescription) -> bool:
@@ -229,10 +227,9 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     if description.shot.moves:
         note = "nothing moves in the prompt and the camera is static: there will be no events"
         return _note(description, note)
-    is_aerial = not description.objects and description.shot.view == "aerial"
-    move, what = (CameraMove("travel"), "flies on") if is_aerial else (SWAY, "sways a little")
-    note = f"nothing moves in the prompt, so the camera {what}"
-    return _note(replace(description, shot=replace(description.shot, moves=(move,))), note)
+    shot = replace(description.shot, moves=(SWAY,))
+    note = "nothing moves in the prompt, so the camera sways a little, as in a hand"
+    return _note(replace(description, shot=shot), note)
 
 
 def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
@@ -260,15 +257,13 @@ def _list_ridden(description: SceneDescription) -> set[int]:
 
 
 def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """What only stands there has no rider; a bird that walks has a model that flies."""
+    """What only stands there has no rider."""
     ridden, new = _list_ridden(description), {}
     for n, one in enumerate(description.objects):
-        kinds = {motion.kind for motion in (one.motion, *one.then) if motion is not None}
-        parked, flying = f"parked {one.noun}", f"flying {one.noun}"
-        if parked in nouns and n not in ridden and kinds == {"stand"}:
+        parked = f"parked {one.noun}"
+        stands = one.motion is not None and one.motion.kind == "stand" and not one.then
+        if parked in nouns and n not in ridden and stands:
             new[n] = replace(one, noun=parked)
-        elif flying in nouns and kinds & {"fly", "hover", "rise", "orbit", "sink"}:
-            new[n] = replace(one, noun=flying)
     return _change(description, new)
 
 

@@ -80,3 +80,21 @@ def list_finite_forms(verb: str) -> tuple[str, ...]:
 
 def _ends_in_y(verb: str) -> bool:
     return verb.endswith("y") and verb[-2:-1] not in _VOWELS
+
+
+def list_verb_forms(verb: str, irregular: str = "") -> list[tuple[str, str]]:
+    """Forms of a verb, each with its name.
+
+    Args:
+        verb: its base form.
+        irregular: its form in -ing and those of the past, if they are not regular.
+
+    Example:
+        >>> list_verb_forms("carry")
+        [('carry', 'base'), ('carries', 's'), ('carrying', 'ing'), ('carried', 'ed')]
+    """
+    stem = verb[:-1] if verb.endswith("e") and not verb.endswith("ee") else verb
+    past = f"{verb[:-1]}ied" if _ends_in_y(verb) else f"{stem}ed"
+    present, *pasts = irregular.split() or (f"{stem}ing", past)
+    forms = [(verb, "base"), (list_finite_forms(verb)[-1], "s"), (present, "ing")]
+    return [*forms, *((one, "ed") for one in pasts)]

@@ -16,6 +16,7 @@ import gzip
 import hashlib
 import json
 import sys
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -23,9 +24,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.generate.scene_input import list_nouns, understand
+from texvent.errors import ConfigError, InputError
+from texvent.generate.scene_input import describe_scene, list_nouns, read
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.spec.data import scene_from_data, scene_to_data
-from texvent.scenes.spec.description import from_description, to_description
 from texvent.sensor import SensorSize
 
 FOLDER = Path(__file__).parent
@@ -49,12 +51,23 @@ def read_lines(name: str) -> list[str]:
 
 @cache
 def read_scene(sentence: str) -> dict[str, Any]:
-    """The scene of a sentence, as plain values, with all that the sentence leaves open decided."""
+    """The scene of a sentence, as plain values; empty if nothing in it is understood."""
+    try:
+        data = scene_to_data(read(sentence).scene)
+    except InputError:
+        return {}
     # Through JSON, as the stored ones: tuples become lists.
-    scene: dict[str, Any] = json.loads(
-        json.dumps(scene_to_data(from_description(understand(sentence, list_nouns()))))
-    )
+    scene: dict[str, Any] = json.loads(json.dumps(data))
     return scene
+
+
+def decided(data: dict[str, Any]) -> SceneDescription | None:
+    """A scene with all that it leaves open decided, which makes its picture; None: refused."""
+    try:
+        found = describe_scene(scene_from_data(data), list_nouns())
+    except (ConfigError, InputError):
+        return None
+    return replace(found, prompt="", notes=())
 
 
 @cache
@@ -74,7 +87,7 @@ def film(sentence: str) -> tuple[NDArray[np.float32], str]:
     from texvent.scenes.raycast.render import render
     from texvent.scenes.staging.compose import compose_scene
 
-    description = to_description(scene_from_data(stored_scenes()[sentence]))
+    description = describe_scene(scene_from_data(stored_scenes()[sentence]), list_nouns())
     scene = compose_scene(description, seed=SEED, size=SIZE, duration_s=DURATION_S)
     means, digest = [], hashlib.sha256()
     for time_s in INSTANTS_S:
@@ -120,7 +133,7 @@ def write_films() -> None:
 def compare() -> int:
     """Name each sentence whose scene or picture is not the stored one; returns how many."""
     stored, films = stored_scenes(), stored_films()
-    other = [one for one in stored if read_scene(one) != stored[one]]
+    other = [one for one in stored if decided(read_scene(one)) != decided(stored[one])]
     other += [f"{one} (picture)" for one in films if film(one)[1] != films[one][1]]
     sys.stdout.write("".join(f"{one}\n" for one in other))
     return len(other)

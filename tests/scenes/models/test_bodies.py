@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent.scenes.models.animals.quadruped.body import build_quadruped
 from texvent.scenes.models.bodies.figure import build_figure, mirrored
 from texvent.scenes.models.bodies.joints import read_body_joint, read_cycle, read_wave
 from texvent.scenes.models.bodies.nouns import BodyBuilder, _merged
+from texvent.scenes.models.bodies.quadruped.body import build_quadruped
 from texvent.scenes.models.materials import WHITE, Material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Model, Pose

@@ -94,6 +94,7 @@ def places(text: str) -> list[tuple[float, ...]]:
 def test_one_line_may_be_many_parts() -> None:
     assert places("ball red  ±1 ±2 3  1 1 1") == [(1, 2, 3), (1, -2, 3), (-1, 2, 3), (-1, -2, 3)]
     assert places("ball red  0 0 0  1 1 1  times 3 0 .5 1") == [(0, 0, 0), (0, 0.5, 1), (0, 1, 2)]
+    assert places("ball red  0 0 1  1 1 1  also 0 2 1  3 0 0") == [(0, 0, 1), (0, 2, 1), (3, 0, 0)]
     around = places("ball red  1 0 0  1 1 1  turned 4 z 90 0 0 0")
     assert around == [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
     assert places("bits red  0 0 0  2 2 1  rows ##/.#") == [(0, 0, 0.5), (0, 0.5, -0.5)]
@@ -138,6 +139,8 @@ def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
     ("text", "message"),
     [
         ("[a]\nsize = 3", "unknown key 'size'"),
+        ('[a]\nnames = "b"', "names must be a list but is 'b'"),
+        ('[a]\nspeed = "fast"', "speed must be a float"),
         ('[a]\nhabitat = "moon"', "habitat must be one of"),
         ("[a\n", "mine.toml"),
     ],
@@ -220,6 +223,21 @@ parts = "ball paint*.5  0 1 .5  .2 .2 .2"
     # The ball hangs from the arm, which has made a quarter turn.
     np.testing.assert_allclose(first[2].to_body[:, 3], [0, 1, 0.5], atol=1e-9)
     np.testing.assert_allclose(second[2].to_body[:, 3], [-1, 0, 0.5], atol=1e-9)
+
+
+def test_a_noun_may_be_like_another(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(
+        '[stool]\nnames = ["seat"]\nplace = "indoor"\nparts = "box red 0 0 1 1 1 1"\n'
+        '[perch]\nlike = "stool"\nplace = "garden"\n'
+    )
+    stool, perch = read_nouns(file)
+    assert (perch.place, perch.synonyms) == ("garden", ())
+    heights = {one.build(colour=None, scale=1.0, seed=0).height for one in (stool, perch)}
+    assert heights == {1.5}
+    file.write_text('[perch]\nlike = "stool"\n')
+    with pytest.raises(FileFormatError, match="no noun 'stool' to be like"):
+        read_nouns(file)
 
 
 @pytest.mark.parametrize("step_s", [0.2, 0.4])

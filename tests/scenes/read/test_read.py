@@ -11,12 +11,12 @@ from tests.scenes.read.facts import PROMPTS, grade
 from tests.scenes.read.saying import say, sentences
 
 from texvent.errors import InputError
-from texvent.generate.scene_input import list_words
+from texvent.generate.scene_input import list_words, read
+from texvent.scenes import read as reader
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.read import find_noun, read
+from texvent.scenes.read import find_noun
 from texvent.scenes.read.draft import is_grammar
 from texvent.scenes.read.lexicon import lexicon_of
-from texvent.scenes.read.scenes import read_text
 from texvent.scenes.read.tokens import split_prompt
 from texvent.scenes.spec.data import checked_scene
 
@@ -26,7 +26,23 @@ MOST_SECONDS = 0.001
 """Mean time to read a prompt."""
 WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None).senses)
 VOCABULARY = list_words(NOUNS)
-SIGNS = [",", ".", "and", "the", "a", "then", "of", "it", "wug", "7", "2 Hz", "1e9", "99999999 m/s", '"STOP"', "a.png"]
+SIGNS = [
+    ",",
+    ".",
+    "and",
+    "the",
+    "a",
+    "then",
+    "of",
+    "it",
+    "wug",
+    "7",
+    "2 Hz",
+    "1e9",
+    "99999999 m/s",
+    '"STOP"',
+    "a.png",
+]
 
 
 def test_facts_of_short_prompts_are_right():
@@ -49,7 +65,7 @@ def test_facts_of_short_prompts_are_right():
 @example("a dog behind a cat. the cat is behind the dog. the dog follows the dog")
 @example("24 dogs, 24 cats, 24 cars, 24 trees")
 def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
-    reading, _ = read_text(text)
+    reading = reader.read(text, NOUNS)
     lists = (reading.shown, [one.said for one in reading.substituted], reading.not_understood)
     listed = [word for one in lists for word in one]
     assert len(listed) == len(set(listed))
@@ -60,11 +76,19 @@ def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
 
 def test_a_prompt_is_read_in_less_than_a_millisecond():
     prompts = [prompt["text"] for prompt in PROMPTS]
-    read_text(prompts[0])  # the lexicon is made once
+    reader.read(prompts[0], NOUNS)  # the lexicon is made once
     started = time.process_time()
     for prompt in prompts:
-        read_text(prompt)
+        reader.read(prompt, NOUNS)
     assert (time.process_time() - started) / len(prompts) < MOST_SECONDS
+
+
+@pytest.mark.parametrize("text", ["a dog, ", "a dog behind a cat ", "a bowl of ", "x y, and "])
+def test_long_texts_are_read_too(text):
+    started = time.process_time()
+    reading = reader.read(text * 1000, NOUNS)
+    assert checked_scene(reading.scene, VOCABULARY) == reading.scene
+    assert time.process_time() - started < 2.0
 
 
 @pytest.mark.parametrize("prompt", ["", " \n", "wug", "the of and", "xyz!?"])
@@ -85,4 +109,4 @@ def test_ambiguous_words_are_in_no_scene():
 
 @pytest.mark.parametrize(("prompt", "expected"), sentences())
 def test_sentences_say(prompt, expected):
-    assert say(read_text(prompt)[0]) == expected
+    assert say(reader.read(prompt, NOUNS)) == expected

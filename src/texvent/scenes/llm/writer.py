@@ -10,7 +10,8 @@ from typing import Any
 from texvent.errors import InputError, TexventError, shown
 from texvent.scenes.llm.endpoint import Endpoint, ask
 from texvent.scenes.llm.schema import MOST_COUNT, MOST_ITEMS, model_schema
-from texvent.scenes.llm.words import resolve
+from texvent.scenes.llm.words import list_meanings, resolve
+from texvent.scenes.read.lexicon import word_set
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.scene import Scene
@@ -26,15 +27,10 @@ Example: "two white dogs run right past a tree in the park" gives
 {"noun":"tree","count":1,"colour":null,"material":null,"motions":[],"relations":[]}],
 "effects":[]}"""
 LONGEST_PHRASE = 4
-KINDS = ("noun", "motion", "place", "colour", "material", "effect", "relation", "direction",
-         "light", "weather", "view", "move")  # fmt: skip
-_PLAIN = frozenset(
-    ["a", "an", "the", "and", "or", "of", "with", "his", "her", "its", "their", "at", "in", "on",
-     "to", "by", "from", "for", "as", "is", "are", "was", "be", "being", "it", "he", "she", "they",
-     "while", "that", "there", "this", "very", "some", "then"]
-)  # fmt: skip
+_PLAIN = frozenset().union(
+    *(word_set("grammar", kind) for kind in ("articles", "pronouns", "conjunctions", "small"))
+)
 """Words without a meaning of their own; none is reported."""
-NUMBERS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
 def write_scene(prompt: str, endpoint: Endpoint) -> tuple[Scene, PromptReport]:
@@ -153,13 +149,14 @@ def _count(check: _Check, noun: str, value: Any) -> int:
     """Copies of an object: more than one only where its word is a plural or a number is said."""
     if not isinstance(value, int) or isinstance(value, bool) or not 1 < value <= MOST_COUNT:
         return 1
-    word = NUMBERS[value - 1] if value <= len(NUMBERS) else ""
-    for number in (word, str(value)):
-        if ("number", number) in check.said:
-            check.used.add(("number", number))
-            return value
-    is_plural = any(one.endswith("s") and one != noun for one in check.said["noun", noun])
-    return value if is_plural else 1
+    number = ("count", str(float(value)))
+    if number in check.said:
+        check.used.add(number)
+        return value
+    if any(one.endswith("s") and one != noun for one in check.said["noun", noun]):
+        return value
+    check.invented.append(f"count {value}")
+    return 1
 
 
 def _motion(check: _Check, one: Mapping[str, Any], word: str) -> dict[str, Any] | None:
@@ -178,15 +175,12 @@ def _source(one: Mapping[str, Any], objects: Mapping[str, Any]) -> dict[str, str
 def _said(prompt: str) -> dict[tuple[str, str], frozenset[str]]:
     """What each phrase of a prompt stands for, of each kind."""
     words = _split(prompt)
-    found = {("number", one): frozenset([one]) for one in words if one in NUMBERS or one.isdigit()}
+    found: dict[tuple[str, str], frozenset[str]] = {}
     for length in range(1, LONGEST_PHRASE + 1):
         for first in range(len(words) - length + 1):
             phrase = words[first : first + length]
-            for kind in KINDS:
-                meaning = resolve(" ".join(phrase), kind)
-                if meaning is not None:
-                    key = (kind, meaning)
-                    found[key] = found.get(key, frozenset()) | frozenset(phrase)
+            for key in list_meanings(" ".join(phrase)):
+                found[key] = found.get(key, frozenset()) | frozenset(phrase)
     return found
 
 

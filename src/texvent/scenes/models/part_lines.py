@@ -127,32 +127,40 @@ def _take_turns(words: _Words) -> tuple[_Words, list[Affine]]:
 
 
 def _written_out(words: _Words) -> Iterator[tuple[str, str, list[float], list[float | str]]]:
-    """Shape, surface, numbers and options of each copy that "±" and "times" ask for."""
+    """Shape, surface, numbers and options of each copy that "±", "times" and "also" ask for."""
     shape, surface, rest = words
-    count, step = 1, [0.0, 0.0, 0.0]
-    if "times" in rest:
-        at = rest.index("times")
-        count, step = int(rest[at + 1]), [read_number(one) for one in rest[at + 2 : at + 5]]
-        if len(step) < 3:
-            raise ValueError("'times' needs a number and a step along x, y and z")
-        rest = rest[:at]
+    rest, offsets = _take_offsets(shape, rest)
     axes = _AXES[shape].ljust(len(rest), "-")
     first_word = next((n for n, one in enumerate(rest) if one in _WORDS), len(rest))
     mirrored = [axes[n] for n, one in enumerate(rest[:first_word]) if one[0] == "±"]
     signs_of = [(1.0, -1.0) if axis in mirrored else (1.0,) for axis in "xyz"]
-    for copy, signs in itertools.product(range(count), itertools.product(*signs_of)):
-        by_axis = dict(zip("xyz", signs, strict=True))
+    for offset, signs in itertools.product(offsets, itertools.product(*signs_of)):
+        by_axis = dict(zip("xyz", zip(signs, offset, strict=True), strict=True))
         values: list[float] = []
         for n, one in enumerate(rest[:first_word]):
-            value = (
-                by_axis.get(axes[n], 1.0) * read_number(one[1:])
-                if one[0] == "±"
-                else read_number(one)
-            )
-            is_point = axes[n] in by_axis and not (shape in _SPANNED and n >= 6)
-            values.append(value + (copy * step["xyz".index(axes[n])] if is_point else 0.0))
+            sign, moved = by_axis.get(axes[n], (1.0, 0.0))
+            is_point = not (shape in _SPANNED and n >= 6)
+            value = sign * read_number(one[1:]) if one[0] == "±" else read_number(one)
+            values.append(value + (moved if is_point else 0.0))
         more = [_option(one, math.prod(signs)) for one in rest[first_word:]]
         yield shape, surface, values, more
+
+
+def _take_offsets(shape: str, rest: list[str]) -> tuple[list[str], list[Point]]:
+    """A line without "times" or "also", and how far its copies are from the first, m."""
+    if "times" in rest:
+        at = rest.index("times")
+        count, x, y, z = (read_number(one) for one in rest[at + 1 :])
+        return rest[:at], [(n * x, n * y, n * z) for n in range(int(count))]
+    if "also" not in rest:
+        return rest, [(0.0, 0.0, 0.0)]
+    at, first = rest.index("also"), _AXES[shape].index("x")
+    x, y, z = (read_number(one.lstrip("±")) for one in rest[first : first + 3])
+    values = [read_number(one) for one in rest[at + 1 :]]
+    if len(values) % 3:
+        raise ValueError("'also' needs places, of three numbers each")
+    others = [_point(values[n : n + 3]) for n in range(0, len(values), 3)]
+    return rest[:at], [(a - x, b - y, c - z) for a, b, c in [(x, y, z), *others]]
 
 
 def _option(word: str, sign: float) -> float | str:

@@ -1,4 +1,4 @@
-"""Surfaces of nouns in text: "paint*.7", "(.3 .15 .06) wood", "#e8c020 glow 3"."""
+"""Surfaces of nouns in text: "paint*.7", "paint:cloth", "(.3 .15 .06) wood", "#e8c020 glow 3"."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 
-from texvent.scenes.colours import decode_hex
-from texvent.scenes.models.materials import Material, made_of, shade
+from texvent.scenes.models.materials import Material, decode_hex, made_of, shade
 from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture
 
 PAINT = "paint"
@@ -55,6 +54,8 @@ def read_colour(text: str, hues: Mapping[str, Colour]) -> Colour:
 def read_surface(text: str, hues: Mapping[str, Colour]) -> Material:
     """A surface: its colour, its texture, a second colour, "scale" and "glow" with numbers.
 
+    A ":" stands for a blank, so that a line of parts can name a surface in one word: "paint:wood".
+
     Args:
         text: such as "paint cloth", "stripes", or a name of `shared_surfaces`.
         hues: colours by name.
@@ -62,7 +63,7 @@ def read_surface(text: str, hues: Mapping[str, Colour]) -> Material:
     Raises:
         ValueError: a word is not understood.
     """
-    first, *rest = _WORDS.findall(text)
+    first, *rest = _WORDS.findall(text.replace(":", " "))
     base, *factors = first.split("*")
     if base[0] not in "#(" and base not in hues:
         shared = shared_surfaces() if hues else {}

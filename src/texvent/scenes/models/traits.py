@@ -25,7 +25,11 @@ def _read() -> Mapping[str, Any]:
     found: dict[str, Any] = {}
     for file in sorted(folder.iterdir(), key=lambda one: one.name):
         if file.name.endswith(".toml"):
-            found.update(tomllib.loads(file.read_text(encoding="utf-8")))
+            traits = tomllib.loads(file.read_text(encoding="utf-8"))
+            twice = found.keys() & traits.keys()
+            if twice:
+                raise ValueError(f"{file.name}: {sorted(twice)} are traits of another file too")
+            found |= traits
     return found
 
 

@@ -12,12 +12,14 @@ from texvent.scenes.read.tokens import NO_TOKEN, Token
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
-_MODIFIERS = ("field", "scene", "adverb", "effect adjective")
+_MODIFIERS = ("field", "scene", "adverb")
 """Senses of what stands before it."""
 _STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
 """Senses of words that no noun group holds."""
 _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
+_LONGEST_LIST = 12
+"""Groups after a comma that are looked through for "and"."""
 _PARTICLES = ("up", "down", "off", "out", "over", "in", "on")
 """Prepositions that go with a verb right before them: "picks up"."""
 
@@ -43,9 +45,8 @@ class Group:
     @property
     def is_plural(self) -> bool:
         """Whether it names several things: "two dogs", "fish"."""
-        counts = [one.number for one in self.modifiers if one.number is not None]
-        for one in self.modifiers:
-            counts += [sense.value[1] for sense in one.all("field") if sense.value[0] == "count"]
+        fields = [sense.value for one in self.modifiers for sense in one.all("field")]
+        counts = [value for field, value in fields if field == "count"]
         if counts or self.head is None:
             return any(count > 1 for count in counts)
         if self.head.has("effect") and not self.head.has("noun"):
@@ -169,7 +170,7 @@ class _Parser:
 
     def _follows_relative(self) -> bool:
         after = self._token(1)
-        return after.picture is not None or not self._starts_group(1)
+        return after.has("picture") or not self._starts_group(1)
 
     def _end_at_and(self, clause: Clause) -> Clause | None:
         self._take()
@@ -189,11 +190,13 @@ class _Parser:
         if not clause.subjects or clause != Clause(clause.subjects):
             return False
         start, is_list = self._at, False
-        while self._starts_group():
-            self._group()
-            if self._token().text not in (",", "and"):
+        for _ in range(_LONGEST_LIST):
+            if is_list or not self._starts_group():
                 break
-            is_list = is_list or self._take().text == "and"
+            self._group()
+            is_list = self._take().text == "and"
+            if not is_list and self._token(-1).text != ",":
+                break
         self._at = start
         return is_list
 
@@ -216,7 +219,7 @@ class _Parser:
             return None
         if self._token(1).verbs("base", "ing", "ed"):
             self._at += 2
-            return replace(clause, after=(*clause.after, self._token(-2), self._token(-1)))
+            return clause
         if not self._starts_group(1):
             return None
         self._take()
@@ -227,28 +230,20 @@ class _Parser:
         is_after_article = self._token().has("articles") and self._token(1).has("shot", "scene")
         token = self._token(1) if is_after_article and _is_alone(self._token(1)) else self._token()
         is_verb = token.has("verb") and clause.verb is None and self._is_verb(clause)
-        if not token.has("scene", "shot", "effect adjective") or token.has("noun") or is_verb:
+        if not token.has("scene", "shot") or token.has("noun") or is_verb:
             return None
         ahead = token.at - self._token().at
         after = self._token(ahead + 1)
-        if token.has(*_MODIFIERS) and not _is_alone(token):
-            if after.has(*_HEADS, "field") and not self._is_verb(clause, ahead + 1):
-                return None
+        is_before = token.has(*_MODIFIERS) and not _is_alone(token)
+        if is_before and after.has(*_HEADS, "field") and not self._is_verb(clause, ahead + 1):
+            return None
         self._at += ahead + 1
         return replace(clause, after=(*clause.after, token))
 
     def _read_verb(self, clause: Clause) -> Clause | None:
-        is_unknown = clause.verb is not None and clause.verb.is_unknown
-        if is_unknown and self._token().text == "to" and self._token(1).verbs("base"):
-            self._take()  # "bends down to drink": the second one is known
-            clause = replace(clause, after=())
-        elif clause.verb is not None or not self._is_verb(clause):
+        if clause.verb is not None or not self._is_verb(clause):
             return None
         verb = self._take()
-        if any(one.value.who == "auxiliary" for one in verb.all("verb")):
-            if self._token().text == "to":
-                self._take()
-            return replace(clause, is_joined=not clause.subjects)
         if self._token().has("pronouns"):
             self._take()
             return replace(clause, verb=verb, is_back=True)
@@ -264,8 +259,7 @@ class _Parser:
         forms = {one.form for one in token.all("verb")}
         if last.has("articles") and not last.has("relatives") and ahead == 0:
             return False
-        is_after_auxiliary = any(one.value.who == "auxiliary" for one in last.all("verb"))
-        if not forms or (forms == {"base"} and not (clause.is_plural or is_after_auxiliary)):
+        if not forms or (forms == {"base"} and not clause.is_plural):
             return False
         if is_second:
             return not token.has("noun", "relation") and bool(forms & {"ing", "s"})
@@ -301,7 +295,7 @@ class _Parser:
             is_subject = not clause.has_subject and clause.verb is None
             return replace(clause, is_joined=True) if is_subject else clause
         is_before_noun = not clause.has_subject and self._starts_group(1)
-        if (not token.has("adverb") or is_before_noun) and token.quantity is None:
+        if not token.has("adverb") or is_before_noun:
             return None
         return replace(clause, after=(*clause.after, self._take()))
 
@@ -339,9 +333,9 @@ class _Parser:
             return not after.has("camera") and not after.is_sign
         if token.has(*_STANDPOINTS) or token.is_sign or _is_alone(token):
             return False
-        if token.has("noun", "place", "effect", "pose", "field") or token.number is not None:
+        if token.has("noun", "place", "effect", "pose", "field"):
             return True
-        if token.picture is not None:
+        if token.has("picture"):
             return after.has("noun")
         is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
         if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relation"):
@@ -383,7 +377,7 @@ class _Parser:
                 head = token
         if self._at == first and not self.is_done:
             unknown.append(self._take())
-        is_shown = self._token().picture is not None and not self._token(1).has("noun")
+        is_shown = self._token().has("picture") and not self._token(1).has("noun")
         if head is not None and is_shown:  # "the digit 7"
             modifiers.append(self._take())
         of = None
@@ -398,7 +392,7 @@ class _Parser:
             return True
         if token.text == "and":
             return not (_is_colour(self._token(-1)) and _is_colour(after))
-        if token.number is not None or token.picture is not None or token.is_unknown:
+        if token.has("picture") or token.is_unknown:
             return False
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
@@ -418,8 +412,9 @@ class _Parser:
         """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
         after, third = self._token(), self._token(1)
         if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
-            return not (after.text.endswith("s") and third.has("articles"))
-        is_verb = bool(third.verbs("s")) or third.text == "is"
+            return not (after.text.endswith(("s", "ing")) and third.has("articles"))
+        follows = third.verbs("s") or (third.verbs("ing") and not after.text.endswith("s"))
+        is_verb = bool(follows) or third.text == "is"
         is_end = is_phrase and third.is_sign
         return after.is_unknown and not after.is_manner and (is_verb or is_end)
 

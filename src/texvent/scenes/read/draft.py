@@ -18,10 +18,7 @@ _GRAMMAR = frozenset({"articles", "pronouns", "conjunctions", "relatives", "nega
 
 def is_grammar(token: Token) -> bool:
     """Whether a token names nothing by itself: "the", "of", "under", "footage"."""
-    return any(
-        one.kind in _GRAMMAR or (one.kind == "verb" and one.value.who == "auxiliary")
-        for one in token.senses
-    )
+    return any(one.kind in _GRAMMAR for one in token.senses)
 
 
 @dataclass
@@ -34,6 +31,11 @@ class Thing:
     values: dict[str, Any] = field(default_factory=dict)
     motions: list[dict[str, Any]] = field(default_factory=list)
     relations: list[dict[str, Any]] = field(default_factory=list)
+
+    @property
+    def count(self) -> int:
+        """Number of copies."""
+        return int(self.values.get("count", 1))
 
     @property
     def all_motions(self) -> list[dict[str, Any]]:
@@ -58,19 +60,14 @@ class SceneDraft:
     _fates: dict[int, str] = field(default_factory=dict)
     """Number of a token → "lost", "shown", or the noun that it is shown as."""
 
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing is said that could be shown."""
-        return not (self.things or self.moves or self.effects or any(self.parts.values()))
-
     def show(self, *tokens: Token) -> None:
         """Count tokens as shown, unless they are lost or shown as something else."""
         for one in tokens:
             self._fates.setdefault(one.at, "shown")
 
-    def lose(self, *tokens: Token) -> None:
-        """Count tokens as not understood, whatever else is said of them."""
-        self._fates.update((one.at, "lost") for one in tokens)
+    def lose(self, token: Token) -> None:
+        """Count a token as not understood, as all words are that are neither shown nor grammar."""
+        self._fates[token.at] = "lost"
 
     def substitute(self, token: Token, shown: str) -> None:
         """Count a token as shown as something else."""
@@ -78,7 +75,7 @@ class SceneDraft:
 
     def relate(self, subject: int, kind: str, targets: Sequence[int], way: str = "") -> bool:
         """Add a relation of an object to others; False: it goes round in a circle."""
-        is_one = self.things[subject].values.get("count", 1) == 1
+        is_one = self.things[subject].count == 1
         if (subject in targets and is_one) or (
             kind in PLACING and any(self._stands_by(target, subject) for target in targets)
         ):
@@ -96,8 +93,8 @@ class SceneDraft:
 
     def limit_bodies(self) -> None:
         """Leave out copies of objects that have most, until a scene holds them all."""
-        while sum(one.values.get("count", 1) for one in self.things) > spec.MAX_BODIES:
-            most = max(self.things, key=lambda one: one.values.get("count", 1))
+        while sum(one.count for one in self.things) > spec.MAX_BODIES:
+            most = max(self.things, key=lambda one: one.count)
             most.values["count"] -= 1
 
     def add_effect(self, kind: str, source: int | None) -> None:

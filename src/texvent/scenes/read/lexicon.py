@@ -11,15 +11,14 @@ from types import MappingProxyType
 from typing import Any
 
 from texvent.scenes.colours import SURFACES
-from texvent.scenes.inflection import list_finite_forms, list_plurals
+from texvent.scenes.inflection import list_plurals, list_verb_forms
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
 from texvent.scenes.models.places import place_names
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.read.kept import kept
 
-_UNSAID = ("parked ", "flying ", "upright ")
+_UNSAID = ("parked ", "flying ")
 """Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
 
 
@@ -54,7 +53,7 @@ class VerbSense:
 
     who: str = "plain"
     """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "mover" (a person whose
-    object moves), "source" (of an effect), "plain" (anything); or "auxiliary"."""
+    object moves), "source" (of an effect) or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0
@@ -107,7 +106,7 @@ def _embedded() -> Lexicon:
 
 def _make(nouns: Mapping[str, Noun]) -> Lexicon:
     found: dict[tuple[str, ...], dict[Sense, None]] = {}
-    articles = word_set("grammar", "articles")
+    articles = word_set("senses", "articles")
     for text, sense in (*_list_nouns(nouns), *_list_verbs(), *_list_effects(), *_list_words()):
         words = text.replace("-", " ").split()
         phrase = tuple(one for one in words if one not in articles) or (text,)
@@ -136,7 +135,12 @@ def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
 
 
 def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
-    said = [one for one in kept("nouns", nouns).values() if not one.name.startswith(_UNSAID)]
+    from texvent.scenes.models.nouns import DRESSING
+
+    said = [
+        one for one in nouns.values()
+        if one.name not in DRESSING and not one.name.startswith(_UNSAID)
+    ]  # fmt: skip
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
     doers = {
@@ -161,7 +165,8 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
 def _list_verbs() -> Iterator[tuple[str, Sense]]:
     for phrase, sense in (*_list_plain_verbs(), *_list_activities()):
         base, _, rest = phrase.replace("-", " ").partition(" ")
-        for word, form in verb_forms(base):
+        written = read_table("words")["irregular"].get(base, "")
+        for word, form in list_verb_forms(base, written):
             yield f"{word} {rest}".strip(), Sense("verb", sense, form)
 
 
@@ -183,10 +188,7 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
 
 
 _SHOWING = ("show", "make", "do", "give")
-_PERFORMERS = (
-    ("person", kept("activities", ACTIVITIES)),
-    ("hand", kept("hand_gestures", HAND_GESTURES)),
-)
+_PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
 
 
 def _list_activities() -> Iterator[tuple[str, VerbSense]]:
@@ -198,18 +200,16 @@ def _list_activities() -> Iterator[tuple[str, VerbSense]]:
                 yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
     for name, verbs in ANIMAL_ACTS.items():
         yield from ((verb, VerbSense("animal", name)) for verb in verbs)
-    for name, effect in kept("effects", EFFECTS).items():
+    for name, effect in EFFECTS.items():
         yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
 
 
 def _list_effects() -> Iterator[tuple[str, Sense]]:
     """Nouns of effects, and activities and gestures that are named by a noun."""
-    for name, effect in kept("effects", EFFECTS).items():
+    for name, effect in EFFECTS.items():
         for phrase in effect.nouns:
             yield from _with_plurals(phrase, Sense("effect", name))
-        yield from ((phrase, Sense("effect adjective", name)) for phrase in effect.adjectives)
-    for name, phrases in read_table("words")["effects"]["phrases"].items():
-        yield from ((phrase, Sense("effect", name)) for phrase in phrases)
+        yield from ((phrase, Sense("field", ("effect", name))) for phrase in effect.adjectives)
     for who, table in _PERFORMERS:
         for name, activity in table.items():
             yield from ((phrase, Sense("pose", (who, name))) for phrase in activity.named)
@@ -217,42 +217,36 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
 
 
 def _list_words() -> Iterator[tuple[str, Sense]]:
-    """Words of places, of fields of the scene, and of grammar."""
+    """Words of places, and those of words.toml: the path to a list of phrases is their sense."""
     words = read_table("words")
-    for place, names in (*place_names().items(), *words["place_names"].items()):
+    for place, names in place_names().items():
         for name in names:
             yield from _with_plurals(name, Sense("place", place))
-    for kind, part in (("field", "fields"), ("adverb", "adverbs")):
-        for field, table in words[part].items():
-            for value, phrases in table.items():
-                sense = Sense(kind, (field, _plain(value)))
-                yield from ((phrase, sense) for phrase in phrases)
     yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
-    yield from _list_settings()
-    for kind in ("relations", "shots"):
-        for value, phrases in words[kind].items():
-            yield from ((phrase, Sense(kind[:-1], value)) for phrase in phrases)
-    for preposition, meaning in words["ways"].items():
-        yield preposition, Sense("relation", *meaning.split())
-    for quantity, units in words["units"].items():
-        yield from ((unit, Sense("unit", (quantity, each))) for unit, each in units.items())
-    for kind, phrases in (*words["grammar"].items(), *words["other"].items()):
-        yield from ((phrase, Sense(kind, phrase)) for phrase in phrases)
+    for field, units in words["units"].items():
+        yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
+    for path, phrases in _walk(words["senses"]):
+        yield from ((phrase, _sense_of(path)) for phrase in phrases)
 
 
-def _list_settings() -> Iterator[tuple[str, Sense]]:
-    words = read_table("words")
-    for part, tables in words["scene"].items():
-        for field, table in tables.items():
-            for value, phrases in table.items():
-                sense = Sense("scene", (part, ((field, _plain(value)),)))
-                yield from ((phrase, sense) for phrase in phrases)
-    for phrase, parts in words["phrases"].items():
-        for part, fields in parts.items():
-            values = tuple((k, tuple(v) if isinstance(v, list) else v) for k, v in fields.items())
-            yield phrase, Sense("scene", (part, values))
-    for word in word_set("things", "crossings"):
-        yield word, Sense("scene", ("place", (("road", "crossing"),)))
+def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tuple[Any, list[str]]]:
+    """Lists of a table of tables, each with the keys that lead there."""
+    for key, value in table.items():
+        if isinstance(value, list):
+            yield (*path, key), value
+        else:
+            yield from _walk(value, (*path, key))
+
+
+def _sense_of(path: tuple[str, ...]) -> Sense:
+    """As ("scene", "light", "kind", "dusk"), ("field", "size", "1.4"), ("way", "on", "across")."""
+    kind, *rest = path
+    if kind in ("field", "adverb"):
+        return Sense(kind, (rest[0], _plain(rest[1])))
+    if kind == "scene":
+        value = (rest[2],) if rest[1] == "backdrops" else _plain(rest[2])
+        return Sense(kind, (rest[0], rest[1], value))
+    return Sense("relation", *rest) if kind == "way" else Sense(kind, rest[0] if rest else kind)
 
 
 def _with_plurals(phrase: str, sense: Sense) -> Iterator[tuple[str, Sense]]:
@@ -264,20 +258,3 @@ def _plain(value: str) -> str | float | bool:
     if value in ("true", "false"):
         return value == "true"
     return float(value) if value.replace(".", "").isdigit() else value
-
-
-def verb_forms(base: str) -> list[tuple[str, str]]:
-    """Forms of a verb.
-
-    Example:
-        >>> verb_forms("carry")
-        [('carry', 'base'), ('carries', 's'), ('carrying', 'ing'), ('carried', 'ed')]
-    """
-    stem = base[:-1] if base.endswith("e") and not base.endswith("ee") else base
-    regular = (
-        f"{base[:-1]}ied" if base.endswith("y") and base[-2:-1] not in "aeiou" else f"{stem}ed"
-    )
-    written = read_table("words")["irregular"].get(base, f"{stem}ing {regular}")
-    present, *pasts = written.split()
-    forms = [(base, "base"), (list_finite_forms(base)[-1], "s"), (present, "ing")]
-    return [*forms, *((past, "ed") for past in pasts)]

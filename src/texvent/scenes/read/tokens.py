@@ -9,10 +9,13 @@ from dataclasses import dataclass
 
 from texvent.scenes.read.lexicon import Lexicon, Sense, word_set
 from texvent.scenes.read.literals import find_literals
-from texvent.scenes.spec.scene import Picture
 
-MOST_WORDS = 2000
-"""Words of a prompt that are read; later ones are not understood."""
+MOST_WORDS = 1000
+"""Words of a prompt that are read; later ones are not understood, all together."""
+MAX_COUNT = 24
+"""Most copies of one object."""
+_RANGES = {"speed_m_s": (0.0, 1000.0), "rate_hz": (0.001, 100_000.0)}
+"""Least and most of a quantity of scenes."""
 _WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
 _IS = re.compile(r"(?i)(it|that|there|he|she|camera)['’]s$")
 _OWNER = re.compile(r"['’]s?$")
@@ -27,21 +30,16 @@ class Token:
     at: int
     """Number in the prompt, from 0."""
     senses: tuple[Sense, ...] = ()
-    number: float | None = None
-    quantity: tuple[str, float] | None = None
-    """"speed" (m/s) or "rate" (Hz), and its value."""
-    picture: Picture | None = None
 
     @property
     def is_sign(self) -> bool:
         """Whether it only separates words."""
-        return self.picture is None and not any(map(str.isalnum, self.text))
+        return not self.senses and not any(map(str.isalnum, self.text))
 
     @property
     def is_unknown(self) -> bool:
-        """Whether it is a word or a sign of writing that the reader does not know."""
-        plain = self.number is None and self.quantity is None and self.picture is None
-        return plain and not self.is_sign and (not self.senses or self.has("other"))
+        """Whether it is a word that the reader does not know."""
+        return not self.is_sign and (not self.senses or self.has("other"))
 
     @property
     def is_manner(self) -> bool:
@@ -58,11 +56,11 @@ class Token:
 
     def has(self, *kinds: str) -> bool:
         """Whether it may be of one of the kinds."""
-        return self.first(*kinds) is not None
+        return any(one.kind in kinds for one in self.senses)
 
     def verbs(self, *forms: str) -> tuple[Sense, ...]:
         """Its senses as a verb in one of the forms."""
-        return tuple(one for one in self.all("verb") if one.form in forms)
+        return tuple(one for one in self.senses if one.kind == "verb" and one.form in forms)
 
 
 NO_TOKEN = Token(".", -1)
@@ -82,9 +80,12 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     start = 0
     for begin, end, picture in find_literals(text):
         _read_words(_list_words(text[start:begin]), lexicon, found)
-        found.append(Token(picture.value, len(found), picture=picture))
+        sense = Sense("picture", ("picture", picture))
+        found.append(Token(picture.value, len(found), (sense,)))
         start = end
     _read_words(_list_words(text[start:]), lexicon, found)
+    if len(found) > MOST_WORDS:
+        found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
     return tuple(found)
 
 
@@ -96,28 +97,31 @@ def _list_words(text: str) -> list[str]:
             words.extend((short[1], "is"))
         elif word[0].isalnum() or word in ".,;:!?/()":
             words.append(word)
-    return words[:MOST_WORDS]
+    return words
 
 
 def _read_words(words: Sequence[str], lexicon: Lexicon, found: list[Token]) -> None:
     at = 0
     while at < len(words):
-        token, length = _read_phrase(words, at, lexicon, found)
-        found.append(token)
+        length, senses = _read_phrase(words, at, lexicon, found)
+        if length == 1 and words[at][0].isdecimal():
+            length, senses = _read_quantity(words, at, lexicon)
+        text = " ".join(words[at : at + length]).casefold()
+        found.append(Token(text, len(found), senses))
         at += length
 
 
 def _read_phrase(
     words: Sequence[str], at: int, lexicon: Lexicon, before: Sequence[Token]
-) -> tuple[Token, int]:
-    """The longest phrase at a word, and its number of words."""
+) -> tuple[int, tuple[Sense, ...]]:
+    """Number of words of the longest phrase at a word, and its senses."""
     length = 1
     senses: tuple[Sense, ...] = ()
     phrase: list[str] = []
     skipped: set[str] = set()
     for end in range(at, len(words)):
         word = words[end].casefold()
-        if end > at and word in word_set("grammar", "articles"):
+        if end > at and word in word_set("senses", "articles"):
             skipped.add(word)
             continue
         phrase.append(_OWNER.sub("", word))
@@ -133,9 +137,7 @@ def _read_phrase(
             found = _without_chance(found, words, end, before)
         if found:
             length, senses = end + 1 - at, found
-    if words[at][0].isdecimal() and length == 1:
-        return _read_quantity(words, at, lexicon, len(before))
-    return Token(" ".join(words[at : at + length]).casefold(), len(before), senses), length
+    return length, senses
 
 
 _UNCUT = ("noun", "place", "scene")
@@ -151,7 +153,7 @@ def _without_chance(
     (no things).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
-    is_verb = words[end].endswith("ing") and after in word_set("grammar", "articles")
+    is_verb = words[end].endswith("ing") and after in word_set("senses", "articles")
     is_single = bool(before) and before[-1].text in ("a", "an")
 
     def stands(one: Sense) -> bool:
@@ -173,15 +175,17 @@ def _is_of_camera(before: Sequence[Token]) -> bool:
 
 
 def _read_quantity(
-    words: Sequence[str], at: int, lexicon: Lexicon, index: int
-) -> tuple[Token, int]:
-    """A number, with its unit if one follows."""
+    words: Sequence[str], at: int, lexicon: Lexicon
+) -> tuple[int, tuple[Sense, ...]]:
+    """A number of things, or a speed or frequency with its unit, in the range of scenes."""
     number = float(words[at].replace(",", ""))
     for length in (3, 2, 1):
         unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
         for sense in lexicon.senses.get(unit, ()):
             if sense.kind == "unit":
-                quantity, factor = sense.value
-                text = " ".join(words[at : at + 1 + length]).casefold()
-                return Token(text, index, quantity=(quantity, number * factor)), 1 + length
-    return Token(words[at], index, number=number), 1
+                field, factor = sense.value
+                least, most = _RANGES[field]
+                is_shown = least <= number * factor <= most
+                said = Sense("adverb", (field, number * factor))
+                return 1 + length, (said,) if is_shown else ()
+    return 1, (Sense("field", ("count", max(1, min(round(number), MAX_COUNT)))),)

@@ -1,7 +1,7 @@
 """Nouns of bodies that bend or depend on the seed, from the TOML files of `data/bodies/`.
 
 An entry has the keys of a noun (names, plurals, place, habitat, motion, speed, works), `size`, and
-those of a four-legged animal, which `animals.quadruped.build` describes, or of a figure:
+those of a four-legged animal, which `quadruped.build` describes, or of a figure:
 
     colours    {paint = ["(.5 .3 .1)"]}: usual ones; the one that a prompt says takes their place
     surfaces   {wing = "paint*.8 feathers"}
@@ -14,6 +14,8 @@ those of a four-legged animal, which `animals.quadruped.build` describes, or of 
     gait, legs, bob    {stride, duty, lift}, see `limbs.Legs`; how far the body is lifted m, how
                often each stride, how late
     like       an entry above, whose keys it has where it has none of its own
+
+What stands above a file's first entry holds for all of them.
 """
 
 from __future__ import annotations
@@ -27,19 +29,20 @@ from typing import Any
 
 from texvent.errors import FileFormatError, InputError
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
-from texvent.scenes.models.animals.quadruped.body import build_quadruped
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.bodies.figure import build_figure
+from texvent.scenes.models.bodies.quadruped.body import build_quadruped
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import Colour
 
-_WALKER = {"habitat": "ground", "motion": "walk"}
-
 
 def _read_family(text: str) -> tuple[Noun, ...]:
+    tables = tomllib.loads(text)
+    usual = {key: value for key, value in tables.items() if not isinstance(value, Mapping)}
     entries: dict[str, Mapping[str, Any]] = {}
-    for noun, entry in tomllib.loads(text).items():
-        model = entries[entry["like"]] if "like" in entry else {}
+    for noun in (key for key in tables if key not in usual):
+        entry = tables[noun]
+        model = entries[entry["like"]] if "like" in entry else usual
         inherited = {key: value for key, value in model.items() if key not in _OWN}
         entries[noun] = _merged(inherited, entry)
     return tuple(_read_noun(noun, entry) for noun, entry in entries.items())
@@ -82,8 +85,7 @@ class BodyBuilder:
             raise FileFormatError(f"data/bodies, {self.name!r}: {error}") from error
 
 
-def _read_noun(name: str, entry: Mapping[str, Any]) -> Noun:
-    table = {**_WALKER, **entry} if "build" in entry else entry
+def _read_noun(name: str, table: Mapping[str, Any]) -> Noun:
     habitat = table.get("habitat", "fixed")
     motion = table.get("motion", "stand")
     is_centred = habitat == "air" or (habitat == "water" and motion == "swim")

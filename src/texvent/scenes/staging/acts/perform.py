@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -87,28 +87,28 @@ def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
             _bind(cast, relation.kind, (at, target, third), duration_s)
 
 
+_Act = Callable[[Actor, Actor, Actor | None, float], tuple[Actor | None, ...]]
+_ACTS: Mapping[str, _Act] = {
+    "push": lambda who, what, _, __: pushing.push(who, what),
+    "pull": lambda who, what, _, __: pushing.pull(who, what),
+    "lead": lambda who, what, _, __: pushing.lead(who, what),
+    "hold": lambda who, what, _, __: hold(who, what),
+    "carry": lambda who, what, _, __: hold(who, what),
+    "wear": lambda who, what, _, __: wear(who, what),
+    "kick": lambda who, what, _, duration_s: striking.kick(who, what, duration_s),
+    "catch": lambda who, what, _, duration_s: striking.catch(who, what, duration_s),
+    "throw": striking.throw,
+    "hit": striking.hit,
+}
+"""Act → the bodies as it leaves them: who acts, on what, and who catches or with what."""
+
+
 def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: float) -> None:
-    subject, target = cast.get(who[0]), cast.get(who[1])
-    other, worn = None if who[2] is None else cast.get(who[2]), None
-    if kind == "wear":
-        subject, worn = wear(subject, target)
-        cast.put(who[1], worn)
-        return
-    if kind in ("push", "pull", "lead"):
-        subject, target = getattr(pushing, kind)(subject, target)
-    elif kind == "kick":
-        subject, target = striking.kick(subject, target, duration_s)
-    elif kind == "throw":
-        subject, target, other = striking.throw(subject, target, other, duration_s)
-    elif kind == "catch":
-        subject, target = striking.catch(subject, target, duration_s)
-    elif kind == "hit":
-        subject, target, other = striking.hit(subject, target, other, duration_s)
-    else:
-        subject, target = hold(subject, target)
-    for number, actor in zip(who, (subject, target, other), strict=True):
-        if number is not None and actor is not None:
-            cast.put(number, actor)
+    third = None if who[2] is None else cast.get(who[2])
+    bodies = _ACTS[kind](cast.get(who[0]), cast.get(who[1]), third, duration_s)
+    for number, body in zip(who, bodies, strict=False):
+        if number is not None:
+            cast.put(number, body)
 
 
 def _stow(cast: Cast, relation: Relation, at: int) -> None:

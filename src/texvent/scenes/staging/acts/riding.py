@@ -11,21 +11,17 @@ from texvent.scenes.description import RIDES, Relation
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.support_surface import find_support, top_heights
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.traits import trait_value
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import Cast, foot_of, hides_riders, is_person, scaled, size_of
 from texvent.scenes.staging.acts.attached import Performed
 from texvent.scenes.staging.acts.holding import Grips
 from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory, Vector
 
-_BACK_SHARE, _ASTRIDE_M = 0.42, 0.42
-"""Share of an animal's length on which people sit, and room for each of them, m."""
-_BOARD_M, _BOARD_STANCE = 0.70, 0.09
-"""Room on a board for each who stands sideways, m; height of a board's top below them."""
-_APART_M, _LAP_M = 0.6, 0.5
-"""From seat to seat, and room for the last one's lap, m."""
-_SEAT_M, _LOW_SEAT_M, _SADDLE_M = 0.42, 0.30, 0.10
-"""Height of the hips over the origin of who sits, sits low, or sits astride, for an adult, m."""
+_ROOM_SHARE = 0.42
+"""Share of its length on which people sit or stand."""
+_SEAT_M, _SADDLE_M = 0.42, 0.10
+"""Height of the hips over the origin of who sits, or sits astride, for an adult, m."""
 
 
 def board(cast: Cast, relations: Sequence[Relation]) -> None:
@@ -71,16 +67,11 @@ def style_of(ridden: Actor) -> str:
 
 def count_seats(ridden: Actor) -> int:
     """How many people it carries, the one who comes with its model among them."""
-    seats, style = trait_value("seats", ridden.noun.name), style_of(ridden)
+    seats = trait_value("seats", ridden.noun.name)
     if seats is not None:
         return len(seats)
-    if style in ("at a bar", "on skis"):
-        return 1
-    if style == "on a board":
-        return max(1, int(ridden.model.length / _BOARD_M))
-    if style == "astride":
-        return max(1, int(_BACK_SHARE * ridden.model.length / _ASTRIDE_M))
-    return 1 + int(max(0.6 * ridden.model.length - _LAP_M, 0.0) / _APART_M)
+    apart_m = trait_value("posture of riders", style_of(ridden))["apart"]
+    return max(1, int(_ROOM_SHARE * ridden.model.length / apart_m))
 
 
 def mount(rider: Actor, ridden: Actor, number: int = 0, crew: int = 1) -> Actor:
@@ -92,34 +83,29 @@ def mount(rider: Actor, ridden: Actor, number: int = 0, crew: int = 1) -> Actor:
         number: of its seat, from 0; the first one is for who steers.
         crew: how many are on it.
     """
-    style, size, carrier = style_of(ridden), size_of(rider.model), ridden.trajectory
-    behind = 0.5 * (min(crew, count_seats(ridden)) - 1) - number
-    activity, props, grips = "sit", rider.props, ()
+    style, size = style_of(ridden), size_of(rider.model)
+    posture = trait_value("posture of riders", style)
+    doing, props = "sit", rider.props
+    grips: Grips = ()
     if not is_person(rider):
         seat: Vector = (0.0, 0.0, find_support(ridden.model).height + foot_of(rider))
-        path: Trajectory = Riding(carrier, seat)
-        return replace(rider, trajectory=path, is_mover=ridden.is_mover, lead_m=0.0)
-    if trait_value("seats", ridden.noun.name) is not None:
+    elif trait_value("seats", ridden.noun.name) is not None:
         seat, grips = _on_seat(ridden, size, number)
-    elif style == "on a board":
-        height = find_support(ridden.model).height - _BOARD_STANCE * size
-        seat, activity, props = (behind * _BOARD_M, 0.0, height), "skate", ()
-    elif style == "on skis":
-        seat, activity, props = (0.0, 0.0, 0.0), "ski", ()
-    elif style == "at a bar":
-        seat, activity = (-0.08, 0.0, 0.1 * ridden.model.height), "stand"
-        x, z = 0.42 * ridden.model.length, 0.9 * ridden.model.height
-        grips = (("left hand", (x, 0.2, z)), ("right hand", (x, -0.2, z)))
-    elif style == "astride":
-        seat, grips = _astride_back(ridden, size, behind * _ASTRIDE_M)
     else:
-        support, is_paddled = find_support(ridden.model), ridden.noun.name in nouns_with("paddled")
+        behind = 0.5 * (min(crew, count_seats(ridden)) - 1) - number
+        support, doing = find_support(ridden.model), posture["does"]
         x, y = support.middle
-        low = (_LOW_SEAT_M if is_paddled else _SEAT_M) * size
-        seat = (x + behind * _APART_M, y, support.height - low)
-        if is_paddled:
-            activity, props = "row", list_props("row") if ridden.is_mover else ()
-    path = Riding(carrier, seat, activity)
+        seat = (x + behind * posture["apart"], y, support.height + posture["up"] * size)
+        props = list_props(doing) if style == "paddled" and ridden.is_mover else ()
+        if style == "astride":
+            seat, grips = _astride_back(ridden, size, behind * posture["apart"])
+        elif style == "on skis":
+            seat = (0.0, 0.0, 0.0)
+        elif style == "at a bar":
+            x, z = 0.42 * ridden.model.length, 0.9 * ridden.model.height
+            seat = (-0.08, 0.0, 0.1 * ridden.model.height)
+            grips = (("left hand", (x, 0.2, z)), ("right hand", (x, -0.2, z)))
+    path: Trajectory = Riding(ridden.trajectory, seat, doing)
     if grips:
         path = Performed(path, None, grips)
     return replace(rider, trajectory=path, is_mover=ridden.is_mover, lead_m=0.0, props=props)
@@ -132,7 +118,7 @@ def _on_seat(ridden: Actor, size: float, number: int) -> tuple[Vector, Grips]:
     feet = trait_value("feet from the seat", name)
     if feet is None:
         return (x, y, z - _SEAT_M * size), ()
-    return (x, y, z - _SADDLE_M * size), _astride(*feet, size)
+    return (x, y, z - _SADDLE_M * size), _astride(feet[0], feet[1], size)
 
 
 def _astride_back(ridden: Actor, size: float, along_m: float) -> tuple[Vector, Grips]:

@@ -89,7 +89,7 @@ def _mounted(
     if relation.kind not in ("on", "in") or person.noun not in PERSON_NOUNS:
         return relation
     is_mount = trait_value("ridden", target) is not None and relation.kind == "on"
-    is_carrier = trait_value("seats", target) is not None or target in nouns_with("paddled")
+    is_carrier = trait_value("seats", target) or trait_value("ridden", target)
     is_closed = relation.kind == "in" and hides_riders(nouns[target])
     is_idle = (person.motion or STANDING).kind in _IDLE
     if is_mount or (is_idle and (is_carrier or is_closed)):

@@ -7,9 +7,9 @@ import math
 import numpy as np
 
 from texvent.scenes.models.animals.acts import Stance
-from texvent.scenes.models.animals.quadruped.build import Build, Coat
-from texvent.scenes.models.animals.quadruped.head import draw_head
-from texvent.scenes.models.animals.quadruped.posture import LOWEST, curled_trunk, lowered_head
+from texvent.scenes.models.bodies.quadruped.build import Build, Coat
+from texvent.scenes.models.bodies.quadruped.head import draw_head
+from texvent.scenes.models.bodies.quadruped.posture import LOWEST, curled_trunk, lowered_head
 from texvent.scenes.models.limb_kinematics import bend
 from texvent.scenes.models.materials import Material, fur
 from texvent.scenes.models.protocol import ModelPart
