@@ -12,8 +12,6 @@ from typing import Any
 
 from texvent._require import require
 from texvent.generate.diffusers_models.streamed_decoding import stream_decoder
-from texvent.generate.tiny_decoder.layout import TinyLayout
-from texvent.generate.tiny_decoder.network import TinyDecoder
 from texvent.latents.head import HeadConfig, apply_head
 
 torch: Any = require("torch", extra="generate")
@@ -29,8 +27,6 @@ WAN_22 = {
     "out_channels": 12,
 }
 """Of Wan 2.2 TI2V-5B, where it differs from diffusers' defaults, which are Wan 2.1's."""
-TINY = (256, 128, 64, 64)
-"""Channels of the published tiny decoders taew2_1 and taew2_2."""
 Row = dict[str, Any]
 
 
@@ -69,11 +65,6 @@ def count_all() -> list[Row]:
             vae = diffusers.AutoencoderKLWan(**(WAN_22 if channels == 48 else {}))
             weights = list(vae.decoder.parameters()) + list(vae.post_quant_conv.parameters())
             rows.append(_row(f"{model}, full decoder", weights, lambda: _full(vae, latents)))  # noqa: B023
-            layout = TinyLayout(channels, TINY, (1, 2, 2), side // 8, is_super=False)
-            tiny = {name: torch.empty(shape) for name, shape in layout.tensor_shapes().items()}
-            rows.append(
-                _row(f"{model}, TAEHV", tiny.values(), lambda: _tiny(layout, tiny, latents))  # noqa: B023
-            )
             config = HeadConfig(channels=channels, frames_per_latent=4, pixels_per_latent=side)
             head = {name: torch.empty(shape) for name, shape in config.shapes.items()}
             rows.append(
@@ -98,12 +89,6 @@ def _row(name: str, weights: Iterable[Any], run: Callable[[], Any]) -> Row:
 
 def _full(vae: Any, latents: Any) -> None:
     for _ in stream_decoder(vae, latents):
-        pass
-
-
-def _tiny(layout: TinyLayout, tensors: dict[str, Any], latents: Any) -> None:
-    steps = (latents[:, :, index] for index in range(latents.shape[2]))
-    for _ in TinyDecoder(layout, tensors)._decode(steps):
         pass
 
 

@@ -57,8 +57,6 @@ class Registry:
     """What the parts are, in the singular, as error messages say it."""
     builtin: Mapping[str, str]
     """Name → `"module:attribute"` of the parts that ship with texvent."""
-    check: str | None = None
-    """`"module:function"` that refuses a part of another package; it gets the part and its name."""
     table: str | None = None
     """Module of parts that are rows of data, not classes: `names()` to list and to suggest, and
     `find(name)`, which gives a part or None, also for names that are not listed (paths)."""
@@ -98,7 +96,7 @@ class Registry:
         """A part of another package.
 
         Raises:
-            TexventError: it cannot be imported, or lacks what its kind has.
+            TexventError: it cannot be imported.
         """
         try:
             part = load_object(target)
@@ -108,8 +106,6 @@ class Registry:
                 f"{self.kind} {name!r} of another package cannot be loaded from {target} "
                 f"({type(error).__name__}: {text})"
             ) from error
-        if self.check is not None:
-            load_object(self.check)(part, name)
         return part
 
 
@@ -150,7 +146,6 @@ SIMULATORS = Registry(
         "v2ce": "texvent.simulate.v2ce.simulator:V2ceSimulator",
         "voltmeter": "texvent.simulate.voltmeter.simulator:VoltmeterSimulator",
     },
-    check="texvent.simulate.plug_in:check_simulator_class",
 )
 CODECS = Registry(
     "event format",

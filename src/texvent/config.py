@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 import numbers
 import typing
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -20,7 +19,6 @@ from typing import Any, ClassVar, Literal
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.options.fields import RemovedOption, renamed
 from texvent.runtime.memory import parse_memory
 
 UNITS = {
@@ -92,9 +90,6 @@ class RunConfig:
     """What decides a run as a whole."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sensor",)
-    removed: ClassVar[Mapping[str, RemovedOption]] = {
-        "engine": RemovedOption("frames", "leave it out: every model runs through the frames")
-    }
 
     simulator: str = "texvent"
     """Pixel model. It turns brightness into events: texvent, physical, esim, v2e, senpi, v2ce or
@@ -226,7 +221,7 @@ class InterpolateConfig:
     """Contrast threshold in Eq. 4; without it, the simulator's own."""
     count_balance: float | None = None
     """Balance α in Eq. 4; without it, the simulator's own."""
-    frames_per_pixel: float | None = renamed(None, was="motion_floor", was_switch=True)
+    frames_per_pixel: float | None = None
     """Intermediate frames per pixel that the fastest part of a pair moves (DIS optical flow), at
     least: 1 keeps thin and faint things from jumping over pixels, 2 shows all that fine texture
     does; 0 is Eq. 4's count alone. Without it, models whose pixels may fire several times per
@@ -234,13 +229,9 @@ class InterpolateConfig:
     max_frames_per_second: float | None = None
     """Upper limit of frames per second after interpolation: a budget, whatever else asks for
     more. Source frames always stay."""
-    deflicker: bool = renamed(False, was="flicker_guard")
+    deflicker: bool = False
     """Divide fast changes of the whole image's brightness out of the frames, before they are
     counted and simulated: generated video flickers. Fades stay, a little later."""
-    lamp_hz: float | None = None
-    """Frequency of a lamp in the video, Hz: 100 or 120 on mains of 50 or 60 Hz. Its light is taken
-    off the frames where they follow it, and put back on intermediate frames: frames alone show a
-    slower beat."""
     detect_cuts: bool = True
     """Detect scene cuts and flashes and let them happen at one instant instead of smearing them
     over the frame interval."""
@@ -267,14 +258,6 @@ class InterpolateConfig:
                 "deflicker corrects the frames of a video, and exact frames are rendered; "
                 "leave it out, or choose another interpolate"
             )
-        check_range("lamp_hz", self.lamp_hz, 1e-3, 1e6)
-        if self.lamp_hz is not None and self.interpolate in ("none", "exact"):
-            raise ConfigError(
-                f"lamp_hz is for intermediate frames made from others, and interpolate is "
-                f"{self.interpolate}; leave it out, or choose another interpolate"
-            )
-        if self.lamp_hz is not None and self.deflicker:
-            raise ConfigError("deflicker removes what lamp_hz puts back; choose one of the two")
         check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)
         check_range("frames_per_pixel", self.frames_per_pixel, 0.0, 100.0)
         check_range("fixed_count", self.fixed_count, 0, 10_000)

@@ -110,24 +110,6 @@ def test_printed_options_read_back_give_the_same_options(folder, capsys):
     assert tomllib.loads(capsys.readouterr().out)["simulate"]["balance"] == 20.0
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        ([], None),
-        (["--frames-per-pixel", 2], 2),
-        (["--motion-floor"], 1),
-        (["--no-motion-floor"], 0),
-    ],
-)
-def test_a_former_switch_is_a_number_now(folder, capsys, words, expected):
-    assert run("simulate", *words, CLIP, "--print-config") == 0
-    printed, notice = capsys.readouterr()
-    assert tomllib.loads(printed)["interpolate"].get("frames_per_pixel") == expected
-    assert ("is now --frames-per-pixel" in notice) == any(
-        "motion-floor" in str(one) for one in words
-    )
-
-
 def test_a_yaml_config_sets_options_too(folder, capsys):
     Path("run.yaml").write_text("seed: 9\nsimulate:\n  noise: none\n", encoding="utf-8")
     assert run("simulate", CLIP, "--config", "run.yaml", "--print-config") == 0
@@ -220,20 +202,6 @@ def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
         capsys, "simulate", CLIP, "--contrast-threshold", "-1"
     )
     assert not list(folder.iterdir())
-
-
-@pytest.mark.parametrize("flag", ["--flicker-guard", "--no-flicker-guard"])
-def test_the_former_name_of_a_flag_works_and_says_the_new_one(folder, capsys, flag):
-    assert run("simulate", CLIP, "--print-config", flag) == 0
-    said = capsys.readouterr()
-    assert f"deflicker = {'false' if 'no' in flag else 'true'}" in said.out
-    assert said.err.startswith(f"note: {flag} is now --")
-    assert said.err.count("\n") == 1
-
-
-def test_a_removed_flag_is_refused_by_name(folder, capsys):
-    said = fails(capsys, "simulate", CLIP, "--engine", "continuous")
-    assert "--engine was removed; leave it out: every model" in said
 
 
 def test_a_prompt_without_quotes_is_told_to_take_them(folder, capsys):

@@ -61,8 +61,6 @@ def test_where_nothing_is_said_motion_counts_up_to_twice_eq4(
     monkeypatch.setattr(PairFlow, "motion_px", lambda *_: motion_px)
     gaining = {"interpolate": "flow", "counts_motion": True}
     assert policy(**gaining).count(*contrast_pair) == expected
-    # 15 for a lamp; the limit of motion stays twice the 11 of Eq. 4.
-    assert policy(**gaining).count(*contrast_pair, flicker_hz=33.0) == max(expected, 15)
     assert policy(**gaining, max_intermediate=12).count(*contrast_pair) == min(expected, 12)
     assert policy(**gaining, frames_per_pixel=0.0).count(*contrast_pair) == 11
     assert policy(**gaining, frames_per_pixel=1.0).count(*contrast_pair) == max(motion_px, 11)

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.pipeline import text_to_events
 from texvent.run.replay import COMPARED, describe_differences, prepare_replay, render_again
@@ -57,17 +57,6 @@ def test_a_part_in_time_fits_its_video_and_an_edited_one_does_not(simulation) ->
         prepare_replay(events.between(0, 150_000).metadata, path=Path("events.h5"))
     with pytest.raises(InputError, match="the file was edited after its run"):
         prepare_replay(turned.metadata, path=Path("events.h5"))
-
-
-def test_recordings_from_before_an_option_was_removed_are_made_again(simulation) -> None:
-    stored = simulation.provenance
-    tables = stored["settings"]
-    stored["settings"] = {**tables, "run": {**tables["run"], "engine": "frames"}}
-    again = prepare_replay(stored, path=Path("events.h5"))
-    assert again.settings == simulation.settings
-    stored["settings"]["run"]["engine"] = "continuous"
-    with pytest.raises(ConfigError, match="engine 'continuous' was removed; leave it out"):
-        prepare_replay(stored, path=Path("events.h5"))
 
 
 def test_whatever_decides_the_bytes_is_compared(simulation) -> None:

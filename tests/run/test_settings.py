@@ -3,7 +3,6 @@
 import pytest
 
 from texvent.errors import ConfigError, InputError
-from texvent.options.fields import RenamedOptionWarning
 from texvent.run.settings import base_settings, read_config, resolve, unmeasured_sensor
 from texvent.sensor import SENSORS, SensorSize
 
@@ -154,25 +153,6 @@ def test_a_single_option_is_stronger_than_the_config_file(tmp_path):
 def test_a_missing_config_file_is_named(tmp_path):
     with pytest.raises(InputError, match=r"nope\.toml"):
         read_config(tmp_path / "nope.toml")
-
-
-def test_a_former_name_still_works_as_keyword_and_in_a_stored_config(tmp_path):
-    with pytest.warns(RenamedOptionWarning, match="'flicker_guard' is now 'deflicker'"):
-        assert resolve("simulate", {"flicker_guard": True}).interpolate.deflicker
-    path = tmp_path / "run.toml"
-    path.write_text("[interpolate]\nflicker_guard = true\n", encoding="utf-8")
-    with pytest.warns(RenamedOptionWarning, match=r"config file .*run\.toml"):
-        assert resolve("simulate", {}, config=path).interpolate.deflicker
-
-
-@pytest.mark.parametrize(("was", "now"), [(True, 1.0), (False, 0.0)])
-def test_a_former_switch_is_read_as_the_number_that_it_is_now(was, now):
-    with pytest.warns(RenamedOptionWarning, match="'motion_floor' is now 'frames_per_pixel'"):
-        settings = resolve("simulate", {"motion_floor": was})
-    assert settings.interpolate.frames_per_pixel == now
-    # Elsewhere a switch is no number.
-    with pytest.raises(ConfigError, match="frames_per_pixel is True; it must be a number"):
-        resolve("simulate", {"frames_per_pixel": was or True})
 
 
 def test_a_sensor_that_is_one_number_is_told_what_a_sensor_can_be():

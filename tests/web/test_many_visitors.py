@@ -95,6 +95,14 @@ class Visitor:
         call = {"data": ["tab", *values], "fn_index": handler, "session_hash": self._session}
         return str(self.post("gradio_api/run/predict", call)["data"][0])
 
+    def open_scene(self, text: str) -> str:
+        """The text in the prompt's field once a scene file was opened."""
+        handler = next(one["id"] for one in self._handlers if one["targets"][0][1] == "upload")
+        file = {"path": self.upload("ball.toml", text.encode()), "orig_name": "ball.toml",
+                "meta": {"_type": "gradio.FileData"}}  # fmt: skip
+        call = {"data": [file], "fn_index": handler, "session_hash": self._session}
+        return str(self.post("gradio_api/run/predict", call)["data"][0])
+
 
 def refused(act: Any, *values: Any) -> int:
     """The status with which a request is refused."""
@@ -112,6 +120,13 @@ def test_an_uploaded_page_is_never_shown_from_here(address: str) -> None:
         "image.svg", b"<svg onload='alert(1)' xmlns='http://www.w3.org/2000/svg'/>"
     )
     assert refused(visitor.get, f"gradio_api/file={image}") == 403
+
+
+def test_a_scene_file_is_opened_and_made(address: str) -> None:
+    visitor = Visitor(address)
+    text = '[[objects]]\nnoun = "ball"\nmotions = [{ kind = "bounce" }]\n'
+    assert visitor.open_scene(text) == text
+    assert "1 ball, bounces" in visitor.make_events(text)
 
 
 def test_a_foreign_host_name_is_refused(address: str) -> None:

@@ -6,10 +6,8 @@ from html import escape
 
 COLOURS = {
     "frames": "#4c78a8",
-    "frames, lamp known": "#e0a030",
     "true frames": "#59a14f",
     "frames, sensor known": "#9ab8dc",
-    "frames, sensor and lamp known": "#f0cf90",
     "true frames, sensor known": "#a8d3a2",
     "recorded": "#8c8c96",
 }

@@ -13,7 +13,7 @@ from texvent.cli.outputs import OutputOptions
 from texvent.cli.wording import name_flags
 from texvent.config import RunConfig
 from texvent.errors import ConfigError
-from texvent.options.fields import former_names, option_names
+from texvent.options.fields import option_names
 from texvent.run.presets import preset_help
 from texvent.run.settings import DECIDING, Command, Settings, apply_options, base_settings
 
@@ -91,7 +91,6 @@ def _refuse_options_of_others(
         ConfigError: there is such a flag.
     """
     known = {name for group in groups.values() for name in option_names(type(group))}
-    known |= set(former_names(map(type, groups.values())))
     for word in arguments:
         name = word.partition("=")[0].removeprefix("--").removeprefix("no-").replace("-", "_")
         if not word.startswith("--") or name in known:

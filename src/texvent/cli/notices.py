@@ -1,4 +1,4 @@
-"""What is hardly meant, and former names of options, as one line each on stderr."""
+"""Warnings and notes as one line each on stderr."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from texvent.cli.wording import in_flags
 from texvent.errors import visible, visible_lines, warnings_to
-from texvent.options.fields import RenamedOptionWarning
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -35,18 +34,8 @@ def _each_once(listener: Callable[[str], None]) -> Callable[[str], None]:
 
 @contextlib.contextmanager
 def one_line_warnings() -> Iterator[None]:
-    """Show a `TexventWarning` as `warning  ...`, former names of options as `note: ...`."""
+    """Show a `TexventWarning` as `warning  ...`."""
     with warnings.catch_warnings(), warnings_to(_each_once(say_warning)):
-        warnings.simplefilter("always", RenamedOptionWarning)
-        show = warnings.showwarning
-
-        def show_line(message: Warning | str, category: type[Warning], *rest: Any) -> None:
-            if issubclass(category, RenamedOptionWarning):
-                say(f"note: {message}")
-            else:
-                show(message, category, *rest)
-
-        warnings.showwarning = show_line  # type: ignore[assignment]
         yield
 
 

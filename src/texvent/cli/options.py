@@ -8,7 +8,6 @@ import io
 import itertools
 import re
 import typing
-import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -22,12 +21,8 @@ from texvent.cli.wording import name_flags
 from texvent.errors import ConfigError, shown
 from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import (
-    RenamedOptionWarning,
-    former_names,
-    former_switches,
     option_help,
     option_names,
-    removed_options,
 )
 
 MOST_MESSAGE = 240
@@ -75,8 +70,7 @@ def parse_options(
     form = dataclasses.make_dataclass(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
     )
-    types = list(map(type, groups.values()))
-    words = _current_flags(arguments, types)
+    words = list(arguments)
     lists = set(_list_flags(groups.values()))
     _refuse_second_lists(words, lists)
     helps = {name: text for one in groups.values() for name, text in option_help(type(one)).items()}
@@ -224,38 +218,6 @@ def peek_options(arguments: Sequence[str], names: Sequence[str]) -> dict[str, st
             # A value may begin with a hyphen ("-3x5"); the parser would take it, so it counts.
             values[flags[flag]] = following
     return values
-
-
-def _current_flags(arguments: Sequence[str], config_types: Sequence[type]) -> list[str]:
-    """The words with former names of flags replaced by those of today; each gives a notice.
-
-    Raises:
-        ConfigError: a flag was removed.
-    """
-    removed = {
-        f"--{name.replace('_', '-')}": option.reason
-        for name, option in removed_options(config_types).items()
-    }
-    former: dict[str, str] = {}
-    switches = former_switches(config_types)
-    for old, now in former_names(config_types).items():
-        old, new = old.replace("_", "-"), now.replace("_", "-")
-        on, off = (f"{new}=1", f"{new}=0") if now in switches else (new, f"no-{new}")
-        former |= {f"--{old}": f"--{on}", f"--no-{old}": f"--{off}"}
-    words = []
-    for word in arguments:
-        flag, has_value, value = word.partition("=")
-        if flag in removed:
-            raise ConfigError(f"{flag} was removed; {removed[flag]}")
-        if flag in former:
-            warnings.warn(
-                f"{flag} is now {former[flag]}; the former name goes with the next release",
-                RenamedOptionWarning,
-                stacklevel=2,
-            )
-            word = f"{former[flag]}{has_value}{value}"
-        words.append(word)
-    return words
 
 
 def _group(config: Any) -> Any:

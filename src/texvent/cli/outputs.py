@@ -12,7 +12,6 @@ from typing import ClassVar
 from texvent.errors import ConfigError
 from texvent.io.atomic import check_outputs
 from texvent.io.files import codec_for, extension_of
-from texvent.options.fields import renamed
 from texvent.run.files import RunFiles
 from texvent.truth.layout import check_truth_folder
 from texvent.truth.parts import parse_parts
@@ -32,7 +31,7 @@ class OutputOptions:
     format: tuple[str, ...] = ()
     """Format to write, where the extension does not say which (docs/files.md lists them); for
     several files, one for each."""
-    video: bool = renamed(True, was="film")
+    video: bool = True
     """Write a preview video (.events.mp4): source frames on the left, events on the right."""
     still: bool = True
     """Write an image of the busiest moment (.events.png)."""

@@ -11,9 +11,6 @@ from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError
 from texvent.generate.video_models.adapters import Adapter, parse_adapter
 
-REFINE_FACTORS = (2, 4)
-"""Of one and two rounds of refinement in time."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class GeneratedVideoConfig:
@@ -80,15 +77,9 @@ class DiffusersConfig(GeneratedVideoConfig):
     it changes the video a little. auto: only where the GPU's free memory would otherwise force
     layer-by-layer offload and bitsandbytes is installed."""
     decoder: Path | None = None
-    """Another decoder for the same latents, faster and coarser: the file of a tiny one (TAEHV:
-    taew2_1.safetensors, taehv.pth, ...), or the folder of one saved by diffusers."""
+    """Folder of another decoder for the same latents, saved by diffusers."""
     motion_adapter: Path | None = None
     """Folder of an AnimateDiff motion adapter: makes a Stable Diffusion model one of videos."""
-    refine: int | None = None
-    """Times the frames and the frame rate by refinement in time, 2 or 4: the model itself makes the
-    frames between its own (ltx2.5-dfr)."""
-    temporal_upsampler: Path | None = None
-    """Folder of the network that refine needs, published with the model."""
     generator_device: str = "auto"
     """Where to generate: auto, cpu, cuda, cuda:1, mps."""
 
@@ -99,20 +90,9 @@ class DiffusersConfig(GeneratedVideoConfig):
         """What `lora` says."""
         return tuple(map(parse_adapter, self.lora))
 
-    @property
-    def rate_factor(self) -> int:
-        """Times the frame rate that refinement in time makes."""
-        return self.refine or 1
-
     def __post_init__(self) -> None:
         super().__post_init__()
         self.adapters  # noqa: B018  (refused before any work)
         for name, low in (("frames", 2), ("width", 8), ("height", 8), ("steps", 1)):
             check_range(name, getattr(self, name), low, 65_535)
         check_range("guidance", self.guidance, 0.0, 1000.0)
-        if self.refine not in (None, *REFINE_FACTORS):
-            raise ConfigError(f"refine is {self.refine}; allowed: 2, 4")
-        if self.refine is not None and self.temporal_upsampler is None:
-            raise ConfigError("refine is set, but no temporal_upsampler; add its folder")
-        if self.refine is None and self.temporal_upsampler is not None:
-            raise ConfigError("temporal_upsampler is set, but not refine; add --refine 2 or 4")

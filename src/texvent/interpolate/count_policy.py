@@ -64,13 +64,12 @@ class CountPolicy:
         self._pair_flow = _pair_flow(interpolator) if counts_motion else None
         self._flicker_hz = _flicker_hz(stream, config)
 
-    def count(self, first: Frame, second: Frame, *, flicker_hz: float | None = None) -> int:
+    def count(self, first: Frame, second: Frame) -> int:
         """How many intermediate frames go between two source frames.
 
         Args:
             first: the earlier source frame.
             second: the later source frame.
-            flicker_hz: of a lamp that was found in them; else what the stream knows counts.
 
         Raises:
             InputError: the frames differ in size.
@@ -93,8 +92,7 @@ class CountPolicy:
             cap=cap,
         )
         limit = min(cap, MOTION_LIMIT * count) if self._is_limited else cap
-        flicker_hz = self._flicker_hz if flicker_hz is None else flicker_hz
-        count = max(count, count_for_flicker(first.t_us, second.t_us, flicker_hz, cap=cap))
+        count = max(count, count_for_flicker(first.t_us, second.t_us, self._flicker_hz, cap=cap))
         if count == cap:
             return count
         if config.interpolate in ("motion", "exact"):

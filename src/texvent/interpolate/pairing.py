@@ -9,8 +9,6 @@ from dataclasses import replace
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count_policy import CountPolicy
-from texvent.interpolate.flicker.known_light import KnownLight
-from texvent.interpolate.flicker.windows import can_be_seen, with_light
 from texvent.interpolate.protocol import Interpolator
 from texvent.pairs.deflicker import steady_frames
 from texvent.pairs.frame_pair import FramePair, hold_earlier
@@ -60,9 +58,7 @@ def plan_pairs(
     if config.interpolate == "motion" and isinstance(video, MovingStream):
         # Every instant of such a stream is known: nothing can be cut, and nothing flickers unseen.
         video = video.with_motion()
-        config = replace(config, detect_cuts=False, deflicker=False, lamp_hz=None)
-    if config.lamp_hz is not None and not can_be_seen(config.lamp_hz, video.fps):
-        config = replace(config, lamp_hz=None)
+        config = replace(config, detect_cuts=False, deflicker=False)
     interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
     policy = CountPolicy(
         config,
@@ -73,7 +69,7 @@ def plan_pairs(
         counts_motion=counts_motion,
     )
     if video.is_live:
-        pairs = pair_frames(video, interpolator, config, policy, looks_ahead=False)
+        pairs = pair_frames(video, interpolator, config, policy)
         return _release_memory(pairs)
     frames = threads.enter_context(closing(prefetch(_with_luma(video), depth=FRAMES_AHEAD)))
     pairs = pair_frames(frames, interpolator, config, policy)
@@ -86,8 +82,6 @@ def pair_frames(
     interpolator: Interpolator,
     config: InterpolateConfig,
     policy: CountPolicy,
-    *,
-    looks_ahead: bool = True,
 ) -> Iterator[FramePair]:
     """Source frames as pairs with the frames between them; the first pair has no earlier frame.
 
@@ -97,57 +91,39 @@ def pair_frames(
     Args:
         frames: source frames.
         interpolator: makes the intermediate frames.
-        config: whether flicker, a lamp and cuts are looked for.
+        config: whether flicker and cuts are looked for.
         policy: how many intermediate frames there are.
-        looks_ahead: whether some frames may be read before the pairs of earlier ones are made,
-            which a known lamp needs to be found from its first frame on.
 
     Raises:
         InputError: a source frame has another size than the first, a time that does not
             increase, or a pixel that is NaN, infinite or negative.
     """
     previous: Frame | None = None
-    for frame, light in _with_light(frames, config, looks_ahead=looks_ahead):
+    checked = map(StreamChecker().check, frames)
+    for frame in steady_frames(checked) if config.deflicker else checked:
         if previous is None:
             yield FramePair(None, frame, SceneChange.NONE, (), ())
         else:
-            yield _make_pair(previous, frame, light, interpolator, config, policy)
+            yield _make_pair(previous, frame, interpolator, config, policy)
         previous = frame
 
 
 def _make_pair(
     previous: Frame,
     frame: Frame,
-    light: KnownLight | None,
     interpolator: Interpolator,
     config: InterpolateConfig,
     policy: CountPolicy,
 ) -> FramePair:
-    first, second = previous, frame
-    if light is not None:
-        first, second = light.take_off(previous), light.take_off(frame)
-    change = _scene_change(first, second, config)
+    change = _scene_change(previous, frame, config)
     if change is not SceneChange.NONE:
         return FramePair(previous, frame, change, (), hold_earlier(previous, frame))
-    count = policy.count(previous, frame, flicker_hz=None if light is None else light.hz)
+    count = policy.count(previous, frame)
     times_us = intermediate_times_us(previous.t_us, frame.t_us, count)
     between: Iterable[Frame] = ()
     if times_us:
-        between = interpolator.between(first, second, times_us)
-        between = between if light is None else light.put_back(between)
+        between = interpolator.between(previous, frame, times_us)
     return FramePair(previous, frame, change, times_us, between)
-
-
-def _with_light(
-    frames: Iterable[Frame], config: InterpolateConfig, *, looks_ahead: bool
-) -> Iterator[tuple[Frame, KnownLight | None]]:
-    """The frames, checked, with the light of the lamp that is known."""
-    checked = map(StreamChecker().check, frames)
-    if config.lamp_hz is not None:
-        yield from with_light(checked, config.lamp_hz, looks_ahead=looks_ahead)
-        return
-    for frame in steady_frames(checked) if config.deflicker else checked:
-        yield frame, None
 
 
 def _scene_change(first: Frame, second: Frame, config: InterpolateConfig) -> SceneChange:

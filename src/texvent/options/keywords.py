@@ -51,7 +51,6 @@ class InterpolateOptions(TypedDict, total=False):
     frames_per_pixel: float | None
     max_frames_per_second: float | None
     deflicker: bool | None
-    lamp_hz: float | None
     detect_cuts: bool | None
     interpolator_weights: str | Path | None
     interpolator_device: Literal["auto", "cpu", "cuda"] | None
@@ -191,8 +190,6 @@ class GeneratorOptions(TypedDict, total=False):
     quantize: Literal["auto", "none", "8bit", "4bit"] | None
     decoder: str | Path | None
     motion_adapter: str | Path | None
-    refine: int | None
-    temporal_upsampler: str | Path | None
     generator_device: str | None
     upsample: str | None
     upsample_model: str | None

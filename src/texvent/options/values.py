@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeVar
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.options.fields import option_names, with_current_names
+from texvent.options.fields import option_names
 
 Config = TypeVar("Config")
 MAX_DIGITS = 100
@@ -37,7 +37,6 @@ def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> C
     names = option_names(config_type)
     hints = typing.get_type_hints(config_type)
     converted: dict[str, Any] = {}
-    options = with_current_names(options, [config_type], where=where)
     for name, value in options.items():
         if name not in names:
             raise ConfigError(f"{where}: unknown option {shown(name)}; {suggest(name, names)}")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError
-from texvent.interpolate.flicker.windows import BYTES_PER_PIXEL as WINDOW_BYTES
 from texvent.run.settings import Settings
 from texvent.runtime.memory import allow_memory, allowed_bytes
 from texvent.sensor import SensorSize
@@ -24,8 +23,6 @@ def estimate_bytes(settings: Settings, size: SensorSize) -> int:
         INTERPOLATORS.load(settings.interpolate.interpolate),
     )
     per_pixel = sum(getattr(part, "bytes_per_pixel", UNMEASURED) for part in parts)
-    if settings.interpolate.lamp_hz is not None:
-        per_pixel += WINDOW_BYTES
     return size.width * size.height * per_pixel
 
 

@@ -17,7 +17,7 @@ from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig, check_range
 from texvent.errors import ConfigError, InputError, one_line, shown
 from texvent.io.files import event_extensions, open_events
-from texvent.options.fields import option_names, with_current_names
+from texvent.options.fields import option_names
 from texvent.options.values import plain, with_options
 from texvent.run.presets import find_preset
 from texvent.runtime.file_names import usable_path
@@ -285,7 +285,7 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
         "interpolate": settings.interpolate,
         "simulate": settings.simulate,
     }
-    options = with_current_names(options, map(type, groups.values()), where=where)
+    options = dict(options)
     owners = {name: key for key, group in groups.items() for name in option_names(type(group))}
     changed: dict[str, dict[str, Any]] = {}
     if "contrast_threshold" in options and "contrast_threshold" not in owners:

@@ -50,9 +50,6 @@ class ObjectMotion:
     """When it begins, s; None = at once, or when the motion before it ends."""
     rate_hz: float | None = None
     """How often it goes there and back, 1/s, where the prompt states that."""
-    shore: str | None = None
-    """Where it goes with respect to the water of the place: "into", "out of", "towards",
-    "away from" or "in"; None = not stated."""
     is_stuck: bool = False
     """Whether it creeps along in traffic."""
 
@@ -141,21 +138,13 @@ class Relation:
     """Where one object is, or goes, with respect to others."""
 
     kind: str
-    """"beside", "at" (people at a table), "behind", "front", "on", "in", "above", "under",
-    "between", "left of", "right of", "past", "overtake", "through" (a tunnel, a gate), "around",
-    "surround", "among", "towards", "away from", "from" (with "towards": from one to the other),
-    "follow" or "with"; or
-    an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull",
-    "ride along" (as a passenger), "on head", "on shoulder", "on back", "on lap" (where it has
-    the target), "work on" (hands at it), "give" (a thing, and who takes it), "kick", "hit",
-    "throw", "catch" or "collide" (the subject itself is its target if its copies do)."""
+    """As `spec.scene.Relation.kind`; the subject itself is its target if its copies collide."""
     subject: int
     """Index into `SceneDescription.objects`."""
     targets: tuple[int, ...]
     """Indices into `SceneDescription.objects`."""
     way: str = ""
-    """What its preposition says besides: "into", "onto", "out of", "off", "against", "across",
-    "along", "opposite", "at", "up", "down" (a slope) or "not on"; "" = nothing."""
+    """As `spec.scene.Relation.way`; "" = nothing."""
     distance_m: float | None = None
     """From middle to middle on the ground, m, of "left of", "right of", "front", "behind" and
     "beside"; None = not stated."""

@@ -8,6 +8,7 @@ from texvent.scenes.inflection import list_finite_forms, pluralise
 
 if TYPE_CHECKING:
     from texvent.scenes.description import (
+        CameraMove,
         Effect,
         Illumination,
         ObjectMotion,
@@ -37,10 +38,10 @@ def _describe_object(description: SceneDescription, index: int) -> str:
         words.append(scene_object.colour.name)
     if scene_object.scale != 1.0:
         words.append(f"{scene_object.scale:g} times its usual size")
-    if scene_object.motion is not None and not _is_moved(description, index):
-        words.append(describe_motion(scene_object.motion, is_plural=scene_object.count > 1))
-    for motion in scene_object.then:
-        words.append(f"then {describe_motion(motion, is_plural=scene_object.count > 1)}")
+    is_plural = scene_object.count > 1
+    if scene_object.motion is not None:
+        words.append(_describe_motion(scene_object.motion, is_plural=is_plural))
+    words += [f"then {_describe_motion(one, is_plural=is_plural)}" for one in scene_object.then]
     if scene_object.side is not None:
         words.append(_SIDES[scene_object.side])
     if scene_object.is_lit is not None:
@@ -51,22 +52,8 @@ def _describe_object(description: SceneDescription, index: int) -> str:
         if relation.subject == index:
             others = (_describe_count(description.objects[target]) for target in relation.targets)
             targets = "each other" if relation.targets == (index,) else " and ".join(others)
-            words.append(f"{RELATION_WORDS.get(relation.kind, relation.kind)} {targets}")
+            words.append(f"{_RELATIONS.get(relation.kind, relation.kind)} {targets}")
     return ", ".join(words)
-
-
-def _is_moved(description: SceneDescription, index: int) -> bool:
-    """Whether what stands at first is moved by an act: kicked, carried, met."""
-    motion = description.objects[index].motion
-    return (
-        motion is not None
-        and motion.kind == "stand"
-        and any(
-            index in relation.targets or (relation.subject == index and relation.kind == "collide")
-            for relation in description.relations
-            if relation.kind in _MOVING
-        )
-    )
 
 
 def _describe_effect(description: SceneDescription, effect: Effect) -> str:
@@ -87,7 +74,7 @@ _SIDES = {
     "together": "side by side",
     "ring": "in a circle",
 }
-RELATION_WORDS = {
+_RELATIONS = {
     "front": "in front of",
     "surround": "surrounded by",
     "follow": "following",
@@ -97,25 +84,16 @@ RELATION_WORDS = {
     "carry": "carrying",
     "wear": "wearing",
     "ride": "riding",
-    "on head": "carrying on the head",
-    "on shoulder": "carrying on the shoulder",
-    "on back": "carrying on the back",
-    "on lap": "holding on the lap",
     "ride along": "riding along on",
     "push": "pushing",
-    "work on": "working on",
     "pull": "pulling",
     "kick": "kicking",
     "hit": "hitting",
     "throw": "throwing",
-    "give": "giving",
     "catch": "catching",
     "collide": "meeting",
 }
 """Relation → words for it, where they differ from its name."""
-_MOVING = frozenset({"kick", "hit", "throw", "catch", "give", "carry", "hold", "push", "pull",
-                     "collide"})  # fmt: skip
-"""Acts that move what they are done to."""
 _BACKDROPS = {
     "mountain": "mountains around (the ground itself stays flat)",
     "forest": "forest around",
@@ -134,7 +112,7 @@ def _describe_count(scene_object: SceneObject) -> str:
     return f"{scene_object.count} {name if scene_object.count == 1 else pluralise(name)}"
 
 
-def describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
+def _describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
     """A motion in words, such as "runs towards the camera"."""
     if motion.kind in _NAMED or (" " in motion.kind and motion.kind not in _PHRASES):
         words = [f"{'do' if is_plural else 'does'} '{motion.kind}'"]
@@ -201,11 +179,18 @@ def _describe_light(light: Illumination) -> str:
 
 
 def _describe_shot(shot: Shot) -> str:
-    words = [" ".join(filter(None, (move.kind, move.direction))) for move in shot.moves]
-    if not words:
-        words = ["static"]
+    words = [
+        " ".join(filter(None, (move.kind, move.direction, _describe_times(move))))
+        for move in shot.moves
+    ] or ["static"]
     if shot.view is not None:
         words.append(f"{shot.view} view")
     if shot.framing is not None:
         words.append(f"{shot.framing} shot")
     return ", ".join(words)
+
+
+def _describe_times(move: CameraMove) -> str:
+    start = "" if move.start_s is None else f"from {move.start_s:g} s"
+    stop = "" if move.stop_s is None else f"to {move.stop_s:g} s"
+    return f"{start} {stop}".strip()

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any
 
 from texvent._registry import SIMULATORS
 from texvent.config import RunConfig
-from texvent.simulate.plug_in import WatchedPlugIn
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.stepping import with_advance
 
@@ -28,14 +27,7 @@ def build_simulator(run: RunConfig, config: Any) -> Simulator:
 
     Raises:
         ConfigError: there is no such simulator, or it has no such backend.
-        TexventError: a simulator of another package is broken; also while it runs.
+        TexventError: a simulator of another package cannot be loaded.
     """
     named = {} if run.backend == "auto" else {"backend": run.backend}
-    kind = SIMULATORS.load(run.simulator)
-
-    def build() -> Any:
-        return kind(config, seed=run.seed, **named)
-
-    if run.simulator in SIMULATORS.builtin:
-        return with_advance(build())
-    return cast("Simulator", WatchedPlugIn(build, run.simulator))
+    return with_advance(SIMULATORS.load(run.simulator)(config, seed=run.seed, **named))

@@ -190,7 +190,7 @@ CHECKS = (
         value=_beat,
         limit=f"{LEAST_LOG:g} log in {BEAT_SHARE:.0%}",
         effect="fires if twice that exceeds the threshold; else shifts the times of others",
-        help="--lamp-hz, if a lamp's frequency is known; --deflicker, if the whole image beats",
+        help="--deflicker, if the whole image beats; or a recording at a higher frame rate",
     ),
     Check(
         name="compression blocks",

@@ -7,7 +7,6 @@ from fractions import Fraction
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.options.fields import renamed
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.annotations import Overlay
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
@@ -23,7 +22,7 @@ class RenderConfig:
     window: float | None = None
     """Time that one image gathers, in ms of the recording. Without it, videos show every event
     once and images show at most 40 ms."""
-    events_per_image: int | None = renamed(None, was="events_per_picture")
+    events_per_image: int | None = None
     """Fixed count instead of fixed time: every image gathers this many events, however long
     that takes; a video shows one such slice after the other."""
     decay: float | None = None

@@ -152,15 +152,6 @@ def test_the_calibrated_entry_knows_the_sensor():
     assert found.threshold_sigma == pytest.approx(NOISY.threshold_sigma, rel=0.15)
 
 
-def test_an_entry_may_be_told_of_a_lamp():
-    told, blind = choose_entries("esim", "flow:37.5,flow")
-    assert (told.name, told.track) == ("esim, flow 37.5 Hz", "frames, lamp known")
-    assert Entry.parse(told.name) == told != blind
-    assert told.settings(0).interpolate.lamp_hz == 37.5
-    with pytest.raises(ConfigError, match="'mains' after 'flow' is no frequency; write flow:37"):
-        choose_entries("esim", "flow:mains")
-
-
 def test_floor_and_null_bound_the_scores(report):
     reference = report.reference("translate", "ideal")
     # Ideal pixels have no noise: a second recording is the same recording.

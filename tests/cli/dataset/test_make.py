@@ -126,7 +126,7 @@ def test_plan_make_and_stats_say_the_same_of_samples_and_name_those_left_out(fol
     assert said[0].startswith("samples  2 made, 1 left out, 1 failed\n")
     assert "left out 1: fewer than 20 signal events\n" in said[0]
     assert " 'a white sailboat approaches': " in said[0]
-    assert "prompts  1 of 4 clips shown as they say" in said[0]
+    assert "prompts  2 of 4 clips shown as they say" in said[0]
     assert run("stats", "wugs", "--json") == 0
     (left_out,) = json.loads(capsys.readouterr().out)["total"]["left_out"]
     assert f"events/{left_out['key']} " in said[0]

@@ -11,7 +11,7 @@ from texvent.dataset.generation.api import make
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.loading.open_samples import open as open_samples
 from texvent.dataset.specification.items import Items, read_items
-from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.specification.reading import read_specification, specification_from
 from texvent.errors import ConfigError, InputError
 
 CAR = """prompt = "a {objects[0].colour} car"
@@ -56,6 +56,14 @@ def test_lists_are_combined_and_ranges_are_drawn(folder):
     other = items_of(folder, seed=1, scene="scenes/car.toml", vary=BOTH, count=6).all
     assert drawn == again
     assert {one.key for one in drawn}.isdisjoint(one.key for one in other)
+
+
+def test_the_example_of_the_repository_is_read():
+    path = Path(__file__).parents[3] / "configs" / "scenes" / "night-drives.toml"
+    items = read_items(read_specification(path))
+    assert len(items.all) == 200
+    assert items.labels == ("bus", "car", "motorcycle", "truck", "van")
+    assert all("{" not in one.prompt for one in items.all)
 
 
 @pytest.mark.parametrize(
@@ -106,7 +114,10 @@ def test_every_clip_stores_its_scene(folder):
 
 
 def test_wrong_words_are_found_before_any_work(folder):
-    source = {"scene": "scenes/car.toml", "vary": {COLOUR: ["red"], "objects[0].noun": ["car", "cra"]}}
+    source = {
+        "scene": "scenes/car.toml",
+        "vary": {COLOUR: ["red"], "objects[0].noun": ["car", "cra"]},
+    }
     specification = specification_from({"name": "cars", "sources": [source]}, folder=folder)
     with pytest.raises(InputError, match=r"objects\[0\].noun is 'cra'; did you mean 'crab'"):
         make(specification, folder / "out", workers=1)

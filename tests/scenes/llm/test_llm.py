@@ -173,6 +173,12 @@ def test_the_command_line(tmp_path, capsys):
         assert main(["generate", PROMPT, *flags, "--write-scene", str(path)]) == 0
     assert load_scene(path).prompt == PROMPT
     assert "noun 'sun'" in capsys.readouterr().err
+    with served(reply({**ANSWER, "objects": [TREE]})) as (url, _):
+        flags = ["--reader", "llm", "--llm-url", url, "--strict"]
+        assert main(["generate", PROMPT, *flags, "--write-scene", str(tmp_path / "no.toml")]) == 2
+    assert "strict: the prompt is not shown as it says: not understood: red, " in (
+        capsys.readouterr().err
+    )
     for wrong in (["--reader", "llm"], ["--reader", "llm", "--llm-url", "localhost"],
                   ["--reader", "llm", "--llm-url", url, "--generator", "wan-1.3b"]):  # fmt: skip
         assert main(["generate", PROMPT, *wrong]) == 2

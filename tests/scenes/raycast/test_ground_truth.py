@@ -7,10 +7,10 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
+from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
 from texvent.scenes.projection import camera_rays, project
 from texvent.scenes.raycast.ground_truth import ground_truth
-from texvent.scenes.raycast.intersect_reference import hit_shape_reference
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Camera, Ground, Shape
 from texvent.sensor import SensorSize

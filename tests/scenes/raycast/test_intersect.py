@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
 from texvent.scenes.raycast.intersect import hit_shape, local_normal
-from texvent.scenes.raycast.intersect_reference import hit_shape_reference
 from texvent.scenes.scene import Shape
 
 UNIT_SHAPES = [shape for shape in Shape if shape is not Shape.MESH]

@@ -98,10 +98,10 @@ def drawn_scenes(draw: st.DrawFn) -> Scene:
     target = draw(st.sampled_from([None, *ids]))
     effects = tuple(dataclasses.replace(one, source=target) for one in scene.effects)
     moves = tuple(
-        dataclasses.replace(one, start_s=None, stop_s=None) if one.kind != "pan"
-        else dataclasses.replace(one, stop_s=None if one.start_s is None else one.start_s + 1.0)
+        dataclasses.replace(one, start_s=start, stop_s=None if start is None else start + 1.0)
         for one in scene.camera.moves
-    )  # fmt: skip
+        for start in [min(one.start_s or 0.0, 9.0) if one.kind == "pan" else None]
+    )
     camera = dataclasses.replace(scene.camera, target=target, moves=moves)
     return dataclasses.replace(scene, objects=objects, effects=effects, camera=camera)
 

@@ -14,12 +14,13 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
     Arc,
     Flight,
-    Hover,
+    Oscillating,
     Spin,
-    Sway,
     Swing,
+    Wave,
     about_pivot,
     bounce_height,
+    hover,
 )
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
@@ -38,7 +39,9 @@ STRAIGHT = Straight((1.0, 2.0, 0.0), math.pi, 4.0, 1.0)
 TRAJECTORIES: dict[str, Trajectory] = {
     "rest": Stationary((1.0, 2.0, 0.0)),
     "straight": STRAIGHT,
-    "weaving": Straight((0.0, 0.0, 2.0), 0.3, 1.0, 1.0, climb=0.4, bob_m=0.1, weave_rad=0.1),
+    "weaving": Oscillating(
+        Straight((0.0, 0.0, 2.0), 0.3, 1.0, 1.0, climb=0.4), (Wave("yaw", 0.1, 0.7, 0.3),)
+    ),
     "rolling": Rolling(Straight((0.0, 0.0, 0.0), 0.0, 2.0, 1.0), 0.25, 0.25),
     "shuttle": Shuttle((0.0, 0.0, 0.0), 0.5, 1.5, 2.0),
     "circle": Circle((0.0, 0.0, 1.0), 2.0, -1.5, 0.4, lean_rad=0.3),
@@ -47,8 +50,8 @@ TRAJECTORIES: dict[str, Trajectory] = {
     "bounce": Flight(BodyState((0.0, 0.0, 1.5)), (0.5, 0.0, 0.0)),
     "throw": Flight(BodyState((0.0, 0.0, 1.0), pivot_m=0.2), (2.0, 1.0, 4.0), 0.0, 0.6, 0.3, 3.0),
     "swing": Swing((0.0, 0.0, 1.0), 1.2, 0.5),
-    "hover": Hover(Stationary((0.0, 0.0, 2.0)), 0.2),
-    "sway": Sway((0.0, 0.0, 0.0), 0.2, 0.5),
+    "hover": hover(Stationary((0.0, 0.0, 2.0)), 0.2, 0.4),
+    "sway": Oscillating(Stationary((0.0, 0.0, 0.0)), (Wave("roll", 0.2, 0.5),)),
     "riding": Riding(STRAIGHT, (0.0, 0.0, 1.0)),
 }
 TIMES = np.linspace(0.0, 6.0, 1201)

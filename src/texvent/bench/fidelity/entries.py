@@ -20,16 +20,13 @@ from texvent.video import FrameStream
 
 Track: TypeAlias = Literal[
     "frames",
-    "frames, lamp known",
     "true frames",
     "frames, sensor known",
-    "frames, sensor and lamp known",
     "true frames, sensor known",
     "recorded",
 ]
-"""What a simulator gets: frames as a camera records them, those and the frequency of a lamp, or the
-scene at any instant; and whether it knows the sensor. "recorded" marks events of a sensor,
-which no simulator made."""
+"""Input of a simulator: frames as a camera records them, or the scene at any instant; and whether
+it knows the sensor. "recorded" marks events of a sensor, which no simulator made."""
 
 INTERPOLATIONS = ("none", "blend", "flow", "exact")
 """Interpolators that are compared; "exact" gets the true frames, all others the camera's frames."""
@@ -55,23 +52,18 @@ class Entry:
     """Name of the options; default: the simulator's first preset."""
     is_rate_matched: bool = True
     """Whether the contrast threshold is fitted to the number of true events, or kept."""
-    lamp_hz: float | None = None
-    """Frequency of the lamp that the interpolator is told, Hz."""
 
     @property
     def name(self) -> str:
         """How tables call it."""
         preset = f" {self.preset}" if self.preset else ""
-        lamp = "" if self.lamp_hz is None else f" {self.lamp_hz:g} Hz"
-        return f"{self.simulator}{preset}, {self.interpolate}{lamp}"
+        return f"{self.simulator}{preset}, {self.interpolate}"
 
     @property
     def track(self) -> Track:
-        """Whether it is given the true intermediate frames, or a lamp, or the sensor."""
+        """Whether it is given the true intermediate frames, or the sensor."""
         if self.interpolate == "exact":
             return "true frames, sensor known" if self._is_calibrated else "true frames"
-        if self.lamp_hz is not None:
-            return "frames, sensor and lamp known" if self._is_calibrated else "frames, lamp known"
         return "frames, sensor known" if self._is_calibrated else "frames"
 
     @property
@@ -81,15 +73,9 @@ class Entry:
     @classmethod
     def parse(cls, name: str) -> Entry:
         """The entry that tables call so."""
-        model, _, filled = name.rpartition(", ")
+        model, _, interpolate = name.rpartition(", ")
         simulator, _, preset = model.partition(" ")
-        interpolate, _, lamp = filled.removesuffix(" Hz").partition(" ")
-        return cls(
-            simulator=simulator,
-            preset=preset or None,
-            interpolate=interpolate,
-            lamp_hz=float(lamp) if lamp else None,
-        )
+        return cls(simulator=simulator, preset=preset or None, interpolate=interpolate)
 
     def settings(self, seed: int) -> Settings:
         """Resolved options of a run.
@@ -101,7 +87,6 @@ class Entry:
             "simulator": self.simulator,
             "preset": None if self._is_calibrated else self.preset,
             "interpolate": self.interpolate,
-            "lamp_hz": self.lamp_hz,
             "frames_per_pixel": CALIBRATED_FRAMES_PER_PIXEL if self._is_calibrated else None,
             "seed": seed,
             "threshold_map": THRESHOLD_FILE if self._is_calibrated else None,
@@ -165,11 +150,10 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
     Args:
         simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare,
             and `CALIBRATED`.
-        interpolations: `NAME` or `NAME:HZ` of a lamp that it is told, separated by commas; None
-            means `INTERPOLATIONS`.
+        interpolations: names separated by commas; None means `INTERPOLATIONS`.
 
     Raises:
-        ConfigError: a frequency is no number, or `physical` has no such preset.
+        ConfigError: `physical` has no such preset.
     """
     chosen = [*simulators_to_compare(), CALIBRATED]
     if simulators is not None:
@@ -178,9 +162,9 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
         _check_presets(chosen)
     names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
     return [
-        Entry(simulator=simulator, preset=preset, interpolate=interpolate, lamp_hz=hz)
+        Entry(simulator=simulator, preset=preset, interpolate=interpolate)
         for simulator, preset in chosen
-        for interpolate, hz in map(_name_and_hz, names)
+        for interpolate in names
     ]
 
 
@@ -192,13 +176,3 @@ def _check_presets(chosen: list[tuple[str, str | None]]) -> None:
             raise ConfigError(
                 f"simulator {simulator!r} has no preset {shown(preset)}; {suggest(preset, allowed)}"
             )
-
-
-def _name_and_hz(word: str) -> tuple[str, float | None]:
-    name, _, hz = word.partition(":")
-    try:
-        return name, float(hz) if hz else None
-    except ValueError:
-        raise ConfigError(
-            f"interpolations: {shown(hz)} after {shown(name)} is no frequency; write {name}:37"
-        ) from None

@@ -25,7 +25,6 @@ from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file
 from texvent.metrics.image_measures import load_measures
-from texvent.options.fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import load_reconstructor
 from texvent.sensor import parse_sensor
@@ -77,7 +76,7 @@ class ReconstructionOptions:
     """Also add noise to the recorded events step by step: the paper's Table 7."""
     seed: int = 0
     """Of the simulators and of the noise."""
-    image: Path | None = renamed(None, was="picture")
+    image: Path | None = None
     """PNG file with the images of the first recording, a row per source of events."""
 
     def plan(self) -> ReconstructionPlan:

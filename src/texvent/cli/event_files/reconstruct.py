@@ -17,7 +17,6 @@ from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.options.fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent.represent.packet_slices import slice_by_count, slice_regularly
@@ -43,7 +42,7 @@ class ReconstructOptions(EventRangeOptions):
     again."""
     fps: Fraction = Fraction(30)
     """Images per second of the recording; each is made from the events since the one before."""
-    events_per_image: int | None = renamed(None, was="events_per_picture")
+    events_per_image: int | None = None
     """Events per image, instead of a fixed time."""
     overwrite: bool = False
     """Replace the file or folder if it exists already."""

@@ -23,7 +23,7 @@ from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
 from texvent.options.fields import option_names
-from texvent.run.prepare import check_run, make_scene, make_video, prepare_prompt
+from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
 from texvent.run.settings import Settings, default_settings
 from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
@@ -130,8 +130,11 @@ def run(arguments: Sequence[str]) -> int:
 def _written(own: PromptOptions, settings: Settings) -> Scene:
     """The scene that a language model writes for the prompt.
 
+    Raises:
+        InputError: `strict`, and there are words of the prompt that nothing stands for.
+
     Warns:
-        TexventWarning: words of the prompt that nothing stands for, and what the model added.
+        TexventWarning: there are such words, or the model added something.
     """
     from texvent.scenes.llm.endpoint import Endpoint  # an extra that most runs do not need
     from texvent.scenes.llm.writer import write_scene
@@ -143,6 +146,9 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     scene, report = write_scene(
         own.prompt, Endpoint(url=own.llm_url, model=own.llm_model or Endpoint.model)
     )
+    refusal = report.refusal() if is_strict(settings) else None
+    if refusal is not None:
+        raise InputError(refusal)
     for line in (*report.faults(), *report.notes):
         warn(f"prompt {line}")
     return scene

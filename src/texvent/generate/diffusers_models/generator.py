@@ -26,12 +26,6 @@ from texvent.generate.diffusers_models.pipeline_call import (
     check_reference,
     read_image,
 )
-from texvent.generate.diffusers_models.temporal_refinement import (
-    check_refinable,
-    check_upsampler,
-    refined_count,
-)
-from texvent.generate.tiny_decoder.network import read_tiny_decoder
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.adapters import (
     Adapter,
@@ -60,7 +54,7 @@ PIXEL_OPTIONS = (
 """Options that decide the pixels, beside model, prompt, seed and files."""
 PIXEL_FACTS = ("call", "sigmas", "scheduler")
 """What of a model's row decides the pixels too."""
-NETWORK_OPTIONS = ("decoder", "motion_adapter", "temporal_upsampler")
+NETWORK_OPTIONS = ("decoder", "motion_adapter")
 """Options that name a network."""
 
 
@@ -133,7 +127,7 @@ class DiffusersGenerator:
         """
         self._check(prompt)
         key = content_key(self._pixel_facts(prompt, self.seed))
-        if VideoCache(is_kept=self.config.reuse_video).find(key, self._video_fps) is not None:
+        if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
             return None
         config, folder = self.config, self.model.folder or find_downloaded(self.model)
         if folder is None or None in map(find_local, config.adapters):
@@ -150,7 +144,7 @@ class DiffusersGenerator:
 
     @property
     def fps(self) -> Fraction:
-        """Frame rate that the model is given or was made for; refinement multiplies it.
+        """Frame rate that the model is given or was made for.
 
         Raises:
             ConfigError: neither the option nor the model's row says it.
@@ -162,11 +156,6 @@ class DiffusersGenerator:
                 "weights; say it, for example --fps 16"
             )
         return Fraction(rate)
-
-    @property
-    def _video_fps(self) -> Fraction:
-        """Frame rate of the video that comes out."""
-        return self.fps * self.config.rate_factor
 
     def _check(self, prompt: str) -> None:
         if not prompt.strip():
@@ -188,23 +177,17 @@ class DiffusersGenerator:
         """Refuse the folders of networks that are missing, damaged or of no use to the model."""
         for option in NETWORK_OPTIONS:
             folder = getattr(self.config, option)
-            if folder is None or (option == "decoder" and folder.is_file()):
+            if folder is None:
                 continue
             if not (folder / CONFIG).is_file():
                 raise InputError(f"there is no {option} in {folder} (no {CONFIG})")
             check_part(folder)
-        if self.config.temporal_upsampler is not None:
-            check_upsampler(self.config.temporal_upsampler)
-            if self.model.pipeline is not None:  # of others, the model's files say it
-                check_refinable(self.model.pipeline)
 
     def _check_before_loading(self) -> None:
         """Refuse what shows without the model's files, which may have to be fetched first."""
         model, config = self.model, self.config
         if config.lora:
             require("peft", extra=EXTRA)
-        if config.decoder is not None and config.decoder.is_file():
-            read_tiny_decoder(config.decoder)
         name = None if config.motion_adapter is not None else model.pipeline
         if config.image is not None:
             name = model.image_pipeline or name
@@ -225,7 +208,7 @@ class DiffusersGenerator:
     def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> StoredVideo:
         cache = VideoCache(is_kept=self.config.reuse_video)
         key = content_key(self._pixel_facts(prompt, seed))
-        found = cache.find(key, self._video_fps)
+        found = cache.find(key, self.fps)
         if found is not None:
             progress.announce(f"this video was generated before: {found.path}")
             return found.with_metadata(**self._request_facts())
@@ -239,8 +222,8 @@ class DiffusersGenerator:
             **self._request_facts(),
             **run.provenance(),
         }
-        video = cache.store(key, frames, self._video_fps, facts)
-        asked = self.config.frames and refined_count(self.config.frames, self.config.rate_factor)
+        video = cache.store(key, frames, self.fps, facts)
+        asked = self.config.frames
         if asked not in (None, video.frame_count):
             progress.announce(
                 f"the model made {video.frame_count} frames, not {asked}: it can make certain "
@@ -253,8 +236,6 @@ class DiffusersGenerator:
         model, config = self.model, self.config
         facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
         facts |= {name: value for name in PIXEL_FACTS if (value := getattr(model, name))}
-        if config.refine is not None:
-            facts["refine"] = config.refine
         if not model.ignores_fps:
             facts["fps"] = self.fps
         for name in (*NETWORK_OPTIONS, "image", "reference_video"):
@@ -278,7 +259,7 @@ class DiffusersGenerator:
     def _files(self) -> list[dict[str, str]]:
         """The single files that decide the frames, by path and sha256; `replay` compares them."""
         config = self.config
-        paths = [config.image, config.reference_video, config.decoder]
+        paths = [config.image, config.reference_video]
         for path in map(find_local, config.adapters):
             paths += [] if path is None else files_of(path)
         return [

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError
 from texvent.generate.diffusers_models.adapter_loading import check_adapters, describe_few_steps
 from texvent.generate.diffusers_models.decoder_input import (
     SINGLE_DECODE_PIPELINES,
@@ -48,14 +48,7 @@ from texvent.generate.diffusers_models.prompt_embeddings import (
     embed_prompt,
     find_embeddings,
 )
-from texvent.generate.diffusers_models.streamed_decoding import COGVIDEOX, can_stream
-from texvent.generate.diffusers_models.temporal_refinement import (
-    check_refinable,
-    load_refiner,
-    refine,
-)
-from texvent.generate.tiny_decoder.fitting import check_model, check_pipeline, tiny_input
-from texvent.generate.tiny_decoder.network import TinyDecoder, read_tiny_decoder
+from texvent.generate.diffusers_models.streamed_decoding import can_stream
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.adapters import AdapterFile, find_adapter
 from texvent.generate.video_models.download import ModelFiles, find_files
@@ -96,12 +89,8 @@ class ModelRun:
         """Receives loading and denoising; may be replaced between prompts."""
         self._files: ModelFiles = find_files(model, progress.announce)
         self._index = read_pipeline_index(self._files.folder)
-        if config.refine is not None:
-            check_refinable(self._class_name)
         self._pipe: Pipeline | None = None
-        self._refiner: Pipeline | None = None
         self._adapters: tuple[AdapterFile, ...] = ()
-        self._tiny = self._read_tiny_decoder()
         self._adapters = self._find_adapters()
 
     @property
@@ -113,22 +102,8 @@ class ModelRun:
         """Frames [H, W, 3] float32 in 0..1; those of `LINEAR_PIPELINES` go on above 1.
 
         Denoised before this returns, decoded step by step where the decoder can be.
-
-        Raises:
-            ConfigError: a tiny decoder would have to decode what is no ordinary video.
         """
-        if self._tiny is not None and self._class_name in LINEAR_PIPELINES:
-            raise ConfigError(
-                f"decoder is set, but {self._class_name} codes light in its own way, which tiny "
-                "decoders do not undo; leave it out"
-            )
         pipe, arguments = self._prepare(prompt)
-        if self._config.temporal_upsampler is not None:
-            return iter(self._refined(self._config.temporal_upsampler, pipe, arguments, seed))
-        if self._tiny is not None:
-            with capture_decoder_input(pipe) as taken:
-                self._call(pipe, arguments, seed, "np")
-            return self._decode_tiny(self._tiny, pipe, taken[0][0])
         # The guardrail looks at decoded frames, inside the pipeline: it must decode them itself.
         is_streamed = self._class_name in SINGLE_DECODE_PIPELINES and can_stream(pipe.vae)
         if not is_streamed or self.has_guardrail:
@@ -154,10 +129,6 @@ class ModelRun:
         """Frames of latents of this model, [H, W, 3] float32 in 0..1."""
         if self._pipe is None:
             self._pipe = self._load(has_text_encoder=False)
-        if self._tiny is not None:
-            torch = require("torch", extra=EXTRA)
-            values = torch.from_numpy(latents.decoder_input)[None]
-            return self._decode_tiny(self._tiny, self._pipe, values)
         return decode_frames(self._pipe, latents)
 
     def provenance(self) -> dict[str, Any]:
@@ -174,26 +145,9 @@ class ModelRun:
         }
         if self.has_guardrail:
             facts["guardrail"] = guardrail_version()
-        if self._config.temporal_upsampler is not None:
-            facts["temporal_upsampler"] = fingerprint(self._config.temporal_upsampler)
         if self._class_name in LINEAR_PIPELINES:
             facts["transfer"] = Transfer.LINEAR.value
         return {name: value for name, value in facts.items() if value is not None}
-
-    def _read_tiny_decoder(self) -> TinyDecoder | None:
-        """The tiny decoder that `--decoder` names, refused if it is not of this model's latents."""
-        path = self._config.decoder
-        if path is None or not path.is_file():
-            return None
-        if self.has_guardrail:
-            raise InputError(
-                f"{self._model.name} takes no tiny decoder: its guardrail must see the frames"
-            )
-        if self._class_name not in SINGLE_DECODE_PIPELINES:
-            raise InputError(f"{self._class_name} takes no tiny decoder: it decodes in parts")
-        tiny = read_tiny_decoder(path)
-        check_model(tiny.layout, path, self._files.folder, self._index)
-        return tiny
 
     def _find_adapters(self) -> tuple[AdapterFile, ...]:
         """The files of `--lora`, refused if the pipeline cannot take them; fetched if need be."""
@@ -207,14 +161,6 @@ class ModelRun:
             self.progress.announce(hint)
         return tuple(find_adapter(one, self.progress.announce) for one in adapters)
 
-    def _decode_tiny(
-        self, tiny: TinyDecoder, pipe: Pipeline, decoder_input: Any
-    ) -> Iterator[PixelArray]:
-        """Frames of what the model's own decoder would take, [1, C, T, h, w]."""
-        latents = tiny_input(pipe.vae, decoder_input)
-        is_padded = type(pipe.vae).__name__ == COGVIDEOX
-        return tiny.to(self._placement.device).frames(latents, pads_start=is_padded)
-
     @property
     def _class_name(self) -> str:
         if self._config.image is not None and self._model.image_pipeline is not None:
@@ -227,10 +173,6 @@ class ModelRun:
     def _motion_adapter(self) -> Path | None:
         return self._config.motion_adapter or self._files.motion_adapter
 
-    @property
-    def _decoder_folder(self) -> Path | None:
-        return None if self._tiny is not None else self._config.decoder
-
     @functools.cached_property
     def _placement(self) -> Placement:
         device, free = resolve_device(self._config.generator_device)
@@ -238,8 +180,7 @@ class ModelRun:
 
     @functools.cached_property
     def _content(self) -> str:
-        # A tiny decoder is no part of the pipeline.
-        folders = (self._files.folder, self._decoder_folder, self._motion_adapter)
+        folders = (self._files.folder, self._config.decoder, self._motion_adapter)
         return " ".join(fingerprint(folder) for folder in folders if folder is not None)
 
     def _request(self, *, has_text_encoder: bool) -> LoadRequest:
@@ -248,7 +189,7 @@ class ModelRun:
             content=self._content,
             class_name=self._class_name,
             placement=self._placement,
-            decoder=self._decoder_folder,
+            decoder=self._config.decoder,
             decoder_in_float32=self._model.needs_float32_vae,
             motion_adapter=self._motion_adapter,
             adapters=self._adapters,
@@ -274,8 +215,6 @@ class ModelRun:
                     f"loading {self._model.source} ({self._describe_placement()})"
                 )
             self._pipe = load_pipeline(request, self.progress.announce)
-            if self._tiny is not None and self._config.decoder is not None:
-                check_pipeline(self._tiny.layout, self._config.decoder, self._pipe)
         pipe = self._pipe
         if self.has_guardrail:
             check_prompt(getattr(pipe, PART, None), prompt)
@@ -315,41 +254,18 @@ class ModelRun:
         output = self._call(pipe, arguments, seed, "latent")
         return read_latents(pipe, output, self._config.frames, self._fps)
 
-    def _refined(
-        self, upsampler: Path, pipe: Pipeline, arguments: dict[str, Any], seed: int
-    ) -> Any:
-        """Frames of a first pass and rounds of refinement, [F, H, W, 3] in 0..1."""
-        if self._refiner is None:
-            self._refiner = load_refiner(pipe, upsampler, self._placement)
-        noise = _noise(seed)
-        return refine(
-            self._refiner,
-            self._call_whole(pipe, arguments, noise, "latent"),
-            arguments,
-            factor=self._config.rate_factor,
-            frames=self._config.frames,
-            fps=self._fps,
-            generator=noise,
-            progress=self.progress,
-        )
-
     def _call(self, pipe: Pipeline, arguments: dict[str, Any], seed: int, kind: str) -> Any:
         """Frames or latents."""
-        return self._call_whole(pipe, arguments, _noise(seed), kind)[0]
-
-    def _call_whole(
-        self, pipe: Pipeline, arguments: dict[str, Any], noise: Any, kind: str
-    ) -> tuple[Any, ...]:
         return call_pipeline(
             pipe,
             arguments,
             self._config,
             model=self._model,
             fps=self._fps,
-            generator=noise,
+            generator=_noise(seed),
             output_type=kind,
             progress=self.progress,
-        )
+        )[0]
 
 
 def _noise(seed: int) -> Any:

@@ -6,11 +6,10 @@ Loads nothing, so that readers can import it.
 from __future__ import annotations
 
 MOTIONS = frozenset(
-    {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide", "drift",
-     "float", "hover", "blow", "turn", "reverse", "zigzag", "change lane", "park", "wheelie",
-     "enter", "leave", "appear",
+    {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide", "drift", "float",
+     "hover", "blow", "turn", "reverse", "zigzag", "park", "enter", "leave", "appear",
      "spin", "rotate", "orbit", "swing", "sway", "bounce", "jump", "fall", "rise", "sink", "throw",
-     "flip", "roll over", "topple", "dance", "work", "hang", "stand", "sit", "lie"}
+     "topple", "flip", "roll over", "work", "hang", "stand", "sit", "lie"}
 )  # fmt: skip
 """Travel, manoeuvres, and motions in place; "move" is the usual motion of a noun, "work" that of a
 machine, "stand" rest."""

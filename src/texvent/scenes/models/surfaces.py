@@ -10,8 +10,7 @@ from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 
-from texvent.scenes.colours import decode_hex
-from texvent.scenes.models.materials import Material, made_of, shade
+from texvent.scenes.models.materials import Material, decode_hex, made_of, shade
 from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture
 
 PAINT = "paint"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,6 @@ from texvent.scenes.description import Picture
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
 from texvent.scenes.models.traits import nouns_with
-from texvent.scenes.models.wrapped_model import WrappedModel
 from texvent.scenes.pictures.source import PAPER, load_picture
 from texvent.scenes.scene import Colour, Shape, Texture
 
@@ -24,7 +24,7 @@ _BESIDE = 1.001
 """What reaches farther than this from the middle of a face, in half sides, is no print on it."""
 
 
-class PicturedModel(WrappedModel):
+class PicturedModel:
     """A model with a picture where its noun shows one; all else is the model's own.
 
     What is usually printed on that face is left out.
@@ -39,12 +39,18 @@ class PicturedModel(WrappedModel):
     """
 
     def __init__(self, model: Model, noun: str, picture: Picture) -> None:
-        super().__init__(model)
+        self._model = model
+        self.length, self.width, self.height = model.length, model.width, model.height
         self._source = load_picture(picture)
         self._margin: Colour | None = None if picture.kind == "file" else (PAPER, PAPER, PAPER)
         self._shines = noun in nouns_with("lit screen")
         if self._shines and self._margin is None:
             self._margin = _DARK
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):  # not yet set, as in a copy that is being made
+            raise AttributeError(name)
+        return getattr(self._model, name)
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose, the picture on one of them."""

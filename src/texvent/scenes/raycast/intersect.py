@@ -1,6 +1,6 @@
 """Ray meets unit shape: the innermost loop of the ray caster (compiled by Numba).
 
-`intersect_reference.py` says the same in NumPy; tests compare the two.
+`tests/scenes/raycast/intersect_reference.py` defines it in NumPy; tests compare the two.
 """
 
 from __future__ import annotations

@@ -12,7 +12,9 @@ from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.staging.trajectories.schedule import left_out
 
-_PLACES_TO_GO = frozenset({"drive", "walk", "run", "fly", "swim", "sail", "roll", "float"})
+_PLACES_TO_GO = frozenset(
+    {"drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "float"}
+)
 
 
 def prepare(

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
-from texvent.options.fields import renamed
 from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
 from texvent.simulate.texvent.noise import NoiseKind
 from texvent.simulate.texvent.timestamps import TimestampRule
@@ -52,11 +51,11 @@ class TexventConfig:
     """Pixels darker than this level of 0..255 are low-light (σ); with --noise adaptive."""
     noise_on_fraction: float = 0.5
     """Share of ON among noise events, 0..1; Gaussian noise decides polarity by itself."""
-    timestamp_rule: TimestampRule = renamed("linear", was="stamp")
+    timestamp_rule: TimestampRule = "linear"
     """Time of an event between two frames: larger change earlier (eq7), random, where a straight
     line crosses the threshold (linear), where a ramp from the reference does (hyperbolic), evenly
     spaced (even), or at the end (end)."""
-    timestamp_scale: float = renamed(1.0, was="stamp_scale")
+    timestamp_scale: float = 1.0
     """Scale γ of --timestamp-rule eq7, above 0 up to 1: the share of the interval that events
     spread over."""
 

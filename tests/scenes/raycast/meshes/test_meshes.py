@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.scenes.raycast.meshes.mesh_reference import hit_mesh_reference
 from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball, ball_mesh
 
 from texvent.errors import InputError
@@ -15,7 +16,6 @@ from texvent.runtime.jit import jit
 from texvent.scenes.mesh import deformed, make_mesh, recoloured, smooth_normals
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.meshes.hit import hit_mesh
-from texvent.scenes.raycast.meshes.reference import hit_mesh_reference
 from texvent.scenes.raycast.meshes.tree import tree_of
 from texvent.scenes.raycast.render import render, world_at
 from texvent.scenes.raycast.uncounted import uncounted_world

@@ -23,7 +23,7 @@ from texvent.scenes.staging.acts.acts import (
     size_of,
 )
 from texvent.scenes.staging.acts.attached import HeldAt, Performed
-from texvent.scenes.staging.trajectories.action_trajectories import Hover
+from texvent.scenes.staging.trajectories.action_trajectories import hover
 from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector, rotation
 
 Grips = tuple[tuple[str, Vector], ...]
@@ -84,7 +84,7 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         subject, way.anchor, way.offset, way.is_upright, activity, turns=not is_flown
     )  # fmt: skip
     if is_flown:
-        held = Hover(held, _SWAY_M)
+        held = hover(held, _SWAY_M)
         tether = Tether(subject, "right hand", (0.0, 0.0, 0.0), _STRING_M)
         target = replace(target, tether=tether)
     return subject, carried(target, held, subject)

@@ -85,7 +85,8 @@ def mount(rider: Actor, ridden: Actor, number: int = 0, crew: int = 1) -> Actor:
     """
     style, size = style_of(ridden), size_of(rider.model)
     posture = trait_value("posture of riders", style)
-    doing, grips, props = "sit", (), rider.props
+    doing, props = "sit", rider.props
+    grips: Grips = ()
     if not is_person(rider):
         seat: Vector = (0.0, 0.0, find_support(ridden.model).height + foot_of(rider))
     elif trait_value("seats", ridden.noun.name) is not None:
@@ -117,7 +118,7 @@ def _on_seat(ridden: Actor, size: float, number: int) -> tuple[Vector, Grips]:
     feet = trait_value("feet from the seat", name)
     if feet is None:
         return (x, y, z - _SEAT_M * size), ()
-    return (x, y, z - _SADDLE_M * size), _astride(*feet, size)
+    return (x, y, z - _SADDLE_M * size), _astride(feet[0], feet[1], size)
 
 
 def _astride_back(ridden: Actor, size: float, along_m: float) -> tuple[Vector, Grips]:

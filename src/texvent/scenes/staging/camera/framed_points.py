@@ -54,8 +54,8 @@ class _Scope(NamedTuple):
     """Moves of a camera that goes along with the subject; empty = it does not."""
     passed: frozenset[int]
     """Objects that something goes past."""
-    is_whole: bool
-    """Whether people are shown with their legs whatever they do."""
+    cut: frozenset[int]
+    """Objects of which the lower part may be out of the image: people who act with their arms."""
 
 
 class View(NamedTuple):
@@ -94,7 +94,9 @@ def list_views(
         if relation.kind in ("past", "among", "overtake")
         for target in relation.targets
     }
-    scope = _Scope(main, times, tying, frozenset(passed), shot.framing is not None)
+    first = {one.object_index: one for one in reversed(actors)}
+    cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
+    scope = _Scope(main, times, tying, frozenset(passed), frozenset(cut))
     near = [one for one in actors if description.objects[one.object_index].side != "far"]
     if any(move.kind in _APPROACHES for move in moves) and main.object_index == shot.target:
         return _approach(near, scope._replace(tying=()))
@@ -160,7 +162,7 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
             points.append(near_piece(actor, main, times, _PIECE * largest))
             continue
         boxes = [actor.corners(float(time)) for time in times]
-        if not scope.is_whole and acts_with_arms(actor, times):
+        if actor.object_index in scope.cut:
             boxes = [upper_part(box, _share_unseen(actor, "medium")) for box in boxes]
         if tying:
             boxes = [_to_subject(*one, main, tying) for one in zip(boxes, times, strict=True)]

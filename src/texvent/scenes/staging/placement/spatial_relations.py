@@ -48,8 +48,8 @@ _SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
 """Relation with a distance → where its subject is, seen from the target, on the ground."""
 _COVERED = 0.55
 """Share of what stands behind that may be hidden where it stands right behind."""
-_TURN_RAD, _DISTANCE = 0.14, 2.6
-"""How far the camera may stand aside, and its distance in half widths of all it shows."""
+_ASIDE_RAD = 0.25
+"""How far the camera may see past an edge."""
 _CLEAR_M = 0.3
 
 
@@ -252,21 +252,17 @@ def _half_below(group: ObjectGroup, height_m: float) -> Float64Array:
 def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
     """Metres to the right at which what stands behind is seen past the edge of what is before it.
 
-    0 where enough of it is seen above and beside. Otherwise its middle is at the edge as the
-    camera sees it: further to the right the further it stands behind.
+    0 where enough of it is seen above and beside.
 
     Args:
         rear: what stands behind.
         near: [3] half extents of what is before it, m.
         apart_m: from the middle of one to that of the other.
     """
-    back = rear.half_at_rest()
-    covered = min(1.0, near[0] / back[0]) * min(1.0, near[2] / back[2])
-    if covered <= _COVERED:
+    covered = np.minimum(1.0, near / rear.half_at_rest())
+    if covered[0] * covered[2] <= _COVERED:
         return 0.0
-    edge = float(near[0])
-    aside = max(edge - float(back[0]), 0.0) / (_DISTANCE * float(near[0] + back[0]))
-    return edge + (apart_m + float(near[1])) * (_TURN_RAD + aside)
+    return float(near[0] + (apart_m + near[1]) * _ASIDE_RAD)
 
 
 def _on_ground(group: ObjectGroup, height: float) -> Float64Array:

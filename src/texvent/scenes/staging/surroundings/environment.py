@@ -42,8 +42,7 @@ TIMELAPSE = 60.0
 """How much faster the sky goes in a time lapse."""
 NO_ROOM_M = 9.0
 """Half the side of a room where there is none, m; nothing shows it."""
-LOOKING = np.array((0.0, 1.0, 0.0))
-"""Where a camera looks that nothing turns."""
+_BLACK: Colour = (0.0, 0.0, 0.0)
 SNOW: Colour = (0.78, 0.82, 0.88)
 _SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE)
 """Grounds whose grass is white when snow lies on it."""
@@ -114,7 +113,7 @@ def build_environment(
     road: RoadLine,
     distance_m: float,
     room_m: float,
-    looking: Float64Array = LOOKING,
+    looking: Float64Array,
 ) -> AnimatedEnvironment:
     """The surroundings of a scene.
 
@@ -129,23 +128,12 @@ def build_environment(
     lighting, said = choose_lighting(place, description.light), description.surroundings
     has_lightning = any(effect.kind == "lightning" for effect in description.effects)
     colour, second = _ground_colours(place, said)
-    ground = place.ground
-    sky_top, horizon = lighting.sky_top, lighting.sky_horizon
-    if said.sky is not None:
-        sky_top, horizon = said.sky.rgb, mix(said.sky.rgb, horizon, 0.5)
-    elif place.is_backdrop:
-        # The same all around, without a horizon to speak of.
-        sky_top = horizon = mix(colour, second, 0.5)
-        if description.objects and all(
-            one.noun in nouns_with("flat pattern") for one in description.objects
-        ):
-            ground = Ground.NONE
-    is_dim = said.weather in ("rain", "snow")
-    sun = mix(lighting.sun, (0.0, 0.0, 0.0), 0.4) if is_dim else lighting.sun
+    sky_top, horizon = _sky_colours(place, lighting, said)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
     is_white = said.has_snow and place.ground in _SNOWED_OVER
+    is_dim = said.weather in ("rain", "snow")
     base = Environment(
-        ground=ground,
+        ground=_ground_under(description, place),
         ground_colour=_array(colour),
         ground_second_colour=_array(second),
         road_angle=road.angle,
@@ -156,7 +144,7 @@ def build_environment(
         clouds=_cloud_share(description, place, lighting, has_lightning=has_lightning),
         wave_height=said.wave_height,
         sun_direction=towards_light(_unit(lighting.sun_direction), looking, description.light),
-        sun_colour=_array(sun),
+        sun_colour=_array(mix(lighting.sun, _BLACK, 0.4 if is_dim else 0.0)),
         ambient=_array(lighting.ambient),
         shadows=lighting.shadows,
         fog_distance=fog_distance,
@@ -176,6 +164,22 @@ def build_environment(
         base, description.light.flicker_hz, description.light.wave, has_lightning,
         TIMELAPSE if description.is_timelapse else 1.0,
     )  # fmt: skip
+
+
+def _ground_under(description: SceneDescription, place: Place) -> Ground:
+    """The ground; none under flat patterns before a backdrop."""
+    nouns = {one.noun for one in description.objects}
+    is_flat = bool(nouns) and nouns <= nouns_with("flat pattern")
+    is_bare = place.is_backdrop and description.surroundings.sky is None
+    return Ground.NONE if is_flat and is_bare else place.ground
+
+
+def _sky_colours(place: Place, lighting: Lighting, said: Surroundings) -> tuple[Colour, Colour]:
+    """Colours of the zenith and of the horizon: of a backdrop the same all around."""
+    if said.sky is not None:
+        return said.sky.rgb, mix(said.sky.rgb, lighting.sky_horizon, 0.5)
+    average = mix(*_ground_colours(place, said), 0.5)
+    return (average, average) if place.is_backdrop else (lighting.sky_top, lighting.sky_horizon)
 
 
 def _cloud_share(
@@ -201,8 +205,8 @@ def _ground_colours(place: Place, said: Surroundings) -> tuple[Colour, Colour]:
     if said.colour is not None:
         # Grass is darker than paint: blades shade one another.
         depth = 0.45 if place.ground is Ground.GRASS else 0.8
-        colour = mix((0.0, 0.0, 0.0), said.colour.rgb, depth)
-        second = mix((0.0, 0.0, 0.0), said.colour.rgb, min(1.5 * depth, 1.0))
+        colour = mix(_BLACK, said.colour.rgb, depth)
+        second = mix(_BLACK, said.colour.rgb, min(1.5 * depth, 1.0))
     return colour, second
 
 

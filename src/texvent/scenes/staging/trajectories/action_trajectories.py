@@ -1,4 +1,4 @@
-"""Motions in one place or under gravity: spin, swing, hover, sway, bounce, flight, arc.
+"""Motions in one place or under gravity: spin, swing, sway, hover, flight, arc.
 
 Like those of `trajectory`, they are pure, continuous functions of time; angles in radians,
 lengths in metres, times in seconds.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -66,41 +66,46 @@ class Swing:
         return BodyState(self.home, self.yaw, pitch=angle, activity="swing", pivot_m=self.length_m)
 
 
+class Wave(NamedTuple):
+    """A sine that is added to one coordinate of a body."""
+
+    axis: Literal["x", "y", "z", "yaw", "pitch", "roll"]
+    amplitude: float
+    """m or rad."""
+    rate_hz: float
+    phase: float = 0.0
+
+
 @dataclass(frozen=True)
-class Hover:
-    """Drifts a little about where another trajectory has it, in the air or on water."""
+class Oscillating:
+    """To and fro about where another trajectory has it: what sways, bobs or hovers."""
 
     path: Trajectory
-    amplitude_m: float
-    phase: float = 0.0
+    waves: tuple[Wave, ...]
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         state = self.path.at(time_s)
-        wave = 2.0 * math.pi * time_s + self.phase
-        x, y, z = state.position
-        side = self.amplitude_m * math.sin(0.23 * wave)
-        return replace(
-            state,
-            position=(x + 0.6 * side, y, z + self.amplitude_m * math.sin(0.4 * wave)),
-            yaw=state.yaw + 0.12 * math.sin(0.31 * wave),
-            roll=state.roll + 0.05 * math.sin(0.23 * wave),
-        )
+        (x, y, z), (yaw, pitch, roll) = state.position, _angles(state)
+        values = {"x": x, "y": y, "z": z, "yaw": yaw, "pitch": pitch, "roll": roll}
+        for wave in self.waves:
+            angle = 2.0 * math.pi * wave.rate_hz * time_s + wave.phase
+            values[wave.axis] += wave.amplitude * math.sin(angle)
+        x, y, z, yaw, pitch, roll = values.values()
+        return replace(state, position=(x, y, z), yaw=yaw, pitch=pitch, roll=roll)
 
 
-@dataclass(frozen=True)
-class Sway:
-    """Leans from side to side about its foot."""
-
-    home: Vector
-    amplitude_rad: float
-    rate_hz: float
-    yaw: float = 0.0
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        angle = self.amplitude_rad * math.sin(2.0 * math.pi * self.rate_hz * time_s)
-        return BodyState(self.home, self.yaw, roll=angle, activity="stand")
+def hover(path: Trajectory, amplitude_m: float, phase: float = 0.0) -> Oscillating:
+    """Drifting a little, in the air or on water, about where a path has it."""
+    return Oscillating(
+        path,
+        (
+            Wave("x", 0.6 * amplitude_m, 0.23, 0.23 * phase),
+            Wave("z", amplitude_m, 0.4, 0.4 * phase),
+            Wave("yaw", 0.12, 0.31, 0.31 * phase),
+            Wave("roll", 0.05, 0.23, 0.23 * phase),
+        ),
+    )
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -12,11 +13,13 @@ from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
+    Axis,
     Flight,
-    Hover,
+    Oscillating,
     Spin,
-    Sway,
     Swing,
+    Wave,
+    hover,
 )
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
@@ -42,6 +45,10 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTS})
 """What bodies without hands do in their place."""
+_STUNTS: Mapping[str, tuple[Axis, float, str, float]] = {
+    "flip": ("pitch", 0.8, "stand", 0.6), "roll over": ("roll", 0.5, "lie", 0.0),
+}  # fmt: skip
+"""Motion → axis, turns per second, what limbs do meanwhile, and how high it is, in its sizes."""
 _LARGEST_AFLOAT_M = 2.5
 """What is larger bobs no more than that: a moon, a cloud."""
 _DRIFT_TURN_RAD, _SLIP_RAD = 1.3, 0.62
@@ -49,6 +56,8 @@ _DRIFT_TURN_RAD, _SLIP_RAD = 1.3, 0.62
 _ROUND_RAD, _ROUND_RAD_S = 2.6, 1.3
 """Angle of the round that what goes in a circle covers in a clip at least, and the rate up to which
 it turns for that."""
+_BOB_HZ, _WEAVE_HZ, _WEAVE_RAD, _SWAY_RAD = 0.4, 0.68, 0.08, 0.14
+"""Up and down of what flies or floats, swaying of a fish about its heading, of what leans."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 """Who goes up and down a street on the ground goes to and fro."""
 _FLAT = 0.3
@@ -168,14 +177,15 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
         0.5 * plan.duration_s,
         activity_of(kind),
         climb=plan.climb,
-        bob_m=0.04 * model.height if is_air or kind == "sail" else 0.0,
-        weave_rad=0.08 if kind == "swim" else 0.0,
-        phase=phase,
         facing_rad=TO_CAMERA + 0.35 * is_air if is_flat else None,
     )
     if plan.is_facing and path.climb:
         reach = 0.5 * path.climb * path.speed_m_s * plan.duration_s
         return Facing(replace(path, home=_raised(home, reach)))
+    if is_air or kind in ("sail", "paddle"):
+        return Oscillating(path, (Wave("z", 0.04 * model.height, _BOB_HZ, phase),))
+    if kind == "swim":
+        return Oscillating(path, (Wave("yaw", _WEAVE_RAD, _WEAVE_HZ, phase),))
     return Rolling(path, plan.radius_m, plan.radius_m) if plan.radius_m else path
 
 
@@ -186,14 +196,20 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     if kind == "spin":
         usual = 2.0 * math.pi * (-SPIN_RATE_HZ if is_clockwise else SPIN_RATE_HZ)
         return _spin(plan, model, home, usual, phase)
+    if kind in _STUNTS:
+        axis, hz, doing, raised = _STUNTS[kind]
+        place = _raised(home, raised * max(model.length, model.height))
+        rate, pivot = 2.0 * math.pi * hz * pace, 0.5 * min(model.width, model.height)
+        return Spin(place, rate, plan.yaw, axis=axis, pivot_m=pivot, activity=doing)
     if kind == "swing":
         return Swing(home, max(1.6 * model.height, 0.6), 0.5, pace)
     if kind in ("hover", "float"):
         span = max(model.length, model.width, model.height)
         bob_m = 0.12 * min(span, _LARGEST_AFLOAT_M) * pace
-        return Hover(Stationary(home, plan.yaw, "move"), bob_m, phase)
+        return hover(Stationary(home, plan.yaw, "move"), bob_m, phase)
     if kind == "sway":
-        return Sway(home, 0.14, plan.motion.rate_hz or 0.5 * pace, plan.yaw)
+        lean = Wave("roll", _SWAY_RAD, plan.motion.rate_hz or 0.5 * pace)
+        return Oscillating(Stationary(home, plan.yaw), (lean,))
     way = -1.0 if plan.motion.direction == "clockwise" else 1.0
     activity = kind if kind in _STAYING else "move"
     return Stationary(home, plan.yaw, activity, way * pace, way * _gain(plan))

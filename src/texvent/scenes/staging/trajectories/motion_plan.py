@@ -111,6 +111,7 @@ def plan_motion(
         duration_s: length of the clip, s.
         rng: decides between left and right where nothing is said.
     """
+    motions = [_as_it_does(noun, one) for one in motions]
     motion, toss = motions[0], rng.random()
     yaw, speed = _choose_yaw(motions, noun, model, toss), _choose_speed(motions, noun, model)
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
@@ -126,6 +127,14 @@ def plan_motion(
         return replace(plan, yaw=path.yaw, path=path)
     pace = 1.0 if motion.speed_m_s is not None else motion.pace
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
+
+
+def _as_it_does(noun: Noun, motion: ObjectMotion) -> ObjectMotion:
+    """What rotates spins, but for a hand at its wrist; what stands on a small foot falls over."""
+    if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
+        return replace(motion, kind="spin")
+    is_falling_over = motion.kind == "fall" and noun.name in nouns_with("falls over")
+    return replace(motion, kind="topple") if is_falling_over else motion
 
 
 def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss: float) -> float:

@@ -19,7 +19,9 @@ from texvent.scenes.staging.trajectories.steered_path import (
     flight_s,
 )
 
-PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "slide", "roll", "move", "drift"})
+PATH_KINDS = TRAVELLING | frozenset(
+    {"drive", "fly", "sail", "paddle", "slide", "roll", "move", "drift"}
+)
 """Motions from one place to another."""
 GOING = PATH_KINDS | {"reverse", "enter", "leave", "appear"}
 """Those with a direction of travel."""

@@ -121,11 +121,6 @@ class Straight:
     activity: str = "move"
     climb: float = 0.0
     """Metres up per metre along."""
-    bob_m: float = 0.0
-    """Amplitude of a slow up and down."""
-    weave_rad: float = 0.0
-    """Amplitude of swaying about its heading, as fish do."""
-    phase: float = 0.0
     facing_rad: float | None = None
     """Where its front points if not along its heading (a kite's face)."""
 
@@ -133,11 +128,9 @@ class Straight:
         """State at that instant."""
         facing = self.yaw if self.facing_rad is None else self.facing_rad
         along = self.speed_m_s * (time_s - self.mid_s)
-        wave = 2.0 * math.pi * 0.4 * time_s + self.phase
-        height = self.home[2] + along * self.climb + self.bob_m * math.sin(wave)
         return BodyState(
-            ahead(self.home, self.yaw, along, height),
-            facing + self.weave_rad * math.sin(1.7 * wave),
+            ahead(self.home, self.yaw, along, self.home[2] + along * self.climb),
+            facing,
             -math.atan(self.climb),
             distance_m=self.speed_m_s * time_s,
             speed_m_s=self.speed_m_s,

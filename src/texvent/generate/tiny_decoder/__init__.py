@@ -1,1 +1,0 @@
-"""Tiny decoders of video models' latents, in the published layout of TAEHV."""

@@ -1,0 +1,45 @@
+"""Rooms are measured, and refused above their ceilings."""
+
+from pathlib import Path
+
+import pytest
+from tools.ceilings import Size, faults, measure, table
+
+
+@pytest.fixture
+def tree(tmp_path: Path) -> Path:
+    (tmp_path / "room" / "data").mkdir(parents=True)
+    (tmp_path / "room" / "a.py").write_text("x = 1\n\ny = 2\n")
+    (tmp_path / "room" / "data" / "words.toml").write_text("a = 1\nb = 2\n")
+    (tmp_path / "room" / "notes.md").write_text("not counted\n")
+    return tmp_path
+
+
+def ceilings(python: int = 3, data: int = 2, modules: int = 1) -> dict[str, dict[str, object]]:
+    return {"room": {"paths": ["room"], "python": python, "data": data, "modules": modules}}
+
+
+def test_lines_and_modules_are_counted(tree: Path) -> None:
+    assert measure(["room"], tree) == Size(3, 2, 1)
+    assert measure(["room/a.py"], tree) == Size(3, 0, 1)
+    assert "3 / 3" in table(ceilings(), tree)
+
+
+def test_a_room_at_its_ceiling_passes(tree: Path) -> None:
+    assert faults(ceilings(), {}, tree) == []
+    assert faults(ceilings(), ceilings(python=4), tree) == []
+
+
+def test_a_room_above_its_ceiling_is_named(tree: Path) -> None:
+    assert faults(ceilings(data=1), {}, tree) == ["room: 2 (data); the ceiling is 1"]
+
+
+def test_a_raised_ceiling_is_named(tree: Path) -> None:
+    assert faults(ceilings(python=9), ceilings(python=3), tree) == [
+        "room: the ceiling of python was 3; keep it"
+    ]
+
+
+def test_a_path_that_is_not_there_is_named(tree: Path) -> None:
+    with pytest.raises(ValueError, match="rooms, which is not there"):
+        measure(["rooms"], tree)

@@ -1,0 +1,111 @@
+"""Sizes of rooms against their ceilings, as a table; `make lint` runs it.
+
+`ceilings.toml` has a table for each room: its paths, and the most lines of Python, lines of data
+and modules that it may have.
+
+Example:
+    .venv/bin/python -m tools.ceilings
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+ROOT = Path(__file__).parent.parent
+TABLE = "tools/ceilings.toml"
+DATA = (".toml", ".json", ".csv", ".txt")
+"""Endings of files that people edit as data."""
+Ceilings = Mapping[str, Mapping[str, Any]]
+
+
+class Size(NamedTuple):
+    """Size of a room."""
+
+    python: int
+    """Lines of Python."""
+    data: int
+    """Lines of data."""
+    modules: int
+    """Files of Python."""
+
+
+def measure(paths: list[str], root: Path = ROOT) -> Size:
+    """Size of the files below some paths.
+
+    Raises:
+        ValueError: a path is not there.
+    """
+    python = data = modules = 0
+    for path in (root / one for one in paths):
+        if not path.exists():
+            raise ValueError(f"{TABLE} names {path.relative_to(root)}, which is not there")
+        for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
+            if file.suffix == ".py":
+                modules += 1
+                python += _lines(file)
+            elif file.suffix in DATA:
+                data += _lines(file)
+    return Size(python, data, modules)
+
+
+def faults(ceilings: Ceilings, before: Ceilings, root: Path = ROOT) -> list[str]:
+    """Rooms above their ceilings, and ceilings that were raised.
+
+    Args:
+        ceilings: those that hold.
+        before: those of the commit before.
+        root: of the tree.
+    """
+    found = []
+    for room, limits in ceilings.items():
+        size = measure(limits["paths"], root)
+        for name, now in size._asdict().items():
+            most = limits[name]
+            if now > most:
+                found.append(f"{room}: {now:,} ({name}); the ceiling is {most:,}")
+            if most > before.get(room, limits)[name]:
+                found.append(f"{room}: the ceiling of {name} was {before[room][name]:,}; keep it")
+    return found
+
+
+def table(ceilings: Ceilings, root: Path = ROOT) -> str:
+    """Sizes beside their ceilings, a line for each room."""
+    lines = [f"{'room':24}{'lines of Python':>20}{'lines of data':>18}{'modules':>14}"]
+    for room, limits in ceilings.items():
+        size = measure(limits["paths"], root)._asdict()
+        cells = {name: f"{now:,} / {limits[name]:,}" for name, now in size.items()}
+        lines.append(f"{room:24}{cells['python']:>20}{cells['data']:>18}{cells['modules']:>14}")
+    return "\n".join(lines)
+
+
+def main() -> int:
+    """Print the table and its faults; returns the exit code."""
+    ceilings = tomllib.loads((ROOT / TABLE).read_text(encoding="utf-8"))
+    found = faults(ceilings, _committed())
+    sys.stdout.write("".join(f"{line}\n" for line in [table(ceilings), *found]))
+    return 1 if found else 0
+
+
+def _committed() -> Ceilings:
+    """The ceilings before the last commit that changed them; empty where git has none."""
+    history = _git("log", "--format=%H", "-n", "2", "--", TABLE).split()
+    text = _git("show", f"{history[-1]}:{TABLE}") if history else ""
+    return tomllib.loads(text)
+
+
+def _git(*words: str) -> str:
+    done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
+    return done.stdout if done.returncode == 0 else ""
+
+
+def _lines(file: Path) -> int:
+    return len(file.read_text(encoding="utf-8").splitlines())
+
+
+if __name__ == "__main__":
+    sys.exit(main())
