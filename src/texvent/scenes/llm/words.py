@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from texvent.scenes.read.lexicon import Sense, lexicon_of
 
 ARTICLES = frozenset(("a", "an", "the"))
+PLAIN = frozenset(("articles", "pronouns", "conjunctions", "small"))
+"""Kinds of words without a meaning of their own."""
 FIELDS = {("light", "kind"): "light", ("place", "weather"): "weather", ("place", "name"): "place",
           ("camera", "view"): "view"}  # fmt: skip
 """Part and field of a scene → kind of word."""
@@ -35,6 +37,12 @@ def list_meanings(word: str) -> Iterator[tuple[str, str]]:
     phrase = tuple(one for one in words if one not in ARTICLES)
     for sense in lexicon_of(None).senses.get(phrase, ()):
         yield from ((kind, str(one)) for kind, one in _meanings(sense) if one)
+
+
+def is_plain(word: str) -> bool:
+    """Whether a word has no meaning of its own: none is reported."""
+    senses = lexicon_of(None).senses.get((word,), ())
+    return any(sense.kind in PLAIN for sense in senses)
 
 
 def _meanings(sense: Sense) -> Iterator[tuple[str, object]]:

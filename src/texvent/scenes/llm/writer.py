@@ -10,8 +10,7 @@ from typing import Any
 from texvent.errors import InputError, TexventError, shown
 from texvent.scenes.llm.endpoint import Endpoint, ask
 from texvent.scenes.llm.schema import MOST_COUNT, MOST_ITEMS, model_schema
-from texvent.scenes.llm.words import list_meanings, resolve
-from texvent.scenes.read.lexicon import word_set
+from texvent.scenes.llm.words import is_plain, list_meanings, resolve
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.scene import Scene
@@ -27,10 +26,6 @@ Example: "two white dogs run right past a tree in the park" gives
 {"noun":"tree","count":1,"colour":null,"material":null,"motions":[],"relations":[]}],
 "effects":[]}"""
 LONGEST_PHRASE = 4
-_PLAIN = frozenset().union(
-    *(word_set("grammar", kind) for kind in ("articles", "pronouns", "conjunctions", "small"))
-)
-"""Words without a meaning of their own; none is reported."""
 
 
 def write_scene(prompt: str, endpoint: Endpoint) -> tuple[Scene, PromptReport]:
@@ -109,9 +104,9 @@ class _Check:
 
     def account(self, prompt: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Words that the scene shows, and words that nothing stands for, each once."""
-        shows = {word for key in self.used for word in self.said[key]} - _PLAIN
-        words = list(dict.fromkeys(_split(prompt)))
-        lost = (one for one in words if one not in shows and one not in _PLAIN)
+        shows = {word for key in self.used for word in self.said[key]}
+        words = [one for one in dict.fromkeys(_split(prompt)) if not is_plain(one)]
+        lost = (one for one in words if one not in shows)
         return tuple(one for one in words if one in shows), tuple(lost)
 
 

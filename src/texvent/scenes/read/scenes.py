@@ -279,7 +279,7 @@ class _Reader:
         if verb.who == "person":
             return names <= PERSON_NOUNS and not (has_object and verb.kind in _ACTS)
         if verb.who == "hand":
-            return names <= HAND_NOUNS
+            return names <= HAND_NOUNS and not has_object
         if verb.who == "animal":
             return all(verb.kind in self._nouns[one].acts for one in names)
         if verb.who == "mover":
@@ -362,7 +362,8 @@ class _Reader:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
         if target.noun in word_set("things", "worn") and kind in ("in", "with"):
-            if kind == "in" and thing.noun not in PERSON_NOUNS:
+            others = {draft.things[one].noun for one in targets} - word_set("things", "worn")
+            if others or (kind == "in" and thing.noun not in PERSON_NOUNS):
                 return False
             kind, way = ("wear", "") if thing.noun in PERSON_NOUNS else (kind, way)
         elif kind == "at" and target.noun not in word_set("things", "tables"):
