@@ -27,8 +27,9 @@ from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles
 
 _SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
-_TRACKING_LENGTHS = 4.5
-"""An object that covers more of its own lengths in the clip is followed from the side."""
+_TRACKING_LENGTHS, _NEAR_LENGTHS = 4.5, 0.3
+"""An object that covers more of its own lengths in the clip is followed from the side: usually, and
+in a close or medium shot."""
 _WORTH = 1.15
 """How much larger the subject must become for the camera to follow it."""
 _OUTSIDE_SHARES = (0.3, 0.38, 0.46, 0.54, 0.62, 0.7)
@@ -109,7 +110,7 @@ def _watch(shooting: _Shooting) -> CameraPath:
     main = choose_main(description, actors)
     moves = _plan_moves(description, main, duration_s)
     path = _fit_path(shooting, main, moves)
-    is_said = description.shot.framing == "wide" or goes_in_depth(description, main)
+    is_said = description.shot.framing is not None or goes_in_depth(description, main)
     is_said |= any(move.kind not in _WITH_FOLLOWING for move in description.shot.moves)
     share = share_to_follow(actors, main, duration_s)
     if is_said or share == 0.0:
@@ -276,4 +277,6 @@ def _plan_moves(
         return ()
     span = max(main.model.length, main.model.height)
     way = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
-    return (CameraMove("follow", "side"),) if way > _TRACKING_LENGTHS * span else ()
+    is_near = description.shot.framing in ("close", "medium")
+    least = _NEAR_LENGTHS if is_near else _TRACKING_LENGTHS
+    return (CameraMove("follow", "side"),) if way > least * span else ()

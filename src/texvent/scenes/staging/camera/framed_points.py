@@ -13,7 +13,12 @@ from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import share_followed
-from texvent.scenes.staging.camera.subject import acts_with_arms, goes, list_related
+from texvent.scenes.staging.camera.subject import (
+    KEPT_TOGETHER,
+    acts_with_arms,
+    goes,
+    list_related,
+)
 
 INSTANTS = 13
 """Instants of the clip at which everything must fit."""
@@ -113,12 +118,14 @@ def list_views(
     related = list_related(description, main)
     copies = {one.instance for one in actors if one.object_index == main.object_index}
     partners = {one.instance for one in near if one.object_index in related}
+    placed = {i for r in description.relations if r.kind in KEPT_TOGETHER for i in r.targets}
+    kept = {one.instance for one in near if one.object_index in related & placed}
     others = {one.instance for one in near if goes(one, times) or not main.is_mover}
     choices: tuple[set[int], ...] = (
         {one.instance for one in near},
         others | partners,
         partners,
-        set(),
+        kept,
     )
     least = _LARGE_IN_WIDE if is_wide else 1.0
     return [
