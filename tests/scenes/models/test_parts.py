@@ -139,6 +139,8 @@ def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
     ("text", "message"),
     [
         ("[a]\nsize = 3", "unknown key 'size'"),
+        ('[a]\nnames = "b"', "names must be a list but is 'b'"),
+        ('[a]\nspeed = "fast"', "speed must be a float"),
         ('[a]\nhabitat = "moon"', "habitat must be one of"),
         ("[a\n", "mine.toml"),
     ],
@@ -234,7 +236,7 @@ def test_a_noun_may_be_like_another(tmp_path: Path) -> None:
     heights = {one.build(colour=None, scale=1.0, seed=0).height for one in (stool, perch)}
     assert heights == {1.5}
     file.write_text('[perch]\nlike = "stool"\n')
-    with pytest.raises(FileFormatError, match="no noun with parts named 'stool'"):
+    with pytest.raises(FileFormatError, match="no noun 'stool' to be like"):
         read_nouns(file)
 
 

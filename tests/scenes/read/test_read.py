@@ -63,6 +63,8 @@ def test_facts_of_short_prompts_are_right():
 @example("the camera. camera camera moves moves it")
 @example("without a of the no of")
 @example("a dog behind a cat. the cat is behind the dog. the dog follows the dog")
+@example("behind them a dog")
+@example("a wug and a dog behind them, a cat with it")
 @example("24 dogs, 24 cats, 24 cars, 24 trees")
 def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
     reading = reader.read(text, NOUNS)
@@ -81,6 +83,14 @@ def test_a_prompt_is_read_in_less_than_a_millisecond():
     for prompt in prompts:
         reader.read(prompt, NOUNS)
     assert (time.process_time() - started) / len(prompts) < MOST_SECONDS
+
+
+@pytest.mark.parametrize("text", ["a dog, ", "a dog behind a cat ", "a bowl of ", "x y, and "])
+def test_long_texts_are_read_too(text):
+    started = time.process_time()
+    reading = reader.read(text * 1000, NOUNS)
+    assert checked_scene(reading.scene, VOCABULARY) == reading.scene
+    assert time.process_time() - started < 2.0
 
 
 @pytest.mark.parametrize("prompt", ["", " \n", "wug", "the of and", "xyz!?"])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -18,8 +20,8 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.prominence import (
-    Prominence,
     come_near,
+    measure,
 )
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
@@ -38,8 +40,8 @@ def flat_box(width: float, height: float, x: float = 0.0) -> Float64Array:
     return np.asarray(0.5 * SIGNS * [width, 0.0, height] + [x, 0.0, 0.0])
 
 
-def prominence_of(*boxes: Float64Array) -> Prominence:
-    return Prominence(np.array([0.0, 1.0]), np.array([boxes, boxes]), ASPECT)
+def prominence_of(*boxes: Float64Array) -> Callable[[CameraPath], float]:
+    return lambda path: measure(path.at(0.0), np.array(boxes), ASPECT)
 
 
 def seen_from(distance_m: float) -> CameraPath:

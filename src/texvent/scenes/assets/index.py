@@ -1,6 +1,6 @@
 """Which models a folder holds, and what they are called: by file names, or by an index.
 
-Any other `.toml` file has nouns as lists of parts; see `models/data/nouns/README.md`.
+Any other `.toml` file has nouns as lists of parts; see docs/nouns.md.
 An index is `assets.toml` in the folder, a table for each file, or the catalogue
 `PluginFurnitureCatalog.properties` of Sweet Home 3D's libraries.
 """

@@ -78,6 +78,25 @@ class EmitterStyle:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LightStyle:
+    """Small lights on a body that go on and off."""
+
+    places: tuple[Vector, ...] = ()
+    """x and y in half extents, z in heights from below; empty: a string that winds around it."""
+    phases: tuple[float, ...] = (0.0,)
+    """When each goes on, in periods; repeated."""
+    colours: tuple[Colour, ...]
+    """Repeated."""
+    size: float
+    """Radius by that of a ball as large as the body."""
+    blink_hz: float
+    glow: float = 4.0
+    """Emission of a light that is on."""
+    intensity: float = 0.0
+    """Light that each sheds at 1 m; 0 = none."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class EffectWords:
     """An effect: its names, where it comes from, and what shows it."""
 
@@ -112,6 +131,7 @@ class EffectWords:
     headroom: float = 0.0
     """Room that it needs in the image above its object, by its size."""
     emitters: tuple[EmitterStyle, ...] = ()
+    lights: LightStyle | None = None
 
 
 def _frozen(value: Any) -> Any:
@@ -131,6 +151,8 @@ def _effect(row: Mapping[str, Any]) -> EffectWords:
         EmitterStyle(**{name: _frozen(value) for name, value in one.items()})
         for one in row.get("emitters", ())
     )
+    if "lights" in row:
+        fields["lights"] = LightStyle(**{n: _frozen(value) for n, value in row["lights"].items()})
     return EffectWords(**fields)
 
 

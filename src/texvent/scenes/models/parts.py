@@ -12,7 +12,7 @@
     ball paint   0 0 .32   .2 .2 .2
     '''
 
-`data/nouns/README.md` describes the format.
+docs/nouns.md describes the format.
 """
 
 from __future__ import annotations
@@ -40,9 +40,13 @@ from texvent.scenes.models.surfaces import PAINT, read_colour, read_surface
 from texvent.scenes.models.variation import choose
 from texvent.scenes.scene import Colour
 
-_KEYS = frozenset({"names", "plurals", "place", "habitat", "speed", "motion", "works", "colours",
-                   "varied", "surfaces", "parts", "moving", "laid", "variants",
-                   "rider", "like"})  # fmt: skip
+_KEYS: Mapping[str, tuple[type, ...]] = {
+    "names": (list,), "plurals": (list,), "place": (str,), "habitat": (str,), "motion": (str,),
+    "speed": (float, int), "works": (bool,), "laid": (bool,), "like": (str,), "rider": (dict,),
+    "colours": (list, dict), "varied": (dict,), "surfaces": (dict,), "variants": (dict,),
+    "parts": (str,), "moving": (list,),
+}  # fmt: skip
+"""Keys of a noun, and what their values are."""
 _OWN = ("names", "plurals")
 """Keys that no noun takes from the one that it is like."""
 _HABITATS = ("ground", "air", "water", "fixed")
@@ -156,6 +160,8 @@ class PartsBuilder:
         said = self.table.get("colours", [_GREY])
         paints = said if isinstance(said, Mapping) else {PAINT: said}
         try:
+            if not all({**paints, **self.table.get("varied", {})}.values()):
+                raise ValueError("a list of colours is empty")
             hues = {
                 name: choose(seed, name, [read_colour(one, {}) for one in options])
                 for name, options in {**paints, **self.table.get("varied", {})}.items()
@@ -231,8 +237,11 @@ def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
         raise FileFormatError(f"{file}: {error}") from error
     usual = {key: value for key, value in tables.items() if not isinstance(value, Mapping)}
     nouns = {name: table for name, table in tables.items() if name not in usual}
-    for table in nouns.values():
-        model = nouns.get(table.get("like", ""), {})
+    for name, table in nouns.items():
+        like = table.get("like")
+        if like is not None and like not in nouns:
+            raise FileFormatError(f"{file.name}, {name!r}: there is no noun {like!r} to be like")
+        model = nouns.get(like, {})
         table |= {key: value for key, value in model.items() if key not in {*_OWN, *table}}
     return tuple(
         _noun(f"{file.name}, {name!r}", name, {**usual, **table}) for name, table in nouns.items()
@@ -240,12 +249,12 @@ def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
 
 
 def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
-    if "like" in table and "parts" not in table:
-        raise FileFormatError(f"{where}: there is no noun with parts named {table['like']!r}")
-    for key in table:
+    for key, value in table.items():
         if key not in _KEYS:
+            raise FileFormatError(f"{where}: unknown key {key!r}; known: {', '.join(_KEYS)}")
+        if not isinstance(value, _KEYS[key]):
             raise FileFormatError(
-                f"{where}: unknown key {key!r}; known: {', '.join(sorted(_KEYS))}"
+                f"{where}: {key} must be a {_KEYS[key][0].__name__} but is {value!r}"
             )
     habitat = table.get("habitat", "fixed")
     if habitat not in _HABITATS:

@@ -18,6 +18,8 @@ _STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
 """Senses of words that no noun group holds."""
 _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
+_LONGEST_LIST = 12
+"""Groups after a comma that are looked through for "and"."""
 _PARTICLES = ("up", "down", "off", "out", "over", "in", "on")
 """Prepositions that go with a verb right before them: "picks up"."""
 
@@ -188,11 +190,13 @@ class _Parser:
         if not clause.subjects or clause != Clause(clause.subjects):
             return False
         start, is_list = self._at, False
-        while self._starts_group():
-            self._group()
-            if self._token().text not in (",", "and"):
+        for _ in range(_LONGEST_LIST):
+            if is_list or not self._starts_group():
                 break
-            is_list = is_list or self._take().text == "and"
+            self._group()
+            is_list = self._take().text == "and"
+            if not is_list and self._token(-1).text != ",":
+                break
         self._at = start
         return is_list
 

@@ -18,7 +18,7 @@ from texvent.scenes.read.draft import SceneDraft, Thing
 from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.report import Substitution
-from texvent.scenes.spec.scene import Scene
+from texvent.scenes.spec.scene import MAX_BODIES, Scene
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
@@ -170,6 +170,8 @@ class _Reader:
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
         draft, noun = self._draft, head.first("noun")
+        if len(draft.things) == MAX_BODIES:
+            return []
         draft.show(head)
         known = [n for n, one in enumerate(draft.things) if noun and one.noun == noun.value.noun]
         if known and group.is_definite and not group.modifiers and not group.unknown:
@@ -277,7 +279,7 @@ class _Reader:
         if verb.who == "person":
             return names <= PERSON_NOUNS and not (has_object and verb.kind in _ACTS)
         if verb.who == "hand":
-            return names <= HAND_NOUNS
+            return names <= HAND_NOUNS and not has_object
         if verb.who == "animal":
             return all(verb.kind in self._nouns[one].acts for one in names)
         if verb.who == "mover":
@@ -360,7 +362,8 @@ class _Reader:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
         if target.noun in word_set("things", "worn") and kind in ("in", "with"):
-            if kind == "in" and thing.noun not in PERSON_NOUNS:
+            others = {draft.things[one].noun for one in targets} - word_set("things", "worn")
+            if others or (kind == "in" and thing.noun not in PERSON_NOUNS):
                 return False
             kind, way = ("wear", "") if thing.noun in PERSON_NOUNS else (kind, way)
         elif kind == "at" and target.noun not in word_set("things", "tables"):

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from texvent.scenes.read.lexicon import Lexicon, Sense, word_set
 from texvent.scenes.read.literals import find_literals
 
-MOST_WORDS = 2000
-"""Words of a prompt that are read; later ones are not understood."""
+MOST_WORDS = 1000
+"""Words of a prompt that are read; later ones are not understood, all together."""
 MAX_COUNT = 24
 """Most copies of one object."""
 _RANGES = {"speed_m_s": (0.0, 1000.0), "rate_hz": (0.001, 100_000.0)}
@@ -84,6 +84,8 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
         found.append(Token(picture.value, len(found), (sense,)))
         start = end
     _read_words(_list_words(text[start:]), lexicon, found)
+    if len(found) > MOST_WORDS:
+        found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
     return tuple(found)
 
 
@@ -95,7 +97,7 @@ def _list_words(text: str) -> list[str]:
             words.extend((short[1], "is"))
         elif word[0].isalnum() or word in ".,;:!?/()":
             words.append(word)
-    return words[:MOST_WORDS]
+    return words
 
 
 def _read_words(words: Sequence[str], lexicon: Lexicon, found: list[Token]) -> None:

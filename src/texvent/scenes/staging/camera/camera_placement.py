@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +16,7 @@ from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framed_points import INSTANTS, list_views
 from texvent.scenes.staging.camera.framing import Framing, fit, pose, seen_through
 from texvent.scenes.staging.camera.journey import TravelPlan
-from texvent.scenes.staging.camera.prominence import Prominence, come_near
+from texvent.scenes.staging.camera.prominence import come_near, measure
 from texvent.scenes.staging.camera.subject import (
     choose_main,
     goes_in_depth,
@@ -116,8 +116,7 @@ def _watch(shooting: _Shooting) -> CameraPath:
         return path
     slower = (*moves, CameraMove("follow", "slower", pace=share))
     followed = _fit_path(shooting, main, slower)
-    copies = [actor for actor in actors if actor.object_index == main.object_index]
-    prominence = Prominence.of(copies, shooting.times, shooting.aspect)
+    prominence = _prominence_of(main, actors, shooting.times, shooting.aspect)
     return followed if prominence(followed) > _WORTH * prominence(path) else path
 
 
@@ -127,7 +126,6 @@ def _fit_path(shooting: _Shooting, main: Actor, moves: tuple[CameraMove, ...]) -
     azimuth, elevation = choose_angles(description, main, moves, shooting.place, shooting.seed)
     is_open = shooting.has_floor and not is_room(shooting.place)
     lift = _SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
-    copies = [actor for actor in actors if actor.object_index == main.object_index]
 
     def path_of(framing: Framing) -> CameraPath:
         return CameraPath(
@@ -142,7 +140,7 @@ def _fit_path(shooting: _Shooting, main: Actor, moves: tuple[CameraMove, ...]) -
                 lift=lift)
             for view in views
         ]  # fmt: skip
-        prominence = Prominence.of(copies, times, aspect)
+        prominence = _prominence_of(main, actors, times, aspect)
         return come_near(framings, path_of, prominence, [view.goal for view in views[1:]])
 
     if not (main.enters or main.leaves):
@@ -154,6 +152,20 @@ def _fit_path(shooting: _Shooting, main: Actor, moves: tuple[CameraMove, ...]) -
         if _begins_and_ends_outside(path, main, aspect):
             break
     return path
+
+
+def _prominence_of(
+    main: Actor, actors: Sequence[Actor], times: Float64Array, aspect: float
+) -> Callable[[CameraPath], float]:
+    """How large the copies of the subject are in the image of a path, as a mean over times."""
+    copies = [actor for actor in actors if actor.object_index == main.object_index]
+    boxes = [np.array([one.corners(float(time)) for one in copies]) for time in times]
+
+    def prominence(path: CameraPath) -> float:
+        views = zip(times, boxes, strict=True)
+        return float(np.mean([measure(path.at(float(t)), box, aspect) for t, box in views]))
+
+    return prominence
 
 
 def _project(path: CameraPath, points: Float64Array, time_s: float) -> Float64Array:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import Framing
 
@@ -22,37 +21,22 @@ _LARGE_COPY = 0.13
 _HALVINGS = 6
 
 
-@dataclass(frozen=True)
-class Prominence:
-    """How large the copies of an object are in the image over a clip."""
+def measure(camera: Camera, boxes: Float64Array, aspect: float) -> float:
+    """How prominent the copies of an object are; 1 = as large as a subject should be.
 
-    times: Float64Array
-    """[t] s."""
-    boxes: Float64Array
-    """[t, copies, 8, 3] their corners, m."""
-    aspect: float
-    """Image height over width."""
-
-    @classmethod
-    def of(cls, copies: Sequence[Actor], times: Float64Array, aspect: float) -> Prominence:
-        """Of those actors at those instants."""
-        boxes = [[actor.corners(float(time)) for actor in copies] for time in times]
-        return cls(times, np.array(boxes), aspect)
-
-    def __call__(self, path: CameraPath) -> float:
-        """Mean over the clip; 1 = as large as a subject should be."""
-        return float(np.mean([self._at(path, number) for number in range(len(self.times))]))
-
-    def _at(self, path: CameraPath, number: int) -> float:
-        camera = path.at(float(self.times[number]))
-        seen = (self.boxes[number] - camera.position) @ camera.rotation.T
-        image = camera.focal * seen[..., :2] / np.maximum(seen[..., 2:], 1e-3)
-        image[..., 1] /= self.aspect
-        copy = float(np.sqrt(np.prod(np.ptp(image, axis=1), axis=1)).max())
-        if len(image) == 1:
-            return copy / _LARGE
-        group = float(np.ptp(image, axis=(0, 1)).max())
-        return max(copy / _LARGE, min(copy / _LARGE_COPY, group / _LARGE_GROUP))
+    Args:
+        camera: that sees them.
+        boxes: [copies, 8, 3] their corners, m.
+        aspect: image height over width.
+    """
+    seen = (boxes - camera.position) @ camera.rotation.T
+    image = camera.focal * seen[..., :2] / np.maximum(seen[..., 2:], 1e-3)
+    image[..., 1] /= aspect
+    copy = float(np.sqrt(np.prod(np.ptp(image, axis=1), axis=1)).max())
+    if len(image) == 1:
+        return copy / _LARGE
+    group = float(np.ptp(image, axis=(0, 1)).max())
+    return max(copy / _LARGE, min(copy / _LARGE_COPY, group / _LARGE_GROUP))
 
 
 def come_near(

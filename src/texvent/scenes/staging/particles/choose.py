@@ -9,19 +9,14 @@ import numpy as np
 
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.anchors import locate
-from texvent.scenes.models.effects import EFFECTS, EmitterStyle
+from texvent.scenes.models.effects import EFFECTS, EmitterStyle, LightStyle
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.traits import trait_value
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.framing import Framing
-from texvent.scenes.staging.particles.body_lights import (
-    lowest_m,
-    make_beacons,
-    make_string,
-    make_turn_signals,
-)
+from texvent.scenes.staging.particles.body_lights import BodyLights
 from texvent.scenes.staging.particles.bolts import Lightning
 from texvent.scenes.staging.particles.emitter import Emitter
 from texvent.scenes.staging.particles.motion import Source
@@ -32,6 +27,7 @@ ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
 _NO_GROUND = ("sky", "space", "underwater")
+_BLUE: Colour = (0.06, 0.2, 1.0)
 _SPOUT = "spout"
 """Trait of nouns that water leaves at a point, in a direction."""
 
@@ -127,6 +123,11 @@ def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> lis
     ]
 
 
+def lowest_m(actor: Actor) -> float:
+    """Height of a body's lowest point above its origin, m."""
+    return -0.5 * actor.model.height if actor.is_centred else 0.0
+
+
 def gone(to_world: Float64Array) -> Float64Array:
     """[3, 4] the pose of an object that is no more: too small to be seen."""
     return np.column_stack([1e-6 * to_world[:, :3], to_world[:, 3]])
@@ -136,22 +137,26 @@ def _make(
     effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
 ) -> list[ParticleEffect]:
     """What shows an effect at an object, or by itself."""
-    kind, reach = effect.kind, setting.framing.distance_m
-    colour = None if effect.colour is None else effect.colour.rgb
-    away = setting.away
-    if kind == "lightning":
-        return [Lightning.of(setting.base, away, reach, rng)]
-    if kind == "blinking lights":
-        place = setting.framing.target + reach * (np.array([0.0, 0.0, 0.22]) + 0.1 * away)
-        side = np.cross(away, [0.0, 0.0, 1.0])
-        return [make_string(actor, place, side, 0.9 * reach, colour)]
-    if kind in ("beacon", "turn signal", "hazard lights"):
-        if actor is None:
-            return []
-        is_beacon = kind == "beacon"
-        both = kind == "hazard lights"
-        return [make_beacons(actor, colour) if is_beacon else make_turn_signals(actor, both=both)]
+    if effect.kind == "lightning":
+        return [Lightning.of(setting.base, setting.away, setting.framing.distance_m, rng)]
+    lights = EFFECTS[effect.kind].lights
+    if lights is not None:
+        return [_light_up(effect, lights, actor, setting)]
     return _emit(effect, actor, setting, rng)
+
+
+def _light_up(
+    effect: Effect, lights: LightStyle, actor: Actor | None, setting: Setting
+) -> BodyLights:
+    """Lights on an object, or in the air."""
+    noun = "" if actor is None else actor.noun.name
+    source = _source(effect.kind, None, setting)
+    if actor is not None:
+        source = Source(_bulk(actor), np.array([0.0, 0.0, lowest_m(actor)]), actor)
+    colour = None if effect.colour is None else effect.colour.rgb
+    if colour is None and effect.kind == "beacon" and noun in nouns_with("blue beacon"):
+        colour = _BLUE
+    return BodyLights.of(lights, source, colour, tapers=noun in nouns_with("tapers upwards"))
 
 
 def _emit(

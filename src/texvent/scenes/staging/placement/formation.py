@@ -1,4 +1,4 @@
-"""Copies of one object in formation: staggered, in a row, in a ring, or turned to each other."""
+"""Copies of one object in formation: staggered, in a row, or in a ring."""
 
 from __future__ import annotations
 
@@ -13,14 +13,10 @@ from texvent.scenes.staging.placement.object_groups import ObjectGroup
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
-FACE_TO_FACE = frozenset({"talk", "shake hands", "high five", "hug", "box"})
-"""What two people do turned to each other, and more in a half ring."""
 _RESTING = frozenset({"stand", "sit", "lie", "slide"})
 _SHOULDERS_M, _BUSY_M = 0.56, 0.95
 """Room from shoulder to shoulder, and of who does something with the arms, m."""
 _AT_EASE = frozenset({"stand", "sit", "talk", "walk", "run"})
-_TO_CAMERA_RAD = 0.35
-"""How far who faces another is turned to the camera."""
 _APART = 0.3
 """Space between copies of small things, in their sizes: apples do not lie half a metre apart."""
 
@@ -79,9 +75,8 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
 
 
 def form_up(group: ObjectGroup) -> None:
-    """Set the copies in the formation that the scene asks for, or that what they do does."""
-    side, kind = group.scene_object.side, group.plan.motion.kind
-    is_person = group.noun.name in PERSON_NOUNS
+    """Set the copies in the formation that the scene asks for."""
+    side = group.scene_object.side
     if len(group.models) < 2:
         return
     if side in ("row", "together"):
@@ -90,8 +85,6 @@ def form_up(group: ObjectGroup) -> None:
         model = group.models[0]
         size = max(model.length, model.width)
         stand_in_ring(group, max(1.1 * size, 1.3 * size * len(group.models) / (2.0 * math.pi)))
-    elif is_person and kind in FACE_TO_FACE and not (group.plan.path or group.scene_object.then):
-        _face_each_other(group)
     else:
         return
     group.fit()
@@ -129,19 +122,6 @@ def stand_in_ring(group: ObjectGroup, radius_m: float, *, is_open: bool = False)
     group.offsets = [(radius_m * math.cos(a), radius_m * math.sin(a), 0.0) for a in angles]
     if not group.plan.is_path:
         group.yaws = [a + math.pi for a in angles]
-
-
-def _face_each_other(group: ObjectGroup) -> None:
-    """Two side by side in the image; more in a half ring that is open to the camera."""
-    count, scale = len(group.models), float(getattr(group.models[0], "scale", 1.0))
-    if count == 2:
-        group.offsets = [(-0.55 * scale, 0.0, 0.0), (0.55 * scale, 0.0, 0.0)]
-        group.yaws = [-_TO_CAMERA_RAD, math.pi + _TO_CAMERA_RAD]
-        return
-    radius = max(0.7, 0.8 * (count - 1) / math.pi) * scale
-    places = [(math.cos(a), 0.7 * math.sin(a)) for a in np.linspace(0.0, math.pi, count)]
-    group.offsets = [(radius * x, radius * y, 0.0) for x, y in places]
-    group.yaws = [math.atan2(-y - 0.35, -x) for x, y in places]
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:

@@ -113,12 +113,10 @@ def half_extents_over_clip(
 def overlap(centre: Float64Array, group: ObjectGroup, other: ObjectGroup) -> bool:
     """Whether a group with its middle at `centre` would overlap with another at any time."""
     gap = GAP_M * min(group.size_m, other.size_m)
-    apart = np.abs(centre - other.centre) - (group.half + other.half)
-    if group.noun.habitat == other.noun.habitat:
-        return bool(np.all(apart[:2] < gap) and apart[2] < gap)
-    low_a, low_b = _vertical(centre, group), _vertical(other.centre, other)
-    above = low_a[0] > low_b[1] or low_b[0] > low_a[1]
-    return bool(np.all(apart[:2] < gap) and not above)
+    apart = np.abs(centre - other.centre)[:2] - (group.half + other.half)[:2]
+    (low, high), (other_low, other_high) = _vertical(centre, group), _vertical(other.centre, other)
+    above = gap if group.noun.habitat == other.noun.habitat else 0.0
+    return bool(np.all(apart < gap)) and max(low - other_high, other_low - high) < above
 
 
 def _vertical(centre: Float64Array, group: ObjectGroup) -> tuple[float, float]:

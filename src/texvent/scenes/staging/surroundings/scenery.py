@@ -31,8 +31,6 @@ _IN_VIEW = 0.42
 """Half of what the image shows, but for its edges, as a multiple of the distance at focal 1."""
 ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
-_WIDTHS = (1.0, 1.4, 2.0)
-"""Walls on both sides of the view are wider where what goes there needs it."""
 _GAP_M = 0.35
 """From what must not touch it to a wall along the view."""
 
@@ -118,9 +116,12 @@ def scatter(
         noun = nouns.get(rule.noun)
         if noun is None or rule.where == "route":
             continue
-        if rule.where in ("under", "both sides"):
-            item = _lay_out(rule, noun, view, actors, bodies, rng)
-            items += [item] if item is not None else []
+        if rule.where == "under":
+            model = build(rule, noun, 0, rng)
+            items.append(_lay_under(rule, model, view, actors, bodies))
+            continue
+        if rule.where == "both sides":
+            items.append(_enclose(rule, noun, view, bodies, rng))
             continue
         must_show = number == 0 and rule.where == "walls"
         for copy in range(rule.count):
@@ -158,58 +159,37 @@ def list_bodies(actors: Sequence[Actor]) -> Float64Array:
     return np.array(rows, dtype=np.float64).reshape(-1, 3)
 
 
-def _lay_out(
+def _lay_under(
     rule: Scenery,
-    noun: Noun,
+    model: Model,
     view: ViewClearance,
     actors: Sequence[Actor],
     bodies: Float64Array,
-    rng: np.random.Generator,
-) -> SceneryItem | None:
-    """What lies under all, or walls beside or beyond it: of several widths the first with room."""
-    for wider in _WIDTHS if rule.where == "both sides" else (1.0,):
-        model = build(rule, noun, 0, rng, wider)
-        if rule.where == "both sides":
-            spot = _stand_along(model, view.cameras, bodies)
-        else:
-            spot = (*_middle_of(bodies, actors, rule.reach[0]), view.road.angle)
-        if spot is not None:
-            return SceneryItem(rule.noun, model, spot[:2], spot[2], is_flat=True)
-    return None
+) -> SceneryItem:
+    """Under the middle of all, along the road, so far on as the first of them looks."""
+    x, y = bodies[:, :2].mean(axis=0) if len(bodies) else (0.0, 0.0)
+    yaw = actors[0].trajectory.at(0.0).yaw if actors else 0.0
+    spot = (x + rule.reach[0] * math.cos(yaw), y + rule.reach[0] * math.sin(yaw))
+    return SceneryItem(rule.noun, model, spot, view.road.angle, is_flat=True)
 
 
-def _middle_of(
-    bodies: Float64Array, actors: Sequence[Actor], ahead_m: float
-) -> tuple[float, float]:
-    """The middle of all, x and y, m, and so far on as the first one looks."""
-    if not len(bodies):
-        return 0.0, 0.0
-    x, y = bodies[:, :2].mean(axis=0)
-    yaw = actors[0].trajectory.at(0.0).yaw
-    return float(x) + ahead_m * math.cos(yaw), float(y) + ahead_m * math.sin(yaw)
-
-
-def _stand_along(
-    model: Model, cameras: Sequence[Camera], bodies: Float64Array
-) -> tuple[float, float, float] | None:
-    """x, y and heading of two walls along the view; None where there is more between them.
-
-    Args:
-        model: both walls, along its x axis.
-        cameras: at some instants.
-        bodies: [n, 3] x, y and radius of what is between them, m.
-    """
-    forward = _flat(cameras[len(cameras) // 2])
+def _enclose(
+    rule: Scenery, noun: Noun, view: ViewClearance, bodies: Float64Array, rng: np.random.Generator
+) -> SceneryItem:
+    """Walls on both sides of the view, as far apart as all between them needs."""
+    forward = _flat(view.cameras[len(view.cameras) // 2])
     right = np.array([forward[1], -forward[0]])
-    eyes = np.array([camera.position[:2] for camera in cameras])
-    aside = bodies[:, :2] @ right
-    low = min((aside - bodies[:, 2]).min(initial=math.inf), (eyes @ right).min() - _GAP_M)
-    high = max((aside + bodies[:, 2]).max(initial=-math.inf), (eyes @ right).max() + _GAP_M)
-    if high - low > 0.78 * model.width:  # each wall is a tenth of their distance thick at most
-        return None
+    eyes = np.array([camera.position[:2] for camera in view.cameras])
+    aside = np.append(bodies[:, :2], eyes, axis=0) @ right
+    radii = np.append(bodies[:, 2], np.full(len(eyes), _GAP_M))
+    low, high = float((aside - radii).min()), float((aside + radii).max())
+    # Each wall is a tenth of their distance thick at most.
+    usual_m = 0.78 * build(rule, noun, 0, rng).width
+    model = build(rule, noun, 0, rng, max((high - low) / usual_m, 1.0))
     middle = eyes.mean(axis=0)
-    middle = middle + (0.5 * (high + low) - float(middle @ right)) * right
-    return float(middle[0]), float(middle[1]), math.atan2(float(forward[1]), float(forward[0]))
+    x, y = middle + (0.5 * (high + low) - float(middle @ right)) * right
+    yaw = math.atan2(float(forward[1]), float(forward[0]))
+    return SceneryItem(rule.noun, model, (float(x), float(y)), yaw, is_flat=True)
 
 
 def _flat(camera: Camera) -> Float64Array:

@@ -97,12 +97,14 @@ class Oscillating:
 
 def hover(path: Trajectory, amplitude_m: float, phase: float = 0.0) -> Oscillating:
     """Drifting a little, in the air or on water, about where a path has it."""
-    waves = (("x", 0.6 * amplitude_m, 0.23), ("z", amplitude_m, 0.4), ("yaw", 0.12, 0.31),
-             ("roll", 0.05, 0.23))  # fmt: skip
-    share = phase / (2.0 * math.pi)
     return Oscillating(
         path,
-        tuple(Wave(axis, size, rate, 2.0 * math.pi * rate * share) for axis, size, rate in waves),
+        (
+            Wave("x", 0.6 * amplitude_m, 0.23, 0.23 * phase),
+            Wave("z", amplitude_m, 0.4, 0.4 * phase),
+            Wave("yaw", 0.12, 0.31, 0.31 * phase),
+            Wave("roll", 0.05, 0.23, 0.23 * phase),
+        ),
     )
 
 

@@ -47,20 +47,21 @@ class Piece:
     sway_rad: float = 0.0
     """Amplitude of leaning from side to side."""
 
+    @property
+    def rates(self) -> tuple[float, float, float, float]:
+        """As those of a knot, at its end."""
+        return (self.speed_m_s, self.turn_rad_s, self.climb_m_s, self.pitch_rad)
+
 
 class _Knot(NamedTuple):
     """Values at the beginning of a piece."""
 
     time_s: float
-    x: float
-    y: float
-    z: float
+    place: Vector
     heading: float
     distance_m: float
-    speed: float
-    turn: float
-    climb: float
-    pitch: float
+    rates: tuple[float, float, float, float]
+    """Speed, rate of turning, rate of climbing; and pitch, which changes as they do."""
 
 
 @dataclass(frozen=True)
@@ -91,9 +92,8 @@ class SteeredPath:
 
     @cached_property
     def _knots(self) -> list[_Knot]:
-        x, y, z = self.start
-        knot = _Knot(0.0, x, y, z, self.yaw, 0.0, self.initial_speed_m_s, self.initial_turn_rad_s,
-                     0.0, 0.0)  # fmt: skip
+        rates = (self.initial_speed_m_s, self.initial_turn_rad_s, 0.0, 0.0)
+        knot = _Knot(0.0, self.start, self.yaw, 0.0, rates)
         knots = [knot]
         for piece in self.pieces:
             knot = self._advance(knot, piece, piece.duration_s)
@@ -104,7 +104,8 @@ class SteeredPath:
         """State at that instant."""
         number, knot, piece, elapsed = self._find(time_s)
         now = self._advance(knot, piece, elapsed)
-        height, pitch, roll, act_s = now.z, now.pitch, 0.0, None
+        speed, turn, climb, pitch = now.rates
+        (x, y, height), roll, act_s = now.place, 0.0, None
         if 0.0 <= elapsed <= piece.duration_s and number >= 0:
             if piece.hop_m > 0.0:
                 hop, act_s = _hop(piece, elapsed)
@@ -112,18 +113,18 @@ class SteeredPath:
             share = elapsed / piece.duration_s
             roll += piece.sway_rad * math.sin(math.pi * share) ** 2 * math.sin(9.0 * elapsed)
         if self.side_m > 0.0:
-            pitch, roll = 0.0, roll + now.pitch
-            height += self.side_m * math.sin(now.pitch)
+            height += self.side_m * math.sin(pitch)
+            pitch, roll = 0.0, roll + pitch
         slow = 0.3 * max(self.usual_speed_m_s, 0.1)
-        pitch -= math.atan(now.climb * abs(now.speed) / (now.speed**2 + slow**2))
-        roll -= math.atan(self.lean * now.speed * now.turn / GRAVITY_M_S2)
+        pitch -= math.atan(climb * abs(speed) / (speed**2 + slow**2))
+        roll -= math.atan(self.lean * speed * turn / GRAVITY_M_S2)
         return BodyState(
-            (now.x, now.y, height),
+            (x, y, height),
             now.heading + self.slip_rad,
             pitch,
             roll,
             distance_m=now.distance_m,
-            speed_m_s=abs(now.speed),
+            speed_m_s=abs(speed),
             activity=piece.activity,
             act_s=act_s,
         )
@@ -131,14 +132,15 @@ class SteeredPath:
     def distance_at(self, time_s: float) -> float:
         """Way covered since t = 0, forwards less backwards, m."""
         _, knot, piece, elapsed = self._find(time_s)
-        return knot.distance_m + _integral(knot.speed, piece.speed_m_s, _ramp(piece), elapsed)
+        return knot.distance_m + _integral(knot.rates[0], piece.speed_m_s, _ramp(piece), elapsed)
 
     def _find(self, time_s: float) -> tuple[int, _Knot, Piece, float]:
         """The piece that holds an instant: its number, its beginning, itself, and time in it."""
         knots = self._knots
         if time_s < 0.0:
-            steady = Piece(1.0, knots[0].speed, activity=self.pieces[0].activity)
-            return -1, knots[0]._replace(turn=0.0), steady, time_s
+            speed = self.initial_speed_m_s
+            steady = Piece(1.0, speed, activity=self.pieces[0].activity)
+            return -1, knots[0]._replace(rates=(speed, 0.0, 0.0, 0.0)), steady, time_s
         for number, piece in enumerate(self.pieces):
             if time_s < knots[number + 1].time_s or number == len(self.pieces) - 1:
                 return number, knots[number], piece, time_s - knots[number].time_s
@@ -146,25 +148,18 @@ class SteeredPath:
 
     def _advance(self, knot: _Knot, piece: Piece, elapsed: float) -> _Knot:
         """Values that long after the beginning of a piece."""
-        ramp = _ramp(piece)
+        ramp, pairs = _ramp(piece), list(zip(knot.rates, piece.rates, strict=True))
+        way, turned, risen, _ = (_integral(*pair, ramp, elapsed) for pair in pairs)
+        speed, turn, climb, pitch = (_blend(*pair, ramp, elapsed) for pair in pairs)
         x, y = _travel(knot, piece, ramp, elapsed)
-        z = knot.z + _integral(knot.climb, piece.climb_m_s, ramp, elapsed)
+        z = knot.place[2] + risen
         if piece.is_dropped:
-            drop = max(knot.z - self.floor_m, 0.0)
+            drop = max(knot.place[2] - self.floor_m, 0.0)
             z = self.floor_m + bounce_height(drop, 0.0, self.restitution, max(elapsed, 0.0))
-        pitch = _blend(knot.pitch, piece.pitch_rad, ramp, elapsed)
         return _Knot(
-            knot.time_s + elapsed,
-            x,
-            y,
-            max(z, self.floor_m),
-            knot.heading + _integral(knot.turn, piece.turn_rad_s, ramp, elapsed),
-            knot.distance_m + _integral(knot.speed, piece.speed_m_s, ramp, elapsed),
-            _blend(knot.speed, piece.speed_m_s, ramp, elapsed),
-            _blend(knot.turn, piece.turn_rad_s, ramp, elapsed),
-            _blend(knot.climb, piece.climb_m_s, ramp, elapsed),
-            pitch,
-        )
+            knot.time_s + elapsed, (x, y, max(z, self.floor_m)), knot.heading + turned,
+            knot.distance_m + way, (speed, turn, climb, pitch),
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -215,23 +210,17 @@ def _integral(before: float, after: float, ramp: float, elapsed: float) -> float
 
 def _travel(knot: _Knot, piece: Piece, ramp: float, elapsed: float) -> tuple[float, float]:
     """X and y that long after the beginning of a piece, m."""
-    x, y, heading = knot.x, knot.y, knot.heading
-    changing = min(elapsed, ramp)
-    if elapsed < 0.0:
-        way = knot.speed * elapsed
+    (x, y, _), heading, (speed, turn, *_) = knot.place, knot.heading, knot.rates
+    if elapsed < 0.0 or turn == 0.0 == piece.turn_rad_s:
+        way = _integral(speed, piece.speed_m_s, ramp, elapsed)
         return x + way * math.cos(heading), y + way * math.sin(heading)
-    if knot.turn == 0.0 == piece.turn_rad_s:
-        way = _integral(knot.speed, piece.speed_m_s, ramp, elapsed)
-        return x + way * math.cos(heading), y + way * math.sin(heading)
-    dx, dy = _quadrature(knot, piece, ramp, changing)
+    dx, dy = _quadrature(knot, piece, ramp, min(elapsed, ramp))
     x, y = x + dx, y + dy
-    heading += _integral(knot.turn, piece.turn_rad_s, ramp, changing)
-    rest = max(elapsed - ramp, 0.0)
-    speed, turn = piece.speed_m_s, piece.turn_rad_s
+    heading += _integral(turn, piece.turn_rad_s, ramp, min(elapsed, ramp))
+    rest, speed, turn = max(elapsed - ramp, 0.0), piece.speed_m_s, piece.turn_rad_s
     if abs(turn) < _STRAIGHT_RAD_S:
         return x + speed * rest * math.cos(heading), y + speed * rest * math.sin(heading)
-    end = heading + turn * rest
-    radius = speed / turn
+    end, radius = heading + turn * rest, speed / turn
     return (
         x + radius * (math.sin(end) - math.sin(heading)),
         y - radius * (math.cos(end) - math.cos(heading)),
@@ -242,17 +231,17 @@ def _quadrature(knot: _Knot, piece: Piece, ramp: float, elapsed: float) -> tuple
     """Integral of the velocity over the first `elapsed` s of a piece, within its ramp, m."""
     if elapsed <= 0.0:
         return 0.0, 0.0
-    widest = max(abs(knot.turn), abs(piece.turn_rad_s)) * ramp
-    steps = max(1, math.ceil(widest / _RADIANS_PER_STEP))
+    speed, turn, _, _ = knot.rates
+    steps = max(1, math.ceil(max(abs(turn), abs(piece.turn_rad_s)) * ramp / _RADIANS_PER_STEP))
     edges = np.linspace(0.0, elapsed, steps + 1)
     half = 0.5 * elapsed / steps
     times = (0.5 * (edges[:-1] + edges[1:]))[:, None] + half * _NODES
     u = times / ramp
     ease, area = u * u * (3.0 - 2.0 * u), ramp * (u**3 - 0.5 * u**4)
-    speed = knot.speed + (piece.speed_m_s - knot.speed) * ease
-    heading = knot.heading + knot.turn * times + (piece.turn_rad_s - knot.turn) * area
-    dx = half * float(np.sum(_WEIGHTS * speed * np.cos(heading)))
-    dy = half * float(np.sum(_WEIGHTS * speed * np.sin(heading)))
+    speeds = speed + (piece.speed_m_s - speed) * ease
+    headings = knot.heading + turn * times + (piece.turn_rad_s - turn) * area
+    dx = half * float(np.sum(_WEIGHTS * speeds * np.cos(headings)))
+    dy = half * float(np.sum(_WEIGHTS * speeds * np.sin(headings)))
     return dx, dy
 
 
