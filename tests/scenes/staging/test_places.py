@@ -58,15 +58,6 @@ def test_a_shore_keeps_scenery_dry_and_boats_afloat() -> None:
         assert bool((scene.actors[0].middle(0.0)[:2] - origin) @ normal > 0.0) == is_wet
 
 
-def test_who_goes_into_the_water_sinks_in() -> None:
-    motion = ObjectMotion("run", shore="into")
-    description = SceneDescription(
-        "", (SceneObject("dog", motion=motion),), surroundings=Surroundings("lake")
-    )
-    dog = compose_scene(description, seed=0, size=SIZE, duration_s=4.0).actors[0]
-    assert dog.middle(4.0)[2] < dog.middle(0.0)[2] - 0.1
-
-
 def test_nothing_blooms_where_snow_lies() -> None:
     for place in ("park", "grass"):
         nouns = {rule.noun for rule in under_snow(PLACES[place].scenery)}

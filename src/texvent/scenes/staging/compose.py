@@ -48,7 +48,7 @@ from texvent.scenes.staging.surroundings.scenery import (
     scatter,
     under_snow,
 )
-from texvent.scenes.staging.surroundings.water import wade, water_line
+from texvent.scenes.staging.surroundings.water import water_line
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -169,7 +169,6 @@ def compose_scene(
     view = _describe_view(description, PLACES[place], camera_path, actors, duration_s)
     if PLACES[place].has_road:
         actors = lay_across(actors, view.road, duration_s)
-    actors = wade(description, actors, PLACES[place], view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
@@ -260,7 +259,7 @@ def _describe_view(
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
     if place.has_shore:
-        road = water_line(description, place, actors, path)
+        road = water_line(place, actors, path)
     else:
         road = find_road(description, place, actors, float(path.framing.target[1]))
     has_strip = place.has_road or place.ground is Ground.RIVER
