@@ -74,8 +74,8 @@ class ProceduralConfig:
     """Render linear light, with lamps, fire and sun as bright as they are; without it frames are
     gamma-coded, and highlights are compressed below white."""
     strict: bool = False
-    """Refuse a prompt with a word that is not shown as it says; without it a warning names the
-    word."""
+    """Refuse a prompt with a word that is not understood or shown as something else, or with an
+    object that is never in view; without it a warning names them."""
 
     def __post_init__(self) -> None:
         check_range("duration", self.duration, 1e-6, 86_400.0)
@@ -277,7 +277,7 @@ class ProceduralGenerator:
             ConfigError: a field of the scene is wrong, or a word of it is not shown.
 
         Warns:
-            TexventWarning: some of its words are not shown as they say.
+            TexventWarning: some of its words are not shown as they say, or objects out of view.
         """
         del progress
         scene, report, files = self._stage(prompt)

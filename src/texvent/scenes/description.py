@@ -50,6 +50,8 @@ class ObjectMotion:
     """When it begins, s; None = at once, or when the motion before it ends."""
     rate_hz: float | None = None
     """How often it goes there and back, 1/s, where the prompt states that."""
+    shore: str | None = None
+    """As `spec.scene.Motion.shore`."""
     is_stuck: bool = False
     """Whether it creeps along in traffic."""
 

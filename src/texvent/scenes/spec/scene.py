@@ -90,6 +90,8 @@ class Motion:
     """Repetitions per second of an oscillation: a swing, a shake."""
     start_s: Seconds | None = None
     """Start time, s; left out: time 0, or the end of the motion before."""
+    shore: Literal["into", "out of", "towards", "away from", "in"] | None = None
+    """Direction of travel with respect to the water of the place."""
     is_stuck: bool = False
     """Whether the object creeps along in traffic."""
 

@@ -171,10 +171,15 @@ def compose_scene(
         actors = lay_across(actors, view.road, duration_s)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
-    placed = _place_scenery(items, surrounding, first_free=len(actors) + 1)
+    named = dict(enumerate(surrounding, len(actors) + 1))
+    placed = [item.place(0) for item in items]
+    placed += [item.place(instance) for instance, (_, item) in named.items()]
+    names = {one.instance: one.noun.name for one in actors}
+    names |= {instance: item.noun for instance, (_, item) in named.items()}
+    object_of = {one.instance: one.object_index for one in actors}
+    object_of |= {instance: index for instance, (index, _) in named.items()}
     nouns_of = [item.noun for item in (*items, *(item for _, item in surrounding))]
     still_nouns = tuple(n for n, one in zip(nouns_of, placed, strict=True) for _ in one.parts)
-    names, object_of = _name_bodies(actors, surrounding)
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
         description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
@@ -193,25 +198,6 @@ def compose_scene(
         tuple(dict.fromkeys(missing)), still_nouns, object_of,
         scene_lamps=description.light.lamps,
     )  # fmt: skip
-
-
-def _place_scenery(
-    items: Sequence[SceneryItem], surrounding: Sequence[tuple[int, SceneryItem]], *, first_free: int
-) -> list[PlacedModel]:
-    """Scenery of the place, which is no instance, then what the prompt names, from `first_free`."""
-    named = [item.place(first_free + number) for number, (_, item) in enumerate(surrounding)]
-    return [item.place(0) for item in items] + named
-
-
-def _name_bodies(
-    actors: Sequence[Actor], surrounding: Sequence[tuple[int, SceneryItem]]
-) -> tuple[dict[int, str], dict[int, int]]:
-    """Instance → noun, and instance → object of the description."""
-    names = {actor.instance: actor.noun.name for actor in actors}
-    object_of = {actor.instance: actor.object_index for actor in actors}
-    for instance, (index, item) in enumerate(surrounding, len(actors) + 1):
-        names[instance], object_of[instance] = item.noun, index
-    return names, object_of
 
 
 def _set_camera(
