@@ -7,6 +7,8 @@ from typing import Any
 
 import pytest
 
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.contents.statistics import in_several_splits
 from texvent.dataset.generation.api import make
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.loading.open_samples import open as open_samples
@@ -111,6 +113,15 @@ def test_every_clip_stores_its_scene(folder):
         assert sample.caption == f"a {sample.label} car"
     recipe = Recipe.of(specification)
     assert {one.scene["objects"][0]["colour"] for one in recipe.items.all} == {"red", "blue"}
+
+
+def test_scenes_with_one_prompt_may_lie_in_several_splits(folder):
+    (folder / "scenes" / "ball.toml").write_text('prompt = "a ball"\n[[objects]]\nnoun = "ball"\n')
+    source = {"scene": "scenes/ball.toml", "vary": {COLOUR: ["red", "blue", "green", "white"]}}
+    tables = {"name": "balls", "sources": [source], "splits": {"train": 0.5, "test": 0.5},
+              "options": {"duration": 0.1, "sensor": "48x36"}}  # fmt: skip
+    make(specification_from(tables, folder=folder), folder / "out", workers=1)
+    assert in_several_splits(MadeSet.open(folder / "out").shards()) == set()
 
 
 def test_wrong_words_are_found_before_any_work(folder):

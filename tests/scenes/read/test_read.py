@@ -63,6 +63,8 @@ def test_facts_of_short_prompts_are_right():
 @example("the camera. camera camera moves moves it")
 @example("without a of the no of")
 @example("a dog behind a cat. the cat is behind the dog. the dog follows the dog")
+@example("behind them a dog")
+@example("a wug and a dog behind them, a cat with it")
 @example("24 dogs, 24 cats, 24 cars, 24 trees")
 def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
     reading = reader.read(text, NOUNS)

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.generate.scene_input import list_nouns, list_words
 from texvent.scenes.spec.files import load_scene
+from texvent.scenes.spec.schema import json_schema
 from texvent.sensor import SensorSize
 
 FILES = sorted((Path(__file__).parents[3] / "docs" / "examples" / "scenes").glob("*.toml"))
+SCHEMA = json_schema(list_words(list_nouns()))
 INSTANTS_US = (100_000, 1_000_000, 1_900_000)
 LEAST_PIXELS = 4
 """Of an object at the instant at which it is seen best."""
@@ -24,6 +29,7 @@ def test_there_are_twenty():
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_every_object_is_in_view(path):
     scene = load_scene(path)
+    jsonschema.validate(tomllib.loads(path.read_text()), SCHEMA)
     generator = ProceduralGenerator(
         ProceduralConfig(duration=2.0, samples=1), size=SensorSize(112, 84)
     )

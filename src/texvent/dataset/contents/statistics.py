@@ -248,7 +248,7 @@ def in_several_splits(shards: Iterable[MadeShard]) -> set[str]:
     found = set()
     for shard in shards:
         for sample in shard.samples:
-            shows = sample.prompt or sample.clip
+            shows = sample.clip if sample.is_scene else sample.prompt or sample.clip
             if split_of.setdefault(shows, shard.record.split) != shard.record.split:
                 found.add(shows)
     return found

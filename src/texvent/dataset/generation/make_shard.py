@@ -249,7 +249,13 @@ def _events_job(
 def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
     item = clip.item
     return SampleRecord(
-        key=key, clip=clip.key, status=MADE, seed=seed, prompt=item.prompt, label=item.label
+        key=key,
+        clip=clip.key,
+        status=MADE,
+        seed=seed,
+        prompt=item.prompt,
+        label=item.label,
+        is_scene=item.scene is not None,
     )
 
 

@@ -28,6 +28,8 @@ class SampleRecord:
     """Of its simulation; of its video in a shard of videos."""
     prompt: str | None = None
     label: str | None = None
+    is_scene: bool = False
+    """Whether it shows a scene file, of which others may have the same prompt."""
     reason: str | None = None
     """Why it is not there."""
     warnings: tuple[str, ...] = ()
@@ -113,7 +115,11 @@ def record_path(shard: Path) -> Path:
 
 def write_record(shard: Path, record: ShardRecord) -> None:
     """Write the record of a shard, which makes it complete."""
-    text = json.dumps(asdict(record), ensure_ascii=False, separators=(",", ":"))
+    tables = asdict(record)
+    for sample in tables["samples"]:
+        if not sample["is_scene"]:  # which versions before scene files do not know
+            del sample["is_scene"]
+    text = json.dumps(tables, ensure_ascii=False, separators=(",", ":"))
     with atomic_file(record_path(shard), overwrite=True) as part:
         part.write_text(text + "\n", encoding="utf-8")
 
