@@ -94,7 +94,8 @@ def main() -> None:
             3, WHITE, gap=8,
         )  # fmt: skip
         imu = np.loadtxt(made / "imu.csv", delimiter=",")
-    scene = compose_scene(understand(PROMPT, list_nouns()), seed=SEED, size=SIZE, duration_s=DURATION)
+    described = understand(PROMPT, list_nouns())
+    scene = compose_scene(described, seed=SEED, size=SIZE, duration_s=DURATION)
     true = true_samples(scene, np.eye(4), (imu[:, 0] // 1000).astype(np.int64))
     width = (above.shape[1] - 8) // 2
     below = tile(

@@ -6,7 +6,8 @@ Loads nothing, so that readers can import it.
 from __future__ import annotations
 
 MOTIONS = frozenset(
-    {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide", "drift", "float",
+    {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide", "drift",
+     "float",
      "hover", "blow", "turn", "reverse", "zigzag", "park", "enter", "leave", "appear",
      "spin", "rotate", "orbit", "swing", "sway", "bounce", "jump", "fall", "rise", "sink", "throw",
      "topple", "flip", "roll over", "work", "hang", "stand", "sit", "lie"}
