@@ -83,7 +83,7 @@ def test_what_is_far_away_is_too_small(distance_m: float, is_small: bool) -> Non
 def test_pixels_of_small_things_are_counted_one_by_one() -> None:
     description = described(SceneObject("ball", colour=None), SceneObject("house"))
     scene = staged(description)
-    scene = replace(scene, camera_path=replace(scene.camera_path, moves=(), followed=None))
+    scene = replace(scene, camera_path=replace(scene.camera_path, moves=(), tie=None))
     found = count_pixels(scene, list(scene.object_of), SIZE, DURATION_S)
     truth = ground_truth(scene, 0.0, 0.05, SIZE).instance
     for instance, count in found.items():

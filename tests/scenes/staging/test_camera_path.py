@@ -19,7 +19,7 @@ from texvent.scenes.description import (
 )
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.camera.moves import MoveChannels
+from texvent.scenes.staging.camera.camera_path import MoveChannels
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 

@@ -18,11 +18,7 @@ from texvent.scenes.description import (
 from texvent.scenes.projection import project
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.camera.camera_path import CameraPath
-from texvent.scenes.staging.camera.framing import Framing, fit
-from texvent.scenes.staging.camera.prominence import (
-    come_near,
-    measure,
-)
+from texvent.scenes.staging.camera.framing import Framing, come_near, fit, measure_prominence
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 
@@ -40,12 +36,12 @@ def flat_box(width: float, height: float, x: float = 0.0) -> Float64Array:
     return np.asarray(0.5 * SIGNS * [width, 0.0, height] + [x, 0.0, 0.0])
 
 
-def prominence_of(*boxes: Float64Array) -> Callable[[CameraPath], float]:
-    return lambda path: measure(path.at(0.0), np.array(boxes), ASPECT)
+def prominence_of(*boxes: Float64Array) -> Callable[[Framing], float]:
+    return lambda one: measure_prominence(path_of(one).at(0.0), np.array(boxes), ASPECT)
 
 
-def seen_from(distance_m: float) -> CameraPath:
-    return path_of(Framing(np.zeros(3), 0.0, 0.0, distance_m, 1.0))
+def seen_from(distance_m: float) -> Framing:
+    return Framing(np.zeros(3), 0.0, 0.0, distance_m, 1.0)
 
 
 def test_prominence_of_one_is_the_mean_of_its_shares_of_width_and_height() -> None:
@@ -72,15 +68,15 @@ def test_the_camera_stops_where_the_subject_reaches_the_goal(goal: float) -> Non
 
     prominence = prominence_of(subject)
     wide, near = framed(everything), framed(subject)
-    path = come_near([wide, near], path_of, prominence, [goal])
-    least, most = prominence(path_of(wide)), prominence(path_of(near))
+    found = come_near([wide, near], prominence, [goal])
+    least, most = prominence(wide), prominence(near)
     if goal < least:
-        assert path.framing is wide
+        assert found is wide
     elif goal < most:
-        assert goal <= prominence(path) < 1.1 * goal
+        assert goal <= prominence(found) < 1.1 * goal
     else:
-        assert prominence(path) == pytest.approx(most)
-    camera = path.at(0.0)
+        assert prominence(found) == pytest.approx(most)
+    camera = path_of(found).at(0.0)
     image = project(camera, SIZE, subject)[:, :2]
     assert np.all(image >= 0.0)
     assert np.all(image <= [SIZE.width, SIZE.height])

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -12,13 +11,8 @@ from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, corners_over
-from texvent.scenes.staging.camera.camera_path import share_followed
-from texvent.scenes.staging.camera.subject import (
-    KEPT_TOGETHER,
-    acts_with_arms,
-    goes,
-    list_related,
-)
+from texvent.scenes.staging.camera.camera_path import Tie
+from texvent.scenes.staging.camera.subject import acts_with_arms
 
 INSTANTS = 13
 """Instants of the clip at which everything must fit."""
@@ -27,8 +21,6 @@ _FILL, _WIDE_FILL, _FOLLOWED_FILL, _NEAR_FILL = 0.88, 0.7, 0.75, 0.95
 along with it, and in a close shot."""
 _FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
                  "crane": 0.7, "handheld": 0.78, "roll": 0.7, "dolly zoom": 0.6}  # fmt: skip
-_CALM = 0.5
-"""Pace below which a camera in a hand hardly shakes."""
 _APPROACHES = frozenset({"zoom", "dolly", "dolly zoom"})
 _AIM_FILLS, _LARGE_AIM = (1.3, 0.55), 1.3
 """Fill at the far and the near end of a move in, and prominence of the aim at the near one."""
@@ -40,27 +32,17 @@ _GOALS = (1.0, 1.0, 0.9, 0.4)
 """Prominence of the subject for which the image may hold no more than each of the views."""
 _LARGE_IN_WIDE = 0.75
 """How much less prominent the subject is in a wide shot."""
-_TYING = frozenset({"follow", "orbit"})
-"""Moves that go along with the subject."""
+KEPT_TOGETHER = frozenset(
+    {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
+     "left of", "right of", "look at"}
+)  # fmt: skip
+"""Relations of which both things must be in the picture."""
 _UPPER = {"close": 0.62, "medium": 0.42}
 """Framing → share of a person's height below which the image may end."""
 _BREADTH = {"close": 0.24, "medium": 0.32}
 """Framing → how far to each side of the middle it must hold the person, in heights."""
 _FOREARM = 0.28
 """Share of a hand with its forearm below which the image may end: it comes from outside."""
-
-
-class _Scope(NamedTuple):
-    """What decides how much of each object must be seen."""
-
-    main: Actor
-    times: Float64Array
-    tying: Sequence[CameraMove]
-    """Moves of a camera that goes along with the subject; empty = it does not."""
-    passed: frozenset[int]
-    """Objects that something goes past."""
-    cut: frozenset[int]
-    """Objects of which the lower part may be out of the image: people who act with their arms."""
 
 
 class View(NamedTuple):
@@ -74,70 +56,62 @@ class View(NamedTuple):
     """Prominence of the subject for which the image may hold no more than this."""
 
 
-def list_views(
-    description: SceneDescription,
-    actors: Sequence[Actor],
-    main: Actor,
-    moves: Sequence[CameraMove],
-    times: Float64Array,
-) -> list[View]:
-    """What the image may hold, from all there is to the subject alone.
+class _Scope(NamedTuple):
+    """What decides how much of each object must be seen."""
 
-    Args:
-        description: what the scene says of the camera.
-        actors: the objects of the scene.
-        main: the subject.
-        moves: of the camera.
-        times: instants at which it must fit, s.
-    """
-    shot = description.shot
-    is_tied = main.is_mover and any(move.kind in _TYING for move in moves)
-    tying = tuple(moves) if is_tied else ()
-    passed = {
-        target
-        for relation in description.relations
-        if relation.kind in ("past", "among", "overtake")
-        for target in relation.targets
-    }
+    main: Actor
+    times: Float64Array
+    tie: Tie | None
+    passed: Collection[int]
+    """Objects that something goes past."""
+    cut: Collection[int]
+    """Objects of which the lower part may be out of the image: people who act with their arms."""
+
+
+def list_views(
+    description: SceneDescription, actors: Sequence[Actor], main: Actor,
+    moves: Sequence[CameraMove], times: Float64Array,
+) -> list[View]:  # fmt: skip
+    """What the image may hold, from all there is to the subject alone, at instants, s."""
+    shot, tie = description.shot, Tie.of(moves, main)
+    relations = description.relations
+    passed = {n for r in relations if r.kind in ("past", "among", "overtake") for n in r.targets}
     first = {one.object_index: one for one in reversed(actors)}
     cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
-    scope = _Scope(main, times, tying, frozenset(passed), frozenset(cut))
+    scope = _Scope(main, times, tie, passed, cut)
     near = [one for one in actors if description.objects[one.object_index].side != "far"]
     if any(move.kind in _APPROACHES for move in moves) and main.object_index == shot.target:
-        return _approach(near, scope._replace(tying=()))
-    if shot.framing == "close" or shot.view == "shoulder" or shot.framing == "medium":
-        framing = "close" if shot.framing == "close" else "medium"
-        if framing == "close" or main.noun.name in PERSON_NOUNS:
-            box = corners_over([main], times[:1] if tying else times)
-            return [View(_bust(main, box, framing), _NEAR_FILL)]
-    fill = min([_FILL, *(_fill_for(move) for move in moves)])
-    if tying and share_followed(tying) == 1.0:
-        fill = min(fill, _FOLLOWED_FILL)
-    is_wide = shot.framing == "wide"
-    fill = _WIDE_FILL if is_wide else fill
-    related = list_related(description, main)
-    copies = {one.instance for one in actors if one.object_index == main.object_index}
-    partners = {one.instance for one in near if one.object_index in related}
-    placed = {i for r in description.relations if r.kind in KEPT_TOGETHER for i in r.targets}
-    kept = {one.instance for one in near if one.object_index in related & placed}
-    others = {one.instance for one in near if goes(one, times) or not main.is_mover}
-    choices: tuple[set[int], ...] = (
-        {one.instance for one in near},
-        others | partners,
-        partners,
-        kept,
-    )
-    least = _LARGE_IN_WIDE if is_wide else 1.0
+        return _approach(near, scope._replace(tie=None))
+    framing = shot.framing
+    if shot.view == "shoulder" and framing != "close":
+        framing = "medium"
+    if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
+        box = corners_over([main], times if tie is None else times[:1])
+        return [View(_bust(main, box, framing), _NEAR_FILL)]
+    fill = min([_FILL, *(_FILL_BY_MOVE.get(move.kind, _FILL) for move in moves)])
+    fill = fill if tie is None or tie.share < 1.0 else min(fill, _FOLLOWED_FILL)
+    if shot.framing == "wide":
+        fill = _WIDE_FILL
+    goal = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
+    tied = [
+        {r.subject, *r.targets} for r in relations if main.object_index in (r.subject, *r.targets)
+    ]
+    related = set().union(*tied) - {main.object_index}
+    landmarks = {n for r in relations if r.kind in KEPT_TOGETHER for n in r.targets}
+    partners = [one for one in near if one.object_index in related - {main.object_index}]
+    others = [one for one in near if not main.is_mover or _goes(one)]
+    kept = [one for one in partners if one.object_index in landmarks]
+    copies = [one for one in actors if one.object_index == main.object_index]
+    choices = (near, [*others, *partners], partners, kept)
     return [
-        View(_points_of([a for a in actors if a.instance in copies | some], scope), fill, least * g)
-        for some, g in zip(choices, _GOALS, strict=True)
+        View(_points_of([*copies, *some], scope), fill, goal * least)
+        for some, least in zip(choices, _GOALS, strict=True)
     ]
 
 
-def _fill_for(move: CameraMove) -> float:
-    """Share of the image that things may fill while the camera makes a move."""
-    is_calm = move.kind == "handheld" and move.pace < _CALM
-    return _FILL if is_calm else _FILL_BY_MOVE.get(move.kind, _FILL)
+def _goes(actor: Actor) -> bool:
+    """Whether it moves from where it is; a lighthouse and a swing only work there."""
+    return actor.is_mover and actor.noun.habitat != "fixed"
 
 
 def _approach(actors: Sequence[Actor], scope: _Scope) -> list[View]:
@@ -156,24 +130,23 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
 
     Where the camera goes along with the subject, places are those relative to it.
     """
-    main, times, tying = scope.main, scope.times, scope.tying
+    main, times = scope.main, scope.times
     movers = [actor for actor in actors if actor.is_mover or actor is main]
     largest = max(actor.size_m for actor in movers)
     points = []
     for actor in actors:
         is_mover = actor.is_mover or actor is main
-        if tying and not is_mover:
+        if scope.tie is not None and not is_mover:
             continue
         is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
         if is_large and not is_mover:
             points.append(near_piece(actor, main, times, _PIECE * largest))
             continue
-        boxes = [actor.corners(float(time)) for time in times]
-        if actor.object_index in scope.cut:
-            boxes = [upper_part(box, _share_unseen(actor, "medium")) for box in boxes]
-        if tying:
-            boxes = [_to_subject(*one, main, tying) for one in zip(boxes, times, strict=True)]
-        points += boxes
+        for time in map(float, times):
+            box = actor.corners(time)
+            if actor.object_index in scope.cut:
+                box = upper_part(box, _share_unseen(actor, "medium"))
+            points.append(box if scope.tie is None else scope.tie.relative(box, time))
     return np.vstack(points)
 
 
@@ -200,24 +173,6 @@ def _bust(actor: Actor, points: Float64Array, framing: str) -> Float64Array:
         middle = 0.5 * (cut[:, :2].min(axis=0) + cut[:, :2].max(axis=0))
         cut[:, :2] = np.clip(cut[:, :2], middle - reach, middle + reach)
     return cut
-
-
-def _to_subject(
-    points: Float64Array, time_s: float, main: Actor, tying: Sequence[CameraMove]
-) -> Float64Array:
-    """Points as a camera that goes along with the subject sees them, at the start's place, m."""
-    state, start = main.trajectory.at(float(time_s)), main.trajectory.at(0.0)
-    now, then = np.array(state.position), np.array(start.position)
-    now = then + share_followed(tying) * (now - then)
-    if main.noun.habitat == "ground":
-        now[2] = then[2]
-    points = points - now
-    if any(m.kind == "follow" and m.direction in ("behind", "front") for m in tying):
-        angle = start.yaw - state.yaw
-        cosine, sine = math.cos(angle), math.sin(angle)
-        turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-        points = points @ turn.T
-    return np.asarray(points + then)
 
 
 def near_piece(actor: Actor, main: Actor, times: Float64Array, reach_m: float) -> Float64Array:

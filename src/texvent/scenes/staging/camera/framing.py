@@ -1,9 +1,9 @@
-"""Framing: the camera position from which everything that matters fits the image."""
+"""Framing: the camera position from which everything that matters fits the image, large enough."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +14,12 @@ USUAL_FOCAL = 1.1
 """Focal length over image width."""
 NEAREST_M = 0.04
 """Least distance from the camera to what it looks at, m."""
+_LARGE = 0.3
+"""Geometric mean of the shares of the image's width and height that a subject should extend over:
+a person two thirds as high as the image, a car four tenths as wide. What is thin comes nearer."""
+_LARGE_GROUP, _LARGE_COPY = 0.65, 0.13
+"""Share of the image's width or height that a group should extend over together, and each of it."""
+_HALVINGS = 6
 
 
 @dataclass(frozen=True)
@@ -125,3 +131,61 @@ def fit(
     raised = min(lift, max(fill + lowest, 0.0))
     target = target + raised * half_height * distance * up
     return Framing(target, azimuth, elevation, distance, focal)
+
+
+def image_of(camera: Camera, points: Float64Array) -> Float64Array:
+    """[..., 3] of points: x and y in image widths from the middle, y down; and depth, m."""
+    seen = (points - camera.position) @ camera.rotation.T
+    seen[..., :2] *= camera.focal / np.maximum(seen[..., 2:], 1e-3)
+    return np.asarray(seen)
+
+
+def measure_prominence(camera: Camera, boxes: Float64Array, aspect: float) -> float:
+    """How prominent the copies of an object are; 1 = as large as a subject should be.
+
+    Args:
+        camera: that sees them.
+        boxes: [copies, 8, 3] their corners, m.
+        aspect: image height over width.
+    """
+    image = image_of(camera, boxes)[..., :2] / [1.0, aspect]
+    copy = float(np.sqrt(np.prod(np.ptp(image, axis=1), axis=1)).max())
+    if len(image) == 1:
+        return copy / _LARGE
+    group = float(np.ptp(image, axis=(0, 1)).max())
+    return max(copy / _LARGE, min(copy / _LARGE_COPY, group / _LARGE_GROUP))
+
+
+def come_near(
+    framings: Sequence[Framing], prominence: Callable[[Framing], float], goals: Sequence[float]
+) -> Framing:
+    """The framing that shows as much as it can with a subject that is large enough.
+
+    All framings look the same way, so that whatever is in the image from two places is so from
+    every place on the line between them.
+
+    Args:
+        framings: from the one that shows all to the one that shows the subject alone.
+        prominence: of the subject in the clip that a framing gives.
+        goals: how prominent it must be for the camera to go on to each framing after the first.
+    """
+    found, reached = framings[0], prominence(framings[0])
+    for near, goal in zip(framings[1:], goals, strict=True):
+        most = prominence(near)
+        if reached >= goal or most <= reached:
+            continue
+        wide, low, high = found, 0.0, 1.0
+        for _ in range(_HALVINGS if most >= goal else 0):
+            middle = 0.5 * (low + high)
+            is_enough = prominence(_between(wide, near, middle)) >= goal
+            low, high = (low, middle) if is_enough else (middle, high)
+        found = _between(wide, near, high)
+        reached = prominence(found)
+    return found
+
+
+def _between(one: Framing, other: Framing, share: float) -> Framing:
+    """The framing at a share of the way from one to another."""
+    target = one.target + share * (other.target - one.target)
+    distance = one.distance_m + share * (other.distance_m - one.distance_m)
+    return replace(one, target=target, distance_m=distance)
