@@ -13,7 +13,6 @@ from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath, Tie
-from texvent.scenes.staging.camera.framed_points import INSTANTS, KEPT_TOGETHER, list_views
 from texvent.scenes.staging.camera.framing import (
     Framing,
     come_near,
@@ -26,9 +25,12 @@ from texvent.scenes.staging.camera.framing import (
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.subject import (
     ELEVATIONS,
+    INSTANTS,
+    KEPT_TOGETHER,
     choose_angles,
     choose_main,
     goes_in_depth,
+    list_views,
 )
 
 _SKY_LIFT = 0.2

@@ -1,9 +1,10 @@
-"""The subject: which object the camera is about, and from where it looks at it."""
+"""The subject: what the camera is about, from where it looks, and what the image must hold."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,9 +13,39 @@ from texvent.scenes.models.anchors import has_places
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.actors import Actor, corners_over, seeded
+from texvent.scenes.staging.camera.camera_path import Tie
 from texvent.scenes.staging.trajectories.trajectory import Stationary
 
+INSTANTS = 13
+"""Instants of the clip at which everything must fit."""
+_FILL, _WIDE_FILL, _FOLLOWED_FILL, _NEAR_FILL = 0.88, 0.7, 0.75, 0.95
+"""Share of the image that what matters may fill: usually, in a wide shot, where the camera goes
+along with it, and in a close shot."""
+_FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
+                 "crane": 0.7, "handheld": 0.78, "roll": 0.7, "dolly zoom": 0.6}  # fmt: skip
+_APPROACHES = frozenset({"zoom", "dolly", "dolly zoom"})
+_AIM_FILLS, _LARGE_AIM = (1.3, 0.55), 1.3
+"""Fill at the far and the near end of a move in, and prominence of the aim at the near one."""
+_WHOLE = 3.5
+"""Other objects must fit as a whole if they are at most this many times as large as the movers."""
+_PIECE = 0.7
+"""Reach of the piece of a larger one that must fit, in sizes of the largest mover."""
+_GOALS = (1.0, 1.0, 0.9, 0.4)
+"""Prominence of the subject for which the image may hold no more than each of the views."""
+_LARGE_IN_WIDE = 0.75
+"""How much less prominent the subject is in a wide shot."""
+KEPT_TOGETHER = frozenset(
+    {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
+     "left of", "right of", "look at"}
+)  # fmt: skip
+"""Relations of which both things must be in the picture."""
+_UPPER = {"close": 0.62, "medium": 0.42}
+"""Framing → share of a person's height below which the image may end."""
+_BREADTH = {"close": 0.24, "medium": 0.32}
+"""Framing → how far to each side of the middle it must hold the person, in heights."""
+_FOREARM = 0.28
+"""Share of a hand with its forearm below which the image may end: it comes from outside."""
 _RESTS = 0.05
 """How far, in its heights, the lower body of a person on the spot may move."""
 _BELOW = ("left foot", "right foot", "seat")
@@ -140,3 +171,144 @@ def _is_elongated(main: Actor) -> bool:
     model = main.model
     is_large = model.length > _FLAT_MOST_M and main.noun.motion in ("drive", "sail")
     return is_large and model.length > _ELONGATED * model.height
+
+
+class View(NamedTuple):
+    """What the image is to hold."""
+
+    points: Float64Array
+    """[n, 3] m."""
+    fill: float
+    """Share of the image that they may fill."""
+    goal: float = 1.0
+    """Prominence of the subject for which the image may hold no more than this."""
+
+
+class _Scope(NamedTuple):
+    """What decides how much of each object must be seen."""
+
+    main: Actor
+    times: Float64Array
+    tie: Tie | None
+    passed: Collection[int]
+    """Objects that something goes past."""
+    cut: Collection[int]
+    """Objects of which the lower part may be out of the image: people who act with their arms."""
+
+
+def list_views(
+    description: SceneDescription, actors: Sequence[Actor], main: Actor,
+    moves: Sequence[CameraMove], times: Float64Array,
+) -> list[View]:  # fmt: skip
+    """What the image may hold, from all there is to the subject alone, at instants, s."""
+    shot, tie = description.shot, Tie.of(moves, main)
+    relations = description.relations
+    passed = {n for r in relations if r.kind in ("past", "among", "overtake") for n in r.targets}
+    first = {one.object_index: one for one in reversed(actors)}
+    cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
+    scope = _Scope(main, times, tie, passed, cut)
+    near = [one for one in actors if description.objects[one.object_index].side != "far"]
+    if any(move.kind in _APPROACHES for move in moves) and main.object_index == shot.target:
+        return _approach(near, scope._replace(tie=None))
+    framing = shot.framing
+    if shot.view == "shoulder" and framing != "close":
+        framing = "medium"
+    if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
+        box = corners_over([main], times if tie is None else times[:1])
+        return [View(_bust(main, box, framing), _NEAR_FILL)]
+    fill = min([_FILL, *(_FILL_BY_MOVE.get(move.kind, _FILL) for move in moves)])
+    fill = fill if tie is None or tie.share < 1.0 else min(fill, _FOLLOWED_FILL)
+    if shot.framing == "wide":
+        fill = _WIDE_FILL
+    goal = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
+    tied = [
+        {r.subject, *r.targets} for r in relations if main.object_index in (r.subject, *r.targets)
+    ]
+    related = set().union(*tied) - {main.object_index}
+    landmarks = {n for r in relations if r.kind in KEPT_TOGETHER for n in r.targets}
+    partners = [one for one in near if one.object_index in related - {main.object_index}]
+    others = [one for one in near if not main.is_mover or _goes(one)]
+    kept = [one for one in partners if one.object_index in landmarks]
+    copies = [one for one in actors if one.object_index == main.object_index]
+    choices = (near, [*others, *partners], partners, kept)
+    return [
+        View(_points_of([*copies, *some], scope), fill, goal * least)
+        for some, least in zip(choices, _GOALS, strict=True)
+    ]
+
+
+def _goes(actor: Actor) -> bool:
+    """Whether it moves from where it is; a lighthouse and a swing only work there."""
+    return actor.is_mover and actor.noun.habitat != "fixed"
+
+
+def _approach(actors: Sequence[Actor], scope: _Scope) -> list[View]:
+    """Views for a move in: at its far end the image shows what else there is, about the subject."""
+    near = corners_over([scope.main], scope.times)
+    rest = _points_of(actors, scope)
+    aim = 0.5 * (near.min(axis=0) + near.max(axis=0))
+    far_fill, near_fill = _AIM_FILLS
+    return [
+        View(np.vstack([rest, 2.0 * aim - rest]), far_fill), View(near, near_fill, _LARGE_AIM)
+    ]  # fmt: skip
+
+
+def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
+    """[n, 3] what must fit, m: movers whole, of much larger things the piece near the subject.
+
+    Where the camera goes along with the subject, places are those relative to it.
+    """
+    main, times = scope.main, scope.times
+    movers = [actor for actor in actors if actor.is_mover or actor is main]
+    largest = max(actor.size_m for actor in movers)
+    points = []
+    for actor in actors:
+        is_mover = actor.is_mover or actor is main
+        if scope.tie is not None and not is_mover:
+            continue
+        is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
+        if is_large and not is_mover:
+            points.append(near_piece(actor, main, times, _PIECE * largest))
+            continue
+        for time in map(float, times):
+            box = actor.corners(time)
+            if actor.object_index in scope.cut:
+                box = upper_part(box, _share_unseen(actor, "medium"))
+            points.append(box if scope.tie is None else scope.tie.relative(box, time))
+    return np.vstack(points)
+
+
+def _share_unseen(actor: Actor, framing: str) -> float:
+    """Share of the height of a person, or of a hand, below which the image may end."""
+    return _FOREARM if actor.noun.name in HAND_NOUNS else _UPPER[framing]
+
+
+def upper_part(points: Float64Array, share: float) -> Float64Array:
+    """[n, 3] corners of boxes, m, without what is below a share of their height."""
+    low, high = float(points[:, 2].min()), float(points[:, 2].max())
+    cut = points.copy()
+    cut[:, 2] = np.maximum(cut[:, 2], low + share * (high - low))
+    return cut
+
+
+def _bust(actor: Actor, points: Float64Array, framing: str) -> Float64Array:
+    """[n, 3] of a close or medium shot: of a person no legs and no arm that reaches out, m."""
+    if actor.noun.name not in PERSON_NOUNS | HAND_NOUNS:
+        return points
+    cut = upper_part(points, _share_unseen(actor, framing))
+    if actor.noun.name in PERSON_NOUNS:
+        reach = _BREADTH[framing] * float(np.ptp(points[:, 2]))
+        middle = 0.5 * (cut[:, :2].min(axis=0) + cut[:, :2].max(axis=0))
+        cut[:, :2] = np.clip(cut[:, :2], middle - reach, middle + reach)
+    return cut
+
+
+def near_piece(actor: Actor, main: Actor, times: Float64Array, reach_m: float) -> Float64Array:
+    """[8, 3] the piece of an object's box that is nearest to the subject's way, m."""
+    box = actor.corners(float(times[0]))
+    low, high = box.min(axis=0), box.max(axis=0)
+    ways = np.array([main.middle(float(time)) for time in times])
+    nearest = np.clip(ways, low, high)
+    point = nearest[int(np.argmin(np.linalg.norm(nearest - ways, axis=1)))]
+    ends = np.stack([np.maximum(low, point - reach_m), np.minimum(high, point + reach_m)])
+    return np.array([[x, y, z] for x in ends[:, 0] for y in ends[:, 1] for z in ends[:, 2]])

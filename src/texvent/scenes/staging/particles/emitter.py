@@ -19,7 +19,6 @@ from texvent.scenes.staging.particles.motion import (
     aimed,
     directions,
     flight,
-    flight_velocity,
     turbulence,
 )
 from texvent.scenes.staging.particles.shapes import (
@@ -85,6 +84,7 @@ class Emitter(ParticleEffect):
         start_s: float | None = None,
         is_once: bool = False,
         floor_m: float = -math.inf,
+        volley: int = 0,
     ) -> Emitter:
         """An emitter.
 
@@ -96,13 +96,15 @@ class Emitter(ParticleEffect):
             start_s: when it begins, s; None = long ago.
             is_once: whether all of them leave at that instant.
             floor_m: height of the ground, m.
+            volley: number of the salvo that it is, where it has some.
         """
         life_s = style.life * math.sqrt(source.size_m / GRAVITY) or _LONG_S
-        if style.until_ground:
+        if style.body == "drop" and style.life == 0.0:
             height = float(source.at(np.zeros(1))[0, 2])
             height = max(height, 0.02) if math.isfinite(floor_m) else 3.0 * source.size_m
             life_s = 1.1 * math.sqrt(2.0 * height / GRAVITY)
-        lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, style.salvo)
+        salvo = volley / style.salvos if style.salvos else None
+        lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, salvo)
         colours = np.array(style.colours)
         if colour is not None and not style.keeps_colour:
             colours = np.array([colour])
@@ -160,11 +162,11 @@ class Emitter(ParticleEffect):
         row = np.zeros((1, LAMP_COLUMNS))
         row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
         level, hue = wave_at(_FLAME, _FLAME_HZ, time_s, 0.37, 0), _FLAME_LIGHT
-        if self.lives.once_at_s is not None or style.salvo is not None:
+        if self.lives.once_at_s is not None or style.salvos > 0:
             age, draws = self.lives.at(time_s)
             age_s = max(float(age[0]), 0.0) * self.lives.life_s
             level = min(age_s / 0.02, 1.0) * math.exp(-age_s / (0.35 * math.sqrt(size / GRAVITY)))
-            if style.salvo is not None:
+            if style.salvos:
                 row[0, :3] += self._offsets(draws)[0]
                 hue = self.colours[int(draws[0, 6] * len(self.colours))]
         row[0, 3:6] = level * style.light * size * size * hue
@@ -195,14 +197,14 @@ class Emitter(ParticleEffect):
         flown_s = age_s
         if style.body == "chip":
             flown_s = np.minimum(age_s, self._landing_s(start[:, 2], velocity[:, 2]))
-        places = start + flight(flown_s, velocity, drag_s, pull)
+        way, heading = flight(flown_s, velocity, drag_s, pull)
+        places = start + way
         if style.curl:
             apart = 9.0 * size * draws[:, 4:5] * (style.body != "puff")
             eddies = turbulence(places + apart, time_s, _EDDY * size, _EDDY_HZ / unit_s)
             places += style.curl * size * age[:, None] * eddies
         if style.body == "drop":
             is_there &= places[:, 2] > self.floor_m - style.radius[1] * size
-        heading = flight_velocity(flown_s, velocity, drag_s, pull)
         return _Flown(places, heading, age, flown_s, draws, is_there)
 
     def _offsets(self, draws: Float64Array) -> Float64Array:

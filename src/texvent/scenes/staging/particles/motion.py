@@ -93,12 +93,12 @@ class Lives:
 
 def flight(
     age_s: Float64Array, velocity: Float64Array, drag_s: float, pull: Float64Array
-) -> Float64Array:
-    """Way of bodies with linear drag: [n, 3] from [n] ages and [n, 3] first velocities.
+) -> tuple[Float64Array, Float64Array]:
+    """Ways [n, 3], m, and velocities [n, 3], m/s, of bodies with linear drag.
 
     Args:
-        age_s: since they started, s.
-        velocity: at the start, m/s.
+        age_s: [n] since they started, s.
+        velocity: [n, 3] at the start, m/s.
         drag_s: time in which drag takes all but 37 % of a velocity, s; inf = no drag.
         pull: [3] constant acceleration, such as gravity, m/s².
 
@@ -106,36 +106,19 @@ def flight(
     """
     age = age_s[:, None]
     if math.isinf(drag_s):
-        return np.asarray(velocity * age + 0.5 * pull * age * age)
-    grown = drag_s * (1.0 - np.exp(-age / drag_s))
-    final = pull * drag_s
-    return np.asarray(final * age + (velocity - final) * grown)
+        return velocity * age + 0.5 * pull * age * age, velocity + pull * age
+    left, final = np.exp(-age / drag_s), pull * drag_s
+    way = final * age + (velocity - final) * drag_s * (1.0 - left)
+    return way, final + (velocity - final) * left
 
 
-def flight_velocity(
-    age_s: Float64Array, velocity: Float64Array, drag_s: float, pull: Float64Array
-) -> Float64Array:
-    """[n, 3] velocity of what `flight` moves."""
-    age = age_s[:, None]
-    if math.isinf(drag_s):
-        return np.asarray(velocity + pull * age)
-    final = pull * drag_s
-    return np.asarray(final + (velocity - final) * np.exp(-age / drag_s))
-
-
-def turbulence(place: Float64Array, time_s: float, scale_m: float, speed: float) -> Float64Array:
-    """[n, 3] displacement in eddies, in multiples of `scale_m`, about -1..1: sums of sines.
+def turbulence(place: Float64Array, time_s: float, scale_m: float, rate_hz: float) -> Float64Array:
+    """[n, 3] displacement in eddies of that size, in multiples of it, about -1..1: sums of sines.
 
     Neighbours move alike, so that a plume bends and curls as a whole.
-
-    Args:
-        place: [n, 3] m.
-        time_s: s.
-        scale_m: size of the eddies, m.
-        speed: turns per second.
     """
     x, y, z = (place / scale_m).T
-    turn = 2.0 * math.pi * speed * time_s
+    turn = 2.0 * math.pi * rate_hz * time_s
     return np.stack(
         [
             0.6 * np.sin(0.9 * z - turn + 1.3) + 0.4 * np.sin(1.7 * z + 1.1 * y - 1.6 * turn),
