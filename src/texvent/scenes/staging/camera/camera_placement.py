@@ -38,8 +38,8 @@ _SKY_LIFT = 0.2
 _TRACKING_LENGTHS, _NEAR_LENGTHS = 3.0, 0.3
 """An object that covers more of its own lengths in the clip is followed from the side: usually, and
 in a close or medium shot."""
-_OUTSIDE_SHARES = (0.3, 0.5, 0.7)
-"""Shares of the clip at whose beginning or end what enters or leaves may be out of the picture."""
+_OUTSIDE = 0.5
+"""Share of the clip at whose beginning or end what enters or leaves may be out of the picture."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -110,27 +110,13 @@ def place_camera(
 
 def _watch(shooting: _Shooting) -> CameraPath:
     """The widest camera with a large subject."""
-    main = choose_main(shooting.description, shooting.actors)
-    moves = _plan_moves(shooting.description, main, shooting.duration_s)
-    if not (main.enters or main.leaves):
-        return _fit_path(shooting, main, moves, shooting.times)
-    for share in _OUTSIDE_SHARES:
-        first = share * shooting.duration_s if main.enters else 0.0
-        last = (1.0 - share) * shooting.duration_s if main.leaves else shooting.duration_s
-        times = np.linspace(min(first, last), max(first, last), INSTANTS)
-        path = _fit_path(shooting, main, moves, times)
-        if _begins_and_ends_outside(path, main, shooting.aspect):
-            break
-    return path
-
-
-def _fit_path(
-    shooting: _Shooting, main: Actor, moves: tuple[CameraMove, ...], times: Float64Array
-) -> CameraPath:
-    """The camera that shows what matters at these instants, s."""
     description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
-    azimuth, elevation = choose_angles(description, main, moves, shooting.place, shooting.seed)
-    is_open = shooting.has_floor and not is_room(shooting.place)
+    main, place = choose_main(description, actors), shooting.place
+    moves = _plan_moves(description, main, shooting.duration_s)
+    first, last = _OUTSIDE * main.enters, 1.0 - _OUTSIDE * main.leaves
+    times = shooting.duration_s * np.linspace(first, last, INSTANTS)
+    azimuth, elevation = choose_angles(description, main, moves, place, shooting.seed)
+    is_open = shooting.has_floor and not is_room(place)
     lift = _SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
     boxes = [np.array([one.corners(float(time)) for one in copies]) for time in times]
@@ -150,16 +136,6 @@ def _fit_path(
         for one in views
     ]  # fmt: skip
     return path_of(come_near(framings, prominence, [view.goal for view in views[1:]]))
-
-
-def _begins_and_ends_outside(path: CameraPath, main: Actor, aspect: float) -> bool:
-    """Whether what enters begins out of the picture, and what leaves ends there."""
-    half = np.array([0.5, 0.5 * aspect])
-    for time in [0.0] * main.enters + [path.duration_s] * main.leaves:
-        seen = image_of(path.at(time), main.corners(time))[:, :2]
-        if not (np.any(seen.min(axis=0) > half) or np.any(seen.max(axis=0) < -half)):
-            return False
-    return True
 
 
 def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraPath:

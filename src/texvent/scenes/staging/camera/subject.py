@@ -42,8 +42,6 @@ KEPT_TOGETHER = frozenset(
 """Relations of which both things must be in the picture."""
 _UPPER = {"close": 0.62, "medium": 0.42}
 """Framing → share of a person's height below which the image may end."""
-_BREADTH = {"close": 0.24, "medium": 0.32}
-"""Framing → how far to each side of the middle it must hold the person, in heights."""
 _FOREARM = 0.28
 """Share of a hand with its forearm below which the image may end: it comes from outside."""
 _RESTS = 0.05
@@ -64,10 +62,9 @@ _ROOM_ELEVATION = 0.24
 _FLAT, _FLAT_MOST_M, _FLAT_ELEVATION = 0.3, 3.0, 0.85
 """What stays in place, is flatter than this share of its length and not longer than that, is looked
 down upon."""
-_LEVEL_ELEVATION = 0.38
-"""Greatest elevation of a view from the front, the side or behind."""
-_BETWEEN_WALLS = 0.06
-"""Azimuth of a camera between two walls, which looks along them."""
+_LEVEL_ELEVATION, _BETWEEN_WALLS = 0.38, 0.06
+"""Greatest elevation of a view from the front, the side or behind; and azimuth of a camera between
+two walls, which looks along them."""
 _ELONGATED, _ALONG_IT = 4.5, 0.75
 """What is so many times as long as high is seen at an angle to its side, from nearer its front."""
 _HERD, _HERD_ELEVATION = 6, 0.3
@@ -214,8 +211,8 @@ def list_views(
     if shot.view == "shoulder" and framing != "close":
         framing = "medium"
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
-        box = corners_over([main], times if tie is None else times[:1])
-        return [View(_bust(main, box, framing), _NEAR_FILL)]
+        boxes = corners_over([main], times if tie is None else times[:1])
+        return [View(_upper_part(main, boxes, framing), _NEAR_FILL)]
     fill = min([_FILL, *(_FILL_BY_MOVE.get(move.kind, _FILL) for move in moves)])
     fill = fill if tie is None or tie.share < 1.0 else min(fill, _FOLLOWED_FILL)
     if shot.framing == "wide":
@@ -268,42 +265,28 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
             continue
         is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
         if is_large and not is_mover:
-            points.append(near_piece(actor, main, times, _PIECE * largest))
+            points.append(_near_piece(actor, main, times, _PIECE * largest))
             continue
         for time in map(float, times):
             box = actor.corners(time)
             if actor.object_index in scope.cut:
-                box = upper_part(box, _share_unseen(actor, "medium"))
+                box = _upper_part(actor, box, "medium")
             points.append(box if scope.tie is None else scope.tie.relative(box, time))
     return np.vstack(points)
 
 
-def _share_unseen(actor: Actor, framing: str) -> float:
-    """Share of the height of a person, or of a hand, below which the image may end."""
-    return _FOREARM if actor.noun.name in HAND_NOUNS else _UPPER[framing]
-
-
-def upper_part(points: Float64Array, share: float) -> Float64Array:
-    """[n, 3] corners of boxes, m, without what is below a share of their height."""
+def _upper_part(actor: Actor, points: Float64Array, framing: str) -> Float64Array:
+    """[n, 3] corners of boxes, m, of a person or a hand without what is below the image."""
+    if actor.noun.name not in PERSON_NOUNS | HAND_NOUNS:
+        return points
+    share = _FOREARM if actor.noun.name in HAND_NOUNS else _UPPER[framing]
     low, high = float(points[:, 2].min()), float(points[:, 2].max())
     cut = points.copy()
     cut[:, 2] = np.maximum(cut[:, 2], low + share * (high - low))
     return cut
 
 
-def _bust(actor: Actor, points: Float64Array, framing: str) -> Float64Array:
-    """[n, 3] of a close or medium shot: of a person no legs and no arm that reaches out, m."""
-    if actor.noun.name not in PERSON_NOUNS | HAND_NOUNS:
-        return points
-    cut = upper_part(points, _share_unseen(actor, framing))
-    if actor.noun.name in PERSON_NOUNS:
-        reach = _BREADTH[framing] * float(np.ptp(points[:, 2]))
-        middle = 0.5 * (cut[:, :2].min(axis=0) + cut[:, :2].max(axis=0))
-        cut[:, :2] = np.clip(cut[:, :2], middle - reach, middle + reach)
-    return cut
-
-
-def near_piece(actor: Actor, main: Actor, times: Float64Array, reach_m: float) -> Float64Array:
+def _near_piece(actor: Actor, main: Actor, times: Float64Array, reach_m: float) -> Float64Array:
     """[8, 3] the piece of an object's box that is nearest to the subject's way, m."""
     box = actor.corners(float(times[0]))
     low, high = box.min(axis=0), box.max(axis=0)
