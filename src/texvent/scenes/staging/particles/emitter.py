@@ -11,7 +11,14 @@ from numpy.typing import NDArray
 
 from texvent.scenes.models.effects import EmitterStyle
 from texvent.scenes.models.lamps import Lamp
-from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
+from texvent.scenes.scene import (
+    LAMP_COLUMNS,
+    PUFF_COLUMNS,
+    Colour,
+    Float64Array,
+    Primitives,
+    Shape,
+)
 from texvent.scenes.staging.particles.motion import (
     GRAVITY,
     Lives,
@@ -26,7 +33,6 @@ from texvent.scenes.staging.particles.shapes import (
     ParticleEffect,
     along,
     many_shapes,
-    puff_rows,
     tumbling,
 )
 from texvent.scenes.staging.surroundings.light.lamps import wave_at
@@ -121,9 +127,8 @@ class Emitter(ParticleEffect):
         flown = self._fly(time_s)
         grown = _between(style.radius, flown.age) * (0.7 + 0.6 * flown.draws[:, 5])
         if style.body == "drop":
-            grown *= np.clip(12.0 * flown.age, 0.0, 1.0) * np.clip(
-                6.0 * (1.0 - flown.age), 0.0, 1.0
-            )
+            grown *= np.clip(12.0 * flown.age, 0.0, 1.0)
+            grown *= np.clip(6.0 * (1.0 - flown.age), 0.0, 1.0)
         half = np.where(flown.is_there, self.source.size_m * grown, TINY_M)[:, None]
         half = np.maximum(half * style.proportions, TINY_M)
         which = (flown.draws[:, 6] * len(self.colours)).astype(np.int64)
@@ -132,9 +137,8 @@ class Emitter(ParticleEffect):
             maps = along(flown.places, flown.heading, half)
             return many_shapes(maps, Shape.ELLIPSOID, self.colours[which], glow)
         rate = style.turns * math.sqrt(GRAVITY / max(self.source.size_m, 0.02))
-        angles = flown.draws[:, :3] * 6.0 + 6.6 * (flown.draws[:, :3] - 0.5) * (
-            rate * flown.age_s[:, None]
-        )
+        starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
+        angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
 
     def puffs(self, time_s: float) -> Float64Array:
@@ -146,13 +150,17 @@ class Emitter(ParticleEffect):
         age, draws = flown.age, flown.draws
         radius = self.source.size_m * _between(style.radius, age) * (0.75 + 0.5 * draws[:, 5])
         first, last = self.colours[0], self.colours[-1]
-        colours = (first + (last - first) * age[:, None]) * (0.72 + 0.56 * draws[:, 6:7])
         thick = _between(style.thickness, age) * (0.4 + 1.2 * draws[:, 5])
-        return puff_rows(
-            flown.places, radius[:, None] * style.proportions, colours,
-            thick * _fade(age) * flown.is_there, emission=_between(style.emission, age),
-            detail=style.detail, seeds=50.0 * draws[:, 6],
-        )  # fmt: skip
+        rows = np.zeros((len(age), PUFF_COLUMNS))
+        half = np.maximum(radius[:, None] * style.proportions, TINY_M)
+        rows[:, [0, 5, 10]], rows[:, [3, 7, 11]] = half, flown.places
+        rows[:, 12:15] = (first + (last - first) * age[:, None]) * (0.72 + 0.56 * draws[:, 6:7])
+        rows[:, 15], rows[:, 16] = (
+            thick * _fade(age) * flown.is_there,
+            _between(style.emission, age),
+        )
+        rows[:, 17], rows[:, 18] = style.detail, 50.0 * draws[:, 6]
+        return rows
 
     def lamps(self, time_s: float) -> Float64Array:
         """[m, 15] the light of its flames, or of its flash."""
@@ -230,10 +238,8 @@ class Emitter(ParticleEffect):
     def _landing_s(self, above: Float64Array, upward: Float64Array) -> Float64Array:
         """[n] when chips come to rest on the ground, s after their birth."""
         fall = np.maximum(above - self.floor_m - 0.03 * self.source.size_m, 0.0)
-        pull = GRAVITY * self.style.gravity
-        if pull > 0.0:
-            return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
-        return np.asarray(fall / np.maximum(-upward, 1e-6))
+        pull = max(GRAVITY * self.style.gravity, 1e-6)
+        return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
 
 
 def _between(ends: tuple[float, float], age: Float64Array) -> Float64Array:

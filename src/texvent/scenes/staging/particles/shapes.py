@@ -82,47 +82,8 @@ def along(places: Float64Array, heading: Float64Array, half: Float64Array) -> Fl
 
 
 def tumbling(places: Float64Array, angles: Float64Array, half: Float64Array) -> Float64Array:
-    """[n, 3, 4] maps of shapes turned by [n, 3] angles about x, then z; half extents [n, 3], m."""
-    cx, sx = np.cos(angles[:, 0]), np.sin(angles[:, 0])
-    cz, sz = np.cos(angles[:, 2]), np.sin(angles[:, 2])
-    zero = np.zeros_like(cx)
-    turn = np.stack(
-        [
-            np.stack([cz, -sz * cx, sz * sx], axis=1),
-            np.stack([sz, cz * cx, -cz * sx], axis=1),
-            np.stack([zero, sx, cx], axis=1),
-        ],
-        axis=1,
-    )
+    """[n, 3, 4] maps of shapes turned by [n, 2] angles about x, then z; half extents [n, 3], m."""
+    (cx, cz), (sx, sz), zero = np.cos(angles).T, np.sin(angles).T, np.zeros(len(angles))
+    rows = [[cz, -sz * cx, sz * sx], [sz, cz * cx, -cz * sx], [zero, sx, cx]]
+    turn = np.array(rows).transpose(2, 0, 1)
     return np.concatenate([turn * half[:, None, :], places[:, :, None]], axis=2)
-
-
-def puff_rows(
-    places: Float64Array,
-    radius: Float64Array,
-    colours: Float64Array | Colour,
-    thickness: Float64Array,
-    *,
-    emission: Float64Array | float = 0.0,
-    detail: float = 0.0,
-    seeds: Float64Array | float = 0.0,
-) -> Float64Array:
-    """[n, 19] puffs with axes along x, y, z.
-
-    Args:
-        places: [n, 3] m.
-        radius: [n, 3] half extents, m.
-        colours: [n, 3], or one for all.
-        thickness: [n] optical depth through the middle.
-        emission: light given off as a multiple of the colour; 0 = it reflects light.
-        detail: how much detail modulates it, 0..1.
-        seeds: [n] tell the detail of one from that of others.
-    """
-    rows = np.zeros((len(places), PUFF_COLUMNS))
-    maps = np.zeros((len(places), 3, 4))
-    maps[:, [0, 1, 2], [0, 1, 2]] = np.maximum(radius, TINY_M)
-    maps[:, :, 3] = places
-    rows[:, :12] = maps.reshape(-1, 12)
-    rows[:, 12:15], rows[:, 15], rows[:, 16] = colours, thickness, emission
-    rows[:, 17], rows[:, 18] = detail, seeds
-    return rows
