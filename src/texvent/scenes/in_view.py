@@ -121,12 +121,11 @@ def _box(
     to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
     corners = _CORNERS @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
     seen = project(scene.camera(float(time_s)), size, corners.reshape(-1, 3))
-    ahead = seen[:, 2] > 0.0
-    if not ahead.any():
-        return None
-    edge = np.array([size.width, size.height], dtype=np.float64)
-    if not (ahead.all() and np.isfinite(seen).all()):
-        return np.zeros(2), edge
-    low = np.clip(np.floor(seen[:, :2].min(axis=0)), 0.0, edge)
-    high = np.clip(np.ceil(seen[:, :2].max(axis=0)), 0.0, edge)
-    return (low, high) if np.all(high > low) else None
+    low, high = np.zeros(2), np.array([size.width, size.height], dtype=np.float64)
+    if (seen[:, 2] > 0.0).all() and np.isfinite(seen).all():
+        low, high = (
+            np.clip(np.floor(seen[:, :2].min(axis=0)), low, high),
+            np.clip(np.ceil(seen[:, :2].max(axis=0)), low, high),
+        )
+    is_shown = np.any(seen[:, 2] > 0.0) and np.all(high > low)
+    return (low, high) if is_shown else None

@@ -80,14 +80,8 @@ def place_camera(
 ) -> CameraPath:
     """The camera over the clip: near enough to recognise the objects and far enough to show them.
 
-    Args:
-        description: what the scene says of the camera.
-        actors: the objects of the scene on their trajectories.
-        place: key of `models.places.PLACES`.
-        seed: decides the angle where nothing is said.
-        aspect: image height over width.
-        duration_s: length of the clip, s.
-        travel: the route of a camera that travels.
+    `place` is a key of `PLACES`, `aspect` the image's height over its width; the seed decides the
+    angle where nothing is said.
     """
     shooting = _Shooting(description, actors, place, seed, aspect, duration_s)
     is_fixed = travel is not None or description.shot.position_m is not None or not actors

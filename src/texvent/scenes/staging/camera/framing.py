@@ -55,12 +55,9 @@ def pose(position: Sequence[float], target: Sequence[float]) -> Framing:
 
 
 def seen_through(framing: Framing, field_of_view_deg: float | None, *, is_fixed: bool) -> Framing:
-    """The framing with another horizontal field of view; None leaves it as it is.
+    """The framing with another horizontal field of view, 1 to 150°; None leaves it as it is.
 
-    Args:
-        framing: the camera's position and lens.
-        field_of_view_deg: 1 to 150.
-        is_fixed: whether the camera stays; else what it looks at keeps its size in the image.
+    Unless the camera is fixed, what it looks at keeps its size in the image.
     """
     if field_of_view_deg is None:
         return framing
@@ -90,21 +87,12 @@ def fit(
     points: Float64Array, *, azimuth: float, elevation: float, aspect: float, fill: float,
     lift: float = 0.0, focal: float = USUAL_FOCAL,
 ) -> Framing:  # fmt: skip
-    """The nearest station from which all points appear.
+    """The nearest station from which points [n, 3], m, fill that share of the image at most.
 
     A point (r right, u up, f further than the target) is inside when |r| is at most
     fill · (distance + f) / (2 · focal), and likewise for u with the image's height: each point
-    needs a distance; the largest is taken.
-
-    Args:
-        points: [n, 3] what must be seen, m.
-        azimuth: where the camera stands around them.
-        elevation: how high it stands, radians.
-        aspect: image height over width.
-        fill: share of the image that they may fill, 0..1.
-        lift: how far above their middle the camera looks, in half image heights, as far as
-            they still fit: puts them into the lower part of the image, under the sky.
-        focal: focal length over image width.
+    needs a distance; the largest is taken. The camera looks above their middle by `lift` half image
+    heights, as far as they still fit: the sky comes into the upper part of the image.
     """
     back = direction(azimuth, elevation)
     right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
@@ -141,13 +129,7 @@ def image_of(camera: Camera, points: Float64Array) -> Float64Array:
 
 
 def measure_prominence(camera: Camera, boxes: Float64Array, aspect: float) -> float:
-    """How prominent the copies of an object are; 1 = as large as a subject should be.
-
-    Args:
-        camera: that sees them.
-        boxes: [copies, 8, 3] their corners, m.
-        aspect: image height over width.
-    """
+    """How prominent boxes [copies, 8, 3] of an object are; 1 = as large as a subject should be."""
     image = image_of(camera, boxes)[..., :2] / [1.0, aspect]
     copy = float(np.sqrt(np.prod(np.ptp(image, axis=1), axis=1)).max())
     if len(image) == 1:
@@ -161,13 +143,9 @@ def come_near(
 ) -> Framing:
     """The framing that shows as much as it can with a subject that is large enough.
 
-    All framings look the same way, so that whatever is in the image from two places is so from
-    every place on the line between them.
-
-    Args:
-        framings: from the one that shows all to the one that shows the subject alone.
-        prominence: of the subject in the clip that a framing gives.
-        goals: how prominent it must be for the camera to go on to each framing after the first.
+    Framings go from the one that shows all to the one that shows the subject alone; they look the
+    same way, so that what is in the image from two places is so from those between them. The camera
+    goes on to the next one until the subject is as prominent as the next goal.
     """
     found, reached = framings[0], prominence(framings[0])
     for near, goal in zip(framings[1:], goals, strict=True):

@@ -112,13 +112,7 @@ class TravelPlan:
 
 
 def plan_travel(description: SceneDescription, place: str, duration_s: float) -> TravelPlan | None:
-    """The route of a camera that travels; None where it does not.
-
-    Args:
-        description: what the prompt says of the camera.
-        place: key of `environment.PLACES`.
-        duration_s: length of the clip, s.
-    """
+    """The route of a camera that travels, with the road below it; None where it does not."""
     moves = [move for move in description.shot.moves if move.kind == "travel"]
     if not moves:
         return None

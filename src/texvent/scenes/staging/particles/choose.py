@@ -16,9 +16,8 @@ from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.framing import Framing
-from texvent.scenes.staging.particles.emitter import Emitter
+from texvent.scenes.staging.particles.emitter import Emitter, Source
 from texvent.scenes.staging.particles.lights import BodyLights, Lightning
-from texvent.scenes.staging.particles.motion import Source
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.surroundings.weather import WEATHERS
 

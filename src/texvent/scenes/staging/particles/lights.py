@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.scenes.models.effects import LightStyle
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
-from texvent.scenes.staging.particles.motion import Source
+from texvent.scenes.staging.particles.emitter import Source
 from texvent.scenes.staging.particles.shapes import TINY_M, ParticleEffect, along, many_shapes
 from texvent.scenes.staging.surroundings.light.lightning import flash_number, lightning_level
 
@@ -35,13 +35,10 @@ class BodyLights(ParticleEffect):
     def of(
         cls, style: LightStyle, source: Source, colour: Colour | None, *, tapers: bool
     ) -> BodyLights:
-        """The lights of a body whose lowest point is the source.
+        """The lights of a body whose lowest point is the source, or of a box in the air.
 
-        Args:
-            style: where they are and how they blink.
-            source: of the body, or of a box in the air.
-            colour: of all; None = as in the style.
-            tapers: whether the body gets thinner upwards, as a cone does.
+        All have the colour, None = those of the style; a string winds closer upwards if the body
+        tapers.
         """
         extents = source.extents_m
         places = np.array(style.places) * [0.5, 0.5, 1.0] if style.places else _winding(tapers)
@@ -97,14 +94,7 @@ class Lightning(ParticleEffect):
     def of(
         cls, middle: Float64Array, away: Float64Array, reach_m: float, rng: np.random.Generator
     ) -> Lightning:
-        """Bolts behind what the camera looks at.
-
-        Args:
-            middle: [3] on the ground below what the camera looks at, m.
-            away: [3] horizontal unit vector away from the camera.
-            reach_m: distance of the camera to what it looks at.
-            rng: shapes them.
-        """
+        """Bolts behind the point on the ground that the camera looks at from a distance, m."""
         side, tall_m = np.cross(away, _UP), 2.6 * reach_m
         places = 0.9 - 0.6 * np.arange(_BOLTS) + 0.2 * rng.uniform(size=_BOLTS)
         feet = middle + 3.2 * reach_m * away + reach_m * places[:, None] * side

@@ -43,14 +43,7 @@ def many_shapes(
     colours: Float64Array | Colour,
     emission: Float64Array | float = 0.0,
 ) -> Primitives:
-    """Shapes of one kind, scenery without an id.
-
-    Args:
-        maps: [n, 3, 4] unit shape → world.
-        shape: the kind.
-        colours: [n, 3], or one for all.
-        emission: [n], or one for all.
-    """
+    """Shapes of one kind, scenery without an id, from maps [n, 3, 4] unit shape → world."""
     count = len(maps)
     return Primitives(
         shape=np.full(count, shape, dtype=np.int8),
@@ -65,13 +58,7 @@ def many_shapes(
 
 
 def along(places: Float64Array, heading: Float64Array, half: Float64Array) -> Float64Array:
-    """[n, 3, 4] maps of shapes whose local z points along a heading.
-
-    Args:
-        places: [n, 3] m.
-        heading: [n, 3], any length.
-        half: [n, 3] half extents along local x, y, z, m.
-    """
+    """[n, 3, 4] maps of shapes at places, local z along a heading; half extents in m."""
     length = np.linalg.norm(heading, axis=1, keepdims=True)
     z = np.where(length > 1e-9, heading / np.maximum(length, 1e-9), [0.0, 0.0, 1.0])
     helper = np.where(np.abs(z[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
