@@ -92,12 +92,6 @@ def test_pixels_of_small_things_are_counted_one_by_one() -> None:
         assert count == pytest.approx(exact, rel=0.5, abs=20)
 
 
-def test_what_is_worn_needs_no_body_of_its_own() -> None:
-    objects = (SceneObject("man"), SceneObject("hat"))
-    description = described(*objects, relations=(Relation("wear", 0, (1,)),))
-    assert unseen_from(description).out_of_view == ()
-
-
 def test_the_check_takes_less_than_a_tenth_of_a_second() -> None:
     size = SensorSize(346, 260)
     objects = (SceneObject("car", 3), SceneObject("tree", 5), SceneObject("bird", 8))

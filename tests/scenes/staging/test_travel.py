@@ -16,7 +16,6 @@ from texvent.scenes.description import (
     Surroundings,
 )
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(173, 130)
@@ -66,12 +65,6 @@ def test_scenery_stands_on_both_sides_up_to_the_end_of_the_route(place: str) -> 
     assert np.sum(is_near & (offsets[:, 0] < 0.0)) > 15
 
 
-def test_the_speed_of_the_camera_is_the_stated_one() -> None:
-    scene = travel("road", CameraMove("travel", "forward", speed_m_s=13.0))
-    step = scene.camera(1.001).position - scene.camera(1.0).position
-    assert np.linalg.norm(step) / 1e-3 == pytest.approx(13.0)
-
-
 def test_the_road_bends_with_the_route() -> None:
     scene = travel("road", CameraMove("travel", "left"))
     environment = scene.environment(0.0)
@@ -110,36 +103,6 @@ def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass() -> None:
     gaps = np.array(depths)
     np.testing.assert_allclose(gaps[:, 0], gaps[0, 0], atol=0.05)
     assert gaps[0, 1] - gaps[2, 1] > 20.0
-
-
-def test_objects_stand_beside_the_route_and_are_seen() -> None:
-    objects = (SceneObject("car", 4), SceneObject("bench", 2))
-    scene = travel("city", CameraMove("travel", "forward"), objects=objects)
-    camera = scene.camera(0.0)
-    for actor in scene.actors:
-        seen = camera.rotation @ (actor.middle(0.0) - camera.position)
-        assert seen[2] > 2.0
-        assert abs(seen[0] / seen[2]) < 0.6
-
-
-def test_a_car_stays_in_its_lane_on_a_curved_road() -> None:
-    description = SceneDescription(
-        "", (SceneObject("car", motion=ObjectMotion("drive", "right", speed_m_s=12.0)),),
-        surroundings=Surroundings("road", road="curved"),
-    )  # fmt: skip
-    scene = compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)
-    environment = scene.environment(0.0)
-    road = RoadLine(
-        environment.road_angle,
-        (float(environment.road_offset[0]), float(environment.road_offset[1])),
-        environment.road_curvature,
-    )
-    spots = np.array([scene.actors[0].middle(t)[:2] for t in (0.0, 1.0, 2.0)])
-    distances = road.distance(spots)
-    np.testing.assert_allclose(distances, distances[0], atol=1e-6)
-    assert 0.0 < distances[0] < environment.road_half_width
-    ways = [scene.actors[0].trajectory.at(t).distance_m for t in (0.0, 2.0)]
-    assert ways[1] - ways[0] == pytest.approx(24.0)
 
 
 @pytest.mark.parametrize("road", ["curved", "crossing"])

@@ -31,6 +31,8 @@ ALL_AXES = "all axes"
 """Direction of a handheld camera that moves in all six degrees of freedom."""
 ROAM_SHARE, ROAM_WIDTHS = 4.0, 0.08
 """How much further than one that is held still that one turns, and how far it goes aside."""
+_ROAM_RAD_S = np.array([4.9, 3.7, 6.1])
+"""Angular frequencies of its way aside, along and up."""
 _HIGH_WIDTHS = 1.3
 """Width of the picture of a camera that travels, in heights above the ground."""
 STEP_M = 0.02
@@ -119,9 +121,8 @@ class Journey:
     """A camera that travels: ego-motion along a route."""
 
     route: SteeredPath
-    """Where it is and heads, at the height of the ground."""
+    """Where it is and heads, on the ground."""
     height_m: float
-    """Of the camera."""
     pitch_rad: float
     """Below the horizon."""
     step_m: float = 0.0
@@ -233,14 +234,13 @@ class CameraPath:
         moved, azimuth = self._channels.centred, self.framing.azimuth
         right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
         ahead = np.array([-right[1], right[0], 0.0])
-        roam = ROAM_WIDTHS * self._roam
-        aside = TRUCK_WIDTHS * moved("truck", time_s) + roam * math.sin(4.9 * time_s)
+        roam = ROAM_WIDTHS * self._roam * np.sin(_ROAM_RAD_S * time_s + [0.0, 1.0, 2.0])
         rise = PEDESTAL_WIDTHS * moved("pedestal", time_s)
-        rise += 0.7 * roam * math.sin(6.1 * time_s + 2.0)
         if self.journey is not None:
             rise += PEDESTAL_WIDTHS * moved("crane", time_s)
-        along = roam * math.sin(3.7 * time_s + 1.0)
-        return np.asarray(width_m * (aside * right + along * ahead + [0.0, 0.0, rise]))
+        said = np.array([TRUCK_WIDTHS * moved("truck", time_s), 0.0, rise])
+        aside, along, up = roam + said
+        return np.asarray(width_m * (aside * right + along * ahead + [0.0, 0.0, up]))
 
     def _turn(self, time_s: float) -> tuple[float, float]:
         """Angles to the right and up, radians."""

@@ -19,7 +19,7 @@ _LARGE = 0.3
 a person two thirds as high as the image, a car four tenths as wide. What is thin comes nearer."""
 _LARGE_GROUP, _LARGE_COPY = 0.65, 0.13
 """Share of the image's width or height that a group should extend over together, and each of it."""
-_HALVINGS = 6
+_HALVINGS, _FIT_STEPS = 6, 4
 
 
 @dataclass(frozen=True)
@@ -98,25 +98,18 @@ def fit(
     right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
     up = np.cross(back, right)
     target = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    distance = 1.0
-    for _ in range(3):
+    for step in range(_FIT_STEPS):
         local = points - target
-        sideways, upwards, further = local @ right, local @ up, -(local @ back)
-        wide = 2.0 * focal / fill
-        distance = float(
-            np.max(np.maximum(np.abs(sideways), np.abs(upwards) / aspect) * wide - further)
-        )
-        distance = max(distance, NEAREST_M)
-        depth = np.maximum(distance + further, 1e-3)
-        shift_right = 0.5 * ((sideways / depth).min() + (sideways / depth).max()) * distance
-        shift_up = 0.5 * ((upwards / depth).min() + (upwards / depth).max()) * distance
-        target = target + shift_right * right + shift_up * up
-    local = points - target
-    asked = np.maximum(np.abs(local @ right), np.abs(local @ up) / aspect) * 2.0 * focal / fill
-    distance = max(float(np.max(asked + local @ back)), NEAREST_M)
+        sideways, upwards, nearer = local @ right, local @ up, local @ back
+        asked = np.maximum(np.abs(sideways), np.abs(upwards) / aspect) * 2.0 * focal / fill
+        distance = max(float(np.max(asked + nearer)), NEAREST_M)
+        depth = np.maximum(distance - nearer, 1e-3)
+        x, y = sideways / depth, upwards / depth
+        if step < _FIT_STEPS - 1:
+            middle = (x.min() + x.max()) * right + (y.min() + y.max()) * up
+            target = target + 0.5 * distance * middle
     half_height = 0.5 * aspect / focal
-    lowest = float(np.min((local @ up) / (distance - local @ back))) / half_height
-    raised = min(lift, max(fill + lowest, 0.0))
+    raised = min(lift, max(fill + float(y.min()) / half_height, 0.0))
     target = target + raised * half_height * distance * up
     return Framing(target, azimuth, elevation, distance, focal)
 

@@ -85,24 +85,7 @@ class TravelPlan:
         speed = max(abs(route.initial_speed_m_s), 1e-3)
         back = self.length_m if route.initial_speed_m_s < 0.0 else 0.0
         state = route.at((along_m - back) / math.copysign(speed, route.initial_speed_m_s))
-        x, y, _ = state.position
-        return (
-            x + right_m * math.sin(state.yaw),
-            y - right_m * math.cos(state.yaw),
-            state.yaw,
-        )
-
-    def branches(self) -> list[tuple[float, float, float]]:
-        """x, y and heading of roads that leave the route at corners."""
-        found = []
-        for x, y, heading in self.road.crossings:
-            back = self.journey.route.yaw
-            # The main road goes on beyond the crossing; the crossing goes on behind the route.
-            offset_x, offset_y = self.road.offset
-            along = (x - offset_x) * math.cos(back) + (y - offset_y) * math.sin(back)
-            corner = (offset_x + along * math.cos(back), offset_y + along * math.sin(back))
-            found += [(*corner, back), (*corner, heading + math.pi)]
-        return found
+        return (*_left_of(state.position, state.yaw, -right_m), state.yaw)
 
     def places(self, step_m: float = 1.0) -> Float64Array:
         """[n, 2] the route, and on for as far as one sees, m."""
@@ -186,19 +169,17 @@ def _steer(
 def _road_beside(
     route: SteeredPath, lane_m: float, bend_rad_s: float, corner_s: float | None
 ) -> RoadLine:
-    """The road whose right lane the route is."""
-    x, y, _ = route.start
-    angle = route.yaw
-    offset = (x - lane_m * math.sin(angle), y + lane_m * math.cos(angle))
+    """The road whose right lane the route is, and the one that it turns into at a corner."""
+    curvature = 0.0
+    if bend_rad_s:
+        curvature = 1.0 / (route.initial_speed_m_s / bend_rad_s - lane_m)
     crossings = []
     if corner_s is not None:
         state = route.at(corner_s)
-        cx, cy, _ = state.position
-        crossings.append(
-            (cx - lane_m * math.sin(state.yaw), cy + lane_m * math.cos(state.yaw), state.yaw)
-        )
-    curvature = 0.0
-    if bend_rad_s:
-        curvature = bend_rad_s / route.initial_speed_m_s
-        curvature = 1.0 / (1.0 / curvature - lane_m)
-    return RoadLine(angle, offset, curvature, tuple(crossings))
+        crossings.append((*_left_of(state.position, state.yaw, lane_m), state.yaw))
+    offset = _left_of(route.start, route.yaw, lane_m)
+    return RoadLine(route.yaw, offset, curvature, tuple(crossings))
+
+
+def _left_of(place: tuple[float, float, float], yaw: float, metres: float) -> tuple[float, float]:
+    return place[0] - metres * math.sin(yaw), place[1] + metres * math.cos(yaw)
