@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from functools import lru_cache
 
@@ -10,42 +11,29 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.generate.scene_input import understand
-from texvent.scenes import projection
 from texvent.scenes.description import SceneDescription, SceneObject, Surroundings
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
-from texvent.scenes.staging.camera.framing import fit, look_at
+from texvent.scenes.staging.camera.framing import fit, image_of, look_at
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(346, 260)
 PROMPTS = (
     "a red car drives left past two trees at dusk",
-    "The camera follows behind a white SUV with a black roof rack as it speeds up a steep dirt "
-    "road surrounded by pine trees on a steep mountain slope, dust kicks up from its tires",
-    "ostriches crossing the grassland",
+    "The camera follows behind a white SUV as it speeds up a steep dirt road surrounded by trees",
     "sharks in the ocean",
-    "a horse gallops towards the camera",
     "a man with a dog walks to the right on the beach at sunset",
     "two small blue balls bounce on a wooden floor",
     "a helicopter orbits around a building",
-    "a butterfly flies around a flower",
-    "a car at 50 km/h on a highway",
     "a cow between a house and a tree, handheld camera",
-    "the camera orbits around a chair and a table",
     "a boy kicks a ball",
     "a man rides a horse in the rain",
-    "a flock of birds flies over the sea",
     "the camera pans right over a city street with parked cars at night",
-    "a lamp flickering at 50 Hz on a table indoors, zoom in",
-    "two people sit on a sofa",
     "aerial view of a city with many cars",
-    "a ball swings, tilt up",
-    "a train crosses a bridge in the snow",
     "a rocket launches",
-    "an eagle soars over snowy mountains, the camera tracks it",
 )
 TIMES = (0.0, 0.4, 1.0, 1.7, 2.0)
 
@@ -60,15 +48,13 @@ def staged(prompt: str, seed: int = 0, duration_s: float = 2.0) -> ComposedScene
     return compose_scene(described(prompt), seed=seed, size=SIZE, duration_s=duration_s)
 
 
-def project(camera: Camera, points: Float64Array, size: SensorSize) -> Float64Array:
+def inside(camera: Camera, points: Float64Array) -> Float64Array:
     """Right and down in half image sizes from the middle (-1..1 is inside), and depth, m."""
-    half = np.array([0.5 * size.width, 0.5 * size.height])
-    image_points = projection.project(camera, size, points)
-    return np.column_stack([image_points[:, :2] / half - 1.0, image_points[:, 2]])
+    return image_of(camera, points) * [2.0, 2.0 * SIZE.width / SIZE.height, 1.0]
 
 
 def seen(scene: ComposedScene, actor: Actor, time_s: float) -> Float64Array:
-    return project(scene.camera(time_s), actor.corners(time_s), SIZE)
+    return inside(scene.camera(time_s), actor.corners(time_s))
 
 
 @pytest.mark.parametrize("prompt", PROMPTS)
@@ -77,7 +63,7 @@ def test_the_subjects_are_in_the_image_throughout(prompt: str) -> None:
     movers = [actor for actor in scene.actors if actor.is_mover] or list(scene.actors)
     for actor in movers:
         for time in TIMES:
-            middle = project(scene.camera(time), actor.middle(time)[None], SIZE)[0]
+            middle = inside(scene.camera(time), actor.middle(time))
             if described(prompt).objects[actor.object_index].side != "far":
                 assert middle[2] > 0.0
                 assert np.abs(middle[:2]).max() < 0.98, (actor.noun.name, time)
@@ -134,14 +120,10 @@ def test_flicker_has_exactly_the_stated_frequency(hertz: float) -> None:
     assert steady.environment(0.0).ambient[0] == steady.environment(0.0037).ambient[0]
 
 
-@pytest.mark.parametrize("duration_s", [1.0, 2.0, 4.0])
+@pytest.mark.parametrize("duration_s", [1.0, 4.0])
 @pytest.mark.parametrize(
     ("prompt", "sign"),
-    [
-        ("a car drives toward the camera", -1),
-        ("a dog runs toward the camera", -1),
-        ("a bus drives away from the camera", 1),
-    ],
+    [("a car drives toward the camera", -1), ("a bus drives away from the camera", 1)],
 )
 def test_what_comes_or_goes_is_not_followed(prompt: str, sign: int, duration_s: float) -> None:
     scene = staged(prompt, duration_s=duration_s)
@@ -159,18 +141,11 @@ def test_actors_do_not_stand_in_one_another(prompt: str) -> None:
     touching = {"on", *ACTS}
     if any(relation.kind in touching for relation in described(prompt).relations):
         return
-    for time in (0.0, 1.0, 2.0):
-        boxes = [actor.corners(time) for actor in scene.actors]
-        for one in range(len(boxes)):
-            for two in range(one):
-                low = np.maximum(boxes[one].min(axis=0), boxes[two].min(axis=0))
-                high = np.minimum(boxes[one].max(axis=0), boxes[two].max(axis=0))
-                shared = float(np.prod(np.maximum(high - low, 0.0)))
-                smaller = min(
-                    float(np.prod(np.ptp(box, axis=0))) for box in (boxes[one], boxes[two])
-                )
-                names = scene.actors[one].noun.name, scene.actors[two].noun.name
-                assert shared < 0.15 * smaller, (names, time)
+    for time, (one, two) in itertools.product((0.0, 2.0), itertools.combinations(scene.actors, 2)):
+        boxes = [one.corners(time), two.corners(time)]
+        low, high = np.min(boxes, axis=1), np.max(boxes, axis=1)
+        shared = np.prod(np.maximum(high.min(axis=0) - low.max(axis=0), 0.0))
+        assert shared < 0.15 * np.prod(high - low, axis=1).min(), (one.noun.name, two.noun.name)
 
 
 def test_a_noun_alone_is_large_in_the_image() -> None:
@@ -196,7 +171,7 @@ def test_fit_gives_the_nearest_station_that_holds_all_points() -> None:
     framing = fit(points, azimuth=0.0, elevation=0.0, aspect=0.75, fill=0.8, focal=1.0)
     assert framing.distance_m == pytest.approx(2.0 * 2.0 / 0.8)
     camera = look_at(framing.position, framing.target, framing.focal)
-    assert np.abs(project(camera, points, SensorSize(4, 3))[:, 0]).max() == pytest.approx(0.8)
+    assert 2.0 * np.abs(image_of(camera, points)[:, 0]).max() == pytest.approx(0.8)
 
 
 @pytest.mark.parametrize("nouns", [("house", "tree"), ("ball", "cube"), ("man", "bus")])

@@ -208,10 +208,8 @@ class Emitter(ParticleEffect):
         half = np.maximum(radius[:, None] * style.proportions, TINY_M)
         rows[:, [0, 5, 10]], rows[:, [3, 7, 11]] = half, flown.places
         rows[:, 12:15] = (first + (last - first) * age[:, None]) * (0.72 + 0.56 * draws[:, 6:7])
-        rows[:, 15], rows[:, 16] = (
-            thick * _fade(age) * flown.is_there,
-            _between(style.emission, age),
-        )
+        rows[:, 15] = thick * _fade(age) * flown.is_there
+        rows[:, 16] = _between(style.emission, age)
         rows[:, 17], rows[:, 18] = style.detail, 50.0 * draws[:, 6]
         return rows
 
