@@ -81,16 +81,6 @@ def test_the_road_bends_with_the_route() -> None:
     assert 0.5 < lanes[0] < environment.road_half_width
 
 
-def test_a_turn_after_a_straight_road_goes_into_a_crossing() -> None:
-    scene = travel("city", CameraMove("travel", "forward"), CameraMove("travel", "left", phase=1))
-    x, y, angle = scene.environment(0.0).road_crossings[0]
-    heading = scene.camera(DURATION_S).rotation[2]
-    assert abs(math.cos(angle) * heading[0] + math.sin(angle) * heading[1]) > 0.99
-    offset = scene.camera(DURATION_S).position[:2] - [x, y]
-    across = offset[1] * math.cos(angle) - offset[0] * math.sin(angle)
-    assert abs(across) < scene.environment(0.0).road_half_width
-
-
 def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass() -> None:
     ahead = SceneObject("truck", motion=ObjectMotion("drive"))
     oncoming = SceneObject("car", motion=ObjectMotion("drive", "towards"))

@@ -112,7 +112,7 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     speed = moves[0].speed_m_s or means.speed_m_s * moves[0].pace
     has_road, kind = PLACES[place].has_road, description.surroundings.road
     tightest = _ROAD_RADIUS_M if has_road else _FREE_RADIUS_M
-    route, bends, corner = _steer(phases, speed, duration_s, tightest, kind == "curved")
+    route, curvature = _steer(phases, speed, duration_s, tightest, kind == "curved")
     road_half = PLACES[place].road_m if has_road else 0.0
     is_on_pavement = ground is Ground.CITY and not is_aerial and means.speed_m_s < _ON_FOOT_M_S
     lane = 0.5 * road_half if means.is_on_road else road_half + 1.0 if is_on_pavement else 0.0
@@ -123,8 +123,9 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     ways = [route.distance_at(float(time)) for time in times]
     length = max(ways) - min(ways)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
-    road = _road_beside(route, lane, bends, corner)
-    if kind == "crossing" and not road.crossings and not bends:
+    bend = 1.0 / (1.0 / curvature - lane) if curvature else 0.0
+    road = RoadLine(route.yaw, _left_of(route.start, route.yaw, lane), bend)
+    if kind == "crossing" and not curvature:
         x, y, angle = road.at(0.6 * length + 4.0)
         road = replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
     return TravelPlan(Journey(route, height, pitch, means.step_m), length, clear, road)
@@ -136,49 +137,23 @@ def _steer(
     duration_s: float,
     tightest_m: float,
     is_curved: bool,
-) -> tuple[SteeredPath, float, float | None]:
-    """The route from the origin northwards, its steady rate of turning, and where a corner ends.
-
-    The rate is in rad/s, 0 where it does not bend all along; the end of the corner in s.
-    """
+) -> tuple[SteeredPath, float]:
+    """The route from the origin northwards, and its curvature, 1/m: one for all phases."""
+    words = {move.direction for moves in phases for move in moves}
+    side = 1.0 if "left" in words else -1.0 if "right" in words else float(is_curved)
+    curvature = side * min(0.5 * math.pi / (_BEND_S * max(speed, 1e-3)), 1.0 / tightest_m)
     span = duration_s / len(phases)
-    pieces: list[Piece] = []
-    bend, corner, initial = 0.0, None, 0.0
-    for number, moves in enumerate(phases):
-        words = [move.direction for move in moves]
-        way = -speed if "backward" in words else speed if moves else 0.0
-        side = 1.0 if "left" in words else -1.0 if "right" in words else 0.0
-        if is_curved and len(phases) == 1 and side == 0.0:
-            side = 1.0
-        ramp = min(0.5, 0.4 * span)
-        if number == 0:
-            initial = way
-        if side and len(phases) == 1:
-            bend = side * min(0.5 * math.pi / _BEND_S, abs(way) / tightest_m)
-            pieces.append(Piece(span, way, bend, ramp_s=0.0))
-        elif side:
-            rate = side * min(0.5 * math.pi / (span - ramp), abs(way) / 2.0)
-            pieces += [Piece(span - ramp, way, rate, ramp_s=ramp), Piece(ramp, way, ramp_s=ramp)]
-            corner = span * (number + 1)
-        else:
-            pieces.append(Piece(span, way, ramp_s=ramp))
-    route = SteeredPath((0.0, 0.0, 0.0), 0.5 * math.pi, tuple(pieces), initial, bend)
-    return route, bend, corner
-
-
-def _road_beside(
-    route: SteeredPath, lane_m: float, bend_rad_s: float, corner_s: float | None
-) -> RoadLine:
-    """The road whose right lane the route is, and the one that it turns into at a corner."""
-    curvature = 0.0
-    if bend_rad_s:
-        curvature = 1.0 / (route.initial_speed_m_s / bend_rad_s - lane_m)
-    crossings = []
-    if corner_s is not None:
-        state = route.at(corner_s)
-        crossings.append((*_left_of(state.position, state.yaw, lane_m), state.yaw))
-    offset = _left_of(route.start, route.yaw, lane_m)
-    return RoadLine(route.yaw, offset, curvature, tuple(crossings))
+    ramp = min(0.5, 0.4 * span)
+    pieces = []
+    for moves in phases:
+        is_back = any(move.direction == "backward" for move in moves)
+        way = -speed if is_back else speed if moves else 0.0
+        pieces.append(Piece(span, way, curvature * way, ramp_s=ramp))
+    first = pieces[0].speed_m_s
+    route = SteeredPath(
+        (0.0, 0.0, 0.0), 0.5 * math.pi, tuple(pieces), first, curvature * first
+    )  # fmt: skip
+    return route, curvature
 
 
 def _left_of(place: tuple[float, float, float], yaw: float, metres: float) -> tuple[float, float]:
