@@ -44,18 +44,14 @@ def seen_from(distance_m: float) -> Framing:
     return Framing(np.zeros(3), 0.0, 0.0, distance_m, 1.0)
 
 
-def test_prominence_of_one_is_the_mean_of_its_shares_of_width_and_height() -> None:
+def test_prominence_is_the_mean_share_of_one_and_the_extent_of_a_group() -> None:
     # 0.4 m at 2 m fills 0.2 of the width; 0.6 m fills 0.3 widths, 0.4 of the height.
     found = prominence_of(flat_box(0.4, 0.6))(seen_from(2.0))
     assert found == pytest.approx(np.sqrt(0.2 * 0.4) / 0.3)
-
-
-def test_a_group_counts_together_unless_each_is_tiny() -> None:
     pair = prominence_of(flat_box(0.3, 0.3, -0.6), flat_box(0.3, 0.3, 0.6))
     assert pair(seen_from(2.0)) == pytest.approx(0.75 / 0.65)
-    copy = np.sqrt(0.02 * 0.02 / ASPECT)
     specks = prominence_of(flat_box(0.04, 0.04, -0.6), flat_box(0.04, 0.04, 0.6))
-    assert specks(seen_from(2.0)) == pytest.approx(copy / 0.13)
+    assert specks(seen_from(2.0)) == pytest.approx(np.sqrt(0.02 * 0.02 / ASPECT) / 0.13)
 
 
 @pytest.mark.parametrize("goal", [0.2, 0.5, 0.9, 5.0])
@@ -125,3 +121,16 @@ def test_the_image_ends_at_the_waist_of_who_acts_with_the_arms_alone(
     seen = place_in_image(scene, 0, 1.0)
     assert seen[:, 1].min() > -0.05
     assert (seen[:, 1].max() < 1.0) == is_whole
+
+
+@pytest.mark.parametrize(
+    ("kind", "outside_s", "inside_s"), [("enter", 0.0, 1.8), ("leave", 2.0, 0.2)]
+)
+def test_what_enters_or_leaves_is_out_of_the_picture_before_or_after(
+    kind: str, outside_s: float, inside_s: float
+) -> None:
+    for noun in ("car", "man", "dog"):
+        scene = shot_of(SceneObject(noun, motion=ObjectMotion(kind, "right")))
+        outside, inside = (place_in_image(scene, 0, time) for time in (outside_s, inside_s))
+        assert np.any(outside.max(axis=0) < 0.0) or np.any(outside.min(axis=0) > 1.0)
+        assert np.all(np.abs(inside.mean(axis=0) - 0.5) < 0.5)

@@ -38,8 +38,8 @@ _SKY_LIFT = 0.2
 _TRACKING_LENGTHS, _NEAR_LENGTHS = 3.0, 0.3
 """An object that covers more of its own lengths in the clip is followed from the side: usually, and
 in a close or medium shot."""
-_OUTSIDE = 0.5
-"""Share of the clip at whose beginning or end what enters or leaves may be out of the picture."""
+_OUTSIDE_SHARES = (0.3, 0.5, 0.7)
+"""Shares of the clip at whose beginning or end what enters or leaves may be out of the picture."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -103,12 +103,23 @@ def place_camera(
 
 
 def _watch(shooting: _Shooting) -> CameraPath:
-    """The widest camera with a large subject."""
+    """The camera that shows the objects, without what enters at first or what leaves at last."""
+    main = choose_main(shooting.description, shooting.actors)
+    moves = _plan_moves(shooting.description, main, shooting.duration_s)
+    for share in _OUTSIDE_SHARES if main.enters or main.leaves else (0.0,):
+        ends = sorted((share * main.enters, 1.0 - share * main.leaves))
+        path = _frame(shooting, main, moves, shooting.duration_s * np.linspace(*ends, INSTANTS))
+        if _begins_and_ends_outside(path, main, shooting.aspect):
+            break
+    return path
+
+
+def _frame(
+    shooting: _Shooting, main: Actor, moves: tuple[CameraMove, ...], times: Float64Array
+) -> CameraPath:
+    """The widest camera with a large subject at these instants, s."""
     description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
-    main, place = choose_main(description, actors), shooting.place
-    moves = _plan_moves(description, main, shooting.duration_s)
-    first, last = _OUTSIDE * main.enters, 1.0 - _OUTSIDE * main.leaves
-    times = shooting.duration_s * np.linspace(first, last, INSTANTS)
+    place = shooting.place
     azimuth, elevation = choose_angles(description, main, moves, place, shooting.seed)
     is_open = shooting.has_floor and not is_room(place)
     lift = _SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
@@ -130,6 +141,15 @@ def _watch(shooting: _Shooting) -> CameraPath:
         for one in views
     ]  # fmt: skip
     return path_of(come_near(framings, prominence, [view.goal for view in views[1:]]))
+
+
+def _begins_and_ends_outside(path: CameraPath, main: Actor, aspect: float) -> bool:
+    """Whether what enters begins out of the picture, and what leaves ends there."""
+    for time in [0.0] * main.enters + [path.duration_s] * main.leaves:
+        seen = image_of(path.at(time), main.corners(time))[:, :2] / [0.5, 0.5 * aspect]
+        if not (np.any(seen.min(axis=0) > 1.0) or np.any(seen.max(axis=0) < -1.0)):
+            return False
+    return True
 
 
 def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraPath:
