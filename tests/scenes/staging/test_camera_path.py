@@ -17,8 +17,8 @@ from texvent.scenes.description import (
     Shot,
     Surroundings,
 )
-from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.framing import image_of
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 
@@ -47,15 +47,8 @@ def film(
     return compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)
 
 
-def image_of(camera: Camera, points: Float64Array) -> Float64Array:
-    """[n, 2] places in image widths from the middle."""
-    seen = (points - camera.position) @ camera.rotation.T
-    assert np.all(seen[:, 2] > 0.0)
-    return np.asarray(camera.focal * seen[:, :2] / seen[:, 2:])
-
-
 def extent(scene: ComposedScene, actor: Actor, time_s: float) -> float:
-    image = image_of(scene.camera(time_s), actor.corners(time_s))
+    image = image_of(scene.camera(time_s), actor.corners(time_s))[:, :2]
     return float(np.ptp(image, axis=0).max())
 
 
@@ -73,9 +66,8 @@ def test_every_combination_is_smooth_and_keeps_its_subject(
         assert np.abs(before.rotation - after.rotation).max() < 0.02
         assert abs(math.log(after.focal / before.focal)) < 0.02
         assert before.position[2] >= 0.25
-        middle = scene.actors[0].middle(float(time))[None]
-        x, y = image_of(before, middle)[0]
-        inside.append(abs(x) < 0.5 and abs(y) < 0.5 * SIZE.height / SIZE.width)
+        x, y, depth = image_of(before, scene.actors[0].middle(float(time)))
+        inside.append(abs(x) < 0.5 and abs(y) < 0.5 * SIZE.height / SIZE.width and depth > 0.0)
     assert np.mean(inside) > 0.85
 
 

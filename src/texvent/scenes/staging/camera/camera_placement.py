@@ -107,8 +107,9 @@ def _watch(shooting: _Shooting) -> CameraPath:
     main = choose_main(shooting.description, shooting.actors)
     moves = _plan_moves(shooting.description, main, shooting.duration_s)
     for share in _OUTSIDE_SHARES if main.enters or main.leaves else (0.0,):
-        ends = sorted((share * main.enters, 1.0 - share * main.leaves))
-        path = _frame(shooting, main, moves, shooting.duration_s * np.linspace(*ends, INSTANTS))
+        first, last = sorted((share * main.enters, 1.0 - share * main.leaves))
+        times = shooting.duration_s * np.linspace(first, last, INSTANTS)
+        path = _frame(shooting, main, moves, times)
         if _begins_and_ends_outside(path, main, shooting.aspect):
             break
     return path
