@@ -23,7 +23,7 @@ _FILL, _WIDE_FILL, _FOLLOWED_FILL, _NEAR_FILL = 0.88, 0.7, 0.75, 0.95
 """Share of the image that what matters may fill: usually, in a wide shot, where the camera goes
 along with it, and in a close shot."""
 _FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
-                 "crane": 0.7, "handheld": 0.78, "roll": 0.7, "dolly zoom": 0.6}  # fmt: skip
+                 "crane": 0.7, "handheld": 0.84, "roll": 0.7, "dolly zoom": 0.6}  # fmt: skip
 _APPROACHES = frozenset({"zoom", "dolly", "dolly zoom"})
 _AIM_FILLS, _LARGE_AIM = (1.3, 0.55), 1.3
 """Fill at the far and the near end of a move in, and prominence of the aim at the near one."""
