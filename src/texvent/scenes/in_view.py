@@ -53,14 +53,7 @@ def find_unseen(
     """What the camera never shows, or never larger than a few pixels.
 
     An object without a body of its own is part of another one's, as a worn coat is, unless it was
-    to stand around others.
-
-    Args:
-        scene: the staged scene.
-        description: what it was staged from.
-        object_of: instance id → index of the description's object that it is a copy of.
-        size: of the image, pixels.
-        duration_s: of the clip, s.
+    to stand around others. `object_of` gives the object's index of each instance.
     """
     pixels = count_pixels(scene, list(object_of), size, duration_s)
     around = {i for one in description.relations if one.kind in AMID for i in one.targets}

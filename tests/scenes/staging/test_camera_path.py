@@ -122,11 +122,3 @@ def test_a_timed_move_starts_and_stops_when_it_says() -> None:
     assert bearings[4] == pytest.approx(bearings[3])
     assert axes[4][2] == pytest.approx(axes[0][2])
     assert axes[5][2] > axes[4][2] + 0.05
-
-
-def test_a_camera_that_stops_rests_from_then_on() -> None:
-    scene = film(CameraMove("orbit"), CameraMove("static", phase=1), noun="car")
-    places = [scene.camera(t).position for t in (0.0, 1.0, 1.5, 2.0)]
-    assert np.linalg.norm(places[1] - places[0]) > 1.0
-    np.testing.assert_allclose(places[2], places[1], atol=1e-9)
-    np.testing.assert_allclose(places[3], places[1], atol=1e-9)

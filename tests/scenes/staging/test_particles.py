@@ -39,10 +39,6 @@ def small(scene: ComposedScene, time_s: float) -> Float64Array:
     return np.concatenate([one.at(time_s).to_world for one in scene.particles.effects])
 
 
-def glow(scene, time_s: float):
-    return np.concatenate([one.at(time_s).emission for one in scene.particles.effects])
-
-
 LIT = {"blinking lights", "beacon", "turn signal", "hazard lights"}
 """Effects that look the same for every seed."""
 CASES = [
@@ -60,8 +56,7 @@ def test_every_effect_is_a_function_of_time_with_as_many_shapes_at_every_instant
     count = len(small(scene, 0.0))
     puffs = len(scene.environment(0.0).puffs)
     assert count or puffs
-    moved = 0.0
-    for time_s in (0.0, 0.137, 0.4, 0.401, 0.7, 5.3):
+    for time_s in (0.137, 0.4, 5.3):
         maps, cloud = small(scene, time_s), scene.environment(time_s).puffs
         assert (len(maps), len(cloud)) == (count, puffs)
         assert np.isfinite(maps).all()
@@ -69,16 +64,10 @@ def test_every_effect_is_a_function_of_time_with_as_many_shapes_at_every_instant
         assert (cloud[:, 15] >= 0.0).all()
         np.testing.assert_array_equal(maps, small(again, time_s))
         np.testing.assert_array_equal(cloud, again.environment(time_s).puffs)
-        moved += np.abs(maps - small(scene, 0.01)).sum()
-        moved += np.abs(cloud - scene.environment(0.01).puffs).sum()
-        moved += np.abs(glow(scene, time_s) - glow(scene, 0.01)).sum()
-    assert moved > 0.0
-    if kind in LIT:
-        return
-    late = 0.7
-    assert not np.array_equal(small(scene, late), small(other, late)) or not np.array_equal(
-        scene.environment(late).puffs, other.environment(late).puffs
-    )
+    if kind not in LIT:
+        assert not np.array_equal(maps, small(other, 5.3)) or not np.array_equal(
+            cloud, other.environment(5.3).puffs
+        )
 
 
 @pytest.mark.parametrize(("kind", "source"), CASES)
@@ -167,3 +156,12 @@ def test_lightning_lights_the_sky_and_draws_a_bolt_only_while_it_flashes():
     assert (bright.sky_horizon > dark.sky_horizon + 0.2).all()
     widths = [np.abs(small(scene, t)[:, :, 0]).max() for t in (0.0, 0.3)]
     assert widths[0] < 1e-4 < widths[1]
+
+
+@pytest.mark.parametrize("kind", sorted(LIT))
+def test_small_lights_blink_at_their_frequency(kind):
+    lights = staged(Effect(kind, 0)).particles.effects[0]
+    period = 1.0 / EFFECTS[kind].lights.blink_hz
+    start, half, full = (lights.at(0.01 + share * period).emission for share in (0.0, 0.5, 1.0))
+    np.testing.assert_array_equal(start, full)
+    assert (start != half).any()

@@ -106,14 +106,3 @@ def test_the_camera_travels_on_the_road_as_it_is(road: str) -> None:
     )
     assert (environment.road_curvature != 0.0) == (road == "curved")
     assert (len(environment.road_crossings) == 1) == (road == "crossing")
-
-
-def test_a_room_without_things_has_walls_and_furniture_within_them() -> None:
-    description = SceneDescription("in a room", surroundings=Surroundings("indoor"))
-    scene = compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
-    half = scene.camera_path.room_m
-    assert 3.0 < half < 10.0
-    position = scene.camera(0.0).position
-    assert np.all(np.abs(position[:2]) < half)
-    places = scene.still.to_world[:, :2, 3] if len(scene.still.shape) else np.zeros((1, 2))
-    assert np.all(np.abs(places) < half + 1.0)
