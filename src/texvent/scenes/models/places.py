@@ -108,6 +108,7 @@ def _place_of(entry: dict[str, Any]) -> Place:
         entry.update(walls=Texture[walls["surface"].upper()], wall_colour=_colour(walls["colour"]))
     scenery = tuple(_scenery_of(one) for one in entry.pop("scenery", ()))
     kind = Ground[ground["kind"].upper().replace(" ", "_")]
+    entry.setdefault("light", "room" if kind is Ground.FLOOR else "")
     names = tuple(entry.pop("names"))
     return Place(names, kind, (first, second), scenery=scenery, **entry)
 
