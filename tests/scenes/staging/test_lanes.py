@@ -12,7 +12,7 @@ from texvent.scenes.description import (
     Surroundings,
 )
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.placement.lanes import find_lanes
+from texvent.scenes.staging.surroundings.road import find_lanes
 from texvent.sensor import SensorSize
 
 

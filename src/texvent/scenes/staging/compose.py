@@ -33,22 +33,24 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
-from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.light.lighting import choose_lighting
 from texvent.scenes.staging.surroundings.light.scene_lamps import fastest_hz, scene_lamp_rows
-from texvent.scenes.staging.surroundings.road_choice import find_road, lay_across
-from texvent.scenes.staging.surroundings.roadside import is_placed_by_view, line_route
+from texvent.scenes.staging.surroundings.road import (
+    find_road,
+    lay_across,
+    queue_in_lanes,
+    water_line,
+)
 from texvent.scenes.staging.surroundings.scenery import (
     SceneryItem,
     ViewClearance,
     scatter,
     under_snow,
 )
-from texvent.scenes.staging.surroundings.water import water_line
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -168,7 +170,7 @@ def compose_scene(
     actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
     view = _describe_view(description, PLACES[place], camera_path, actors, duration_s)
     if PLACES[place].has_road:
-        actors = lay_across(actors, view.road, duration_s)
+        actors = lay_across(actors, view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     named = dict(enumerate(surrounding, len(actors) + 1))
@@ -282,7 +284,7 @@ def _scatter_all(
             sizes = (0.8 * one.scale, 1.2 * one.scale)
             rule = Scenery(one.noun, one.count, "around", (-0.2, 3.5), sizes, (colour,))
             rng, taken = seeded(seed, "surround", target), [item for _, item in around]
-            found = _set_up([rule], view, actors, allowed, rng, taken)
+            found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
             around.extend((target, item) for item in found)
     surroundings = description.surroundings
     place = surroundings.place or "grass"
@@ -293,20 +295,4 @@ def _scatter_all(
         rules.extend(PLACES[backdrop].scenery)
     rules = under_snow(rules) if surroundings.has_snow else rules
     rng, taken = seeded(seed, "scenery", place), [item for _, item in around]
-    return _set_up(rules, view, actors, unsaid, rng, taken), around
-
-
-def _set_up(
-    rules: Sequence[Scenery],
-    view: ViewClearance,
-    actors: Sequence[Actor],
-    nouns: Mapping[str, Noun],
-    rng: np.random.Generator,
-    taken: Sequence[SceneryItem],
-) -> list[SceneryItem]:
-    """Scenery in view, and along the route of a camera that travels."""
-    if view.travel is None:
-        return scatter(rules, view, actors, nouns, rng=rng, taken=taken)
-    lined = line_route(rules, view, view.travel, actors, nouns, rng)
-    far = [rule for rule in rules if is_placed_by_view(rule)]
-    return lined + scatter(far, view, actors, nouns, rng=rng, taken=taken)
+    return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around

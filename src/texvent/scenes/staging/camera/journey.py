@@ -92,18 +92,6 @@ class TravelPlan:
             state.yaw,
         )
 
-    def branches(self) -> list[tuple[float, float, float]]:
-        """x, y and heading of roads that leave the route at corners."""
-        found = []
-        for x, y, heading in self.road.crossings:
-            back = self.journey.route.yaw
-            # The main road goes on beyond the crossing; the crossing goes on behind the route.
-            offset_x, offset_y = self.road.offset
-            along = (x - offset_x) * math.cos(back) + (y - offset_y) * math.sin(back)
-            corner = (offset_x + along * math.cos(back), offset_y + along * math.sin(back))
-            found += [(*corner, back), (*corner, heading + math.pi)]
-        return found
-
     def places(self, step_m: float = 1.0) -> Float64Array:
         """[n, 2] the route, and on for as far as one sees, m."""
         count = max(2, math.ceil((self.length_m + VIEW_M) / step_m))

@@ -1,11 +1,12 @@
 """Scenery: trees along a road, houses in a city, pines on a mountain.
 
-Scenery never stands between the camera and the objects of the scene, on the road, or in another's
-place.
+It stands where the camera looks, or on both sides of the route of a camera that travels; never
+between the camera and the objects of the scene, on the road, or in another's place.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -14,11 +15,11 @@ import numpy as np
 
 from texvent.scenes.models.places import Scenery
 from texvent.scenes.models.protocol import Model, Noun, Pose
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
-from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.camera.journey import VIEW_M, TravelPlan
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.trajectory import BodyState
 
@@ -27,12 +28,14 @@ _BANK_M = 1.0
 _FAR_SHORE_M = 100.0
 """What stands further away than that may stand beyond the water."""
 _USUAL_DISTANCE_M = 16.0
-_IN_VIEW = 0.42
-"""Half of what the image shows, but for its edges, as a multiple of the distance at focal 1."""
-ATTEMPTS = 40
+_ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 _GAP_M = 0.35
 """From what must not touch it to a wall along the view."""
+_SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
+"""Along a route: usually from one to the next, and least and most from the free strip."""
+_BEFORE_M, _MOST_ITEMS = 4.0, 90
+"""How far before its beginning scenery starts, and how many pieces there are at most."""
 
 
 @dataclass(frozen=True)
@@ -58,15 +61,22 @@ class ViewClearance:
 class SceneryItem:
     """One piece of scenery; it stands still."""
 
-    noun: str
+    rule: Scenery
     model: Model
     position: tuple[float, float]
     yaw: float
     height_m: float = 0.0
     """Of its origin, m."""
-    is_at_wall: bool = False
-    is_flat: bool = False
-    """Whether others may stand on it or in it: paint on the ground, walls around."""
+
+    @property
+    def noun(self) -> str:
+        """What it is."""
+        return self.rule.noun
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether others may stand on it or in it: paint on the ground, walls around."""
+        return self.rule.where in ("under", "both sides")
 
     @property
     def radius_m(self) -> float:
@@ -101,7 +111,7 @@ def scatter(
 
     Args:
         rules: what, how many and how far.
-        view: the camera over the clip, and what it must see.
+        view: the camera over the clip, its route, and what it must see.
         actors: the objects of the scene.
         nouns: table of models; a noun that is missing is left out.
         rng: decides places, sizes and turns.
@@ -110,28 +120,73 @@ def scatter(
     Returns:
         The pieces that found a place; fewer than wanted where it is crowded.
     """
-    items = list(taken)
-    bodies = list_bodies(actors)
-    for number, rule in enumerate(rules):
-        noun = nouns.get(rule.noun)
-        if noun is None or rule.where == "route":
-            continue
+    rules = [rule for rule in rules if rule.noun in nouns]
+    bodies, items = _list_bodies(actors), list(taken)
+    if view.travel is not None:
+        beside = [rule for rule in rules if rule.where != "far" and not rule.is_structure]
+        _line_route(beside, view, view.travel, bodies, nouns, rng, items)
+        rules = [rule for rule in rules if rule not in beside]
+    for rule in rules:
+        noun = nouns[rule.noun]
         if rule.where == "under":
-            model = build(rule, noun, 0, rng)
-            items.append(_lay_under(rule, model, view, actors, bodies))
-            continue
-        if rule.where == "both sides":
+            items.append(_lay_under(rule, _build(rule, noun, 0, rng), view, actors, bodies))
+        elif rule.where == "both sides":
             items.append(_enclose(rule, noun, view, bodies, rng))
-            continue
-        must_show = number == 0 and rule.where == "walls"
-        for copy in range(rule.count):
-            model = build(rule, noun, copy, rng, _fit_scale(rule, view))
-            item = _find_place(rule, model, view, bodies, items, rng, must_show=must_show)
-            items += [item] if item is not None else []
+        elif rule.where != "route":
+            for copy in range(rule.count):
+                model = _build(rule, noun, copy, rng, _fit_scale(rule, view))
+                item = _find_place(rule, model, view, bodies, items, rng)
+                items += [item] if item is not None else []
     return items[len(taken) :]
 
 
-def build(
+def _line_route(
+    rules: Sequence[Scenery],
+    view: ViewClearance,
+    travel: TravelPlan,
+    bodies: Float64Array,
+    nouns: Mapping[str, Noun],
+    rng: np.random.Generator,
+    items: list[SceneryItem],
+) -> None:
+    """Add scenery on both sides of a route, from behind its beginning to beyond its end."""
+    length, line = travel.length_m + VIEW_M + _BEFORE_M, travel.places(0.5)
+    spacings = [float(trait_value("spacing along a road", rule.noun) or _SPACING_M)
+                for rule in rules]  # fmt: skip
+    stretch = max(1.0, sum(2.0 * length / one for one in spacings) / _MOST_ITEMS)
+    for (rule, spacing), side in itertools.product(zip(rules, spacings, strict=True), (1.0, -1.0)):
+        for number in range(math.ceil(length / (stretch * spacing))):
+            along = stretch * spacing * (number + float(rng.uniform(0.1, 0.9))) - _BEFORE_M
+            model = _build(rule, nouns[rule.noun], number, rng)
+            item = _stand_beside(rule, model, travel, along, side, rng)
+            if nouns[rule.noun].habitat == "air":
+                height = travel.journey.height_m + float(rng.uniform(-5.0, 4.0))
+                item = replace(item, height_m=height)
+            away = float(np.min(np.hypot(*(line - item.position).T))) - item.radius_m
+            if away >= min(travel.clear_m) and _is_free(item, view, bodies, items):
+                items.append(item)
+
+
+def _stand_beside(
+    rule: Scenery,
+    model: Model,
+    travel: TravelPlan,
+    along_m: float,
+    side: float,
+    rng: np.random.Generator,
+) -> SceneryItem:
+    """At the side of a route, 1 = right, so far along it."""
+    near, far = trait_value("distance from a road", rule.noun) or _ASIDE_M
+    radius = 0.5 * max(model.length, model.width)
+    aside = travel.clear(side) + radius + near + (far - near) * float(rng.uniform()) ** 2
+    x, y, heading = travel.point(along_m, side * aside)
+    yaw = heading + side * 0.5 * math.pi
+    if rule.noun not in nouns_with("parallel to road"):
+        yaw = float(rng.uniform(0.0, 2.0 * math.pi))
+    return SceneryItem(rule, model, (x, y), yaw)
+
+
+def _build(
     rule: Scenery, noun: Noun, copy: int, rng: np.random.Generator, scale: float = 1.0
 ) -> Model:
     """A copy of a piece of scenery, with its own size and seed."""
@@ -148,7 +203,7 @@ def _fit_scale(rule: Scenery, view: ViewClearance) -> float:
     return min(max(view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5)
 
 
-def list_bodies(actors: Sequence[Actor]) -> Float64Array:
+def _list_bodies(actors: Sequence[Actor]) -> Float64Array:
     """[n, 3]: x, y and radius of the actors at some instants, m."""
     rows = []
     for actor in actors:
@@ -170,7 +225,7 @@ def _lay_under(
     x, y = bodies[:, :2].mean(axis=0) if len(bodies) else (0.0, 0.0)
     yaw = actors[0].trajectory.at(0.0).yaw if actors else 0.0
     spot = (x + rule.reach[0] * math.cos(yaw), y + rule.reach[0] * math.sin(yaw))
-    return SceneryItem(rule.noun, model, spot, view.road.angle, is_flat=True)
+    return SceneryItem(rule, model, spot, view.road.angle)
 
 
 def _enclose(
@@ -184,12 +239,12 @@ def _enclose(
     radii = np.append(bodies[:, 2], np.full(len(eyes), _GAP_M))
     low, high = float((aside - radii).min()), float((aside + radii).max())
     # Each wall is a tenth of their distance thick at most.
-    usual_m = 0.78 * build(rule, noun, 0, rng).width
-    model = build(rule, noun, 0, rng, max((high - low) / usual_m, 1.0))
+    usual_m = 0.78 * _build(rule, noun, 0, rng).width
+    model = _build(rule, noun, 0, rng, max((high - low) / usual_m, 1.0))
     middle = eyes.mean(axis=0)
     x, y = middle + (0.5 * (high + low) - float(middle @ right)) * right
     yaw = math.atan2(float(forward[1]), float(forward[0]))
-    return SceneryItem(rule.noun, model, (float(x), float(y)), yaw, is_flat=True)
+    return SceneryItem(rule, model, (float(x), float(y)), yaw)
 
 
 def _flat(camera: Camera) -> Float64Array:
@@ -205,19 +260,15 @@ def _find_place(
     bodies: Float64Array,
     items: Sequence[SceneryItem],
     rng: np.random.Generator,
-    *,
-    must_show: bool,
 ) -> SceneryItem | None:
-    """A free place for a piece; one that must show is in view, if it can be."""
-    for attempt in range(ATTEMPTS):
+    """A free place for a piece, if there is one."""
+    for _ in range(_ATTEMPTS):
         camera = view.cameras[int(rng.integers(len(view.cameras)))]
         if rule.where == "walls":
             item = _stand_at_wall(rule, model, camera, view.room_m, rng)
-            if must_show and 2 * attempt < ATTEMPTS and not _is_in_view(item, camera):
-                continue
         else:
             item = _stand_around(rule, model, camera, view, rng)
-        if is_free(item, rule, view, bodies, items):
+        if _is_free(item, view, bodies, items):
             return item
     return None
 
@@ -237,15 +288,7 @@ def _stand_around(
         yaw = view.road.angle - 0.5 * math.pi
     else:
         yaw = float(rng.uniform(0.0, 2.0 * math.pi))
-    return SceneryItem(rule.noun, model, (float(x), float(y)), yaw)
-
-
-def _is_in_view(item: SceneryItem, camera: Camera) -> bool:
-    """Whether its middle is between the left and the right edge of the image, and ahead."""
-    offset, forward = np.array(item.position) - camera.position[:2], _flat(camera)
-    ahead = float(offset @ forward)
-    aside = abs(float(offset @ np.array([forward[1], -forward[0]])))
-    return ahead > 0.0 and aside * camera.focal < _IN_VIEW * ahead
+    return SceneryItem(rule, model, (float(x), float(y)), yaw)
 
 
 def _stand_at_wall(
@@ -260,7 +303,7 @@ def _stand_at_wall(
     spot[axis] = side * (room_m - 0.5 * model.length - 0.04)
     spot[1 - axis] = float(rng.uniform(-0.9, 0.9)) * (room_m - 0.5 * model.width)
     yaw = math.pi * (0.5 * axis + (1.0 if side > 0.0 else 0.0))
-    return SceneryItem(rule.noun, model, (spot[0], spot[1]), yaw, is_at_wall=True)
+    return SceneryItem(rule, model, (spot[0], spot[1]), yaw)
 
 
 def _draw_reach(
@@ -280,9 +323,8 @@ def _draw_reach(
     return flat * (1.0 + float(rng.uniform(near, far)))
 
 
-def is_free(
+def _is_free(
     item: SceneryItem,
-    rule: Scenery,
     view: ViewClearance,
     bodies: Float64Array,
     items: Sequence[SceneryItem],
@@ -293,11 +335,12 @@ def is_free(
         clear = view.road_half_width + radius + 0.4
         if float(view.road.distance(spot[None])[0]) < clear:
             return False
-    room = view.room_m + (radius if item.is_at_wall else 0.0)
-    if np.max(np.abs(spot)) + radius > room or not _is_on_its_side(rule, spot, radius, view):
+    is_at_wall = item.rule.where == "walls"
+    room = view.room_m + (radius if is_at_wall else 0.0)
+    if np.max(np.abs(spot)) + radius > room or not _is_on_its_side(item.rule, spot, radius, view):
         return False
     # What stands at a wall is as deep as it is long, not as it is wide.
-    deep = min(0.5 * item.model.length + 0.3, radius) if item.is_at_wall else radius
+    deep = min(0.5 * item.model.length + 0.3, radius) if is_at_wall else radius
     if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < bodies[:, 2] + deep + 0.4):
         return False
     others = (other for other in items if not other.is_flat)
@@ -310,10 +353,11 @@ def _is_on_its_side(
     rule: Scenery, spot: Float64Array, radius_m: float, view: ViewClearance
 ) -> bool:
     """Whether what floats is in the water, and what stands is on land or far beyond the water."""
+    ashore = -float(view.road.across(spot[None])[0])
     if rule.where == "water":
-        return view.has_shore and view.road.across(spot) > radius_m + 0.5
+        return view.has_shore and -ashore > radius_m + 0.5
     is_beyond = rule.where == "far" and rule.reach[0] >= _FAR_SHORE_M
-    return not view.has_shore or is_beyond or view.road.across(spot) <= -radius_m - _BANK_M
+    return not view.has_shore or is_beyond or ashore >= radius_m + _BANK_M
 
 
 def _hides(spot: Float64Array, radius_m: float, deep_m: float, view: ViewClearance) -> bool:
