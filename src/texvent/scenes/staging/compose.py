@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.description import AMID, SceneDescription, SceneLamp
+from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, Place, Scenery
 from texvent.scenes.models.protocol import Noun
@@ -38,7 +38,6 @@ from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.light.lighting import choose_lighting
-from texvent.scenes.staging.surroundings.light.scene_lamps import fastest_hz, scene_lamp_rows
 from texvent.scenes.staging.surroundings.road import (
     find_road,
     lay_across,
@@ -80,8 +79,6 @@ class ComposedScene:
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
     is_grey: bool = False  # filmed in black and white
-    scene_lamps: tuple[SceneLamp, ...] = ()
-    """Lamps at positions that the scene gives."""
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -107,7 +104,6 @@ class ComposedScene:
         effects = self.particles.effects
         lamps = np.concatenate(
             [
-                scene_lamp_rows(self.scene_lamps, time_s),  # first: four at most cast shadows
                 self.lamps.rows(time_s),
                 *(effect.lamps(time_s) for effect in effects),
             ]
@@ -125,11 +121,7 @@ class ComposedScene:
     @property
     def flicker_hz(self) -> float | None:
         """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
-        rates = (
-            self.animated_environment.fastest_hz,
-            self.lamps.blink_hz,
-            fastest_hz(self.scene_lamps),
-        )
+        rates = (self.animated_environment.fastest_hz, self.lamps.blink_hz)
         return max((rate for rate in rates if rate is not None), default=None)
 
     @property
@@ -198,7 +190,6 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), still_nouns, object_of,
-        scene_lamps=description.light.lamps,
     )  # fmt: skip
 
 

@@ -25,19 +25,16 @@ from texvent.scenes.staging.surroundings.light.lighting import (
     choose_lighting,
     towards_light,
 )
-from texvent.scenes.staging.surroundings.light.lightning import STROKE_HZ, lightning_level
+from texvent.scenes.staging.surroundings.light.modulation import (
+    DEPTHS,
+    STROKE_HZ,
+    lightning_level,
+    wave_level,
+)
 from texvent.scenes.staging.surroundings.road import RoadLine
 
-FLICKER_DEPTH = 0.8
-"""Share of the light that a flicker takes away at its darkest."""
-ON_SHARE = {"strobe": 0.35, "switch": 0.5}
-"""Wave of the light that goes on and off → share of a period that it is on."""
-OFF_DEPTH = {"strobe": 0.96, "switch": 0.9}
-"""The same → share of the light that is gone when it is off."""
 _FLASH = np.array((0.42, 0.47, 0.60), dtype=np.float32)
 """Light of the brightest stroke of lightning."""
-STROBE = 1.2
-"""Light of a strobe's flash, as a share of that."""
 TIMELAPSE = 60.0
 """How much faster the sky goes in a time lapse."""
 NO_ROOM_M = 9.0
@@ -78,8 +75,6 @@ class AnimatedEnvironment:
             ambient=self.base.ambient * factor,
         )
         level = lightning_level(time_s) if self.has_lightning else 0.0
-        if self.wave == "strobe" and self.flicker(time_s) >= 1.0:
-            return replace(base, ambient=base.ambient + np.float32(STROBE) * _FLASH)
         if level <= 0.0:
             return base
         flash = np.float32(level) * _FLASH
@@ -99,11 +94,8 @@ class AnimatedEnvironment:
         """Share of full light at that instant: 1 at t = 0, period exactly 1 / flicker_hz."""
         if self.flicker_hz is None:
             return 1.0
-        if self.wave != "sine":
-            is_on = (self.flicker_hz * time_s) % 1.0 < ON_SHARE[self.wave]
-            return 1.0 if is_on else 1.0 - OFF_DEPTH[self.wave]
-        wave = math.cos(2.0 * math.pi * self.flicker_hz * time_s)
-        return 1.0 - 0.5 * FLICKER_DEPTH * (1.0 - wave)
+        level = wave_level(self.wave, self.flicker_hz * time_s)
+        return 1.0 - DEPTHS[self.wave] * (1.0 - level)
 
 
 def build_environment(
