@@ -16,8 +16,6 @@ from texvent.scenes.staging.placement.object_groups import ObjectGroup
 _SEEN = 1.8
 """What stands aside is in the picture from this many times as far ahead."""
 _GAP_M = 1.5
-_BEFORE_M = 2.5
-"""What the camera keeps clear of what is in its lane, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
 
@@ -53,24 +51,20 @@ class RoutePlacer:
             [3] middle of the group, m.
         """
         plan, travel = group.plan, self._travel
-        if is_goal or group.noun.name in nouns_with("passage"):
-            ahead = travel.length_m + 3.0 + 0.9 * group.size_m if is_goal else 0.6 * travel.length_m
-            x, y, heading = travel.point(ahead, 0.0)
-            group.plan = replace(plan, yaw=heading + (math.pi if is_goal else 0.0))
-            return np.array([x, y, height])
-        crosses = plan.motion.direction in ("left", "right", "across")
+        crosses = plan.is_path and plan.motion.direction in ("left", "right", "across")
         if plan.is_path and not crosses and group.noun.habitat != "fixed":
             return self._place_on_the_way(group, height)
-        if (plan.is_path and crosses) or group.scene_object.side == "lane":
-            return self._place_beyond(group, height)
-        return self._place_beside(group, height)
-
-    def _place_beyond(self, group: ObjectGroup, height: float) -> Float64Array:
-        """On the route just beyond its end, where the camera does not come, or across it."""
-        deep = float(group.half[1])
-        along = self._travel.length_m + _BEFORE_M + self._beyond_m + 1.5 * deep
-        self._beyond_m += 2.0 * deep + 0.5
-        x, y, _ = self._travel.point(along, 0.0)
+        if not (is_goal or crosses or group.scene_object.side == "lane"):
+            if group.noun.name not in nouns_with("passage"):
+                return self._place_beside(group, height)
+        along = 0.6 * travel.length_m
+        if group.noun.name not in nouns_with("passage") or is_goal:
+            # Just beyond the end of the route, where the camera does not come.
+            along = travel.length_m + self._beyond_m + 3.0 + 0.9 * group.size_m
+            self._beyond_m += 2.0 * float(group.half[1]) + 0.5
+        x, y, heading = travel.point(along, 0.0)
+        if not crosses:
+            group.plan = replace(plan, yaw=heading + (math.pi if is_goal else 0.0))
         return np.array([x, y, height])
 
     def _place_on_the_way(self, group: ObjectGroup, height: float) -> Float64Array:
@@ -79,29 +73,28 @@ class RoutePlacer:
         length = max(model.length for model in group.models)
         width = max(model.width for model in group.models)
         walks = group.noun.habitat == "ground" and group.noun.motion != "drive"
-        oncoming = plan.motion.direction == "towards" or (
+        is_oncoming = plan.motion.direction == "towards" or (
             plan.motion.direction is None and (walks or len(group.models) > 1)
         )
-        x, y, heading = travel.point(0.5 * travel.length_m, 0.0)
         speed, ahead, aside = plan.speed_m_s, _AHEAD_M + 0.5 * length, 0.0
         if walks:
             aside = travel.clear(1.0) + 0.5 * width + 0.4
             ahead = _SEEN * aside
-        elif oncoming:
+        elif is_oncoming:
             aside, ahead = -max(0.67 * travel.clear(-1.0), 0.5 * width + 1.5), length
         elif plan.motion.speed_m_s is None and travel.speed_m_s > 0.0:
             speed = travel.speed_m_s * plan.motion.pace
         if is_centred(group.noun):
             aside, ahead = 0.0, 1.0 + 3.0 * max(length, width)
             height = travel.journey.height_m - travel.journey.pitch_rad * ahead
-        if oncoming:
+        if is_oncoming:
             ahead += 0.25 * (travel.speed_m_s + speed) * self._duration_s
-        yaw = heading + (math.pi if oncoming else 0.0)
+        x, y, heading = travel.point(0.5 * travel.length_m, aside)
+        yaw = heading + (math.pi if is_oncoming else 0.0)
         group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None)
-        spacing = 1.6 * length + 2.0
         forward = np.array([math.cos(heading), math.sin(heading), 0.0])
-        right = np.array([forward[1], -forward[0], 0.0])
-        places = [n * spacing * forward + aside * right for n in range(len(group.models))]
+        spacing = 1.6 * length + 2.0
+        places = [n * spacing * forward for n in range(len(group.models))]
         group.offsets = [(float(one[0]), float(one[1]), 0.0) for one in places]
         group.fit()
         return np.array([x, y, height]) + ahead * forward

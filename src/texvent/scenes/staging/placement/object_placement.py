@@ -11,7 +11,6 @@ import numpy as np
 from texvent.scenes.description import AMID, STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.protocol import Model, Noun
-from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
@@ -41,17 +40,13 @@ from texvent.scenes.staging.trajectories.choose_trajectory import choose_traject
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath, bend_path
-from texvent.scenes.staging.trajectories.trajectory import Riding, Straight, Trajectory, Vector
+from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory, Vector
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
 _NEARER = 0.35
 """How much nearer, for each metre to the side."""
-BELT_M_S = 0.22
-"""Speed of what lies on something that carries it along."""
 _ATTEMPTS = 400
-_STICK, _TURNED_RAD = 2.0, 0.4
-"""How much longer than wide and high is what lies across the view; how far it is turned there."""
 _SIDES = {"left": -1.0, "right": 1.0}
 
 
@@ -130,10 +125,6 @@ class ObjectPlacer:
         if is_curved and noun.motion == "drive" and plan.is_path:
             path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
             plan = replace(plan, path=path, yaw=path.yaw)
-        related = {i for r in self._description.relations for i in (r.subject, *r.targets)}
-        is_still = noun.habitat == "fixed" and not motions[0].is_moving and index not in related
-        if is_still and _is_long(models[0]):
-            plan = plan.turned(math.copysign(_TURNED_RAD, math.cos(plan.yaw)))
         if scene_object.heading_deg is not None:
             plan = plan.turned(math.radians(scene_object.heading_deg))
         offsets = stagger(models, plan, noun, rng)
@@ -326,9 +317,6 @@ class ObjectPlacer:
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
         """On what carries it, which moves as a whole, in a part, or only on its surface."""
-        if below.noun.name in nouns_with("carries along"):
-            speed = BELT_M_S * below.plan.motion.pace
-            return Straight(home, below.plan.yaw, speed, 0.5 * self._duration_s, "stand")
         rng = seeded(self._seed, "lead", below.index, below.noun.name)
         carrier = self._choose(below, below.models[0], _tuple(below.centre), 0, rng)
         (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
@@ -338,11 +326,6 @@ class ObjectPlacer:
         if group.carried_on is not None:
             return OnPart(carrier, below.models[0], group.carried_on, place, activity)
         return Riding(carrier, place, activity)
-
-
-def _is_long(model: Model) -> bool:
-    """Whether it lies across the view, so that it is seen whole: a bat, a spoon."""
-    return model.length > _STICK * max(model.width, model.height)
 
 
 def _tuple(centre: Float64Array) -> Vector:

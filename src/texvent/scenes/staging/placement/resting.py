@@ -34,8 +34,6 @@ _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
-_ALONG_SIDE_M = 0.7
-"""Room for one at the side of a table."""
 _EYE_M, _UNDER_TOP_M = 1.5, 0.12
 """Height of the middle of what hangs, and least distance to the top of what it hangs on."""
 
@@ -54,7 +52,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     if group.noun.name in nouns_with("hangs") and target.noun.name in nouns_with("upright face"):
         return _hang_on(group, target, neighbours)
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
-    if target.plan.motion.is_moving or target.noun.name in nouns_with("carries along"):
+    if target.plan.motion.is_moving:
         group.carrier = target
     elif is_person and kind in TO_AND_FROM_SEATS:
         target.plan = replace(target.plan, yaw=_PROFILE_RAD)
@@ -144,27 +142,16 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
 def _places_around(
     target: ObjectGroup, count: int, reach_m: float
 ) -> list[tuple[float, float, float]]:
-    """Offsets and headings of so many at the sides of a table, the farthest side first, m."""
-    table, yaw = target.models[0], target.plan.yaw
-    sides = []
-    for turn, out, long in (
-        (0.0, table.length, table.width), (math.pi, table.length, table.width),
-        (0.5 * math.pi, table.width, table.length), (-0.5 * math.pi, table.width, table.length),
-    ):  # fmt: skip
-        sides.append((yaw + turn, 0.5 * out + reach_m, long))
-    sides.sort(key=lambda side: -side[1] * math.sin(side[0]))
-    far, *ends, near = sides
-    order = [far] if count == 1 else ends if count == 2 else [far, *ends, near]
-    seats = [max(1, int(long / _ALONG_SIDE_M)) if count > 2 else 1 for _, _, long in order]
-    while sum(seats) < count:
-        seats = [one + 1 for one in seats]
+    """Offsets and headings of so many around a table, the farthest first; two are at its ends."""
+    wide, deep, _ = target.half_at_rest() + reach_m
+    first = 0.0 if count == 2 else 0.5 * math.pi
     found = []
-    for (way, out, long), most in zip(order, seats, strict=True):
-        for number in range(most):
-            aside = long * ((number + 0.5) / most - 0.5)
-            x = out * math.cos(way) - aside * math.sin(way)
-            y = out * math.sin(way) + aside * math.cos(way)
-            found.append((x, y, way + math.pi))
+    for number in range(count):
+        # At alternate sides, so that the camera's side is taken last.
+        turn = (number + 1) // 2 * (1.0 if number % 2 else -1.0)
+        angle = first + 2.0 * math.pi * turn / count
+        x, y = float(wide) * math.cos(angle), float(deep) * math.sin(angle)
+        found.append((x, y, math.atan2(-y, -x)))
     return found
 
 
