@@ -54,11 +54,11 @@ class RoutePlacer:
         crosses = plan.is_path and plan.motion.direction in ("left", "right", "across")
         if plan.is_path and not crosses and group.noun.habitat != "fixed":
             return self._place_on_the_way(group, height)
-        if not (is_goal or crosses or group.scene_object.side == "lane"):
-            if group.noun.name not in nouns_with("passage"):
-                return self._place_beside(group, height)
+        is_passage = group.noun.name in nouns_with("passage")
+        if not (is_goal or crosses or is_passage or group.scene_object.side == "lane"):
+            return self._place_beside(group, height)
         along = 0.6 * travel.length_m
-        if group.noun.name not in nouns_with("passage") or is_goal:
+        if is_goal or not is_passage:
             # Just beyond the end of the route, where the camera does not come.
             along = travel.length_m + self._beyond_m + 3.0 + 0.9 * group.size_m
             self._beyond_m += 2.0 * float(group.half[1]) + 0.5
