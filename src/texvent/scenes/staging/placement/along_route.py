@@ -24,13 +24,7 @@ class RoutePlacer:
     """Gives each object its place beside the route, ahead on it, or across it."""
 
     def __init__(self, travel: TravelPlan, duration_s: float, bodies: int) -> None:
-        """Plan for a route.
-
-        Args:
-            travel: the route.
-            duration_s: length of the clip, s.
-            bodies: how many bodies there are in all.
-        """
+        """For a route, the length of the clip, s, and how many bodies there are in all."""
         self._travel = travel
         self._duration_s = duration_s
         self._bodies = bodies
@@ -40,16 +34,7 @@ class RoutePlacer:
         """How far beyond the end of the route it is taken."""
 
     def place(self, group: ObjectGroup, height: float, *, is_goal: bool) -> Float64Array:
-        """Place the copies of a group, and turn them as the route runs there.
-
-        Args:
-            group: the object; its offsets, heading and extents change.
-            height: of its origin, m.
-            is_goal: whether the camera heads for it.
-
-        Returns:
-            [3] middle of the group, m.
-        """
+        """[3] middle of a group, m, whose copies are placed and turned as the route runs there."""
         plan, travel = group.plan, self._travel
         crosses = plan.is_path and plan.motion.direction in ("left", "right", "across")
         if plan.is_path and not crosses and group.noun.habitat != "fixed":
@@ -127,9 +112,7 @@ class RoutePlacer:
 
 def push_aside(group: ObjectGroup, travel: TravelPlan) -> None:
     """Move what stands in the way of the camera to the side of the route."""
-    low = group.centre[2] - (0.5 * group.models[0].height if is_centred(group.noun) else 0.0)
-    top = low + group.models[0].height
-    if top < 0.3 * travel.journey.height_m or low > travel.journey.height_m + 0.5:
+    if group.centre[2] > travel.journey.height_m + 0.5:
         return
     alongs = np.linspace(0.0, travel.length_m + 1.0, 60)
     lines = np.array([travel.point(float(along), 0.0) for along in alongs])

@@ -49,12 +49,8 @@ def stand_before_wall(
 ) -> tuple[list[Actor], CameraPath]:
     """Actors and camera in a room whose far wall is right behind its furniture.
 
-    Args:
-        description: the scene; what is on or in furniture goes to the wall with it.
-        groups: its objects as placed, by index.
-        move: moves objects by metres and returns the actors.
-        film: places the camera before actors.
-        place: key of `PLACES`.
+    `move` moves objects by metres and returns the actors; what is on or in furniture goes with it.
+    `film` places the camera before actors.
     """
     row = [groups[index] for index in list_at_wall(description, place) if index in groups]
     for group in row:

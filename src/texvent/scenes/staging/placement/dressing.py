@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from texvent.scenes.models.people.props import HOLDS, Prop, list_props
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import moved, post
 from texvent.scenes.models.support_surface import find_support
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
@@ -40,14 +39,6 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
         if objects[target].noun in CLOTHES
     ]
     return dress(noun, worn) if worn and noun.name in PERSON_NOUNS else noun
-
-
-def choose_copy(noun: Noun, number: int, nouns: Mapping[str, Noun]) -> Noun:
-    """Who the copy with that number, from 0, is: of people every second one is another."""
-    other = trait_value("every second one", noun.name)
-    if number % 2 == 0 or other is None or noun != nouns[noun.name]:
-        return noun
-    return replace(noun, build=nouns[other].build)
 
 
 def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Prop, ...]:

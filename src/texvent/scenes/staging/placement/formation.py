@@ -14,9 +14,8 @@ from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _RESTING = frozenset({"stand", "sit", "lie", "slide"})
-_SHOULDERS_M, _BUSY_M = 0.56, 0.95
-"""Room from shoulder to shoulder, and of who does something with the arms, m."""
-_AT_EASE = frozenset({"stand", "sit", "talk", "walk", "run"})
+_SHOULDERS_M = 0.6
+"""Room from shoulder to shoulder."""
 _APART = 0.3
 """Space between copies of small things, in their sizes: apples do not lie half a metre apart."""
 
@@ -96,8 +95,7 @@ def _stand_in_row(group: ObjectGroup, *, is_close: bool) -> None:
     long, wide = model.length, model.width
     cosine, sine = math.cos(plan.yaw), math.sin(plan.yaw)
     if is_close and group.noun.name in PERSON_NOUNS and plan.motion.kind != "lie":
-        room = _SHOULDERS_M if plan.motion.kind in _AT_EASE else _BUSY_M
-        long = wide = room * float(getattr(model, "scale", 1.0))
+        long = wide = _SHOULDERS_M * float(getattr(model, "scale", 1.0))
     if is_close and plan.is_path:
         ahead, aside = 0.75 * long, 1.25 * wide
         step = (ahead * cosine - aside * sine, ahead * sine + aside * cosine)

@@ -129,11 +129,8 @@ def _vertical(centre: Float64Array, group: ObjectGroup) -> tuple[float, float]:
 def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
     """Give a companion the heading and speed of its partner, where both go somewhere.
 
-    Args:
-        group: whose plan changes.
-        partner: who is placed already.
-        kind: "follow" (the group goes behind), "with", or "overtake" and "past" (the group is
-            overtaken: it goes the same way, slower, unless the scene says how it goes).
+    What follows goes behind the partner, which is placed already; what is overtaken or passed goes
+    the same way, slower, unless the scene says how it goes.
     """
     if not (partner.plan.is_path and group.plan.is_path):
         return

@@ -19,7 +19,7 @@ from texvent.scenes.staging.acts.perform import perform_acts
 from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
-from texvent.scenes.staging.placement.dressing import choose_copy, choose_props, dressed, hang_rope
+from texvent.scenes.staging.placement.dressing import choose_props, dressed, hang_rope
 from texvent.scenes.staging.placement.formation import form_up, part_in_midst, rests, stagger
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
@@ -109,13 +109,11 @@ class ObjectPlacer:
         colour = scene_object.colour.rgb if scene_object.colour is not None else None
         models: list[Model] = [
             in_material(
-                choose_copy(noun, number, self._nouns).build(
-                    colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))
-                ),
+                noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))),
                 scene_object.material,
                 colour,
             )
-            for number in range(scene_object.count)
+            for _ in range(scene_object.count)
         ]
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]

@@ -139,11 +139,7 @@ _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float
 def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
     """A target's position with respect to the subject that the scene relates to it.
 
-    Args:
-        group: the target.
-        kind: of the relation.
-        subject: what is placed already.
-        height: of the target's origin, m.
+    `height` is that of the target's origin, m; the subject is placed already.
     """
     if kind in ("behind", "from") and subject.plan.motion.kind == "appear":
         return _hide_before(group, subject, height)
@@ -214,12 +210,8 @@ def _half_below(group: ObjectGroup, height_m: float) -> Float64Array:
 def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
     """Metres to the right at which what stands behind is seen past the edge of what is before it.
 
-    0 where enough of it is seen above and beside.
-
-    Args:
-        rear: what stands behind.
-        near: [3] half extents of what is before it, m.
-        apart_m: from the middle of one to that of the other.
+    0 where enough of it is seen above and beside. `near` are the half extents [3] of what is
+    before it, m, `apart_m` the way from one middle to the other.
     """
     covered = np.minimum(1.0, near / rear.half_at_rest())
     if covered[0] * covered[2] <= _COVERED:
@@ -251,13 +243,9 @@ def orbit(group: ObjectGroup, around: ObjectGroup, number: int, duration_s: floa
 
 
 def place_at_distance(goal: Goal, relation: Relation, other: ObjectGroup, sign: float) -> Goal:
-    """The goal at the distance of the relation, if it has one.
+    """The goal at the distance of the relation to another group, if it has one.
 
-    Args:
-        goal: where the group would be without it.
-        relation: between the group and another one.
-        other: that one, which is placed already.
-        sign: 1 for the goal of the relation's subject, -1 for that of a target.
+    `sign` is 1 for the goal of the relation's subject, -1 for that of a target.
     """
     if relation.distance_m is None:
         return goal

@@ -77,14 +77,7 @@ class RoadLine:
 def find_road(
     description: SceneDescription, place: Place, actors: Sequence[Actor], usual_y: float
 ) -> RoadLine:
-    """The road along the path of the first object on the ground that moves.
-
-    Args:
-        description: the shape of its road: curved, or with a crossing.
-        place: its road's width, and whether it has pavements.
-        actors: the objects of the scene.
-        usual_y: where it runs if nothing stands on the ground, m.
-    """
+    """The road along the path of the first object on the ground that moves; else at `usual_y`, m."""
     shape, lane_m = description.surroundings.road, 0.5 * place.road_m
     has_pavement = place.ground is Ground.CITY and all(
         one.side != "lane" for one in description.objects
@@ -184,9 +177,8 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
 def queue_in_lanes(actors: Sequence[Actor], lane_m: float) -> list[Actor]:
     """The actors, with vehicles that drive both ways one behind the other, on the right.
 
-    Args:
-        actors: all objects; the first of a lane is amid it.
-        lane_m: from the centre line of the road, y = 0, to the middle of a lane.
+    `lane_m` is the way from the centre line of the road, y = 0, to the middle of a lane; the first
+    vehicle of a lane is amid it.
     """
     lanes = find_lanes(actors)
     if not all(lanes) or sum(map(len, lanes)) < _FEWEST:

@@ -2,79 +2,73 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 
 import numpy as np
 
-from texvent.scenes.scene import Float64Array, Primitives, Shape
+from texvent.scenes.scene import Colour, Float64Array, Primitives, Shape
 from texvent.scenes.staging.particles.shapes import ParticleEffect, many_shapes
 
-RAIN_DROPS = 130
-SNOW_FLAKES = 170
 _DEPTH_BELOW_M = 0.6
 """Drops return to the top when they are this far under the ground, out of sight."""
 
 
 @dataclass(frozen=True)
-class FallingParticles(ParticleEffect):
-    """Objects that fall through a box around what the camera looks at."""
+class Fall:
+    """One kind of weather that falls; lengths are shares of the width of the box that it fills."""
 
+    count: int
+    half: tuple[float, float, float]
+    """Half extents of a drop."""
+    colour: Colour
+    shape: Shape
+    speed_m_s: float = 0.0
+    speed_share: float = 0.0
+    """How fast it falls: in m/s, and in widths of the box each second."""
+    sway: float = 0.0
+
+
+FALLS = {
+    "rain": Fall(130, (0.0011, 0.0011, 0.022), (0.66, 0.72, 0.80), Shape.CYLINDER, 8.0),
+    "snow": Fall(170, (0.0028,) * 3, (0.95, 0.96, 1.0), Shape.ELLIPSOID, 0.0, 0.09, 0.015),
+}
+"""Weather that falls."""
+
+
+@dataclass(frozen=True)
+class FallingParticles(ParticleEffect):
+    """Drops that fall through a box around what the camera looks at."""
+
+    kind: Fall
     places: Float64Array
     """[n, 3] at t = 0, m; z counts from the bottom of the box."""
     base: Float64Array
-    """[3] middle of the bottom of the box, m."""
-    height_m: float
-    fall_m_s: float
-    sway_m: float
-    half: Float64Array
-    """[3] half extents of one drop, m."""
-    colour: tuple[float, float, float]
-    shape: Shape
+    """[3] middle of the ground that it falls on, m."""
+    extent_m: float
+    """Side of the box."""
 
     def at(self, time_s: float) -> Primitives:
         """All drops at that instant."""
-        fallen = np.mod(self.places[:, 2] - self.fall_m_s * time_s, self.height_m)
-        phase = 17.0 * self.places[:, 0]
-        x = self.places[:, 0] + self.sway_m * np.sin(1.9 * time_s + phase)
+        kind, extent = self.kind, self.extent_m
+        speed = kind.speed_m_s + kind.speed_share * extent
+        fallen = np.mod(self.places[:, 2] - speed * time_s, _height(extent)) - _DEPTH_BELOW_M
+        sway = kind.sway * extent * np.sin(1.9 * time_s + 17.0 * self.places[:, 0])
         maps = np.zeros((len(self.places), 3, 4))
-        maps[:, [0, 1, 2], [0, 1, 2]] = self.half
-        maps[:, :, 3] = np.column_stack([x, self.places[:, 1], fallen]) + self.base
-        return many_shapes(maps, self.shape, self.colour)
+        maps[:, [0, 1, 2], [0, 1, 2]] = extent * np.array(kind.half)
+        maps[:, :, 3] = np.column_stack([self.places[:, 0] + sway, self.places[:, 1], fallen])
+        maps[:, :, 3] += self.base
+        return many_shapes(maps, kind.shape, kind.colour)
 
 
-def make_rain(base: Float64Array, extent_m: float, rng: np.random.Generator) -> FallingParticles:
-    """Rain over a square of that side around `base`, m."""
-    height = 0.8 * extent_m + _DEPTH_BELOW_M
-    places = _scatter(RAIN_DROPS, extent_m, height, rng)
-    thick = 0.0011 * extent_m
-    return FallingParticles(
-        places, base - [0.0, 0.0, _DEPTH_BELOW_M], height, 8.0, 0.0,
-        np.array([thick, thick, 0.022 * extent_m]), (0.66, 0.72, 0.80), Shape.CYLINDER,
-    )  # fmt: skip
+def _height(extent_m: float) -> float:
+    return 0.8 * extent_m + _DEPTH_BELOW_M
 
 
-def make_snow(base: Float64Array, extent_m: float, rng: np.random.Generator) -> FallingParticles:
-    """Snow over a square of that side around `base`, m."""
-    height = 0.8 * extent_m + _DEPTH_BELOW_M
-    places = _scatter(SNOW_FLAKES, extent_m, height, rng)
-    radius = 0.0028 * extent_m
-    return FallingParticles(
-        places, base - [0.0, 0.0, _DEPTH_BELOW_M], height, 0.09 * extent_m, 0.015 * extent_m,
-        np.full(3, radius), (0.95, 0.96, 1.0), Shape.ELLIPSOID,
-    )  # fmt: skip
-
-
-def _scatter(
-    count: int, extent_m: float, height_m: float, rng: np.random.Generator
-) -> Float64Array:
+def let_fall(
+    weather: str, base: Float64Array, extent_m: float, rng: np.random.Generator
+) -> FallingParticles:
+    """Weather of `FALLS` over a square of that side around `base`, m."""
     low = np.array([-0.5 * extent_m, -0.5 * extent_m, 0.0])
-    high = np.array([0.5 * extent_m, 0.5 * extent_m, height_m])
-    return np.asarray(rng.uniform(low, high, size=(count, 3)))
-
-
-WEATHERS: Mapping[str, Callable[[Float64Array, float, np.random.Generator], FallingParticles]] = (
-    MappingProxyType({"rain": make_rain, "snow": make_snow})
-)
-"""Weather that falls."""
+    high = np.array([0.5 * extent_m, 0.5 * extent_m, _height(extent_m)])
+    places = rng.uniform(low, high, size=(FALLS[weather].count, 3))
+    return FallingParticles(FALLS[weather], places, base, extent_m)

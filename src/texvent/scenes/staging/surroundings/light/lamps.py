@@ -133,12 +133,8 @@ def lamp_row(
 ) -> Float64Array:
     """A lamp's numbers, as in `Environment.lamps`, without a shadow.
 
-    Args:
-        lamp: what kind it is.
-        part: the glowing part, in body coordinates.
-        to_world: [3, 4] body → world.
-        level: light as a share of its usual light.
-        time_s: for beams that turn.
+    The glowing part is in body coordinates; `level` is light as a share of its usual light, the
+    instant turns beams that turn.
     """
     row = np.zeros(LAMP_COLUMNS)
     half = np.sort(np.linalg.norm(part.to_body[:, :3], axis=0))
@@ -223,18 +219,10 @@ def plan_lamps(
     looking: Float64Array,
     items: Sequence[SceneryItem],
 ) -> LampPlan:
-    """Which lamps are on, and which of them cast shadows.
+    """Which lamps are on, and which of them cast shadows at that instant.
 
-    Args:
-        description: says which are lit and how they blink.
-        actors: the objects.
-        place: where they are.
-        strength: of artificial light, 0..1; above 0 it is dark.
-        instant_s: when the lamps that cast shadows are chosen, s.
-        framing: what the camera looks at: the lamps that light it most cast shadows, and where
-            none lights it, one does that is out of sight.
-        looking: [3] unit vector that the camera looks along.
-        items: the scenery, whose lamps are on at night.
+    `strength` is that of artificial light, 0..1: above 0 it is dark. Lamps that light most what the
+    camera looks at cast shadows; where none lights it, one does that is out of sight.
     """
     lit = []
     for one in actors:
@@ -287,14 +275,7 @@ def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64A
 def _choose_casters(
     lit: list[LitActor], still: Float64Array, instant_s: float, focus: Float64Array
 ) -> None:
-    """Let the lamps that light the focus most cast shadows, all of one object or none.
-
-    Args:
-        lit: objects with lamps; changed.
-        still: [m, 15] lamps of the scenery; changed.
-        instant_s: when they are compared, s.
-        focus: [3] what the camera looks at, m.
-    """
+    """Let the lamps that light the focus [3] most cast shadows, all of one object or none."""
     choices = [(*_light_at(focus, one.steady_rows(instant_s)), n) for n, one in enumerate(lit)]
     choices += [(*_light_at(focus, still[k : k + 1]), len(lit) + k) for k in range(len(still))]
     left = _MOST_CASTERS
