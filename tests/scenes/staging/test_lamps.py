@@ -19,7 +19,7 @@ from texvent.scenes.description import (
 from texvent.scenes.models.lamps import LAMPS, hue_of, lamp_of
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.light.modulation import wave_level
+from texvent.scenes.staging.surroundings.lighting import wave_level
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(96, 72)

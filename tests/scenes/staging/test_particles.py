@@ -22,7 +22,7 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.particles.motion import flight, flight_velocity
 from texvent.scenes.staging.particles.shapes import TINY_M, along
-from texvent.scenes.staging.surroundings.light.modulation import lightning_level
+from texvent.scenes.staging.surroundings.lighting import lightning_level
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(64, 48)

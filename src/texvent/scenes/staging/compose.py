@@ -36,8 +36,8 @@ from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
-from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
-from texvent.scenes.staging.surroundings.light.lighting import choose_lighting
+from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
+from texvent.scenes.staging.surroundings.lighting import choose_lighting
 from texvent.scenes.staging.surroundings.road import (
     find_road,
     lay_across,

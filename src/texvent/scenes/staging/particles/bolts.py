@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.scenes.scene import Float64Array, Primitives, Shape
 from texvent.scenes.staging.particles.shapes import TINY_M, ParticleEffect, along, many_shapes
-from texvent.scenes.staging.surroundings.light.modulation import flash_number, lightning_level
+from texvent.scenes.staging.surroundings.lighting import flash_number, lightning_level
 
 _BOLTS = 4
 _STEPS = 12
@@ -19,7 +19,7 @@ _UP = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True)
 class Lightning(ParticleEffect):
-    """Bolts in the sky; `modulation.lightning_level` lights the scene with them."""
+    """Bolts in the sky; `lighting.lightning_level` lights the scene with them."""
 
     bolts: Float64Array
     """[bolts, pieces, 2, 3] ends of their straight pieces, m."""

@@ -21,7 +21,7 @@ from texvent.scenes.staging.particles.bolts import Lightning
 from texvent.scenes.staging.particles.emitter import Emitter
 from texvent.scenes.staging.particles.motion import Source
 from texvent.scenes.staging.particles.shapes import ParticleEffect
-from texvent.scenes.staging.surroundings.weather import FALLS, let_fall
+from texvent.scenes.staging.surroundings.environment import FALLS, let_fall
 
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""

@@ -29,7 +29,7 @@ from texvent.scenes.staging.particles.shapes import (
     puff_rows,
     tumbling,
 )
-from texvent.scenes.staging.surroundings.light.modulation import wave_level
+from texvent.scenes.staging.surroundings.lighting import wave_level
 
 _FLAME_HZ = 6.0
 _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])

@@ -20,12 +20,15 @@ from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
 from texvent.scenes.staging.placement.dressing import choose_props, dressed, hang_rope
-from texvent.scenes.staging.placement.formation import form_up, part_in_midst, rests, stagger
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
+    form_up,
     half_extents_over_clip,
     match_pace,
     overlap,
+    part_in_midst,
+    rests,
+    stagger,
 )
 from texvent.scenes.staging.placement.spatial_relations import (
     INVERSE,

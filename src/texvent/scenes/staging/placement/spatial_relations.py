@@ -18,8 +18,7 @@ from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.placement.formation import stand_in_ring
-from texvent.scenes.staging.placement.object_groups import GAP_M, ObjectGroup
+from texvent.scenes.staging.placement.object_groups import GAP_M, ObjectGroup, stand_in_ring
 from texvent.scenes.staging.placement.resting import place_at, rest_in, rest_on
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 from texvent.scenes.staging.trajectories.trajectory import Circle, Trajectory

@@ -77,7 +77,7 @@ class RoadLine:
 def find_road(
     description: SceneDescription, place: Place, actors: Sequence[Actor], usual_y: float
 ) -> RoadLine:
-    """The road along the path of the first object on the ground that moves; else at `usual_y`, m."""
+    """The road along the path of the first object on the ground that moves, or at `usual_y`, m."""
     shape, lane_m = description.surroundings.road, 0.5 * place.road_m
     has_pavement = place.ground is Ground.CITY and all(
         one.side != "lane" for one in description.objects

@@ -17,8 +17,12 @@ from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
-from texvent.scenes.staging.surroundings.light.lighting import hidden_lamp, tint_of
-from texvent.scenes.staging.surroundings.light.modulation import FLAME_SHARES, wave_level
+from texvent.scenes.staging.surroundings.lighting import (
+    FLAME_SHARES,
+    hidden_lamp,
+    tint_of,
+    wave_level,
+)
 from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
 MAINS_HZ = 20.0
