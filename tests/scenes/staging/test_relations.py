@@ -146,6 +146,13 @@ def test_what_is_followed_moves_and_what_cannot_move_is_reported() -> None:
     assert np.linalg.norm(step) > 1.0
 
 
+def test_what_begins_after_the_clip_is_reported() -> None:
+    jumps = ObjectMotion("jump", start_s=5.0)
+    walks = SceneObject("man", motion=ObjectMotion("walk"), then=(jumps,))
+    assert stage(walks).not_shown == ("the man's jump after 5 s (the clip ends at 2 s)",)
+    assert stage(walks, duration_s=8.0).not_shown == ()
+
+
 def test_a_car_comes_out_of_what_it_goes_through() -> None:
     scene = stage(thing("car", ("drive", "towards")), thing("tunnel"),
                   relations=(Relation("through", 0, (1,)),), place="road")  # fmt: skip
@@ -227,18 +234,6 @@ def test_two_who_talk_are_turned_to_each_other() -> None:
     left, right = (one.trajectory.at(0.0) for one in stage(thing("man", ("talk",), count=2)).actors)
     assert (left.yaw, right.yaw) == pytest.approx((0.0, math.pi))
     assert left.position[0] < right.position[0]
-
-
-def test_furniture_of_a_wall_has_the_wall_at_its_back() -> None:
-    scene = stage(thing("oven"), thing("refrigerator"), thing("cat"), place="kitchen")
-    wall = scene.environment(0.0).room_half_size
-    oven, refrigerator, cat = scene.actors
-    for actor in (oven, refrigerator):
-        assert wall - 0.1 < actor.corners(0.0)[:, 1].max() <= wall
-        assert actor.trajectory.at(0.0).yaw == pytest.approx(-0.5 * math.pi)
-    assert overlap(oven, refrigerator, 0.0) == 0.0
-    assert cat.corners(0.0)[:, 1].max() < oven.corners(0.0)[:, 1].min()
-    assert np.all(np.abs(scene.camera(0.0).position[:2]) < wall)
 
 
 def test_objects_without_relations_do_not_touch() -> None:

@@ -32,7 +32,6 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
-from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
@@ -222,10 +221,6 @@ def _set_camera(
         actors = with_headroom(description, placer.place_all())
         return actors, film(actors)
     actors = stand(placer.place_all())
-    if travel is None and list_at_wall(description, place):
-        return stand_before_wall(
-            description, placer.groups, lambda one: stand(placer.move(one)), film, place
-        )
     return actors, film(actors)
 
 

@@ -108,19 +108,3 @@ class RoutePlacer:
             group.plan = replace(group.plan, yaw=places[0][2])
         group.fit()
         return np.array([*middle, height])
-
-
-def push_aside(group: ObjectGroup, travel: TravelPlan) -> None:
-    """Move what stands in the way of the camera to the side of the route."""
-    if group.centre[2] > travel.journey.height_m + 0.5:
-        return
-    alongs = np.linspace(0.0, travel.length_m + 1.0, 60)
-    lines = np.array([travel.point(float(along), 0.0) for along in alongs])
-    offsets = group.centre[:2] - lines[:, :2]
-    nearest = int(np.argmin(np.hypot(*offsets.T)))
-    heading = lines[nearest, 2]
-    right = np.array([math.sin(heading), -math.cos(heading)])
-    side = 1.0 if float(offsets[nearest] @ right) >= 0.0 else -1.0
-    needed = travel.clear(side) + float(max(group.half[:2]))
-    if np.hypot(*offsets[nearest]) < needed:
-        group.centre[:2] = lines[nearest, :2] + side * needed * right

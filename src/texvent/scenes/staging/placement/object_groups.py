@@ -240,18 +240,25 @@ def _stand_in_row(group: ObjectGroup, *, is_close: bool) -> None:
     group.offsets = [(step[0] * at, step[1] * at, 0.0) for at in places]
 
 
-def stand_in_ring(group: ObjectGroup, radius_m: float, *, is_open: bool = False) -> None:
-    """In a ring, turned to its middle; an open one leaves the camera's side free."""
-    count, phase = len(group.models), 0.5
-    if not is_open:
-        angles = [2.0 * math.pi * (number + phase) / count for number in range(count)]
-    elif count <= 2:
-        angles = [math.pi * number for number in range(count)]
-    else:
-        angles = [float(a) for a in np.linspace(-0.7, math.pi + 0.7, count)]
-    group.offsets = [(radius_m * math.cos(a), radius_m * math.sin(a), 0.0) for a in angles]
+def list_around(count: int, wide_m: float, deep_m: float) -> list[tuple[float, float, float]]:
+    """Offsets and headings of so many around something, the farthest first; two are at its ends."""
+    first = 0.0 if count == 2 else 0.5 * math.pi
+    found = []
+    for number in range(count):
+        # At alternate sides, so that the camera's side is taken last.
+        turn = (number + 1) // 2 * (1.0 if number % 2 else -1.0)
+        angle = first + 2.0 * math.pi * turn / count
+        x, y = wide_m * math.cos(angle), deep_m * math.sin(angle)
+        found.append((x, y, math.atan2(-y, -x)))
+    return found
+
+
+def stand_in_ring(group: ObjectGroup, radius_m: float) -> None:
+    """In a ring, turned to its middle."""
+    places = list_around(len(group.models), radius_m, radius_m)
+    group.offsets = [(x, y, 0.0) for x, y, _ in places]
     if not group.plan.is_path:
-        group.yaws = [a + math.pi for a in angles]
+        group.yaws = [yaw for _, _, yaw in places]
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:

@@ -18,7 +18,7 @@ from texvent.scenes.staging.acts.attached import OnPart
 from texvent.scenes.staging.acts.perform import perform_acts
 from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
-from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
+from texvent.scenes.staging.placement.along_route import RoutePlacer
 from texvent.scenes.staging.placement.dressing import choose_props, dressed, hang_rope
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
@@ -90,15 +90,6 @@ class ObjectPlacer:
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
             if index not in scenic:
                 self._place(index, frozenset())
-        return self._perform()
-
-    def move(self, shifts: Mapping[int, Float64Array]) -> list[Actor]:
-        """The same copies with objects moved: index → [3] m."""
-        for index, shift in shifts.items():
-            self.groups[index].centre = self.groups[index].centre + shift
-        return self._perform()
-
-    def _perform(self) -> list[Actor]:
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
@@ -146,8 +137,6 @@ class ObjectPlacer:
         goal = self._choose_goal(group, related)
         self._match_paces(group)
         group.centre = self._find_free_position(group, goal)
-        if self._travel is not None and goal.slide.any():
-            push_aside(group, self._travel)
         if group.scene_object.position_m is not None:
             self._start_at(group, group.scene_object.position_m)
         self.groups[index] = group
@@ -162,13 +151,10 @@ class ObjectPlacer:
     def _match_paces(self, group: ObjectGroup) -> None:
         """Give a follower, a companion or what is overtaken the pace of its partner."""
         for one in self._description.relations:
-            if one.kind == "follow" and one.subject == group.index:
-                partner = self.groups.get(one.targets[0])
-            elif one.kind in ("with", "overtake", "past") and group.index in one.targets:
-                partner = self.groups.get(one.subject)
-            else:
-                continue
-            if partner is not None:
+            is_follower = one.kind == "follow" and one.subject == group.index
+            is_led = one.kind in ("with", "overtake", "past") and group.index in one.targets
+            partner = self.groups.get(one.targets[0] if is_follower else one.subject)
+            if partner is not None and (is_follower or is_led):
                 match_pace(group, partner, one.kind)
 
     def _choose_goal(self, group: ObjectGroup, related: Sequence[Relation]) -> Goal:

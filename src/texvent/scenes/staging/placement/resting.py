@@ -20,7 +20,7 @@ from texvent.scenes.models.support_surface import Support, find_support, top_hei
 from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.placement.object_groups import ObjectGroup
+from texvent.scenes.staging.placement.object_groups import ObjectGroup, list_around
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
@@ -126,7 +126,8 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     is_person = group.noun.name in PERSON_NOUNS
     group.on_chairs = is_person and (not kinds or bool(kinds & {"sit", "sit down", *DONE_SEATED}))
     reach = (_SEATED_M if group.on_chairs else _STANDING_M) * scale
-    places = _places_around(target, len(neighbours), reach)
+    wide, deep, _ = target.half_at_rest() + reach
+    places = list_around(len(neighbours), float(wide), float(deep))
     first = neighbours.index(group.index)
     chosen = [places[(first + number) % len(places)] for number in range(len(group.models))]
     lift = SEAT * (1.0 - min(scale, 1.0)) if group.on_chairs else 0.0
@@ -137,22 +138,6 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
         group.plan = replace(group.plan, gesture=SEATED + done[0] if done else "sit", path=None)
     group.fit()
     return np.array([target.centre[0], target.centre[1], group.origin_m])
-
-
-def _places_around(
-    target: ObjectGroup, count: int, reach_m: float
-) -> list[tuple[float, float, float]]:
-    """Offsets and headings of so many around a table, the farthest first; two are at its ends."""
-    wide, deep, _ = target.half_at_rest() + reach_m
-    first = 0.0 if count == 2 else 0.5 * math.pi
-    found = []
-    for number in range(count):
-        # At alternate sides, so that the camera's side is taken last.
-        turn = (number + 1) // 2 * (1.0 if number % 2 else -1.0)
-        angle = first + 2.0 * math.pi * turn / count
-        x, y = float(wide) * math.cos(angle), float(deep) * math.sin(angle)
-        found.append((x, y, math.atan2(-y, -x)))
-    return found
 
 
 def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:

@@ -82,7 +82,7 @@ def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: fl
     if group.plan.motion.kind not in PATH_KINDS | {"orbit", "spin"}:
         within = float(max(target.half_at_rest()[:2]))
         wide = 0.5 * len(group.models) * 1.15 * own.width / math.pi
-        stand_in_ring(group, max(within + 0.6 * own.length + 0.1, wide), is_open=True)
+        stand_in_ring(group, max(within + 0.6 * own.length + 0.1, wide))
         group.fit()
         return Goal(np.array([x, y, height]), _FIXED)
     group.orbits = target
