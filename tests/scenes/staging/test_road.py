@@ -1,8 +1,7 @@
-"""Roads: their centre lines, who is on them, and traffic in lanes."""
+"""Roads: their centre lines and who is on them."""
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
@@ -11,25 +10,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.scenes.description import (
-    CREEPING_M_S,
     ObjectMotion,
     SceneDescription,
     SceneObject,
     Surroundings,
 )
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.road import RoadLine, find_lanes
+from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize
 
 
 def stage(*objects: SceneObject, place: str = "road") -> ComposedScene:
     description = SceneDescription("", objects, surroundings=Surroundings(place))
     return compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=2.0)
-
-
-def drivers(noun: str, direction: str, count: int = 1, *, speed: float | None = None):
-    motion = ObjectMotion("drive", direction, speed_m_s=speed)
-    return SceneObject(noun, count, motion=motion)
 
 
 def road_of(scene: ComposedScene) -> tuple[RoadLine, float]:
@@ -95,28 +88,3 @@ def test_a_crosswalk_lies_across_the_road_under_who_crosses() -> None:
     assert road.distance(stripes.middle(0.0)[None, :2])[0] < 1e-6
     along = np.array([math.cos(road.angle), math.sin(road.angle)])
     assert abs((walker.middle(1.0) - stripes.middle(1.0))[:2] @ along) < 0.1
-
-
-def test_traffic_drives_both_ways_in_two_lanes_without_touching() -> None:
-    lanes = find_lanes(stage(drivers("car", "right", 3), drivers("bus", "left", 3)).actors)
-    assert [len(lane) for lane in lanes] == [3, 3]
-    for time_s, lane in itertools.product((0.0, 2.0), lanes):
-        assert len({one.middle(time_s)[1] for one in lane}) == 1
-        for one, other in itertools.combinations(lane, 2):
-            gap = abs(one.middle(time_s)[0] - other.middle(time_s)[0])
-            assert gap > 0.5 * (one.model.length + other.model.length)
-    right, left = (lane[0].middle(0.0)[1] for lane in lanes)
-    assert right < left
-
-
-def test_a_jam_has_its_subject_amid_it() -> None:
-    slow = CREEPING_M_S
-    scene = stage(
-        drivers("bus", "right", speed=slow), drivers("car", "right", 3, speed=slow),
-        drivers("van", "left", 3, speed=slow),
-    )  # fmt: skip
-    right, _ = find_lanes(scene.actors)
-    bus = next(one for one in right if one.noun.name == "bus")
-    along = sorted(one.middle(0.0)[0] for one in right)
-    assert along[0] < bus.middle(0.0)[0] < along[-1]
-    assert abs(bus.middle(2.0)[0] - bus.middle(0.0)[0]) < 0.2

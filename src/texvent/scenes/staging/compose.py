@@ -40,7 +40,6 @@ from texvent.scenes.staging.surroundings.lighting import choose_lighting
 from texvent.scenes.staging.surroundings.road import (
     find_road,
     lay_across,
-    queue_in_lanes,
     water_line,
 )
 from texvent.scenes.staging.surroundings.scenery import (
@@ -204,24 +203,11 @@ def _set_camera(
     `how` are the seed, the image's size and the length of the clip, s.
     """
     seed, size, duration_s = how
-    aspect = size.height / size.width
-    has_lanes = travel is None and PLACES[place].has_road
-
-    def stand(placed: list[Actor]) -> list[Actor]:
-        placed = with_headroom(description, placed)
-        return queue_in_lanes(placed, 0.5 * PLACES[place].road_m) if has_lanes else placed
-
-    def film(cast: Sequence[Actor]) -> CameraPath:
-        return place_camera(
-            description, cast, place, seed=seed, aspect=aspect, duration_s=duration_s,
-            travel=travel,
-        )  # fmt: skip
-
-    if description.is_metric:
-        actors = with_headroom(description, placer.place_all())
-        return actors, film(actors)
-    actors = stand(placer.place_all())
-    return actors, film(actors)
+    actors = with_headroom(description, placer.place_all())
+    return actors, place_camera(
+        description, actors, place, seed=seed, aspect=size.height / size.width,
+        duration_s=duration_s, travel=travel,
+    )  # fmt: skip
 
 
 def _describe_view(

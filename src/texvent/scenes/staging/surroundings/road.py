@@ -1,11 +1,10 @@
-"""Lines on the ground: where a road runs, with its lanes, and where the shore of water lies."""
+"""Lines on the ground: where a road runs, and where the shore of water lies."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import cast
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from texvent.scenes.staging.acts.attached import HeldAt
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
-from texvent.scenes.staging.trajectories.trajectory import Stationary, Straight
+from texvent.scenes.staging.trajectories.trajectory import Stationary
 
 _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
@@ -28,8 +27,6 @@ _ROADSIDE = 1.4
 """Where one walks on a road without pavement, in lanes from its middle."""
 _USUAL_S = 2.0
 _CROSSING_AHEAD_M = 7.0
-_FEWEST, _GAP = 4, 0.55
-"""Vehicles from which on they are traffic, and the gap behind one, in its lengths."""
 _AFLOAT = ("swim", "surf")
 """What people do in water, or on it."""
 _BANK, _LEAST_BANK_M = 0.22, 1.0
@@ -94,10 +91,6 @@ def find_road(
 def _straight_road(
     actors: Sequence[Actor], usual_y: float, lane_m: float, *, has_pavement: bool
 ) -> RoadLine:
-    lanes = find_lanes(actors)
-    if all(lanes) and sum(map(len, lanes)) >= _FEWEST:
-        sides = [lane[0].trajectory.at(0.0).position[1] for lane in lanes]
-        return RoadLine(offset=(0.0, 0.5 * float(sides[0] + sides[1])))
     grounded = [one for one in actors if one.noun.habitat == "ground"]
     # Ducks cross a road too.
     movers = [one for one in actors if one.is_mover and (one in grounded or one.goes_across)]
@@ -172,45 +165,6 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
             one = replace(one, trajectory=Stationary((x, y, 0.0), angle + 0.5 * math.pi))
         laid.append(one)
     return laid
-
-
-def queue_in_lanes(actors: Sequence[Actor], lane_m: float) -> list[Actor]:
-    """The actors, with vehicles that drive both ways one behind the other, on the right.
-
-    `lane_m` is the way from the centre line of the road, y = 0, to the middle of a lane; the first
-    vehicle of a lane is amid it.
-    """
-    lanes = find_lanes(actors)
-    if not all(lanes) or sum(map(len, lanes)) < _FEWEST:
-        return list(actors)
-    moved: dict[int, Actor] = {}
-    for (first, *others), way in zip(lanes, (1.0, -1.0), strict=True):
-        half = (len(others) + 1) // 2
-        lane = [*others[:half], first, *others[half:]]
-        rooms = [one.model.length * (1.0 + _GAP) for one in lane]
-        speed, end = max(_path(one).speed_m_s for one in lane), 0.5 * sum(rooms)
-        for one, room in zip(lane, rooms, strict=True):
-            x = way * (end - 0.5 * one.model.length)
-            path = replace(_path(one), home=(x, -way * lane_m, 0.0), speed_m_s=speed)
-            moved[one.instance] = replace(one, trajectory=path)
-            end -= room
-    return [moved.get(one.instance, one) for one in actors]
-
-
-def find_lanes(actors: Sequence[Actor]) -> tuple[list[Actor], list[Actor]]:
-    """Vehicles that drive straight to the right in the picture, and to the left."""
-    drivers = [
-        one
-        for one in actors
-        if one.noun.motion == "drive" and one.is_mover and isinstance(one.trajectory, Straight)
-    ]
-    rightward = [one for one in drivers if math.cos(_path(one).yaw) > 0.9]
-    leftward = [one for one in drivers if math.cos(_path(one).yaw) < -0.9]
-    return rightward, leftward
-
-
-def _path(one: Actor) -> Straight:
-    return cast("Straight", one.trajectory)
 
 
 def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadLine:
