@@ -23,7 +23,7 @@ from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitives
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
-from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
+from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
@@ -157,7 +157,11 @@ def compose_scene(
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
+    actors = with_headroom(description, placer.place_all())
+    camera_path = place_camera(
+        description, actors, place, seed=seed, aspect=size.height / size.width,
+        duration_s=duration_s, travel=travel,
+    )  # fmt: skip
     view = _describe_view(description, PLACES[place], camera_path, actors, duration_s)
     if PLACES[place].has_road:
         actors = lay_across(actors, view.road)
@@ -188,25 +192,6 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), still_nouns, object_of,
-    )  # fmt: skip
-
-
-def _set_camera(
-    description: SceneDescription,
-    placer: ObjectPlacer,
-    place: str,
-    how: tuple[int, SensorSize, float],
-    travel: TravelPlan | None,
-) -> tuple[list[Actor], CameraPath]:
-    """The camera, and the actors, placed so that it shows them.
-
-    `how` are the seed, the image's size and the length of the clip, s.
-    """
-    seed, size, duration_s = how
-    actors = with_headroom(description, placer.place_all())
-    return actors, place_camera(
-        description, actors, place, seed=seed, aspect=size.height / size.width,
-        duration_s=duration_s, travel=travel,
     )  # fmt: skip
 
 
