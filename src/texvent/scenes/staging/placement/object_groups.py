@@ -72,6 +72,12 @@ class ObjectGroup:
             return 0.0
         return -float(bounds(self.models[0].parts(Pose(0.0, 0.0, 0.0, "sit")))[0][2])
 
+    def to_world(self, x: float, y: float, z: float) -> Float64Array:
+        """[3] a place in its body coordinates, where its middle is, in the world, m."""
+        cosine, sine = math.cos(self.plan.yaw), math.sin(self.plan.yaw)
+        offset = np.array([x * cosine - y * sine, x * sine + y * cosine, z])
+        return np.asarray(self.centre + offset)
+
     def fit(self) -> None:
         """Work out the room that it takes, after its plan or its copies' places have changed."""
         self.half = half_extents_over_clip(self.models, self.offsets, self.plan)

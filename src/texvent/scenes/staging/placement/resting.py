@@ -21,7 +21,6 @@ from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, list_around
-from texvent.scenes.staging.trajectories.trajectory import Vector
 
 _SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
 """Share of the height of what is in something that looks out of it; of an animal, whose ears reach
@@ -64,7 +63,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         yaw = target.plan.yaw if kind == "stand" else _lying_yaw(target)
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
     group.fit()
-    return _in_world(target, (*support.middle, support.height + group.origin_m))
+    return target.to_world(*support.middle, support.height + group.origin_m)
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
@@ -93,7 +92,7 @@ def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     doing = kind if kind in TO_AND_FROM_SEATS else doing
     group.plan = replace(group.plan, yaw=target.plan.yaw, gesture=doing)
     group.fit()
-    return _in_world(target, (x, y, support.height - SEAT * scale))
+    return target.to_world(x, y, support.height - SEAT * scale)
 
 
 def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
@@ -105,7 +104,7 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         if target.plan.motion.is_moving:
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0
-        return _in_world(target, (0.0, 0.0, low + group.origin_m))
+        return target.to_world(0.0, 0.0, low + group.origin_m)
     place = rest_on(group, target, neighbours)
     if group.noun.name in PERSON_NOUNS or target.noun.habitat == "ground":
         return place
@@ -153,7 +152,7 @@ def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     middle = min(_EYE_M, face.height - 0.5 * model.height - _UNDER_TOP_M)
     foot = max(middle - 0.5 * model.height, 0.0)
     height = foot + (0.5 * model.height if is_centred(group.noun) else 0.0)
-    place = _in_world(target, (0.5 * (face.length + model.length), -share * face.width, 0.0))
+    place = target.to_world(0.5 * (face.length + model.length), -share * face.width, 0.0)
     return np.array([place[0], place[1], height])
 
 
@@ -199,11 +198,3 @@ def _lying_yaw(target: ObjectGroup) -> float:
     back, front = (float(np.max(top_heights(parts, one, np.zeros(9)))) for one in (-ends, ends))
     # Who lies has its head at its own back.
     return target.plan.yaw + (math.pi if front > back + 0.05 else 0.0)
-
-
-def _in_world(target: ObjectGroup, place: Vector) -> Float64Array:
-    """A place in the target's body coordinates, where its middle is, in the world."""
-    cosine, sine = math.cos(target.plan.yaw), math.sin(target.plan.yaw)
-    x, y, z = place
-    turned = np.array([x * cosine - y * sine, x * sine + y * cosine, z])
-    return np.asarray(target.centre + turned)

@@ -117,13 +117,11 @@ def _place_between(group: ObjectGroup, targets: Sequence[ObjectGroup], height: f
 def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     """Behind its target, on the same path."""
     target, own = targets[0], group.models[0]
-    reach, yaw = 0.5 * (target.models[0].length + own.length), target.plan.yaw
-    back = 1.6 * reach + 0.4
+    reach = 0.5 * (target.models[0].length + own.length)
     group.half = 0.5 * np.array([own.length, own.width, own.height])
     if target.plan.path is not None:
         group.lag = (target, 1.3 * reach + 0.4)
-    base = _on_ground(target, height)
-    return Goal(_shift(base, -back * math.cos(yaw), -back * math.sin(yaw)), _FIXED)
+    return Goal(target.to_world(-1.6 * reach - 0.4, 0.0, height - target.centre[2]), _FIXED)
 
 
 _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float], Goal]] = {
@@ -187,14 +185,12 @@ def _hide_before(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goa
 
 def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
     """Along the way of who goes through, who is out at about half of that way."""
-    yaw = subject.plan.yaw
     if group.noun.name in nouns_with("passage"):
-        group.plan = replace(group.plan, yaw=yaw)
+        group.plan = replace(group.plan, yaw=subject.plan.yaw)
         group.fit()
     way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
     back = 0.1 * way + 0.5 * group.models[0].length
-    here = _on_ground(subject, height)
-    return Goal(_shift(here, -back * math.cos(yaw), -back * math.sin(yaw)), _FIXED)
+    return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
 
 
 def _half_below(group: ObjectGroup, height_m: float) -> Float64Array:
