@@ -176,13 +176,6 @@ def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count: int) -> No
         assert overlap(one, table, 0.0) < 0.5
 
 
-def test_who_is_at_what_is_no_table_stands_beside_it() -> None:
-    man, bus_stop = stage(thing("man"), thing("bus stop"),
-                          relations=(Relation("at", 0, (1,)),)).actors  # fmt: skip
-    assert man.trajectory.at(0.0).activity == "stand"
-    assert overlap(man, bus_stop, 0.0) == 0.0
-
-
 def test_who_is_on_a_seat_sits_unless_they_stand() -> None:
     for motions, doing in (((), "sit"), ((("stand",),), "stand")):
         scene = stage(thing("man", *motions), thing("chair"), relations=(Relation("on", 0, (1,)),))

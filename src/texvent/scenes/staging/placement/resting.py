@@ -38,15 +38,10 @@ _EYE_M, _UNDER_TOP_M = 1.5, 0.12
 
 
 def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """Put a group on the supporting surface of another object.
+    """[3] the middle of a group that is put on the supporting surface of another object, m.
 
-    Args:
-        group: what rests; people who sit or lie take that posture and the target's heading.
-        target: what it rests on; where that moves, it carries the group along.
-        neighbours: indices of all objects on the target, one for each copy: its part of the row.
-
-    Returns:
-        [3] the middle of the group, m.
+    People who sit or lie take that posture and the target's heading; a target that moves carries
+    the group along. `neighbours` are the indices of all objects on the target, one for each copy.
     """
     if group.noun.name in nouns_with("hangs") and target.noun.name in nouns_with("upright face"):
         return _hang_on(group, target, neighbours)
@@ -96,10 +91,7 @@ def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
 
 
 def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """Put a group into a container so that its top looks out, unseen into what is closed.
-
-    Args and result: as for `rest_on`.
-    """
+    """As `rest_on`, in a container so that its top looks out, and unseen in what is closed."""
     if target.noun.name in nouns_with("closed") | nouns_with("passage"):
         if target.plan.motion.is_moving:
             group.carrier = target
@@ -115,9 +107,9 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 
 
 def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """Put people at a table, turned to it: at its far side and its ends, the camera's side last.
+    """As `rest_on`, around a table and turned to it, the camera's side last.
 
-    Args and result: as for `rest_on`; they sit on chairs unless what they do is done standing.
+    People sit on chairs there unless what they do is done standing.
     """
     said = (group.scene_object.motion, *group.scene_object.then)
     kinds = {one.kind for one in said if one is not None and one.kind != "stand"}

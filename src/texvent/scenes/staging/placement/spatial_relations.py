@@ -58,14 +58,10 @@ def place_on_targets(
     height: float,
     neighbours: Sequence[int],
 ) -> Goal:
-    """A subject's position with respect to objects that are placed already.
+    """A subject's position with respect to objects that are placed already, by one of `ON_TARGET`.
 
-    Args:
-        group: the subject; what it does may change: it rides, orbits or jumps over the target.
-        kind: one of `ON_TARGET`.
-        targets: what it is related to.
-        height: of its origin where the relation does not decide it, m.
-        neighbours: for "on", "in" and "at", the indices of all objects there, one for each copy.
+    What it does may change: it rides, orbits or jumps over the target. `height` is that of its
+    origin where the relation does not decide it, m; `neighbours` are as for `rest_on`.
     """
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
         return place_by_subject(group, "beside", targets[0], height)

@@ -110,13 +110,8 @@ def build_environment(
 ) -> AnimatedEnvironment:
     """The surroundings of a scene.
 
-    Args:
-        description: its weather and light.
-        place: its ground and walls.
-        road: centre lines of the roads.
-        distance_m: from the camera to what it looks at: fog is scaled to it.
-        room_m: half the side of the room, m, where the place is one.
-        looking: [3] unit vector that the camera looks along.
+    Fog is scaled to the distance of the camera from what it looks at; `room_m` is half the side of
+    the room, where the place is one; `looking` is the unit vector [3] that the camera looks along.
     """
     lighting, said = choose_lighting(place, description.light), description.surroundings
     has_lightning = any(effect.kind == "lightning" for effect in description.effects)

@@ -242,13 +242,10 @@ _STROKES = ((0.0, 1.0), (0.09, 0.55), (0.20, 0.85))
 
 
 def wave_level(wave: str, cycles: float, *, phase: float = 0.0, number: int = 0) -> float:
-    """Share of full light after so many periods; 1 at their beginning.
+    """Share of full light after so many periods since t = 0; 1 at their beginning.
 
-    Args:
-        wave: "sine", "square", "switch", "strobe", "flame", or "rotating": a beam that turns.
-        cycles: periods since t = 0.
-        phase: of a flame, 0..1.
-        number: every second lamp of an object is seen when a rotating beam is half a turn on.
+    `phase`, 0..1, is that of a flame; of a beam that rotates every second lamp of an object, by its
+    `number`, is seen half a turn later.
     """
     turn = 2.0 * math.pi
     if wave in ON_SHARES:
