@@ -19,11 +19,13 @@ from texvent.scenes.staging.acts.perform import perform_acts
 from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer
-from texvent.scenes.staging.placement.dressing import choose_props, dressed, hang_rope
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
+    choose_props,
+    dressed,
     form_up,
     half_extents_over_clip,
+    hang_rope,
     match_pace,
     overlap,
     part_in_midst,
