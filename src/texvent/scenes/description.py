@@ -20,10 +20,6 @@ class NamedColour:
     """Linear-light RGB, 1.0 = white."""
 
 
-CREEPING_M_S = 0.05
-"""Speed of what is stuck in traffic: it is on its way, and stands."""
-
-
 @dataclass(frozen=True)
 class ObjectMotion:
     """How an object moves."""

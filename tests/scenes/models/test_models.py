@@ -35,9 +35,9 @@ POSES = [
 ]
 
 
-MOUNDS = {"hangar", "dune mound"}
+MOUNDS = {"dune mound"}
 """Scenery whose lower half is in the ground."""
-HUNG = {"ceiling fan", "wall blackboard", "large painting"}
+HUNG = {"ceiling fan"}
 """What hangs from above or on a wall."""
 LINES = {"runway markings", "tennis court lines", "basketball court lines", "pitch lines",
          "parking lines"}  # fmt: skip

@@ -16,10 +16,10 @@ from texvent.scenes.description import (
     SceneObject,
     Surroundings,
 )
-from texvent.scenes.models.lamps import LAMPS, Lamp, hue_of, lamp_of
+from texvent.scenes.models.lamps import LAMPS, hue_of, lamp_of
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.light.lamps import wave_at
+from texvent.scenes.staging.surroundings.lighting import wave_level
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(96, 72)
@@ -89,9 +89,10 @@ def test_a_blinking_lamp_is_on_in_the_first_half_of_its_period_exactly(time_s):
 
 
 def test_mains_light_beats_as_a_sine():
-    lamp = LAMPS["lamp"][0]
+    scene = staged(SceneObject("lamp", blink_hz=100.0, is_lit=True), place="indoor")
     times = np.arange(8) / 800.0
-    light = [wave_at(lamp, 100.0, t, 0.0, 0) for t in times]
+    light = np.array([scene.environment(t).lamps[0, 3] for t in times])
+    light /= light[0]
     np.testing.assert_allclose(light, 0.5 + 0.5 * np.cos(2 * np.pi * 100.0 * times), atol=1e-12)
 
 
@@ -100,7 +101,7 @@ def test_mains_light_beats_as_a_sine():
     wave=st.sampled_from(["square", "sine", "flame", "rotating"]),
 )  # fmt: skip
 def test_no_lamp_gives_less_than_nothing_or_much_more_than_all(time_s, rate, number, wave):
-    level = wave_at(Lamp(1.0, wave=wave), rate, time_s, 0.3, number)
+    level = wave_level(wave, rate * time_s, phase=0.3, number=number)
     assert 0.0 <= level < 1.3
     if wave == "flame":
         assert level > 0.7

@@ -7,7 +7,7 @@ import pytest
 
 from texvent.scenes.description import Illumination, NamedColour
 from texvent.scenes.models.places import PLACES
-from texvent.scenes.staging.surroundings.light.lighting import (
+from texvent.scenes.staging.surroundings.lighting import (
     choose_lighting,
     tint_of,
     towards_light,

@@ -1,4 +1,4 @@
-"""The road's centre line."""
+"""Roads: their centre lines and who is on them."""
 
 from __future__ import annotations
 
@@ -15,9 +15,21 @@ from texvent.scenes.description import (
     SceneObject,
     Surroundings,
 )
-from texvent.scenes.staging.compose import compose_scene
+from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize
+
+
+def stage(*objects: SceneObject, place: str = "road") -> ComposedScene:
+    description = SceneDescription("", objects, surroundings=Surroundings(place))
+    return compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=2.0)
+
+
+def road_of(scene: ComposedScene) -> tuple[RoadLine, float]:
+    """The road of a scene, and half its width."""
+    found = scene.environment(0.0)
+    x, y = found.road_offset
+    return RoadLine(found.road_angle, (float(x), float(y))), found.road_half_width
 
 
 @given(st.floats(-4.0, 4.0), st.sampled_from([0.0, 0.02, -0.03]), st.floats(-40.0, 40.0))
@@ -30,6 +42,8 @@ def test_points_at_an_arc_length_lie_on_the_line(
     further = road.at(along + 1e-6)
     assert math.hypot(further[0] - x, further[1] - y) == pytest.approx(1e-6, rel=1e-3)
     assert math.cos(heading) == pytest.approx((further[0] - x) / 1e-6, abs=1e-3)
+    left = np.array([[x - 0.5 * math.sin(heading), y + 0.5 * math.cos(heading)]])
+    assert road.across(left)[0] == pytest.approx(0.5)
 
 
 def test_distance_is_to_the_nearest_road() -> None:
@@ -37,26 +51,14 @@ def test_distance_is_to_the_nearest_road() -> None:
     np.testing.assert_allclose(road.distance(np.array([[4.0, 3.0], [0.0, 2.0]])), [1.0, 2.0])
 
 
-def test_a_left_bend_lies_to_the_left() -> None:
-    assert RoadLine(curvature=0.05).at(10.0)[1] > 1.0
-    assert RoadLine(curvature=-0.05).at(10.0)[1] < -1.0
-
-
 @pytest.mark.parametrize(("direction", "is_on"), [("right", False), ("across", True)])
 def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(
     direction: str, *, is_on: bool
 ) -> None:
-    description = SceneDescription(
-        "", (SceneObject("man", motion=ObjectMotion("walk", direction)),),
-        surroundings=Surroundings("city"),
-    )  # fmt: skip
-    scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=2.0)
-    environment = scene.environment(0.0)
-    x, y = environment.road_offset
-    road = RoadLine(environment.road_angle, (float(x), float(y)))
-    spots = np.array([scene.actors[0].middle(t)[:2] for t in (0.0, 1.0, 2.0)])
-    distances = road.distance(spots)
-    assert bool(distances.min() < environment.road_half_width) == is_on
+    scene = stage(SceneObject("man", motion=ObjectMotion("walk", direction)), place="city")
+    road, half = road_of(scene)
+    distances = road.distance(np.array([scene.actors[0].middle(t)[:2] for t in (0.0, 1.0, 2.0)]))
+    assert bool(distances.min() < half) == is_on
     assert np.ptp(distances) > 0.5 if is_on else np.ptp(distances) < 0.1
 
 
@@ -72,24 +74,17 @@ def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(
 def test_what_rests_is_beside_the_road_unless_it_belongs_there(
     nouns: tuple[str, ...], place: str, *, is_on: bool
 ) -> None:
-    objects = tuple(SceneObject(noun, motion=ObjectMotion("stand")) for noun in nouns)
-    description = SceneDescription("", objects, surroundings=Surroundings(place))
-    scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=1.0)
-    environment = scene.environment(0.0)
-    x, y = environment.road_offset
-    road = RoadLine(environment.road_angle, (float(x), float(y)))
+    scene = stage(*(SceneObject(one, motion=ObjectMotion("stand")) for one in nouns), place=place)
+    road, half = road_of(scene)
     spots = np.array([one.middle(0.0)[:2] for one in scene.actors])
-    assert bool(road.distance(spots).min() < environment.road_half_width) == is_on
+    assert bool(road.distance(spots).min() < half) == is_on
 
 
 def test_a_crosswalk_lies_across_the_road_under_who_crosses() -> None:
-    objects = (SceneObject("man", motion=ObjectMotion("walk", "across")), SceneObject("crosswalk"))
-    description = SceneDescription("", objects, surroundings=Surroundings("city"))
-    scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=2.0)
-    environment = scene.environment(0.0)
-    x, y = environment.road_offset
-    road = RoadLine(environment.road_angle, (float(x), float(y)))
-    man, stripes = scene.actors
+    man = SceneObject("man", motion=ObjectMotion("walk", "across"))
+    scene = stage(man, SceneObject("crosswalk"), place="city")
+    road, _ = road_of(scene)
+    walker, stripes = scene.actors
     assert road.distance(stripes.middle(0.0)[None, :2])[0] < 1e-6
     along = np.array([math.cos(road.angle), math.sin(road.angle)])
-    assert abs((man.middle(1.0) - stripes.middle(1.0))[:2] @ along) < 0.1
+    assert abs((walker.middle(1.0) - stripes.middle(1.0))[:2] @ along) < 0.1

@@ -90,13 +90,7 @@ class Place:
 
 def _read() -> dict[str, Place]:
     text = files("texvent.scenes.models").joinpath("data", "places.toml").read_text("utf-8")
-    found = {}
-    for name, entry in tomllib.loads(text).items():
-        try:
-            found[name] = _place_of(entry)
-        except (KeyError, TypeError, ValueError) as error:
-            raise ValueError(f"data/places.toml, place {name!r}: {error}") from error
-    return found
+    return {name: _place_of(entry) for name, entry in tomllib.loads(text).items()}
 
 
 def _place_of(entry: dict[str, Any]) -> Place:
@@ -108,6 +102,7 @@ def _place_of(entry: dict[str, Any]) -> Place:
         entry.update(walls=Texture[walls["surface"].upper()], wall_colour=_colour(walls["colour"]))
     scenery = tuple(_scenery_of(one) for one in entry.pop("scenery", ()))
     kind = Ground[ground["kind"].upper().replace(" ", "_")]
+    entry.setdefault("light", "room" if kind is Ground.FLOOR else "")
     names = tuple(entry.pop("names"))
     return Place(names, kind, (first, second), scenery=scenery, **entry)
 

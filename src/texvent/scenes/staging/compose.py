@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.description import AMID, SceneDescription, SceneLamp
+from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, Place, Scenery
 from texvent.scenes.models.protocol import Noun
@@ -23,7 +23,7 @@ from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitives
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
-from texvent.scenes.staging.camera.journey import TravelPlan, plan_travel
+from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
@@ -32,23 +32,22 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
-from texvent.scenes.staging.placement.at_wall import list_at_wall, stand_before_wall
-from texvent.scenes.staging.placement.lanes import queue_in_lanes
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.preparation import prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
-from texvent.scenes.staging.surroundings.light.lamps import LampPlan, plan_lamps
-from texvent.scenes.staging.surroundings.light.lighting import choose_lighting
-from texvent.scenes.staging.surroundings.light.scene_lamps import fastest_hz, scene_lamp_rows
-from texvent.scenes.staging.surroundings.road_choice import find_road, lay_across
-from texvent.scenes.staging.surroundings.roadside import is_placed_by_view, line_route
+from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
+from texvent.scenes.staging.surroundings.lighting import choose_lighting
+from texvent.scenes.staging.surroundings.road import (
+    find_road,
+    lay_across,
+    water_line,
+)
 from texvent.scenes.staging.surroundings.scenery import (
     SceneryItem,
     ViewClearance,
     scatter,
     under_snow,
 )
-from texvent.scenes.staging.surroundings.water import water_line
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -76,8 +75,6 @@ class ComposedScene:
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
     is_grey: bool = False  # filmed in black and white
-    scene_lamps: tuple[SceneLamp, ...] = ()
-    """Lamps at positions that the scene gives."""
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -103,7 +100,6 @@ class ComposedScene:
         effects = self.particles.effects
         lamps = np.concatenate(
             [
-                scene_lamp_rows(self.scene_lamps, time_s),  # first: four at most cast shadows
                 self.lamps.rows(time_s),
                 *(effect.lamps(time_s) for effect in effects),
             ]
@@ -121,11 +117,7 @@ class ComposedScene:
     @property
     def flicker_hz(self) -> float | None:
         """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
-        rates = (
-            self.animated_environment.fastest_hz,
-            self.lamps.blink_hz,
-            fastest_hz(self.scene_lamps),
-        )
+        rates = (self.animated_environment.fastest_hz, self.lamps.blink_hz)
         return max((rate for rate in rates if rate is not None), default=None)
 
     @property
@@ -163,10 +155,14 @@ def compose_scene(
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors, camera_path = _set_camera(description, placer, place, (seed, size, duration_s), travel)
+    actors = with_headroom(description, placer.place_all())
+    camera_path = place_camera(
+        description, actors, place, seed=seed, aspect=size.height / size.width,
+        duration_s=duration_s, travel=travel,
+    )  # fmt: skip
     view = _describe_view(description, PLACES[place], camera_path, actors, duration_s)
     if PLACES[place].has_road:
-        actors = lay_across(actors, view.road, duration_s)
+        actors = lay_across(actors, view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, view, actors, nouns, seed)
     named = dict(enumerate(surrounding, len(actors) + 1))
@@ -191,43 +187,7 @@ def compose_scene(
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), object_of,
-        scene_lamps=description.light.lamps,
     )  # fmt: skip
-
-
-def _set_camera(
-    description: SceneDescription,
-    placer: ObjectPlacer,
-    place: str,
-    how: tuple[int, SensorSize, float],
-    travel: TravelPlan | None,
-) -> tuple[list[Actor], CameraPath]:
-    """The camera, and the actors, placed so that it shows them.
-
-    `how` are the seed, the image's size and the length of the clip, s.
-    """
-    seed, size, duration_s = how
-    has_lanes = travel is None and PLACES[place].has_road
-
-    def stand(placed: list[Actor]) -> list[Actor]:
-        placed = with_headroom(description, placed)
-        return queue_in_lanes(placed, 0.5 * PLACES[place].road_m) if has_lanes else placed
-
-    def film(cast: Sequence[Actor]) -> CameraPath:
-        return place_camera(
-            description, cast, place, seed=seed, aspect=size.height / size.width,
-            duration_s=duration_s, travel=travel,
-        )  # fmt: skip
-
-    if description.is_metric:
-        actors = with_headroom(description, placer.place_all())
-        return actors, film(actors)
-    actors = stand(placer.place_all())
-    if travel is None and list_at_wall(description, place):
-        return stand_before_wall(
-            description, placer.groups, lambda one: stand(placer.move(one)), film, place
-        )
-    return actors, film(actors)
 
 
 def _describe_view(
@@ -276,7 +236,7 @@ def _scatter_all(
             sizes = (0.8 * one.scale, 1.2 * one.scale)
             rule = Scenery(one.noun, one.count, "around", (-0.2, 3.5), sizes, (colour,))
             rng, taken = seeded(seed, "surround", target), [item for _, item in around]
-            found = _set_up([rule], view, actors, allowed, rng, taken)
+            found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
             around.extend((target, item) for item in found)
     surroundings = description.surroundings
     place = surroundings.place or "grass"
@@ -287,20 +247,4 @@ def _scatter_all(
         rules.extend(PLACES[backdrop].scenery)
     rules = under_snow(rules) if surroundings.has_snow else rules
     rng, taken = seeded(seed, "scenery", place), [item for _, item in around]
-    return _set_up(rules, view, actors, unsaid, rng, taken), around
-
-
-def _set_up(
-    rules: Sequence[Scenery],
-    view: ViewClearance,
-    actors: Sequence[Actor],
-    nouns: Mapping[str, Noun],
-    rng: np.random.Generator,
-    taken: Sequence[SceneryItem],
-) -> list[SceneryItem]:
-    """Scenery in view, and along the route of a camera that travels."""
-    if view.travel is None:
-        return scatter(rules, view, actors, nouns, rng=rng, taken=taken)
-    lined = line_route(rules, view, view.travel, actors, nouns, rng)
-    far = [rule for rule in rules if is_placed_by_view(rule)]
-    return lined + scatter(far, view, actors, nouns, rng=rng, taken=taken)
+    return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around

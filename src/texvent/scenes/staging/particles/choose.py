@@ -19,7 +19,7 @@ from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.emitter import Emitter, Source
 from texvent.scenes.staging.particles.lights import BodyLights, Lightning
 from texvent.scenes.staging.particles.shapes import ParticleEffect
-from texvent.scenes.staging.surroundings.weather import WEATHERS
+from texvent.scenes.staging.surroundings.environment import FALLS, let_fall
 
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
@@ -88,9 +88,9 @@ def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEf
     """Rain and snow, and the dust behind what drives."""
     said = description.surroundings
     made: list[ParticleEffect] = []
-    if said.weather is not None and said.weather in WEATHERS:
+    if said.weather is not None and said.weather in FALLS:
         rng = seeded(setting.seed, said.weather)
-        made.append(WEATHERS[said.weather](setting.base, 1.4 * setting.framing.distance_m, rng))
+        made.append(let_fall(said.weather, setting.base, 1.4 * setting.framing.distance_m, rng))
     for actor in setting.actors if said.has_dust else ():
         if actor.is_mover and actor.noun.habitat == "ground":
             rng = seeded(setting.seed, "dust", actor.instance)

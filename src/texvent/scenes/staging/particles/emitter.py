@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.models.effects import EmitterStyle
-from texvent.scenes.models.lamps import Lamp
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
     PUFF_COLUMNS,
@@ -27,12 +26,11 @@ from texvent.scenes.staging.particles.shapes import (
     many_shapes,
     tumbling,
 )
-from texvent.scenes.staging.surroundings.light.lamps import wave_at
+from texvent.scenes.staging.surroundings.lighting import wave_level
 
 GRAVITY = 9.81
 GENERATIONS = 16
 """Lives of a particle that differ; then they repeat."""
-_FLAME = Lamp(1.0, wave="flame")
 _FLAME_HZ = 6.0
 _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])
 _EDDY, _EDDY_HZ = 1.6, 0.16
@@ -220,7 +218,7 @@ class Emitter(ParticleEffect):
             return super().lamps(time_s)
         row = np.zeros((1, LAMP_COLUMNS))
         row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
-        level, hue = wave_at(_FLAME, _FLAME_HZ, time_s, 0.37, 0), _FLAME_LIGHT
+        level, hue = wave_level("flame", _FLAME_HZ * time_s, phase=0.37), _FLAME_LIGHT
         if self.lives.once_at_s is not None or style.salvos > 0:
             age, draws = self.lives.at(time_s)
             age_s = max(float(age[0]), 0.0) * self.lives.life_s

@@ -11,7 +11,7 @@ from texvent.scenes.models.effects import LightStyle
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
 from texvent.scenes.staging.particles.emitter import Source
 from texvent.scenes.staging.particles.shapes import TINY_M, ParticleEffect, along, many_shapes
-from texvent.scenes.staging.surroundings.light.lightning import flash_number, lightning_level
+from texvent.scenes.staging.surroundings.lighting import flash_number, lightning_level
 
 _BULBS, _WINDINGS = 48, 5.5
 _BOLTS, _STEPS = 4, 12

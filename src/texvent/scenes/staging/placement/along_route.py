@@ -16,8 +16,6 @@ from texvent.scenes.staging.placement.object_groups import ObjectGroup
 _SEEN = 1.8
 """What stands aside is in the picture from this many times as far ahead."""
 _GAP_M = 1.5
-_BEFORE_M = 2.5
-"""What the camera keeps clear of what is in its lane, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
 
@@ -26,13 +24,7 @@ class RoutePlacer:
     """Gives each object its place beside the route, ahead on it, or across it."""
 
     def __init__(self, travel: TravelPlan, duration_s: float, bodies: int) -> None:
-        """Plan for a route.
-
-        Args:
-            travel: the route.
-            duration_s: length of the clip, s.
-            bodies: how many bodies there are in all.
-        """
+        """For a route, the length of the clip, s, and how many bodies there are in all."""
         self._travel = travel
         self._duration_s = duration_s
         self._bodies = bodies
@@ -42,35 +34,22 @@ class RoutePlacer:
         """How far beyond the end of the route it is taken."""
 
     def place(self, group: ObjectGroup, height: float, *, is_goal: bool) -> Float64Array:
-        """Place the copies of a group, and turn them as the route runs there.
-
-        Args:
-            group: the object; its offsets, heading and extents change.
-            height: of its origin, m.
-            is_goal: whether the camera heads for it.
-
-        Returns:
-            [3] middle of the group, m.
-        """
+        """[3] middle of a group, m, whose copies are placed and turned as the route runs there."""
         plan, travel = group.plan, self._travel
-        if is_goal or group.noun.name in nouns_with("passage"):
-            ahead = travel.length_m + 3.0 + 0.9 * group.size_m if is_goal else 0.6 * travel.length_m
-            x, y, heading = travel.point(ahead, 0.0)
-            group.plan = replace(plan, yaw=heading + (math.pi if is_goal else 0.0))
-            return np.array([x, y, height])
-        crosses = plan.motion.direction in ("left", "right", "across")
+        crosses = plan.is_path and plan.motion.direction in ("left", "right", "across")
         if plan.is_path and not crosses and group.noun.habitat != "fixed":
             return self._place_on_the_way(group, height)
-        if (plan.is_path and crosses) or group.scene_object.side == "lane":
-            return self._place_beyond(group, height)
-        return self._place_beside(group, height)
-
-    def _place_beyond(self, group: ObjectGroup, height: float) -> Float64Array:
-        """On the route just beyond its end, where the camera does not come, or across it."""
-        deep = float(group.half[1])
-        along = self._travel.length_m + _BEFORE_M + self._beyond_m + 1.5 * deep
-        self._beyond_m += 2.0 * deep + 0.5
-        x, y, _ = self._travel.point(along, 0.0)
+        is_passage = group.noun.name in nouns_with("passage")
+        if not (is_goal or crosses or is_passage or group.scene_object.side == "lane"):
+            return self._place_beside(group, height)
+        along = 0.6 * travel.length_m
+        if is_goal or not is_passage:
+            # Just beyond the end of the route, where the camera does not come.
+            along = travel.length_m + self._beyond_m + 3.0 + 0.9 * group.size_m
+            self._beyond_m += 2.0 * float(group.half[1]) + 0.5
+        x, y, heading = travel.point(along, 0.0)
+        if not crosses:
+            group.plan = replace(plan, yaw=heading + (math.pi if is_goal else 0.0))
         return np.array([x, y, height])
 
     def _place_on_the_way(self, group: ObjectGroup, height: float) -> Float64Array:
@@ -79,29 +58,28 @@ class RoutePlacer:
         length = max(model.length for model in group.models)
         width = max(model.width for model in group.models)
         walks = group.noun.habitat == "ground" and group.noun.motion != "drive"
-        oncoming = plan.motion.direction == "towards" or (
+        is_oncoming = plan.motion.direction == "towards" or (
             plan.motion.direction is None and (walks or len(group.models) > 1)
         )
-        x, y, heading = travel.point(0.5 * travel.length_m, 0.0)
         speed, ahead, aside = plan.speed_m_s, _AHEAD_M + 0.5 * length, 0.0
         if walks:
             aside = travel.clear(1.0) + 0.5 * width + 0.4
             ahead = _SEEN * aside
-        elif oncoming:
+        elif is_oncoming:
             aside, ahead = -max(0.67 * travel.clear(-1.0), 0.5 * width + 1.5), length
         elif plan.motion.speed_m_s is None and travel.speed_m_s > 0.0:
             speed = travel.speed_m_s * plan.motion.pace
         if is_centred(group.noun):
             aside, ahead = 0.0, 1.0 + 3.0 * max(length, width)
             height = travel.journey.height_m - travel.journey.pitch_rad * ahead
-        if oncoming:
+        if is_oncoming:
             ahead += 0.25 * (travel.speed_m_s + speed) * self._duration_s
-        yaw = heading + (math.pi if oncoming else 0.0)
+        x, y, heading = travel.point(0.5 * travel.length_m, aside)
+        yaw = heading + (math.pi if is_oncoming else 0.0)
         group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None)
-        spacing = 1.6 * length + 2.0
         forward = np.array([math.cos(heading), math.sin(heading), 0.0])
-        right = np.array([forward[1], -forward[0], 0.0])
-        places = [n * spacing * forward + aside * right for n in range(len(group.models))]
+        spacing = 1.6 * length + 2.0
+        places = [n * spacing * forward for n in range(len(group.models))]
         group.offsets = [(float(one[0]), float(one[1]), 0.0) for one in places]
         group.fit()
         return np.array([x, y, height]) + ahead * forward
@@ -130,21 +108,3 @@ class RoutePlacer:
             group.plan = replace(group.plan, yaw=places[0][2])
         group.fit()
         return np.array([*middle, height])
-
-
-def push_aside(group: ObjectGroup, travel: TravelPlan) -> None:
-    """Move what stands in the way of the camera to the side of the route."""
-    low = group.centre[2] - (0.5 * group.models[0].height if is_centred(group.noun) else 0.0)
-    top = low + group.models[0].height
-    if top < 0.3 * travel.journey.height_m or low > travel.journey.height_m + 0.5:
-        return
-    alongs = np.linspace(0.0, travel.length_m + 1.0, 60)
-    lines = np.array([travel.point(float(along), 0.0) for along in alongs])
-    offsets = group.centre[:2] - lines[:, :2]
-    nearest = int(np.argmin(np.hypot(*offsets.T)))
-    heading = lines[nearest, 2]
-    right = np.array([math.sin(heading), -math.cos(heading)])
-    side = 1.0 if float(offsets[nearest] @ right) >= 0.0 else -1.0
-    needed = travel.clear(side) + float(max(group.half[:2]))
-    if np.hypot(*offsets[nearest]) < needed:
-        group.centre[:2] = lines[nearest, :2] + side * needed * right

@@ -1,20 +1,31 @@
-"""All copies of one object: the room that they take, alone and beside other objects."""
+"""All copies of one object: the room they take, their formation, and what they wear and hold."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.description import STANDING, SceneObject
-from texvent.scenes.models.protocol import Model, Noun, Pose
-from texvent.scenes.models.shapes import bounds
+from texvent.scenes.description import STANDING, SceneDescription, SceneObject
+from texvent.scenes.models.materials import Material
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent.scenes.models.people.outfit import CLOTHES
+from texvent.scenes.models.people.person import dress
+from texvent.scenes.models.people.posture import SEAT
+from texvent.scenes.models.people.props import HOLDS, Prop, list_props
+from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import bounds, moved, post
+from texvent.scenes.models.support_surface import find_support
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
+from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.steered_path import sample_places
-from texvent.scenes.staging.trajectories.trajectory import Vector
+from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector
 
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
@@ -70,6 +81,12 @@ class ObjectGroup:
         if not is_centred(self.noun):
             return 0.0
         return -float(bounds(self.models[0].parts(Pose(0.0, 0.0, 0.0, "sit")))[0][2])
+
+    def to_world(self, x: float, y: float, z: float) -> Float64Array:
+        """[3] a place in its body coordinates, where its middle is, in the world, m."""
+        cosine, sine = math.cos(self.plan.yaw), math.sin(self.plan.yaw)
+        offset = np.array([x * cosine - y * sine, x * sine + y * cosine, z])
+        return np.asarray(self.centre + offset)
 
     def fit(self) -> None:
         """Work out the room that it takes, after its plan or its copies' places have changed."""
@@ -129,11 +146,8 @@ def _vertical(centre: Float64Array, group: ObjectGroup) -> tuple[float, float]:
 def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
     """Give a companion the heading and speed of its partner, where both go somewhere.
 
-    Args:
-        group: whose plan changes.
-        partner: who is placed already.
-        kind: "follow" (the group goes behind), "with", or "overtake" and "past" (the group is
-            overtaken: it goes the same way, slower, unless the scene says how it goes).
+    What follows goes behind the partner, which is placed already; what is overtaken or passed goes
+    the same way, slower, unless the scene says how it goes.
     """
     if not (partner.plan.is_path and group.plan.is_path):
         return
@@ -145,3 +159,193 @@ def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
         group.fit()
     elif motion.direction is None and motion.speed_m_s is None:
         group.go(yaw=partner.plan.yaw, speed_m_s=OVERTAKEN * partner.plan.speed_m_s)
+
+
+_RESTING = frozenset({"stand", "sit", "lie", "slide"})
+_SHOULDERS_M = 0.6
+"""Room from shoulder to shoulder."""
+_APART = 0.3
+"""Space between copies of small things, in their sizes: apples do not lie half a metre apart."""
+
+
+def rests(noun: Noun, kind: str) -> bool:
+    """Whether it is on something while it does that."""
+    return kind in _RESTING or kind in noun.acts
+
+
+def stagger(
+    models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator
+) -> list[Vector]:
+    """Places of the copies about the middle of their group, m, staggered so none hides another."""
+    count, is_driven = len(models), noun.motion == "drive"
+    if count == 1:
+        return [(0.0, 0.0, 0.0)]
+    along, across = _spacing(models, plan, noun)
+    is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
+    is_on_ground = noun.habitat == "air" and rests(noun, plan.motion.kind)
+    is_deep = is_centred(noun) and noun.name not in HAND_NOUNS and not (is_lifting or is_on_ground)
+    tall = max(model.height for model in models) if is_deep else 0.0
+    columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
+    columns = math.ceil(count / 2) if is_driven else columns
+    in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
+    offsets: list[Vector] = []
+    for number in range(count):
+        row, column = divmod(number, columns)
+        in_row = min(columns, count - row * columns)
+        a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
+        b = (row - 0.5 * ((count - 1) // columns)) * across
+        a += float(rng.uniform(-0.12, 0.12)) * along
+        stray = float(rng.uniform(-0.08, 0.08)) * across
+        if not is_driven:  # vehicles keep to their lanes
+            b = b + 0.6 * across * (number % 2) + stray
+        up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall if is_deep else 0.0
+        offsets.append((b * 1.6, a, up) if in_depth else (a, b, up))
+    return offsets
+
+
+def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, float]:
+    """Metres from one copy to the next, along the heading and across it."""
+    length = max(model.length for model in models)
+    width = max(model.width for model in models)
+    size = max(length, width)
+    if plan.motion.direction in ("circle", "eight"):
+        return 4.0 * size, 4.0 * size
+    if noun.motion == "drive":
+        return 1.45 * length + 0.5, max(width + 0.9, 2.9)
+    if plan.is_facing or noun.name in HAND_NOUNS:
+        return 1.6 * width, 0.2 * width  # in one row, as the camera sees them
+    apart = min(0.3, _APART * size)
+    across = 1.4 * width + apart + min(0.1, 0.1 * size)
+    if is_centred(noun):
+        return 0.8 * length + apart, across
+    return 1.2 * (length if plan.is_path else size) + apart, across
+
+
+def form_up(group: ObjectGroup) -> None:
+    """Set the copies in the formation that the scene asks for."""
+    side = group.scene_object.side
+    if len(group.models) < 2:
+        return
+    if side in ("row", "together"):
+        _stand_in_row(group, is_close=side == "together")
+    elif side == "ring":
+        model = group.models[0]
+        size = max(model.length, model.width)
+        stand_in_ring(group, max(1.1 * size, 1.3 * size * len(group.models) / (2.0 * math.pi)))
+    else:
+        return
+    group.fit()
+
+
+def _stand_in_row(group: ObjectGroup, *, is_close: bool) -> None:
+    """Side by side across the image; who goes along, one by one or, if close, nearly abreast."""
+    count, model, plan = len(group.models), group.models[0], group.plan
+    long, wide = model.length, model.width
+    cosine, sine = math.cos(plan.yaw), math.sin(plan.yaw)
+    if is_close and group.noun.name in PERSON_NOUNS and plan.motion.kind != "lie":
+        long = wide = _SHOULDERS_M * float(getattr(model, "scale", 1.0))
+    if is_close and plan.is_path:
+        ahead, aside = 0.75 * long, 1.25 * wide
+        step = (ahead * cosine - aside * sine, ahead * sine + aside * cosine)
+    elif is_close:
+        step = (1.12 * (abs(cosine) * long + abs(sine) * wide), 0.0)
+    else:
+        apart = 1.25 * (long if plan.is_path else max(long, wide)) + 0.15
+        step = (0.0, apart) if plan.is_path and abs(sine) > 0.7 else (apart, 0.0)
+    places = [number - 0.5 * (count - 1) for number in range(count)]
+    group.offsets = [(step[0] * at, step[1] * at, 0.0) for at in places]
+
+
+def list_around(count: int, wide_m: float, deep_m: float) -> list[tuple[float, float, float]]:
+    """Offsets and headings of so many around something, the farthest first; two are at its ends."""
+    first = 0.0 if count == 2 else 0.5 * math.pi
+    found = []
+    for number in range(count):
+        # At alternate sides, so that the camera's side is taken last.
+        turn = (number + 1) // 2 * (1.0 if number % 2 else -1.0)
+        angle = first + 2.0 * math.pi * turn / count
+        x, y = wide_m * math.cos(angle), deep_m * math.sin(angle)
+        found.append((x, y, math.atan2(-y, -x)))
+    return found
+
+
+def stand_in_ring(group: ObjectGroup, radius_m: float) -> None:
+    """In a ring, turned to its middle."""
+    places = list_around(len(group.models), radius_m, radius_m)
+    group.offsets = [(x, y, 0.0) for x, y, _ in places]
+    if not group.plan.is_path:
+        group.yaws = [yaw for _, _, yaw in places]
+
+
+def part_in_midst(group: ObjectGroup, room_m: float) -> None:
+    """Set the copies of a group in two rows, left and right of a gap of twice that room."""
+    count, model = len(group.models), group.models[0]
+    if count < 2:
+        return
+    size = max(model.length, model.width)
+    group.offsets = []
+    for number in range(count):
+        row, side = number // 2, -1.0 if number % 2 == 0 else 1.0
+        rows = (count + 1 - number % 2) // 2
+        deep = (row - 0.5 * (rows - 1)) * 1.3 * size
+        group.offsets.append((side * (room_m + 0.5 * size), deep, 0.0))
+    group.fit()
+
+
+_SEAT_BACK_M = 0.03
+"""How far behind the hips the middle of a chair is."""
+
+
+def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]) -> Noun:
+    """The noun of an object: a person in what it wears."""
+    objects = description.objects
+    noun = nouns[objects[index].noun]
+    worn = [
+        (objects[target].noun, colour.rgb if colour is not None else None)
+        for one in description.relations
+        if one.kind == "wear" and one.subject == index
+        for target in one.targets
+        for colour in (objects[target].colour,)
+        if objects[target].noun in CLOTHES
+    ]
+    return dress(noun, worn) if worn and noun.name in PERSON_NOUNS else noun
+
+
+def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Prop, ...]:
+    """What a person's activities need, or else it has with it, and the scene does not show."""
+    if group.noun.name not in PERSON_NOUNS:
+        return ()
+    shown = {scene_object.noun for scene_object in description.objects}
+    said = (group.scene_object.motion or STANDING, *group.scene_object.then)
+    kinds = dict.fromkeys(motion.kind for motion in said)
+    size = float(getattr(group.models[0], "scale", 1.0))
+    props = [prop for kind in kinds for prop in list_props(kind, size)]
+    props = props or list(HOLDS.get(group.noun.name, ()))
+    if group.on_chairs and not shown & nouns_with("seat at a table"):
+        props.append(_draw_chair(size))
+    return tuple(
+        prop
+        for prop in props
+        if prop.anchor == "ground" or prop.is_own or not shown.intersection(prop.nouns)
+    )
+
+
+def _draw_chair(scale: float) -> Prop:
+    """The chair under who sits at a table; `scale` is the body's, relative to an adult."""
+    (name,) = nouns_with("seat at a table")
+    usual_m = find_support(NOUNS[name].build(colour=None, scale=1.0, seed=0), near_m=SEAT).height
+    model = NOUNS[name].build(colour=None, scale=max(scale, 1.0) * SEAT / usual_m, seed=0)
+    low = SEAT * (1.0 - min(scale, 1.0))
+    axes = np.column_stack([np.eye(3), np.array([-_SEAT_BACK_M * scale, 0.0, -low])])
+    placed = moved(model.parts(Pose(0.0, 0.0, 0.0, "stand")), axes)
+    return Prop("ground", lambda _: placed)
+
+
+def hang_rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:
+    """The rope of what swings, m in body coordinates."""
+    if not isinstance(trajectory, Swing):
+        return ()
+    low, high = 0.9 * model.height, trajectory.length_m
+    thick = 2.0 * (0.012 + 0.004 * model.height)
+    size = (thick, thick, high - low)
+    return (post(Material((0.25, 0.2, 0.14)), (0.0, 0.0, 0.5 * (high + low)), size),)

@@ -11,7 +11,6 @@ import numpy as np
 from texvent.scenes.description import AMID, STANDING, Relation, SceneDescription
 from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.protocol import Model, Noun
-from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
@@ -19,14 +18,19 @@ from texvent.scenes.staging.acts.attached import OnPart
 from texvent.scenes.staging.acts.perform import perform_acts
 from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
-from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
-from texvent.scenes.staging.placement.dressing import choose_copy, choose_props, dressed, hang_rope
-from texvent.scenes.staging.placement.formation import form_up, part_in_midst, rests, stagger
+from texvent.scenes.staging.placement.along_route import RoutePlacer
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
+    choose_props,
+    dressed,
+    form_up,
     half_extents_over_clip,
+    hang_rope,
     match_pace,
     overlap,
+    part_in_midst,
+    rests,
+    stagger,
 )
 from texvent.scenes.staging.placement.spatial_relations import (
     INVERSE,
@@ -41,17 +45,13 @@ from texvent.scenes.staging.trajectories.choose_trajectory import choose_traject
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath, bend_path
-from texvent.scenes.staging.trajectories.trajectory import Riding, Straight, Trajectory, Vector
+from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory, Vector
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
 _NEARER = 0.35
 """How much nearer, for each metre to the side."""
-BELT_M_S = 0.22
-"""Speed of what lies on something that carries it along."""
 _ATTEMPTS = 400
-_STICK, _TURNED_RAD = 2.0, 0.4
-"""How much longer than wide and high is what lies across the view; how far it is turned there."""
 _SIDES = {"left": -1.0, "right": 1.0}
 
 
@@ -92,15 +92,6 @@ class ObjectPlacer:
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
             if index not in scenic:
                 self._place(index, frozenset())
-        return self._perform()
-
-    def move(self, shifts: Mapping[int, Float64Array]) -> list[Actor]:
-        """The same copies with objects moved: index → [3] m."""
-        for index, shift in shifts.items():
-            self.groups[index].centre = self.groups[index].centre + shift
-        return self._perform()
-
-    def _perform(self) -> list[Actor]:
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
@@ -114,13 +105,11 @@ class ObjectPlacer:
         colour = scene_object.colour.rgb if scene_object.colour is not None else None
         models: list[Model] = [
             in_material(
-                choose_copy(noun, number, self._nouns).build(
-                    colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))
-                ),
+                noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))),
                 scene_object.material,
                 colour,
             )
-            for number in range(scene_object.count)
+            for _ in range(scene_object.count)
         ]
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
@@ -130,10 +119,6 @@ class ObjectPlacer:
         if is_curved and noun.motion == "drive" and plan.is_path:
             path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
             plan = replace(plan, path=path, yaw=path.yaw)
-        related = {i for r in self._description.relations for i in (r.subject, *r.targets)}
-        is_still = noun.habitat == "fixed" and not motions[0].is_moving and index not in related
-        if is_still and _is_long(models[0]):
-            plan = plan.turned(math.copysign(_TURNED_RAD, math.cos(plan.yaw)))
         if scene_object.heading_deg is not None:
             plan = plan.turned(math.radians(scene_object.heading_deg))
         offsets = stagger(models, plan, noun, rng)
@@ -154,8 +139,6 @@ class ObjectPlacer:
         goal = self._choose_goal(group, related)
         self._match_paces(group)
         group.centre = self._find_free_position(group, goal)
-        if self._travel is not None and goal.slide.any():
-            push_aside(group, self._travel)
         if group.scene_object.position_m is not None:
             self._start_at(group, group.scene_object.position_m)
         self.groups[index] = group
@@ -170,13 +153,10 @@ class ObjectPlacer:
     def _match_paces(self, group: ObjectGroup) -> None:
         """Give a follower, a companion or what is overtaken the pace of its partner."""
         for one in self._description.relations:
-            if one.kind == "follow" and one.subject == group.index:
-                partner = self.groups.get(one.targets[0])
-            elif one.kind in ("with", "overtake", "past") and group.index in one.targets:
-                partner = self.groups.get(one.subject)
-            else:
-                continue
-            if partner is not None:
+            is_follower = one.kind == "follow" and one.subject == group.index
+            is_led = one.kind in ("with", "overtake", "past") and group.index in one.targets
+            partner = self.groups.get(one.targets[0] if is_follower else one.subject)
+            if partner is not None and (is_follower or is_led):
                 match_pace(group, partner, one.kind)
 
     def _choose_goal(self, group: ObjectGroup, related: Sequence[Relation]) -> Goal:
@@ -326,9 +306,6 @@ class ObjectPlacer:
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
         """On what carries it, which moves as a whole, in a part, or only on its surface."""
-        if below.noun.name in nouns_with("carries along"):
-            speed = BELT_M_S * below.plan.motion.pace
-            return Straight(home, below.plan.yaw, speed, 0.5 * self._duration_s, "stand")
         rng = seeded(self._seed, "lead", below.index, below.noun.name)
         carrier = self._choose(below, below.models[0], _tuple(below.centre), 0, rng)
         (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
@@ -338,11 +315,6 @@ class ObjectPlacer:
         if group.carried_on is not None:
             return OnPart(carrier, below.models[0], group.carried_on, place, activity)
         return Riding(carrier, place, activity)
-
-
-def _is_long(model: Model) -> bool:
-    """Whether it lies across the view, so that it is seen whole: a bat, a spoon."""
-    return model.length > _STICK * max(model.width, model.height)
 
 
 def _tuple(centre: Float64Array) -> Vector:

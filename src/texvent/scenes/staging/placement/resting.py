@@ -20,8 +20,7 @@ from texvent.scenes.models.support_surface import Support, find_support, top_hei
 from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.placement.object_groups import ObjectGroup
-from texvent.scenes.staging.trajectories.trajectory import Vector
+from texvent.scenes.staging.placement.object_groups import ObjectGroup, list_around
 
 _SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
 """Share of the height of what is in something that looks out of it; of an animal, whose ears reach
@@ -34,27 +33,20 @@ _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
-_ALONG_SIDE_M = 0.7
-"""Room for one at the side of a table."""
 _EYE_M, _UNDER_TOP_M = 1.5, 0.12
 """Height of the middle of what hangs, and least distance to the top of what it hangs on."""
 
 
 def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """Put a group on the supporting surface of another object.
+    """[3] the middle of a group that is put on the supporting surface of another object, m.
 
-    Args:
-        group: what rests; people who sit or lie take that posture and the target's heading.
-        target: what it rests on; where that moves, it carries the group along.
-        neighbours: indices of all objects on the target, one for each copy: its part of the row.
-
-    Returns:
-        [3] the middle of the group, m.
+    People who sit or lie take that posture and the target's heading; a target that moves carries
+    the group along. `neighbours` are the indices of all objects on the target, one for each copy.
     """
     if group.noun.name in nouns_with("hangs") and target.noun.name in nouns_with("upright face"):
         return _hang_on(group, target, neighbours)
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
-    if target.plan.motion.is_moving or target.noun.name in nouns_with("carries along"):
+    if target.plan.motion.is_moving:
         group.carrier = target
     elif is_person and kind in TO_AND_FROM_SEATS:
         target.plan = replace(target.plan, yaw=_PROFILE_RAD)
@@ -66,7 +58,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         yaw = target.plan.yaw if kind == "stand" else _lying_yaw(target)
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
     group.fit()
-    return _in_world(target, (*support.middle, support.height + group.origin_m))
+    return target.to_world(*support.middle, support.height + group.origin_m)
 
 
 def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
@@ -95,19 +87,16 @@ def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     doing = kind if kind in TO_AND_FROM_SEATS else doing
     group.plan = replace(group.plan, yaw=target.plan.yaw, gesture=doing)
     group.fit()
-    return _in_world(target, (x, y, support.height - SEAT * scale))
+    return target.to_world(x, y, support.height - SEAT * scale)
 
 
 def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """Put a group into a container so that its top looks out, unseen into what is closed.
-
-    Args and result: as for `rest_on`.
-    """
+    """As `rest_on`, in a container so that its top looks out, and unseen in what is closed."""
     if target.noun.name in nouns_with("closed") | nouns_with("passage"):
         if target.plan.motion.is_moving:
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0
-        return _in_world(target, (0.0, 0.0, low + group.origin_m))
+        return target.to_world(0.0, 0.0, low + group.origin_m)
     place = rest_on(group, target, neighbours)
     if group.noun.name in PERSON_NOUNS or target.noun.habitat == "ground":
         return place
@@ -118,9 +107,9 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 
 
 def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """Put people at a table, turned to it: at its far side and its ends, the camera's side last.
+    """As `rest_on`, around a table and turned to it, the camera's side last.
 
-    Args and result: as for `rest_on`; they sit on chairs unless what they do is done standing.
+    People sit on chairs there unless what they do is done standing.
     """
     said = (group.scene_object.motion, *group.scene_object.then)
     kinds = {one.kind for one in said if one is not None and one.kind != "stand"}
@@ -128,7 +117,8 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     is_person = group.noun.name in PERSON_NOUNS
     group.on_chairs = is_person and (not kinds or bool(kinds & {"sit", "sit down", *DONE_SEATED}))
     reach = (_SEATED_M if group.on_chairs else _STANDING_M) * scale
-    places = _places_around(target, len(neighbours), reach)
+    wide, deep, _ = target.half_at_rest() + reach
+    places = list_around(len(neighbours), float(wide), float(deep))
     first = neighbours.index(group.index)
     chosen = [places[(first + number) % len(places)] for number in range(len(group.models))]
     lift = SEAT * (1.0 - min(scale, 1.0)) if group.on_chairs else 0.0
@@ -139,33 +129,6 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
         group.plan = replace(group.plan, gesture=SEATED + done[0] if done else "sit", path=None)
     group.fit()
     return np.array([target.centre[0], target.centre[1], group.origin_m])
-
-
-def _places_around(
-    target: ObjectGroup, count: int, reach_m: float
-) -> list[tuple[float, float, float]]:
-    """Offsets and headings of so many at the sides of a table, the farthest side first, m."""
-    table, yaw = target.models[0], target.plan.yaw
-    sides = []
-    for turn, out, long in (
-        (0.0, table.length, table.width), (math.pi, table.length, table.width),
-        (0.5 * math.pi, table.width, table.length), (-0.5 * math.pi, table.width, table.length),
-    ):  # fmt: skip
-        sides.append((yaw + turn, 0.5 * out + reach_m, long))
-    sides.sort(key=lambda side: -side[1] * math.sin(side[0]))
-    far, *ends, near = sides
-    order = [far] if count == 1 else ends if count == 2 else [far, *ends, near]
-    seats = [max(1, int(long / _ALONG_SIDE_M)) if count > 2 else 1 for _, _, long in order]
-    while sum(seats) < count:
-        seats = [one + 1 for one in seats]
-    found = []
-    for (way, out, long), most in zip(order, seats, strict=True):
-        for number in range(most):
-            aside = long * ((number + 0.5) / most - 0.5)
-            x = out * math.cos(way) - aside * math.sin(way)
-            y = out * math.sin(way) + aside * math.cos(way)
-            found.append((x, y, way + math.pi))
-    return found
 
 
 def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
@@ -181,7 +144,7 @@ def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     middle = min(_EYE_M, face.height - 0.5 * model.height - _UNDER_TOP_M)
     foot = max(middle - 0.5 * model.height, 0.0)
     height = foot + (0.5 * model.height if is_centred(group.noun) else 0.0)
-    place = _in_world(target, (0.5 * (face.length + model.length), -share * face.width, 0.0))
+    place = target.to_world(0.5 * (face.length + model.length), -share * face.width, 0.0)
     return np.array([place[0], place[1], height])
 
 
@@ -227,11 +190,3 @@ def _lying_yaw(target: ObjectGroup) -> float:
     back, front = (float(np.max(top_heights(parts, one, np.zeros(9)))) for one in (-ends, ends))
     # Who lies has its head at its own back.
     return target.plan.yaw + (math.pi if front > back + 0.05 else 0.0)
-
-
-def _in_world(target: ObjectGroup, place: Vector) -> Float64Array:
-    """A place in the target's body coordinates, where its middle is, in the world."""
-    cosine, sine = math.cos(target.plan.yaw), math.sin(target.plan.yaw)
-    x, y, z = place
-    turned = np.array([x * cosine - y * sine, x * sine + y * cosine, z])
-    return np.asarray(target.centre + turned)

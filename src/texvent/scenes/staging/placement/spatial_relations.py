@@ -18,10 +18,9 @@ from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.placement.formation import stand_in_ring
-from texvent.scenes.staging.placement.object_groups import GAP_M, ObjectGroup
+from texvent.scenes.staging.placement.object_groups import GAP_M, ObjectGroup, stand_in_ring
 from texvent.scenes.staging.placement.resting import place_at, rest_in, rest_on
-from texvent.scenes.staging.trajectories.phases import MOST_HASTE, PATH_KINDS
+from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 from texvent.scenes.staging.trajectories.trajectory import Circle, Trajectory
 
 
@@ -48,9 +47,8 @@ _SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
 """Relation with a distance → where its subject is, seen from the target, on the ground."""
 _COVERED = 0.55
 """Share of what stands behind that may be hidden where it stands right behind."""
-_ASIDE_RAD = 0.25
-"""How far the camera may see past an edge."""
-_CLEAR_M = 0.3
+_ASIDE_RAD, _CLEAR_M = 0.25, 0.3
+"""How far the camera may see past an edge, and room beside what one passes."""
 
 
 def place_on_targets(
@@ -60,14 +58,10 @@ def place_on_targets(
     height: float,
     neighbours: Sequence[int],
 ) -> Goal:
-    """A subject's position with respect to objects that are placed already.
+    """A subject's position with respect to objects that are placed already, by one of `ON_TARGET`.
 
-    Args:
-        group: the subject; what it does may change: it rides, orbits or jumps over the target.
-        kind: one of `ON_TARGET`.
-        targets: what it is related to.
-        height: of its origin where the relation does not decide it, m.
-        neighbours: for "on", "in" and "at", the indices of all objects there, one for each copy.
+    What it does may change: it rides, orbits or jumps over the target. `height` is that of its
+    origin where the relation does not decide it, m; `neighbours` are as for `rest_on`.
     """
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
         return place_by_subject(group, "beside", targets[0], height)
@@ -84,7 +78,7 @@ def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: fl
     if group.plan.motion.kind not in PATH_KINDS | {"orbit", "spin"}:
         within = float(max(target.half_at_rest()[:2]))
         wide = 0.5 * len(group.models) * 1.15 * own.width / math.pi
-        stand_in_ring(group, max(within + 0.6 * own.length + 0.1, wide), is_open=True)
+        stand_in_ring(group, max(within + 0.6 * own.length + 0.1, wide))
         group.fit()
         return Goal(np.array([x, y, height]), _FIXED)
     group.orbits = target
@@ -102,30 +96,12 @@ def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: flo
 
 
 def _place_under(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
-    """At the spot next to its middle, on the camera's side, over which there is room for it."""
-    target, base = targets[0], _on_ground(targets[0], height)
-    size = min(group.models[0].length, group.models[0].width)
-    reach = np.linspace(0.0, 0.5 * max(target.models[0].length, target.models[0].width), 9)
-    for step in reach:
-        spot = np.array([0.3 * step, -step])
-        if _is_sheltered(target, spot, 0.5 * size, height + group.models[0].height):
-            return Goal(_shift(base, *spot), _FIXED)
-    return Goal(_shift(base, target.half[0] + group.half[0] + _CLEAR_M, 0.0), _ALONG_X)
-
-
-def _is_sheltered(target: ObjectGroup, spot: Float64Array, radius_m: float, tall_m: float) -> bool:
-    """Whether parts of a target are over a spot beside its middle, and none is in the way there."""
-    cosine, sine = math.cos(target.plan.yaw), math.sin(target.plan.yaw)
-    x, y = spot @ np.array([[cosine, -sine], [sine, cosine]])
-    is_over = False
-    for part in target.models[0].parts(Pose(0.0, 0.0, 0.0, "stand")):
-        low, high = bounds([part])
-        covers = low[0] < x < high[0] and low[1] < y < high[1]
-        touches = max(low[0] - x, x - high[0], low[1] - y, y - high[1]) < radius_m
-        if touches and low[2] + target.centre[2] < tall_m:
-            return False
-        is_over = is_over or bool(covers)
-    return is_over
+    """Before what holds its target up in its middle, or beside one that is too low for it."""
+    if height + group.models[0].height > targets[0].top_m:
+        beside = targets[0].half[0] + group.half[0] + _CLEAR_M
+        return Goal(_shift(_on_ground(targets[0], height), beside, 0.0), _ALONG_X)
+    nearer = 0.4 * float(targets[0].half[1])
+    return Goal(_shift(_on_ground(targets[0], height), 0.0, -nearer), _FIXED)
 
 
 def _place_between(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
@@ -137,13 +113,11 @@ def _place_between(group: ObjectGroup, targets: Sequence[ObjectGroup], height: f
 def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     """Behind its target, on the same path."""
     target, own = targets[0], group.models[0]
-    reach, yaw = 0.5 * (target.models[0].length + own.length), target.plan.yaw
-    back = 1.6 * reach + 0.4
+    reach = 0.5 * (target.models[0].length + own.length)
     group.half = 0.5 * np.array([own.length, own.width, own.height])
     if target.plan.path is not None:
         group.lag = (target, 1.3 * reach + 0.4)
-    base = _on_ground(target, height)
-    return Goal(_shift(base, -back * math.cos(yaw), -back * math.sin(yaw)), _FIXED)
+    return Goal(target.to_world(-1.6 * reach - 0.4, 0.0, height - target.centre[2]), _FIXED)
 
 
 _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float], Goal]] = {
@@ -158,11 +132,7 @@ _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float
 def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
     """A target's position with respect to the subject that the scene relates to it.
 
-    Args:
-        group: the target.
-        kind: of the relation.
-        subject: what is placed already.
-        height: of the target's origin, m.
+    `height` is that of the target's origin, m; the subject is placed already.
     """
     if kind in ("behind", "from") and subject.plan.motion.kind == "appear":
         return _hide_before(group, subject, height)
@@ -174,7 +144,6 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     if kind == "behind":
         near = _half_below(group, subject.models[0].height)
         y = float(subject.half[1] + near[1]) + gap
-        _hurry_past(subject, float(near[0]))
     yaw, here = subject.plan.yaw, _on_ground(subject, height)
     along = (math.cos(yaw), math.sin(yaw))
     goes = subject.plan.is_path or subject.plan.path is not None
@@ -189,7 +158,7 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         "towards": (x * along[0], y * along[1], _AWAY),
         "overtake": (0.0, y + _CLEAR_M, _AWAY),
         "past": beside,
-        "beside": (_stop_m(subject), *beside[1:]) if is_aside else (x, level, _ALONG_X),
+        "beside": beside if is_aside else (x, level, _ALONG_X),
         "with": (ahead * along[0], y + 0.1, _AWAY) if is_aside else (x, level, _ALONG_X),
         "left of": (x, level, _ALONG_X),
         "right of": (-x, level, -_ALONG_X),
@@ -198,15 +167,6 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     }
     right, back, slide = goals.get(kind, (x, 0.0, _ALONG_X))
     return Goal(_shift(here, right, back), slide)
-
-
-def _stop_m(subject: ObjectGroup) -> float:
-    """How far to the right of its middle the nose of what comes to rest gets, m; 0 = it goes on."""
-    last = (subject.plan.motion, *subject.scene_object.then)[-1]
-    if last.end_pace != 0.0 and (last.kind != "stand" or not subject.scene_object.then):
-        return 0.0
-    reach = float(subject.half[0]) - 0.1 * subject.models[0].length
-    return math.copysign(reach, math.cos(subject.plan.yaw))
 
 
 def _hide_before(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
@@ -221,23 +181,12 @@ def _hide_before(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goa
 
 def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
     """Along the way of who goes through, who is out at about half of that way."""
-    yaw = subject.plan.yaw
     if group.noun.name in nouns_with("passage"):
-        group.plan = replace(group.plan, yaw=yaw)
+        group.plan = replace(group.plan, yaw=subject.plan.yaw)
         group.fit()
     way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
     back = 0.1 * way + 0.5 * group.models[0].length
-    here = _on_ground(subject, height)
-    return Goal(_shift(here, -back * math.cos(yaw), -back * math.sin(yaw)), _FIXED)
-
-
-def _hurry_past(group: ObjectGroup, half_m: float) -> None:
-    """Let what passes behind something of that half width be seen on both sides of it."""
-    plan = group.plan
-    is_free = plan.is_path and len(group.models) == 1 and plan.motion.speed_m_s is None
-    speed = (2.0 * half_m + 1.2 * group.models[0].length) / plan.duration_s
-    if is_free and abs(math.cos(plan.yaw)) > 0.5 and speed <= MOST_HASTE * plan.speed_m_s:
-        group.go(speed_m_s=max(speed, plan.speed_m_s))
+    return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
 
 
 def _half_below(group: ObjectGroup, height_m: float) -> Float64Array:
@@ -252,12 +201,8 @@ def _half_below(group: ObjectGroup, height_m: float) -> Float64Array:
 def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
     """Metres to the right at which what stands behind is seen past the edge of what is before it.
 
-    0 where enough of it is seen above and beside.
-
-    Args:
-        rear: what stands behind.
-        near: [3] half extents of what is before it, m.
-        apart_m: from the middle of one to that of the other.
+    0 where enough of it is seen above and beside. `near` are the half extents [3] of what is
+    before it, m, `apart_m` the way from one middle to the other.
     """
     covered = np.minimum(1.0, near / rear.half_at_rest())
     if covered[0] * covered[2] <= _COVERED:
@@ -289,13 +234,9 @@ def orbit(group: ObjectGroup, around: ObjectGroup, number: int, duration_s: floa
 
 
 def place_at_distance(goal: Goal, relation: Relation, other: ObjectGroup, sign: float) -> Goal:
-    """The goal at the distance of the relation, if it has one.
+    """The goal at the distance of the relation to another group, if it has one.
 
-    Args:
-        goal: where the group would be without it.
-        relation: between the group and another one.
-        other: that one, which is placed already.
-        sign: 1 for the goal of the relation's subject, -1 for that of a target.
+    `sign` is 1 for the goal of the relation's subject, -1 for that of a target.
     """
     if relation.distance_m is None:
         return goal

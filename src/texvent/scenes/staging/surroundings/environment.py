@@ -1,4 +1,4 @@
-"""Surroundings of each place and light, as functions of time."""
+"""Surroundings of each place and light as functions of time, with rain and snow."""
 
 from __future__ import annotations
 
@@ -18,26 +18,24 @@ from texvent.scenes.scene import (
     Float32Array,
     Float64Array,
     Ground,
+    Primitives,
+    Shape,
     Texture,
 )
-from texvent.scenes.staging.surroundings.light.lighting import (
+from texvent.scenes.staging.particles.shapes import ParticleEffect, many_shapes
+from texvent.scenes.staging.surroundings.lighting import (
+    DEPTHS,
+    STROKE_HZ,
     Lighting,
     choose_lighting,
+    lightning_level,
     towards_light,
+    wave_level,
 )
-from texvent.scenes.staging.surroundings.light.lightning import STROKE_HZ, lightning_level
 from texvent.scenes.staging.surroundings.road import RoadLine
 
-FLICKER_DEPTH = 0.8
-"""Share of the light that a flicker takes away at its darkest."""
-ON_SHARE = {"strobe": 0.35, "switch": 0.5}
-"""Wave of the light that goes on and off → share of a period that it is on."""
-OFF_DEPTH = {"strobe": 0.96, "switch": 0.9}
-"""The same → share of the light that is gone when it is off."""
 _FLASH = np.array((0.42, 0.47, 0.60), dtype=np.float32)
 """Light of the brightest stroke of lightning."""
-STROBE = 1.2
-"""Light of a strobe's flash, as a share of that."""
 TIMELAPSE = 60.0
 """How much faster the sky goes in a time lapse."""
 NO_ROOM_M = 9.0
@@ -78,8 +76,6 @@ class AnimatedEnvironment:
             ambient=self.base.ambient * factor,
         )
         level = lightning_level(time_s) if self.has_lightning else 0.0
-        if self.wave == "strobe" and self.flicker(time_s) >= 1.0:
-            return replace(base, ambient=base.ambient + np.float32(STROBE) * _FLASH)
         if level <= 0.0:
             return base
         flash = np.float32(level) * _FLASH
@@ -99,11 +95,8 @@ class AnimatedEnvironment:
         """Share of full light at that instant: 1 at t = 0, period exactly 1 / flicker_hz."""
         if self.flicker_hz is None:
             return 1.0
-        if self.wave != "sine":
-            is_on = (self.flicker_hz * time_s) % 1.0 < ON_SHARE[self.wave]
-            return 1.0 if is_on else 1.0 - OFF_DEPTH[self.wave]
-        wave = math.cos(2.0 * math.pi * self.flicker_hz * time_s)
-        return 1.0 - 0.5 * FLICKER_DEPTH * (1.0 - wave)
+        level = wave_level(self.wave, self.flicker_hz * time_s)
+        return 1.0 - DEPTHS[self.wave] * (1.0 - level)
 
 
 def build_environment(
@@ -117,13 +110,8 @@ def build_environment(
 ) -> AnimatedEnvironment:
     """The surroundings of a scene.
 
-    Args:
-        description: its weather and light.
-        place: its ground and walls.
-        road: centre lines of the roads.
-        distance_m: from the camera to what it looks at: fog is scaled to it.
-        room_m: half the side of the room, m, where the place is one.
-        looking: [3] unit vector that the camera looks along.
+    Fog is scaled to the distance of the camera from what it looks at; `room_m` is half the side of
+    the room, where the place is one; `looking` is the unit vector [3] that the camera looks along.
     """
     lighting, said = choose_lighting(place, description.light), description.surroundings
     has_lightning = any(effect.kind == "lightning" for effect in description.effects)
@@ -231,3 +219,68 @@ def _array(colour: Colour) -> Float32Array:
 def _unit(direction: tuple[float, float, float]) -> Float64Array:
     unit: Float64Array = np.array(direction) / np.linalg.norm(direction)
     return unit
+
+
+_DEPTH_BELOW_M = 0.6
+"""Drops return to the top when they are this far under the ground, out of sight."""
+
+
+@dataclass(frozen=True)
+class Fall:
+    """One kind of weather that falls; lengths are shares of the width of the box that it fills."""
+
+    count: int
+    half: tuple[float, float, float]
+    """Half extents of a drop."""
+    colour: Colour
+    shape: Shape
+    speed_m_s: float = 0.0
+    speed_share: float = 0.0
+    """How fast it falls: in m/s, and in widths of the box each second."""
+    sway: float = 0.0
+
+
+FALLS = {
+    "rain": Fall(130, (0.0011, 0.0011, 0.022), (0.66, 0.72, 0.80), Shape.CYLINDER, 8.0),
+    "snow": Fall(170, (0.0028,) * 3, (0.95, 0.96, 1.0), Shape.ELLIPSOID, 0.0, 0.09, 0.015),
+}
+"""Weather that falls."""
+
+
+@dataclass(frozen=True)
+class FallingParticles(ParticleEffect):
+    """Drops that fall through a box around what the camera looks at."""
+
+    kind: Fall
+    places: Float64Array
+    """[n, 3] at t = 0, m; z counts from the bottom of the box."""
+    base: Float64Array
+    """[3] middle of the ground that it falls on, m."""
+    extent_m: float
+    """Side of the box."""
+
+    def at(self, time_s: float) -> Primitives:
+        """All drops at that instant."""
+        kind, extent = self.kind, self.extent_m
+        speed = kind.speed_m_s + kind.speed_share * extent
+        fallen = np.mod(self.places[:, 2] - speed * time_s, _height(extent)) - _DEPTH_BELOW_M
+        sway = kind.sway * extent * np.sin(1.9 * time_s + 17.0 * self.places[:, 0])
+        maps = np.zeros((len(self.places), 3, 4))
+        maps[:, [0, 1, 2], [0, 1, 2]] = extent * np.array(kind.half)
+        maps[:, :, 3] = np.column_stack([self.places[:, 0] + sway, self.places[:, 1], fallen])
+        maps[:, :, 3] += self.base
+        return many_shapes(maps, kind.shape, kind.colour)
+
+
+def _height(extent_m: float) -> float:
+    return 0.8 * extent_m + _DEPTH_BELOW_M
+
+
+def let_fall(
+    weather: str, base: Float64Array, extent_m: float, rng: np.random.Generator
+) -> FallingParticles:
+    """Weather of `FALLS` over a square of that side around `base`, m."""
+    low = np.array([-0.5 * extent_m, -0.5 * extent_m, 0.0])
+    high = np.array([0.5 * extent_m, 0.5 * extent_m, _height(extent_m)])
+    places = rng.uniform(low, high, size=(FALLS[weather].count, 3))
+    return FallingParticles(FALLS[weather], places, base, extent_m)

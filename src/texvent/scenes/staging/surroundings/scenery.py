@@ -1,24 +1,25 @@
 """Scenery: trees along a road, houses in a city, pines on a mountain.
 
-Scenery never stands between the camera and the objects of the scene, on the road, or in another's
-place.
+It stands where the camera looks, or on both sides of the route of a camera that travels; never
+between the camera and the objects of the scene, on the road, or in another's place.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from texvent.scenes.models.places import Scenery
 from texvent.scenes.models.protocol import Model, Noun, Pose
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
-from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.camera.journey import VIEW_M, TravelPlan
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.trajectories.trajectory import BodyState
 
@@ -27,12 +28,14 @@ _BANK_M = 1.0
 _FAR_SHORE_M = 100.0
 """What stands further away than that may stand beyond the water."""
 _USUAL_DISTANCE_M = 16.0
-_IN_VIEW = 0.42
-"""Half of what the image shows, but for its edges, as a multiple of the distance at focal 1."""
-ATTEMPTS = 40
+_ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 _GAP_M = 0.35
 """From what must not touch it to a wall along the view."""
+_SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
+"""Along a route: usually from one to the next, and least and most from the free strip."""
+_BEFORE_M, _MOST_ITEMS = 4.0, 90
+"""How far before its beginning scenery starts, and how many pieces there are at most."""
 
 
 @dataclass(frozen=True)
@@ -58,15 +61,22 @@ class ViewClearance:
 class SceneryItem:
     """One piece of scenery; it stands still."""
 
-    noun: str
+    rule: Scenery
     model: Model
     position: tuple[float, float]
     yaw: float
     height_m: float = 0.0
     """Of its origin, m."""
-    is_at_wall: bool = False
-    is_flat: bool = False
-    """Whether others may stand on it or in it: paint on the ground, walls around."""
+
+    @property
+    def noun(self) -> str:
+        """What it is."""
+        return self.rule.noun
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether others may stand on it or in it: paint on the ground, walls around."""
+        return self.rule.where in ("under", "both sides")
 
     @property
     def radius_m(self) -> float:
@@ -101,7 +111,7 @@ def scatter(
 
     Args:
         rules: what, how many and how far.
-        view: the camera over the clip, and what it must see.
+        view: the camera over the clip, its route, and what it must see.
         actors: the objects of the scene.
         nouns: table of models; a noun that is missing is left out.
         rng: decides places, sizes and turns.
@@ -110,210 +120,202 @@ def scatter(
     Returns:
         The pieces that found a place; fewer than wanted where it is crowded.
     """
-    items = list(taken)
-    bodies = list_bodies(actors)
-    for number, rule in enumerate(rules):
-        noun = nouns.get(rule.noun)
-        if noun is None or rule.where == "route":
-            continue
+    rules = [rule for rule in rules if rule.noun in nouns]
+    work = _Scatterer(view, actors, nouns, rng, [*taken])
+    beside: list[Scenery] = []
+    if view.travel is not None:
+        beside = [rule for rule in rules if rule.where != "far" and not rule.is_structure]
+        work.line_route(beside, view.travel)
+    for rule in rules:
         if rule.where == "under":
-            model = build(rule, noun, 0, rng)
-            items.append(_lay_under(rule, model, view, actors, bodies))
-            continue
-        if rule.where == "both sides":
-            items.append(_enclose(rule, noun, view, bodies, rng))
-            continue
-        must_show = number == 0 and rule.where == "walls"
+            work.lay_under(rule)
+        elif rule.where == "both sides":
+            work.enclose(rule)
+        elif rule.where != "route" and rule not in beside:
+            work.stand_in_view(rule)
+    return work.items[len(taken) :]
+
+
+class _Scatterer:
+    """Puts up one piece after the other, clear of the view, the objects and the other pieces."""
+
+    def __init__(
+        self,
+        view: ViewClearance,
+        actors: Sequence[Actor],
+        nouns: Mapping[str, Noun],
+        rng: np.random.Generator,
+        items: list[SceneryItem],
+    ) -> None:
+        self.items = items
+        self._view, self._nouns, self._rng = view, nouns, rng
+        self._yaw = actors[0].trajectory.at(0.0).yaw if actors else 0.0
+        """Heading of the first object."""
+        rows = [
+            (*one.middle(float(time_s))[:2], 0.5 * max(one.model.length, one.model.width))
+            for one in actors
+            for time_s in np.linspace(0.0, 2.0, 5)
+        ]
+        self._bodies = np.array(rows, dtype=np.float64).reshape(-1, 3)
+        """[n, 3]: x, y and radius of the objects at some instants, m."""
+
+    def _build(self, rule: Scenery, copy: int, scale: float = 1.0) -> Model:
+        """A copy of a piece, with its own size and seed."""
+        return self._nouns[rule.noun].build(
+            colour=rule.colours[copy % len(rule.colours)],
+            scale=float(self._rng.uniform(*rule.scale)) * scale,
+            seed=int(self._rng.integers(2**31)),
+        )
+
+    def stand_in_view(self, rule: Scenery) -> None:
+        """Pieces somewhere in what the camera sees."""
+        fit = min(max(self._view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5) if rule.grows else 1.0
         for copy in range(rule.count):
-            model = build(rule, noun, copy, rng, _fit_scale(rule, view))
-            item = _find_place(rule, model, view, bodies, items, rng, must_show=must_show)
-            items += [item] if item is not None else []
-    return items[len(taken) :]
+            model = self._build(rule, copy, fit)
+            free = (item for item in self._try_places(rule, model) if self._is_free(item))
+            self.items += list(itertools.islice(free, 1))
 
+    def _try_places(self, rule: Scenery, model: Model) -> Iterator[SceneryItem]:
+        for _ in range(_ATTEMPTS):
+            camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
+            stand = self._stand_at_wall if rule.where == "walls" else self._stand_around
+            yield stand(rule, model, camera)
 
-def build(
-    rule: Scenery, noun: Noun, copy: int, rng: np.random.Generator, scale: float = 1.0
-) -> Model:
-    """A copy of a piece of scenery, with its own size and seed."""
-    return noun.build(
-        colour=rule.colours[copy % len(rule.colours)],
-        scale=float(rng.uniform(*rule.scale)) * scale,
-        seed=int(rng.integers(2**31)),
-    )
+    def line_route(self, rules: Sequence[Scenery], travel: TravelPlan) -> None:
+        """Pieces on both sides of a route, from behind its beginning to beyond its end."""
+        length, line = travel.length_m + VIEW_M + _BEFORE_M, travel.places(0.5)
+        spacing = {
+            rule: float(trait_value("spacing along a road", rule.noun) or _SPACING_M)
+            for rule in rules
+        }
+        stretch = max(1.0, sum(2.0 * length / one for one in spacing.values()) / _MOST_ITEMS)
+        for rule, side in itertools.product(spacing, (1.0, -1.0)):
+            step = stretch * spacing[rule]
+            for number in range(math.ceil(length / step)):
+                along = step * (number + float(self._rng.uniform(0.1, 0.9))) - _BEFORE_M
+                item = self._stand_beside(rule, number, travel, along, side)
+                away = float(np.min(np.hypot(*(line - item.position).T))) - item.radius_m
+                if away >= min(travel.clear_m) and self._is_free(item):
+                    self.items.append(item)
 
+    def _stand_beside(
+        self, rule: Scenery, copy: int, travel: TravelPlan, along_m: float, side: float
+    ) -> SceneryItem:
+        """At the side of a route, 1 = right, so far along it."""
+        model = self._build(rule, copy)
+        near, far = trait_value("distance from a road", rule.noun) or _ASIDE_M
+        aside = travel.clear(side) + 0.5 * max(model.length, model.width)
+        aside += near + (far - near) * float(self._rng.uniform()) ** 2
+        x, y, heading = travel.point(along_m, side * aside)
+        height = 0.0
+        if self._nouns[rule.noun].habitat == "air":
+            height = travel.journey.height_m + float(self._rng.uniform(-5.0, 4.0))
+        return SceneryItem(
+            rule, model, (x, y), self._turn(rule, heading + side * 0.5 * math.pi), height
+        )
 
-def _fit_scale(rule: Scenery, view: ViewClearance) -> float:
-    if not rule.grows:
-        return 1.0
-    return min(max(view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5)
+    def _turn(self, rule: Scenery, along_road: float) -> float:
+        """Heading of a piece: along the road, or any."""
+        is_parallel = rule.noun in nouns_with("parallel to road")
+        return along_road if is_parallel else float(self._rng.uniform(0.0, 2.0 * math.pi))
 
+    def lay_under(self, rule: Scenery) -> None:
+        """Under the middle of all, along the road, so far on as the first of them looks."""
+        x, y = self._bodies[:, :2].mean(axis=0) if len(self._bodies) else (0.0, 0.0)
+        ahead, angle = rule.reach[0], self._view.road.angle
+        spot = (x + ahead * math.cos(self._yaw), y + ahead * math.sin(self._yaw))
+        self.items.append(SceneryItem(rule, self._build(rule, 0), spot, angle))
 
-def list_bodies(actors: Sequence[Actor]) -> Float64Array:
-    """[n, 3]: x, y and radius of the actors at some instants, m."""
-    rows = []
-    for actor in actors:
-        radius = 0.5 * max(actor.model.length, actor.model.width)
-        for time_s in np.linspace(0.0, 2.0, 5):
-            x, y, _ = actor.middle(float(time_s))
-            rows.append((x, y, radius))
-    return np.array(rows, dtype=np.float64).reshape(-1, 3)
+    def enclose(self, rule: Scenery) -> None:
+        """Walls on both sides of the view, as far apart as all between them needs."""
+        cameras, bodies = self._view.cameras, self._bodies
+        forward, right = _axes(cameras[len(cameras) // 2])
+        eyes = np.array([camera.position[:2] for camera in cameras])
+        aside = np.append(bodies[:, :2], eyes, axis=0) @ right
+        radii = np.append(bodies[:, 2], np.full(len(eyes), _GAP_M))
+        low, high = float((aside - radii).min()), float((aside + radii).max())
+        # Each wall is a tenth of their distance thick at most.
+        usual_m = 0.78 * self._build(rule, 0).width
+        model = self._build(rule, 0, max((high - low) / usual_m, 1.0))
+        middle = eyes.mean(axis=0)
+        x, y = middle + (0.5 * (high + low) - float(middle @ right)) * right
+        yaw = math.atan2(float(forward[1]), float(forward[0]))
+        self.items.append(SceneryItem(rule, model, (float(x), float(y)), yaw))
 
-
-def _lay_under(
-    rule: Scenery,
-    model: Model,
-    view: ViewClearance,
-    actors: Sequence[Actor],
-    bodies: Float64Array,
-) -> SceneryItem:
-    """Under the middle of all, along the road, so far on as the first of them looks."""
-    x, y = bodies[:, :2].mean(axis=0) if len(bodies) else (0.0, 0.0)
-    yaw = actors[0].trajectory.at(0.0).yaw if actors else 0.0
-    spot = (x + rule.reach[0] * math.cos(yaw), y + rule.reach[0] * math.sin(yaw))
-    return SceneryItem(rule.noun, model, spot, view.road.angle, is_flat=True)
-
-
-def _enclose(
-    rule: Scenery, noun: Noun, view: ViewClearance, bodies: Float64Array, rng: np.random.Generator
-) -> SceneryItem:
-    """Walls on both sides of the view, as far apart as all between them needs."""
-    forward = _flat(view.cameras[len(view.cameras) // 2])
-    right = np.array([forward[1], -forward[0]])
-    eyes = np.array([camera.position[:2] for camera in view.cameras])
-    aside = np.append(bodies[:, :2], eyes, axis=0) @ right
-    radii = np.append(bodies[:, 2], np.full(len(eyes), _GAP_M))
-    low, high = float((aside - radii).min()), float((aside + radii).max())
-    # Each wall is a tenth of their distance thick at most.
-    usual_m = 0.78 * build(rule, noun, 0, rng).width
-    model = build(rule, noun, 0, rng, max((high - low) / usual_m, 1.0))
-    middle = eyes.mean(axis=0)
-    x, y = middle + (0.5 * (high + low) - float(middle @ right)) * right
-    yaw = math.atan2(float(forward[1]), float(forward[0]))
-    return SceneryItem(rule.noun, model, (float(x), float(y)), yaw, is_flat=True)
-
-
-def _flat(camera: Camera) -> Float64Array:
-    """[2] which way a camera looks over the ground."""
-    forward = np.asarray(camera.rotation[2, :2], dtype=np.float64)
-    return forward / max(float(np.hypot(*forward)), 1e-9)
-
-
-def _find_place(
-    rule: Scenery,
-    model: Model,
-    view: ViewClearance,
-    bodies: Float64Array,
-    items: Sequence[SceneryItem],
-    rng: np.random.Generator,
-    *,
-    must_show: bool,
-) -> SceneryItem | None:
-    """A free place for a piece; one that must show is in view, if it can be."""
-    for attempt in range(ATTEMPTS):
-        camera = view.cameras[int(rng.integers(len(view.cameras)))]
-        if rule.where == "walls":
-            item = _stand_at_wall(rule, model, camera, view.room_m, rng)
-            if must_show and 2 * attempt < ATTEMPTS and not _is_in_view(item, camera):
-                continue
+    def _stand_around(self, rule: Scenery, model: Model, camera: Camera) -> SceneryItem:
+        """Somewhere in what the camera sees, as far off as the rule says."""
+        share = float(self._rng.uniform(-0.62, 0.62))
+        reach = self._draw_reach(rule, camera)
+        forward, right = _axes(camera)
+        x, y = camera.position[:2] + reach * (forward + share / camera.focal * right)
+        if rule.faces:
+            yaw = math.atan2(-float(forward[1]), -float(forward[0]))
+            yaw += float(self._rng.uniform(-0.2, 0.2))
         else:
-            item = _stand_around(rule, model, camera, view, rng)
-        if is_free(item, rule, view, bodies, items):
-            return item
-    return None
+            yaw = self._turn(rule, self._view.road.angle - 0.5 * math.pi)
+        return SceneryItem(rule, model, (float(x), float(y)), yaw)
 
+    def _draw_reach(self, rule: Scenery, camera: Camera) -> float:
+        """Metres from the camera, no further than the top of the image shows."""
+        near, far = rule.reach
+        if rule.where == "far":
+            return float(self._rng.uniform(near, far))
+        pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))
+        flat = self._view.distance_m * math.cos(pitch)
+        top = pitch - math.atan(0.33 / camera.focal)
+        if top > 0.02:
+            seen = float(camera.position[2]) / math.tan(top) / max(flat, 1e-6) - 1.0
+            near, far = (min(near, 0.1 - 0.8 * seen), seen) if far > seen else (near, far)
+        return flat * (1.0 + float(self._rng.uniform(near, far)))
 
-def _stand_around(
-    rule: Scenery, model: Model, camera: Camera, view: ViewClearance, rng: np.random.Generator
-) -> SceneryItem:
-    """Somewhere in what the camera sees, as far off as the rule says."""
-    share = float(rng.uniform(-0.62, 0.62))
-    reach = _draw_reach(rule, camera, view, rng)
-    forward = _flat(camera)
-    right = np.array([forward[1], -forward[0]])
-    x, y = camera.position[:2] + reach * (forward + share / camera.focal * right)
-    if rule.faces:
-        yaw = math.atan2(-float(forward[1]), -float(forward[0])) + float(rng.uniform(-0.2, 0.2))
-    elif rule.noun in nouns_with("parallel to road"):
-        yaw = view.road.angle - 0.5 * math.pi
-    else:
-        yaw = float(rng.uniform(0.0, 2.0 * math.pi))
-    return SceneryItem(rule.noun, model, (float(x), float(y)), yaw)
+    def _stand_at_wall(self, rule: Scenery, model: Model, camera: Camera) -> SceneryItem:
+        """Somewhere along a wall that the camera sees, with its back to it."""
+        forward, room = camera.rotation[2, :2], self._view.room_m
+        shares = np.abs(forward) / max(float(np.abs(forward).sum()), 1e-9)
+        axis = 0 if self._rng.uniform() < shares[0] else 1
+        side = 1.0 if forward[axis] >= 0.0 else -1.0
+        spot = [0.0, 0.0]
+        spot[axis] = side * (room - 0.5 * model.length - 0.04)
+        spot[1 - axis] = float(self._rng.uniform(-0.9, 0.9)) * (room - 0.5 * model.width)
+        yaw = math.pi * (0.5 * axis + (1.0 if side > 0.0 else 0.0))
+        return SceneryItem(rule, model, (spot[0], spot[1]), yaw)
 
-
-def _is_in_view(item: SceneryItem, camera: Camera) -> bool:
-    """Whether its middle is between the left and the right edge of the image, and ahead."""
-    offset, forward = np.array(item.position) - camera.position[:2], _flat(camera)
-    ahead = float(offset @ forward)
-    aside = abs(float(offset @ np.array([forward[1], -forward[0]])))
-    return ahead > 0.0 and aside * camera.focal < _IN_VIEW * ahead
-
-
-def _stand_at_wall(
-    rule: Scenery, model: Model, camera: Camera, room_m: float, rng: np.random.Generator
-) -> SceneryItem:
-    """Somewhere along a wall that the camera sees, with its back to it."""
-    forward = camera.rotation[2, :2]
-    sizes = np.abs(forward) / max(float(np.abs(forward).sum()), 1e-9)
-    axis = 0 if rng.uniform() < sizes[0] else 1
-    side = 1.0 if forward[axis] >= 0.0 else -1.0
-    spot = [0.0, 0.0]
-    spot[axis] = side * (room_m - 0.5 * model.length - 0.04)
-    spot[1 - axis] = float(rng.uniform(-0.9, 0.9)) * (room_m - 0.5 * model.width)
-    yaw = math.pi * (0.5 * axis + (1.0 if side > 0.0 else 0.0))
-    return SceneryItem(rule.noun, model, (spot[0], spot[1]), yaw, is_at_wall=True)
-
-
-def _draw_reach(
-    rule: Scenery, camera: Camera, view: ViewClearance, rng: np.random.Generator
-) -> float:
-    """Metres over the ground from the camera, no further than the top of the image shows."""
-    near, far = rule.reach
-    if rule.where == "far":
-        return float(rng.uniform(near, far))
-    pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))
-    flat = view.distance_m * math.cos(pitch)
-    top = pitch - math.atan(0.33 / camera.focal)
-    if top > 0.02:
-        seen = float(camera.position[2]) / math.tan(top) / max(flat, 1e-6) - 1.0
-        if far > seen:
-            near, far = min(near, 0.1 - 0.8 * seen), seen
-    return flat * (1.0 + float(rng.uniform(near, far)))
-
-
-def is_free(
-    item: SceneryItem,
-    rule: Scenery,
-    view: ViewClearance,
-    bodies: Float64Array,
-    items: Sequence[SceneryItem],
-) -> bool:
-    """Whether an item has room, hides nothing, and stands where it may: on land or afloat."""
-    spot, radius = np.array(item.position), item.radius_m
-    if view.road_half_width is not None:
-        clear = view.road_half_width + radius + 0.4
-        if float(view.road.distance(spot[None])[0]) < clear:
+    def _is_free(self, item: SceneryItem) -> bool:
+        """Whether an item has room, hides nothing, and stands where it may: on land or afloat."""
+        spot, radius, view = np.array(item.position), item.radius_m, self._view
+        if view.road_half_width is not None:
+            clear = view.road_half_width + radius + 0.4
+            if float(view.road.distance(spot[None])[0]) < clear:
+                return False
+        is_at_wall = item.rule.where == "walls"
+        room = view.room_m + (radius if is_at_wall else 0.0)
+        if np.max(np.abs(spot)) + radius > room or not _is_on_its_side(item, view):
             return False
-    room = view.room_m + (radius if item.is_at_wall else 0.0)
-    if np.max(np.abs(spot)) + radius > room or not _is_on_its_side(rule, spot, radius, view):
-        return False
-    # What stands at a wall is as deep as it is long, not as it is wide.
-    deep = min(0.5 * item.model.length + 0.3, radius) if item.is_at_wall else radius
-    if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < bodies[:, 2] + deep + 0.4):
-        return False
-    others = (other for other in items if not other.is_flat)
-    if any(np.hypot(*(spot - one.position)) < 0.8 * (radius + one.radius_m) for one in others):
-        return False
-    return not _hides(spot, radius, deep, view)
+        # What stands at a wall is as deep as it is long, not as it is wide.
+        deep = min(0.5 * item.model.length + 0.3, radius) if is_at_wall else radius
+        apart = np.hypot(*(self._bodies[:, :2] - spot).T)
+        if np.any(apart < self._bodies[:, 2] + deep + 0.4):
+            return False
+        others = (one for one in self.items if not one.is_flat)
+        if any(np.hypot(*(spot - one.position)) < 0.8 * (radius + one.radius_m) for one in others):
+            return False
+        return not _hides(spot, radius, deep, view)
 
 
-def _is_on_its_side(
-    rule: Scenery, spot: Float64Array, radius_m: float, view: ViewClearance
-) -> bool:
+def _axes(camera: Camera) -> tuple[Float64Array, Float64Array]:
+    """[2] which way a camera looks over the ground, and [2] to its right."""
+    forward = np.asarray(camera.rotation[2, :2], dtype=np.float64)
+    forward = forward / max(float(np.hypot(*forward)), 1e-9)
+    return forward, np.array([forward[1], -forward[0]])
+
+
+def _is_on_its_side(item: SceneryItem, view: ViewClearance) -> bool:
     """Whether what floats is in the water, and what stands is on land or far beyond the water."""
+    rule, ashore = item.rule, -float(view.road.across(np.array([item.position]))[0])
     if rule.where == "water":
-        return view.has_shore and view.road.across(spot) > radius_m + 0.5
+        return view.has_shore and -ashore > item.radius_m + 0.5
     is_beyond = rule.where == "far" and rule.reach[0] >= _FAR_SHORE_M
-    return not view.has_shore or is_beyond or view.road.across(spot) <= -radius_m - _BANK_M
+    return not view.has_shore or is_beyond or ashore >= item.radius_m + _BANK_M
 
 
 def _hides(spot: Float64Array, radius_m: float, deep_m: float, view: ViewClearance) -> bool:

@@ -1,4 +1,4 @@
-"""Lamps of the objects in a scene: which are on, how they blink, and what light they shed."""
+"""Lamps of a scene: which are on, how they blink, and what light they shed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import SceneDescription, SceneLamp
 from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import ModelPart
@@ -17,50 +17,32 @@ from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
-from texvent.scenes.staging.surroundings.light.lighting import hidden_lamp, tint_of
+from texvent.scenes.staging.surroundings.lighting import (
+    FLAME_SHARES,
+    hidden_lamp,
+    tint_of,
+    wave_level,
+)
 from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
 MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""
-FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
-"""Sines that make a flame flicker: multiple of its frequency, and amplitude."""
 _FLICKERING = 2.6
 """How much more a flame flickers that is said to."""
 _UNLIT = (Ground.NONE, Ground.UNDERWATER, Ground.SEA)
 """Grounds of places without lamps out of sight."""
-_LIGHTS_A_ROOM = 0.1
-"""A lamp without a beam that is at least this bright lights its surroundings."""
-_DIMMEST_CASTER = 0.5
-"""Lamps whose light at 1 m is less than this cast no shadows."""
+_LIGHTS_A_ROOM, _DIMMEST_CASTER, _FAINTEST = 0.1, 0.5, 0.004
+"""Light at 1 m from which on a lamp without a beam lights its surroundings and from which on one
+casts shadows; a lamp's light ends where it is the last."""
 _LONG = 3.0
 """A part longer than this many thicknesses, such as a tube, is no spot of light."""
-_MOST_CASTERS = 3
-"""Each costs time: see docs/design/speed.md."""
-_FAINTEST_SHARE = 0.05
-"""Lamps that light the focus less than this share of what the best one does cast no shadows."""
-_FAINTEST = 0.004
-"""A lamp's light ends where it is this."""
-_FARTHEST_M = 120.0
-_LEVEL_INSTANTS = 24
-_LEVEL_SPAN_S = 6.0
-"""Instants and time over which a part's brightest state is looked for."""
-
-
-def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int) -> float:
-    """Share of its light that a blinking lamp gives off at an instant; at t = 0 it is on."""
-    cycles = rate_hz * time_s
-    if lamp.wave == "flame":
-        turn = 2.0 * math.pi
-        waves = (
-            share * math.sin(turn * (multiple * cycles + phase * (1.0 + multiple)))
-            for multiple, share in FLAME_SHARES
-        )
-        return 1.0 + sum(waves)
-    if lamp.wave == "rotating":
-        return max(math.cos(2.0 * math.pi * cycles + math.pi * number), 0.0) ** 2
-    if lamp.wave == "sine" and rate_hz >= MAINS_HZ:
-        return 0.5 + 0.5 * math.cos(2.0 * math.pi * cycles)
-    return 1.0 if cycles % 1.0 < 0.5 else 0.0
+_MOST_CASTERS, _FAINTEST_SHARE = 3, 0.05
+"""How many cast shadows, as each costs time: none that lights the focus less than this share of
+what the best one does."""
+_FARTHEST_M, _SCENE_LAMP_M = 120.0, 0.03
+"""How far a lamp's light goes at most, and radius of a lamp of the scene."""
+_LEVELS_S = np.linspace(0.0, 6.0, 24, endpoint=False)
+"""When a part is looked at to find its brightest state."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +56,8 @@ class LitActor:
     """As `SceneObject.blink_hz`."""
     strength: float
     """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
-    brightest: tuple[float, ...]
-    """Greatest emission of each part over time; 0 = it does not glow."""
+    lamps: tuple[tuple[int, float, Lamp], ...]
+    """Index and greatest emission of each glowing part, and what kind of lamp it is."""
     casts: bool = False
     """Whether its lamps cast shadows."""
 
@@ -85,8 +67,22 @@ class LitActor:
             return self.is_lit
         return lamp.always_on or self.strength > lamp.least_dark
 
-    def blink_of(self, lamp: Lamp) -> float | None:
-        """Frequency at which a lamp blinks, Hz; None = it is steady."""
+    @property
+    def shines(self) -> bool:
+        """Whether any of its lamps is on."""
+        return any(self.is_on(lamp) for _, _, lamp in self.lamps)
+
+    @property
+    def fastest_hz(self) -> float:
+        """Highest frequency at which a lamp of it goes up and down, Hz; 0 = all are steady."""
+        rates = [0.0]
+        for _, _, lamp in self.lamps:
+            rate = max(self._blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
+            rate *= FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0
+            rates.append(rate if self.is_on(lamp) else 0.0)
+        return max(rates)
+
+    def _blink_of(self, lamp: Lamp) -> float | None:
         return lamp.blink_hz if self.blink_hz is None else self.blink_hz
 
     def level(self, lamp: Lamp, time_s: float, number: int) -> float:
@@ -94,69 +90,55 @@ class LitActor:
         if not self.is_on(lamp):
             return 0.0
         full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
-        rate = self.blink_of(lamp)
+        rate = self._blink_of(lamp)
         if rate is None:
             return full
+        wave = "square" if lamp.wave == "sine" and rate < MAINS_HZ else lamp.wave
         # Two candles do not flicker in step.
-        wave = wave_at(lamp, rate, time_s, fraction(self.actor.instance, "flame"), number)
-        if lamp.wave == "flame" and self.blink_hz is not None:
-            wave = max(1.0 + _FLICKERING * (wave - 1.0), 0.05)
-        return full * wave
+        phase = fraction(self.actor.instance, "flame")
+        level = wave_level(wave, rate * time_s, phase=phase, number=number)
+        if wave == "flame" and self.blink_hz is not None:
+            level = max(1.0 + _FLICKERING * (level - 1.0), 0.05)
+        return full * level
 
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""
         parts = list(placed.parts)
-        for index, number, lamp in self.lamps_of(placed):
-            part, level = parts[index], self.level(lamp, time_s, number)
-            if self.is_on(lamp):
-                parts[index] = replace(part, emission=part.emission * lamp.boost * level)
-            elif self.is_lit is not None:
-                parts[index] = replace(part, emission=0.0)
+        for number, (index, _, lamp) in enumerate(self.lamps):
+            if self.is_on(lamp) or self.is_lit is not None:
+                factor = lamp.boost * self.level(lamp, time_s, number)
+                parts[index] = replace(parts[index], emission=parts[index].emission * factor)
         return replace(placed, parts=parts)
 
-    def lamps_of(self, placed: PlacedModel) -> list[tuple[int, int, Lamp]]:
-        """Its lamps: index of the part, number among the lamps, and kind."""
-        found: list[tuple[int, int, Lamp]] = []
-        for index, part in enumerate(placed.parts):
-            lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
-            if lamp is not None:
-                found.append((index, len(found), lamp))
-        return found
-
-    def rows(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
+    def rows(self, time_s: float) -> list[Float64Array]:
         """Its lamps at that instant, as in `Environment.lamps`: always as many."""
         rows: list[Float64Array] = []
         done: set[Lamp] = set()
-        for index, number, lamp in self.lamps_of(placed):
+        placed = self.actor.place(time_s)
+        for number, (index, brightest, lamp) in enumerate(self.lamps):
             if lamp in done or not self.is_on(lamp):
                 continue
             if lamp.is_single:
                 done.add(lamp)
             part = placed.parts[index]
-            level = self.level(lamp, time_s, number) * part.emission
-            level /= max(self.brightest[index], 1e-9)
-            casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
-            rows.append(lamp_row(lamp, part, placed.to_world, level, time_s, casts))
+            level = self.level(lamp, time_s, number) * part.emission / brightest
+            rows.append(lamp_row(lamp, part, placed.to_world, level, time_s))
+            rows[-1][13] = float(self.casts and lamp.intensity >= _DIMMEST_CASTER)
         return rows
+
+    def steady_rows(self, time_s: float) -> Float64Array:
+        """[m, 15] its lamps where they are at that instant, as if they did not blink."""
+        steady = replace(self, blink_hz=0.0)
+        return np.array(steady.rows(time_s)).reshape(-1, LAMP_COLUMNS)
 
 
 def lamp_row(
-    lamp: Lamp,
-    part: ModelPart,
-    to_world: Float64Array,
-    level: float,
-    time_s: float = 0.0,
-    casts: bool = False,
+    lamp: Lamp, part: ModelPart, to_world: Float64Array, level: float, time_s: float = 0.0
 ) -> Float64Array:
-    """A lamp's numbers, as in `Environment.lamps`.
+    """A lamp's numbers, as in `Environment.lamps`, without a shadow.
 
-    Args:
-        lamp: what kind it is.
-        part: the glowing part, in body coordinates.
-        to_world: [3, 4] body → world.
-        level: light as a share of its usual light.
-        time_s: for beams that turn.
-        casts: whether it casts shadows.
+    The glowing part is in body coordinates; `level` is light as a share of its usual light, the
+    instant turns beams that turn.
     """
     row = np.zeros(LAMP_COLUMNS)
     half = np.sort(np.linalg.norm(part.to_body[:, :3], axis=0))
@@ -178,8 +160,19 @@ def lamp_row(
     row[6] = min(math.sqrt(lamp.intensity / _FAINTEST), _FARTHEST_M)
     is_long = half[2] > _LONG * half[1]
     row[12] = half[1] if lamp.is_panel else 0.5 * half[2] if is_long else half[0]
-    row[13] = float(casts)
     row[14] = float(lamp.glows and not lamp.is_panel and not is_long)
+    return row
+
+
+def scene_lamp_row(lamp: SceneLamp, time_s: float) -> Float64Array:
+    """A lamp at a position that the scene gives: its period is exactly 1 / frequency_hz."""
+    row = np.zeros(LAMP_COLUMNS)
+    light = lamp.strength * np.array((1.0, 1.0, 1.0) if lamp.colour is None else lamp.colour.rgb)
+    row[:3] = lamp.position_m
+    row[3:6] = light * wave_level(lamp.wave, (lamp.frequency_hz or 0.0) * time_s)
+    row[6] = math.sqrt(max(light.max(), 1e-9) / _FAINTEST)
+    row[10] = row[11] = -2.0
+    row[12], row[13] = _SCENE_LAMP_M, float(lamp.has_shadows)
     return row
 
 
@@ -187,6 +180,8 @@ def lamp_row(
 class LampPlan:
     """All lamps of a scene as functions of time."""
 
+    scene: tuple[SceneLamp, ...]
+    """Lamps at positions that the scene gives; first, as four at most cast shadows."""
     lit: tuple[LitActor, ...]
     still: Float64Array
     """[m, 15] lamps of the scenery, and light whose lamp is out of sight."""
@@ -200,24 +195,21 @@ class LampPlan:
 
     def rows(self, time_s: float) -> Float64Array:
         """[m, 15] all lamps at that instant."""
-        rows = [row for one in self.lit for row in one.rows(one.actor.place(time_s), time_s)]
+        rows = [scene_lamp_row(one, time_s) for one in self.scene]
+        rows += [row for one in self.lit for row in one.rows(time_s)]
         return np.concatenate([np.array(rows).reshape(-1, LAMP_COLUMNS), self.still])
 
     @property
     def is_moving(self) -> bool:
         """Whether objects of the scene, which may move, shed light."""
-        return any(one.is_lit is not False for one in self.lit)
+        return any(one.shines for one in self.lit)
 
     @property
     def blink_hz(self) -> float | None:
         """Highest frequency at which a lamp goes up and down, Hz; None = all are steady."""
-        rates = [0.0]
-        for one in self.lit:
-            for _, _, lamp in one.lamps_of(one.actor.place(0.0)):
-                rate = max(one.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
-                rate *= FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0
-                rates.append(rate if one.is_on(lamp) else 0.0)
-        return max(rates) or None
+        rates = [one.fastest_hz for one in self.lit]
+        rates += [one.frequency_hz or 0.0 for one in self.scene]
+        return max(rates, default=0.0) or None
 
 
 def plan_lamps(
@@ -231,20 +223,15 @@ def plan_lamps(
     looking: Float64Array,
     items: Sequence[SceneryItem],
 ) -> LampPlan:
-    """Which lamps are on, and which of them cast shadows.
+    """Which lamps are on, and which of them cast shadows at that instant.
 
-    Args:
-        description: says which are lit and how they blink.
-        actors: the objects.
-        place: where they are.
-        strength: of artificial light, 0..1; above 0 it is dark.
-        instant_s: when the lamps that cast shadows are chosen, s.
-        framing: what the camera looks at: the lamps that light it most cast shadows, and where
-            none lights it, one does that is out of sight.
-        looking: [3] unit vector that the camera looks along.
-        items: the scenery, whose lamps are on at night.
+    `strength` is that of artificial light, 0..1: above 0 it is dark. Lamps that light most what the
+    camera looks at cast shadows; where none lights it, one does that is out of sight.
     """
-    lit = list(filter(None, (_lit_actor(one, description, strength) for one in actors)))
+    lit = []
+    for one in actors:
+        said, lamps = description.objects[one.object_index], _list_lamps(one)
+        lit += [LitActor(one, said.is_lit, said.blink_hz, strength, lamps)] if lamps else []
     rows = _still_lamps(items, strength)
     for row in rows:
         row[3:6] *= np.array(tint_of(description.light) or 1.0)
@@ -256,26 +243,24 @@ def plan_lamps(
     still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
     if description.light.shadows is not False and description.light.hardness != "soft":
         _choose_casters(lit, still, instant_s, focus)
-    return LampPlan(tuple(lit), still)
+    return LampPlan(description.light.lamps, tuple(lit), still)
 
 
-def _lit_actor(actor: Actor, description: SceneDescription, strength: float) -> LitActor | None:
-    """The lamps of an object; None where it has none that are on or said to be off."""
-    said, brightest = description.objects[actor.object_index], _brightest(actor)
-    lit, placed = LitActor(actor, said.is_lit, said.blink_hz, strength, brightest), actor.place(0.0)
-    is_seen = said.is_lit is False and any(brightest)
-    return lit if is_seen or any(lit.is_on(one) for _, _, one in lit.lamps_of(placed)) else None
-
-
-def _steady_rows(one: LitActor, time_s: float) -> Float64Array:
-    """[m, 15] its lamps as if they did not blink."""
-    steady = replace(one, blink_hz=1e-9)
-    return np.array(steady.rows(one.actor.place(time_s), 0.0)).reshape(-1, LAMP_COLUMNS)
+def _list_lamps(actor: Actor) -> tuple[tuple[int, float, Lamp], ...]:
+    """Its lamps, with the greatest emission of each over a few seconds, where that changes."""
+    kinds = LAMPS.get(actor.noun.name, ())
+    times = _LEVELS_S if any(lamp.own_hz > 0.0 for lamp in kinds) else _LEVELS_S[:1]
+    found = []
+    for index, states in enumerate(zip(*(actor.place(t).parts for t in times), strict=True)):
+        brightest = max(states, key=lambda part: part.emission)
+        lamp = lamp_of(actor.noun.name, brightest.colour) if brightest.emission > 0.0 else None
+        found += [(index, brightest.emission, lamp)] if lamp is not None else []
+    return tuple(found)
 
 
 def _lights_around(one: LitActor) -> bool:
     """Whether an object has a lamp that lights what is around it."""
-    rows = _steady_rows(one, 0.0)
+    rows = one.steady_rows(0.0)
     return any(row[10] < -1.0 and row[3:6].max() >= _LIGHTS_A_ROOM for row in rows)
 
 
@@ -291,31 +276,11 @@ def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64A
     return rows
 
 
-def _brightest(actor: Actor) -> tuple[float, ...]:
-    """Greatest emission of each part of an object over a few seconds, where it is a lamp."""
-    levels = []
-    changes = any(lamp.own_hz > 0.0 for lamp in LAMPS.get(actor.noun.name, ()))
-    for step in range(_LEVEL_INSTANTS if changes else 1):
-        parts = actor.place(_LEVEL_SPAN_S * step / _LEVEL_INSTANTS).parts
-        levels.append([
-            part.emission if lamp_of(actor.noun.name, part.colour) is not None else 0.0
-            for part in parts
-        ])  # fmt: skip
-    return tuple(max(column) for column in zip(*levels, strict=True))
-
-
 def _choose_casters(
     lit: list[LitActor], still: Float64Array, instant_s: float, focus: Float64Array
 ) -> None:
-    """Let the lamps that light the focus most cast shadows, all of one object or none.
-
-    Args:
-        lit: objects with lamps; changed.
-        still: [m, 15] lamps of the scenery; changed.
-        instant_s: when they are compared, s.
-        focus: [3] what the camera looks at, m.
-    """
-    choices = [(*_light_at(focus, _steady_rows(one, instant_s)), n) for n, one in enumerate(lit)]
+    """Let the lamps that light the focus [3] most cast shadows, all of one object or none."""
+    choices = [(*_light_at(focus, one.steady_rows(instant_s)), n) for n, one in enumerate(lit)]
     choices += [(*_light_at(focus, still[k : k + 1]), len(lit) + k) for k in range(len(still))]
     left = _MOST_CASTERS
     least = _FAINTEST_SHARE * max((light for light, _, _ in choices), default=0.0)

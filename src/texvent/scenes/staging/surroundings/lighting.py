@@ -1,4 +1,4 @@
-"""Light of a place: usual at its time of day, and as a scene says otherwise."""
+"""Light of a place at its time of day, as a scene says otherwise, and its modulation over time."""
 
 from __future__ import annotations
 
@@ -13,13 +13,11 @@ from texvent.scenes.models.places import Place
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Ground
 
 _WHITE: Colour = (1.0, 1.0, 1.0)
-_SOFT_SUN, _SOFT_SIDE_SUN = 0.45, 0.8
-"""Share of direct light that is left where light is soft, and where it is said where it comes from;
-the rest comes from all around."""
-_HARD_SUN, _HARD_AMBIENT = 1.4, 0.5
-_BRIGHT, _GLOOMY, _DIM = 1.35, 0.5, 0.22
-"""Factors on light."""
-_DIM_LAMPS = 0.35
+_HARDNESS = {"soft": (0.45, 1.0, 0.33), "soft side": (0.8, 1.0, 0.12), "hard": (1.4, 0.5, 0.0)}
+"""Factors on direct and on ambient light, and share of direct light that becomes ambient; of soft
+light that comes from a side there is more."""
+_BRIGHTNESS, _DIM, _DIM_LAMPS = {"bright": 1.35, "gloomy": 0.5}, 0.22, 0.35
+"""Factors on exposure, and strength of lamps in dim light."""
 _BACKLIT = 1.25
 """Exposure where things are lit from behind."""
 _GREYED = 0.6
@@ -162,38 +160,26 @@ def tint_of(light: Illumination) -> Colour | None:
 
 def _illuminate(lighting: Lighting, light: Illumination) -> Lighting:
     """Harder or softer, brighter or dimmer."""
-    if light.hardness == "soft":
-        left = _SOFT_SUN if light.direction is None else _SOFT_SIDE_SUN
-        spread = 0.6 * (1.0 - left)
-        lighting = replace(
-            lighting,
-            sun=_times(lighting.sun, (left,) * 3),
-            ambient=_plus(lighting.ambient, _times(lighting.sun, (spread,) * 3)),
-            shadows=False,
-        )
-    elif light.hardness == "hard":
-        lighting = replace(
-            lighting,
-            sun=_times(lighting.sun, (_HARD_SUN,) * 3),
-            ambient=_times(lighting.ambient, (_HARD_AMBIENT,) * 3),
-            shadows=True,
-        )
-    if light.brightness == "bright":
-        lighting = replace(lighting, exposure=_BRIGHT * lighting.exposure)
-    elif light.brightness == "gloomy":
-        lighting = replace(lighting, exposure=_GLOOMY * lighting.exposure)
-    elif light.brightness == "dim" and lighting.lamps <= 0.0:
-        lighting = replace(lighting, exposure=_DIM * lighting.exposure, lamps=_DIM_LAMPS)
-    return lighting
+    if light.hardness is not None:
+        is_side = light.hardness == "soft" and light.direction is not None
+        direct, around, spread = _HARDNESS["soft side" if is_side else light.hardness]
+        around_it, spread_sun = (around,) * 3, _times(lighting.sun, (spread,) * 3)
+        ambient = _plus(_times(lighting.ambient, around_it), spread_sun)
+        sun = _times(lighting.sun, (direct,) * 3)
+        is_hard = light.hardness == "hard"
+        lighting = replace(lighting, sun=sun, ambient=ambient, shadows=is_hard)
+    if light.brightness == "dim":
+        # Lamps that are on anyway are dim enough.
+        dimmed = replace(lighting, exposure=_DIM * lighting.exposure, lamps=_DIM_LAMPS)
+        return lighting if lighting.lamps > 0.0 else dimmed
+    factor = _BRIGHTNESS.get(light.brightness or "", 1.0)
+    return replace(lighting, exposure=factor * lighting.exposure)
 
 
 def towards_light(usual: Float64Array, looking: Float64Array, light: Illumination) -> Float64Array:
     """Unit vector [3] towards the sun, or a lamp out of sight, where words say where it is.
 
-    Args:
-        usual: [3] unit vector towards it where nothing is said.
-        looking: [3] unit vector that the camera looks along.
-        light: what is said.
+    `looking` is the unit vector [3] that the camera looks along.
     """
     if light.direction is None and not light.is_low:
         return usual
@@ -216,12 +202,7 @@ def hidden_lamp(
 ) -> Float64Array:
     """[15] a lamp out of sight, as in `Environment.lamps`, that lights the ground below it.
 
-    Args:
-        target: [3] what the camera looks at, m.
-        reach_m: distance of the camera.
-        strength: of artificial light, 0..1.
-        light: its colour and direction; warm where it has no colour.
-        looking: [3] unit vector that the camera looks along.
+    It is warm where it has no colour, and stands off the target [3] by shares of `reach_m`.
     """
     row, offset = np.zeros(LAMP_COLUMNS), _LAMP_OFFSET
     if light.direction is not None or light.is_low:
@@ -245,3 +226,54 @@ def _times(colour: Colour, factors: Colour) -> Colour:
 
 def _plus(first: Colour, second: Colour) -> Colour:
     return first[0] + second[0], first[1] + second[1], first[2] + second[2]
+
+
+ON_SHARES = {"square": 0.5, "switch": 0.5, "strobe": 0.35}
+"""Wave that goes on and off → share of a period that it is on."""
+DEPTHS = {"sine": 0.8, "switch": 0.9, "strobe": 0.96}
+"""Wave of the light of a place → share of it that is gone at its darkest."""
+FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
+"""Sines that make a flame flicker: multiple of its frequency, and amplitude."""
+STROKE_HZ = 11.0
+"""Strokes of lightning that follow each other fastest, per second."""
+_FLASH_EVERY_S, _FIRST_S, _DECAY_S = 0.85, 0.3, 0.09
+_STROKES = ((0.0, 1.0), (0.09, 0.55), (0.20, 0.85))
+"""Strokes of one flash: seconds after its start, and brightness."""
+
+
+def wave_level(wave: str, cycles: float, *, phase: float = 0.0, number: int = 0) -> float:
+    """Share of full light after so many periods since t = 0; 1 at their beginning.
+
+    `phase`, 0..1, is that of a flame; of a beam that rotates every second lamp of an object, by its
+    `number`, is seen half a turn later.
+    """
+    turn = 2.0 * math.pi
+    if wave in ON_SHARES:
+        return float(cycles % 1.0 < ON_SHARES[wave])
+    if wave == "flame":
+        return 1.0 + sum(
+            share * math.sin(turn * (multiple * cycles + phase * (1.0 + multiple)))
+            for multiple, share in FLAME_SHARES
+        )
+    if wave == "rotating":
+        return max(math.cos(turn * cycles + math.pi * number), 0.0) ** 2
+    return 0.5 + 0.5 * math.cos(turn * cycles)
+
+
+def flash_number(time_s: float) -> int:
+    """Number of the last flash of lightning that has begun; -1 = none."""
+    return math.floor((time_s - _FIRST_S) / _FLASH_EVERY_S)
+
+
+def lightning_level(time_s: float) -> float:
+    """Light of lightning at that instant, 0 = dark .. 1 = the brightest stroke.
+
+    Example:
+        >>> lightning_level(0.0), lightning_level(0.3)
+        (0.0, 1.0)
+    """
+    number = flash_number(time_s)
+    age = time_s - _FIRST_S - number * _FLASH_EVERY_S
+    levels = (light * math.exp((start - age) / _DECAY_S) for start, light in _STROKES
+              if age >= start)  # fmt: skip
+    return max(levels) if number >= 0 else 0.0

@@ -1,1 +1,0 @@
-"""Light of the sky, of lamps and of lightning."""
