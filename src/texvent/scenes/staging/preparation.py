@@ -1,4 +1,4 @@
-"""What staging must settle before anything is placed: a followed subject moves."""
+"""What staging settles before anything is placed: a followed subject moves; levels of flight."""
 
 from __future__ import annotations
 
@@ -8,13 +8,20 @@ from dataclasses import replace
 
 from texvent.errors import InputError
 from texvent.scenes.description import ObjectMotion, SceneDescription
+from texvent.scenes.models.nouns import AFLOAT
+from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.traits import nouns_with
-from texvent.scenes.staging.trajectories.schedule import left_out
+from texvent.scenes.scene import Ground
+from texvent.scenes.staging.trajectories.phases import left_out
 
 _PLACES_TO_GO = frozenset(
     {"drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "float"}
 )
+_OFF_THE_BED = 0.5
+"""How high people swim above the bed of the sea, as a multiple of their height."""
+_SUNK = -0.18
+"""Height of the origin of what swims at the surface, in its sizes."""
 
 
 def prepare(
@@ -79,3 +86,24 @@ def _face_passages(description: SceneDescription) -> SceneDescription:
             turned = replace(motion, direction="towards")
             objects[relation.subject] = replace(objects[relation.subject], motion=turned)
     return replace(description, objects=tuple(objects))
+
+
+def choose_levels(
+    place: Place, description: SceneDescription, nouns: Mapping[str, Noun]
+) -> dict[str, float]:
+    """Height of origins above the ground: habitat or noun → multiple of an object's size.
+
+    "clear" is in metres, on top of that, for what flies.
+    """
+    if place.ground is Ground.NONE:
+        everything = {nouns[scene_object.noun].name: 0.0 for scene_object in description.objects}
+        return {"air": 2.0, "water": 0.0, **everything}
+    levels = {"air": 1.5, "water": 0.5, "clear": place.flight_m}
+    if place.ground is Ground.UNDERWATER:
+        swimming = [one for one in description.objects if one.motion and one.motion.kind == "swim"]
+        divers = [one.noun for one in swimming if nouns[one.noun].habitat == "ground"]
+        return {**levels, "water": 0.9, **dict.fromkeys(divers, _OFF_THE_BED)}
+    if place.ground is Ground.SEA or place.has_shore:
+        swimmers = {noun.name: _SUNK for noun in nouns.values() if noun.habitat == "water"}
+        return {**levels, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
+    return {**levels, **dict.fromkeys(AFLOAT, 0.25)}

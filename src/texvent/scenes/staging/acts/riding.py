@@ -13,8 +13,15 @@ from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.support_surface import find_support, top_heights
 from texvent.scenes.models.traits import trait_value
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.acts import Cast, foot_of, hides_riders, is_person, scaled, size_of
-from texvent.scenes.staging.acts.attached import Performed
+from texvent.scenes.staging.acts.acts import (
+    Cast,
+    Performed,
+    foot_of,
+    hides_riders,
+    is_person,
+    scaled,
+    size_of,
+)
 from texvent.scenes.staging.acts.holding import Grips
 from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory, Vector
 
@@ -52,8 +59,6 @@ def board(cast: Cast, relations: Sequence[Relation]) -> None:
 def _seat(cast: Cast, rider: int, at: int, number: int, crew: int) -> None:
     subject, ridden = cast.get(rider), cast.get(at)
     is_own = number == 0 and is_person(subject) and style_of(ridden) == "built-in"
-    if is_own:
-        cast.stood_in[subject.object_index] = at
     if is_own or hides_riders(ridden.noun):
         cast.put(rider, None)
     elif number < count_seats(ridden):

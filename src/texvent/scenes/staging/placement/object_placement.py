@@ -15,7 +15,7 @@ from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.attached import OnPart
+from texvent.scenes.staging.acts.acts import OnPart
 from texvent.scenes.staging.acts.perform import perform_acts
 from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan

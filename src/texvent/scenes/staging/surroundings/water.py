@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from texvent.scenes.models.places import Place
 from texvent.scenes.scene import Ground
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.attached import HeldAt
+from texvent.scenes.staging.acts.acts import HeldAt
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.surroundings.road import RoadLine
 

@@ -26,7 +26,6 @@ from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, a
 from texvent.scenes.staging.trajectories.steered_path import (
     Piece,
     SteeredPath,
-    bend_path,
     flight_s,
 )
 from texvent.scenes.staging.trajectories.trajectory import (
@@ -51,8 +50,6 @@ _STUNTS: Mapping[str, tuple[Axis, float, str, float]] = {
 """Motion → axis, turns per second, what limbs do meanwhile, and how high it is, in its sizes."""
 _LARGEST_AFLOAT_M = 2.5
 """What is larger bobs no more than that: a moon, a cloud."""
-_DRIFT_TURN_RAD, _SLIP_RAD = 1.3, 0.62
-"""Change of heading of a car that drifts, over the clip; from where it goes to where it points."""
 _ROUND_RAD, _ROUND_RAD_S = 2.6, 1.3
 """Angle of the round that what goes in a circle covers in a clip at least, and the rate up to which
 it turns for that."""
@@ -96,8 +93,6 @@ def choose_trajectory(
         return _go_round(plan, model, home, phase)
     if direction in ("to and fro", "up and down") and kind != "sway":
         return _go_and_return(plan, model, home)
-    if kind == "drift":
-        return _drift(plan, home)
     if kind in PATH_KINDS:
         return _follow_path(plan, model, home, phase)
     if kind in ("bounce", "fall", "throw"):
@@ -154,15 +149,6 @@ def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
     place = _raised(home, reach) if is_vertical else home
     path = Shuttle(place, yaw, reach, period_s, activity_of(kind), is_vertical)
     return Facing(path) if plan.is_facing else path
-
-
-def _drift(plan: MotionPlan, home: Vector) -> Trajectory:
-    """Round a bend to its left, its front turned further left than it goes."""
-    speed, duration_s = 1.2 * plan.speed_m_s, plan.duration_s
-    path = bend_path(plan.yaw, speed, _DRIFT_TURN_RAD / (duration_s * speed), duration_s)
-    x, y, _ = path.start
-    start = (x + home[0], y + home[1], home[2])
-    return replace(path, start=start, floor_m=home[2], slip_rad=_SLIP_RAD)
 
 
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:

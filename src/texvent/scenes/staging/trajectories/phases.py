@@ -1,15 +1,15 @@
-"""What an object does one after the other, as the pieces of one continuous path."""
+"""What an object does one after the other: when, and as the pieces of one continuous path."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
+from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.traits import nouns_with
-from texvent.scenes.staging.trajectories.schedule import Phase, schedule
 from texvent.scenes.staging.trajectories.steered_path import (
     HOP_PAUSE_S,
     Piece,
@@ -19,13 +19,11 @@ from texvent.scenes.staging.trajectories.steered_path import (
     flight_s,
 )
 
-PATH_KINDS = TRAVELLING | frozenset(
-    {"drive", "fly", "sail", "paddle", "slide", "roll", "move", "drift"}
-)
+PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""
 GOING = PATH_KINDS | {"reverse", "enter", "leave", "appear"}
 """Those with a direction of travel."""
-_STEERED = GOING | {"turn", "zigzag", "park"}
+_STEERED = GOING | {"turn"}
 _PIECED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
 
 YAWS = {
@@ -38,10 +36,10 @@ YAWS = {
     "down": -0.5 * math.pi,
 }
 """Direction → heading; up and down are along a slope for what moves on the ground."""
-_STEERED_DIRECTIONS = frozenset({"backward", "around", "eight"})
+_STEERED_DIRECTIONS = frozenset({"backward", "around"})
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
-QUARTER, ZIGZAG_RAD = 0.5 * math.pi, 0.55
+QUARTER = 0.5 * math.pi
 _TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
 """Shares of a phase that a turn takes where it is all that happens, for it comes and goes on; and
 that the turn to another direction takes."""
@@ -62,6 +60,51 @@ _SUNK = 0.8
 _CLOCKWISE = frozenset({"clockwise", "right"})
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
+
+
+@dataclass(frozen=True)
+class Phase:
+    """One motion and when it happens, s."""
+
+    motion: ObjectMotion
+    start_s: float
+    end_s: float
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the phase, s."""
+        return self.end_s - self.start_s
+
+
+def schedule(motions: Sequence[ObjectMotion], duration_s: float) -> list[Phase]:
+    """When each motion happens: where the prompt says so, else in even shares of the time.
+
+    Motions that would begin at the end of the clip or later are left out.
+    """
+    motions = list(motions)
+    if motions[0].start_s:
+        motions.insert(0, STANDING)
+    known = [motion.start_s for motion in motions]
+    starts = [0.0]
+    for number in range(1, len(motions)):
+        start = known[number]
+        if start is None:
+            later = next((n for n in range(number, len(known)) if known[n] is not None), len(known))
+            after = known[later] if later < len(known) else duration_s
+            start = starts[-1] + max((after or 0.0) - starts[-1], 0.0) / (later - number + 1)
+        starts.append(max(start, starts[-1]))
+    starts.append(duration_s)
+    times = [min(start, duration_s) for start in starts]
+    shown = [
+        Phase(motion, begin, max(end, begin))
+        for motion, begin, end in zip(motions, times, times[1:], strict=False)
+    ]
+    return [phase for phase in shown if phase.duration_s > 1e-6 * duration_s]
+
+
+def left_out(motions: Sequence[ObjectMotion], duration_s: float) -> list[ObjectMotion]:
+    """Motions that would begin when the clip is over."""
+    return [m for m in motions if m.start_s is not None and m.start_s >= duration_s]
 
 
 def needs_steering(motions: Sequence[ObjectMotion]) -> bool:
@@ -110,7 +153,7 @@ def build_path(
         builder.add(phase)
     path = SteeredPath(
         (0.0, 0.0, builder.initial_height),
-        yaw + builder.initial_yaw,
+        yaw,
         tuple(builder.pieces),
         builder.initial_speed,
         builder.initial_turn,
@@ -130,8 +173,6 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
         motion = phase.motion
         if motion.speed_m_s is not None:
             continue
-        if motion.kind == "park":
-            needed = max(needed, QUARTER * radius / (0.45 * phase.duration_s))
         if motion.kind in ("enter", "leave"):
             needed = max(needed, 2.0 * model.length / phase.duration_s)
         if motion.kind == "turn" or motion.direction == "around":
@@ -156,7 +197,6 @@ class _Builder:
         self.pieces: list[Piece] = []
         self.initial_speed = 0.0
         self.initial_turn = 0.0
-        self.initial_yaw = 0.0
         self.initial_height = 0.0
 
     def add(self, phase: Phase) -> None:
@@ -219,7 +259,7 @@ class _Builder:
     def _travel(self, motion: ObjectMotion, span: float) -> None:
         """Along segments, straight or turning, at the end of which it may change its speed."""
         speed, activity = self._speed(motion), activity_of(motion.kind)
-        end = 0.0 if motion.kind == "park" else self._end_speed(motion, speed)
+        end = self._end_speed(motion, speed)
         slope = {"up": _CLIMB, "down": -_CLIMB}.get(motion.direction or "", 0.0)
         climb = slope * abs(speed) if self._is_free else 0.0
         if motion.direction == "circle":
@@ -234,9 +274,7 @@ class _Builder:
         last_s = segments.pop()[0] * span if end is not None else 0.0
         for share, turn in segments:
             if turn:
-                is_weaving = motion.kind == "zigzag"
-                least = 0.0 if is_weaving else least_radius(self._model, self._noun)
-                for one in arc(share * span, speed, turn, least):
+                for one in arc(share * span, speed, turn, least_radius(self._model, self._noun)):
                     self._append(one.duration_s, speed, one.turn_rad_s, ramp=one.ramp_s,
                                  activity=activity)  # fmt: skip
             else:
@@ -251,22 +289,10 @@ class _Builder:
 
     def _choose_segments(self, motion: ObjectMotion, span: float) -> list[tuple[float, float]]:
         """Shares of the time, and by what angle each one turns, rad."""
-        kind, direction = motion.kind, motion.direction
+        direction = motion.direction
         angle = math.pi if direction == "around" else QUARTER
         angle = -angle if direction in _CLOCKWISE else angle
-        if kind == "zigzag":
-            count = max(2, round(span / 0.8))
-            turns = [2.0 * ZIGZAG_RAD * (-1.0) ** number for number in range(count)]
-            if self.pieces:
-                turns[0] = ZIGZAG_RAD
-            else:
-                self.initial_yaw = -ZIGZAG_RAD
-            return [(1.0 / count, turn) for turn in turns]
-        if kind == "park":
-            return [(0.2, 0.0), (0.45, angle), (0.35, 0.0)]
-        if direction == "eight":
-            return [(0.5, 2.0 * math.pi), (0.5, -2.0 * math.pi)]
-        if kind == "turn" or direction == "around":
+        if motion.kind == "turn" or direction == "around":
             lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
             turning = [(1.0 - 2.0 * lead, angle)]
             return [(lead, 0.0), *turning, (lead, 0.0)] if lead else turning
@@ -341,11 +367,8 @@ class _Builder:
         if self.pieces and motion.kind == "stand":
             activity = self.pieces[-1].activity  # wheels and legs go on until it stands
         pitch = self.pieces[-1].pitch_rad if self.pieces else 0.0
-        sway = 0.2 if motion.kind == "sway" else 0.0
         ramp = min(braking, 0.9 * span)
-        self.pieces.append(
-            Piece(span, ramp_s=ramp, activity=activity, pitch_rad=pitch, sway_rad=sway)
-        )
+        self.pieces.append(Piece(span, ramp_s=ramp, activity=activity, pitch_rad=pitch))
 
 
 def activity_of(kind: str) -> str:

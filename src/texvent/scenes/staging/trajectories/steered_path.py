@@ -44,8 +44,6 @@ class Piece:
     """Whether it falls to the floor, with small bounces."""
     pitch_rad: float = 0.0
     """Pitch of the body at its end, as of a person who falls over."""
-    sway_rad: float = 0.0
-    """Amplitude of leaning from side to side."""
 
     @property
     def rates(self) -> tuple[float, float, float, float]:
@@ -82,8 +80,6 @@ class SteeredPath:
     restitution: float = 0.3
     side_m: float = 0.0
     """Half the width of what falls onto its side; 0 = it falls forwards."""
-    slip_rad: float = 0.0
-    """From where it goes to where it points, as of a car that drifts; positive = to its left."""
 
     @property
     def duration_s(self) -> float:
@@ -102,16 +98,13 @@ class SteeredPath:
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        number, knot, piece, elapsed = self._find(time_s)
+        knot, piece, elapsed = self._find(time_s)
         now = self._advance(knot, piece, elapsed)
         speed, turn, climb, pitch = now.rates
         (x, y, height), roll, act_s = now.place, 0.0, None
-        if 0.0 <= elapsed <= piece.duration_s and number >= 0:
-            if piece.hop_m > 0.0:
-                hop, act_s = _hop(piece, elapsed)
-                height += hop
-            share = elapsed / piece.duration_s
-            roll += piece.sway_rad * math.sin(math.pi * share) ** 2 * math.sin(9.0 * elapsed)
+        if piece.hop_m > 0.0 and 0.0 <= elapsed <= piece.duration_s:
+            hop, act_s = _hop(piece, elapsed)
+            height += hop
         if self.side_m > 0.0:
             height += self.side_m * math.sin(pitch)
             pitch, roll = 0.0, roll + pitch
@@ -120,7 +113,7 @@ class SteeredPath:
         roll -= math.atan(self.lean * speed * turn / GRAVITY_M_S2)
         return BodyState(
             (x, y, height),
-            now.heading + self.slip_rad,
+            now.heading,
             pitch,
             roll,
             distance_m=now.distance_m,
@@ -131,19 +124,19 @@ class SteeredPath:
 
     def distance_at(self, time_s: float) -> float:
         """Way covered since t = 0, forwards less backwards, m."""
-        _, knot, piece, elapsed = self._find(time_s)
+        knot, piece, elapsed = self._find(time_s)
         return knot.distance_m + _integral(knot.rates[0], piece.speed_m_s, _ramp(piece), elapsed)
 
-    def _find(self, time_s: float) -> tuple[int, _Knot, Piece, float]:
-        """The piece that holds an instant: its number, its beginning, itself, and time in it."""
+    def _find(self, time_s: float) -> tuple[_Knot, Piece, float]:
+        """The piece that holds an instant: its beginning, itself, and time in it."""
         knots = self._knots
         if time_s < 0.0:
             speed = self.initial_speed_m_s
             steady = Piece(1.0, speed, activity=self.pieces[0].activity)
-            return -1, knots[0]._replace(rates=(speed, 0.0, 0.0, 0.0)), steady, time_s
+            return knots[0]._replace(rates=(speed, 0.0, 0.0, 0.0)), steady, time_s
         for number, piece in enumerate(self.pieces):
             if time_s < knots[number + 1].time_s or number == len(self.pieces) - 1:
-                return number, knots[number], piece, time_s - knots[number].time_s
+                return knots[number], piece, time_s - knots[number].time_s
         raise AssertionError("a path has at least one piece")
 
     def _advance(self, knot: _Knot, piece: Piece, elapsed: float) -> _Knot:
