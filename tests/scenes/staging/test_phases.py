@@ -11,24 +11,12 @@ from hypothesis import strategies as st
 
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.staging.trajectories.phases import build_path
-from texvent.scenes.staging.trajectories.schedule import left_out, schedule
+from texvent.scenes.staging.trajectories.phases import build_path, left_out, schedule
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 
-KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "zigzag", "spin", "rise", "sink",
-         "jump", "bounce", "fall", "topple", "park", "stand", "sit", "sway", "hover")  # fmt: skip
-DIRECTIONS = (
-    None,
-    "left",
-    "right",
-    "towards",
-    "away",
-    "backward",
-    "around",
-    "circle",
-    "eight",
-    "up",
-)
+KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
+         "jump", "bounce", "fall", "topple", "stand", "sit", "sway", "hover")  # fmt: skip
+DIRECTIONS = (None, "left", "right", "towards", "away", "backward", "around", "circle", "up")
 motions = st.builds(
     ObjectMotion,
     st.sampled_from(KINDS),
@@ -161,18 +149,3 @@ def test_an_airplane_takes_off_along_a_runway_and_lands_on_it() -> None:
     down = path_of(ObjectMotion("sink"), noun="airplane", speed=20.0)
     assert down.at(0.0).position[2] > 3.0
     assert down.at(4.0).position[2] == pytest.approx(0.0, abs=0.1)
-
-
-def test_an_eight_comes_back_and_bends_both_ways() -> None:
-    path = path_of(ObjectMotion("walk", "eight"), noun="man", speed=1.4)
-    assert path.at(4.0).position == pytest.approx(path.at(0.0).position, abs=0.9)
-    assert path.at(1.0).yaw > path.at(0.0).yaw
-    assert path.at(3.0).yaw < path.at(2.0).yaw
-
-
-def test_a_zigzag_goes_on_in_its_direction() -> None:
-    path = path_of(ObjectMotion("zigzag"), noun="man", speed=1.4)
-    yaws = [path.at(float(time_s)).yaw for time_s in np.linspace(0.0, 4.0, 81)]
-    assert min(yaws) < -0.4 < 0.4 < max(yaws)
-    start, end = path.at(0.0).position, path.at(4.0).position
-    assert abs(end[1] - start[1]) < 0.3 * (end[0] - start[0])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from texvent.scenes.staging.trajectories.steered_path import (
     Lagging,
     Piece,
     SteeredPath,
-    bend_path,
 )
 
 pieces = st.builds(
@@ -27,7 +25,6 @@ pieces = st.builds(
     hop_m=st.sampled_from([0.0, 0.0, 0.3]),
     is_dropped=st.booleans(),
     pitch_rad=st.sampled_from([0.0, 0.0, 1.5]),
-    sway_rad=st.sampled_from([0.0, 0.2]),
 )
 paths = st.builds(
     SteeredPath,
@@ -103,10 +100,3 @@ def test_a_hop_rises_to_its_height_and_says_when_it_is_there() -> None:
     assert highest.position[2] == pytest.approx(0.4, rel=1e-3)
     assert highest.act_s == pytest.approx(0.0, abs=1e-3)
     assert min(one.position[2] for one in states) == 0.0
-
-
-def test_what_slips_points_into_the_bend() -> None:
-    path = bend_path(0.0, 5.0, 0.05, 2.0)
-    slipping = replace(path, slip_rad=0.6)
-    assert slipping.at(1.0).position == path.at(1.0).position
-    assert slipping.at(1.0).yaw - path.at(1.0).yaw == pytest.approx(0.6)
