@@ -80,23 +80,11 @@ def test_a_car_turns_a_quarter_circle_and_drives_on(direction: str, sign: float)
     assert path.at(4.0).speed_m_s == path.at(0.0).speed_m_s
 
 
-def test_a_car_that_turns_and_stops_ends_at_rest() -> None:
-    path = path_of(ObjectMotion("turn", "left"), ObjectMotion("stand"))
-    assert path.at(4.0).speed_m_s == 0.0
-    assert path.at(1.0).speed_m_s > 3.0
-
-
 def test_a_car_that_reverses_moves_against_its_heading() -> None:
     path = path_of(ObjectMotion("drive", "backward"))
     assert path.at(4.0).position[0] < path.at(0.0).position[0] - 10.0
     assert path.at(2.0).yaw == path.at(0.0).yaw == 0.0
     assert path.at(4.0).distance_m < 0.0
-
-
-def test_turning_round_ends_with_the_opposite_heading() -> None:
-    path = path_of(ObjectMotion("walk"), ObjectMotion("turn", "around"), ObjectMotion("walk"),
-                   noun="man", speed=1.4)  # fmt: skip
-    assert math.cos(path.at(4.0).yaw) == pytest.approx(-1.0)
 
 
 def test_a_later_direction_is_one_in_the_picture() -> None:
@@ -119,12 +107,6 @@ def test_accelerating_and_braking_end_at_the_end_pace() -> None:
     assert (faster.at(0.0).speed_m_s, faster.at(4.0).speed_m_s) == (4.0, 8.0)
     braking = path_of(ObjectMotion("drive", end_pace=0.0))
     assert braking.at(4.0).speed_m_s == 0.0
-
-
-def test_what_falls_over_lies_on_the_ground() -> None:
-    path = path_of(ObjectMotion("walk"), ObjectMotion("fall"), noun="man", speed=1.4)
-    assert path.at(4.0).pitch == pytest.approx(0.5 * math.pi)
-    assert path.at(1.9).pitch == 0.0
 
 
 def test_a_domino_topples_to_its_front_and_stays_down() -> None:

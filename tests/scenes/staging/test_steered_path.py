@@ -58,14 +58,6 @@ def test_the_velocity_is_the_speed_along_the_heading(path: SteeredPath, time_s: 
     assert abs(signed) == pytest.approx(middle.speed_m_s, abs=1e-2)
 
 
-def test_a_quarter_circle_ends_where_geometry_says() -> None:
-    turn = 0.5 * math.pi / 2.0
-    path = SteeredPath((0.0, 0.0, 0.0), 0.0, (Piece(2.0, 6.0, turn, ramp_s=0.0),), 6.0)
-    radius = 6.0 / turn
-    assert path.at(2.0).position == pytest.approx((radius, radius, 0.0))
-    assert path.at(2.0).yaw == pytest.approx(0.5 * math.pi)
-
-
 def test_the_quadrature_agrees_with_many_small_steps() -> None:
     path = SteeredPath((0.0, 0.0, 0.0), 0.3, (Piece(3.0, 8.0, 4.0, ramp_s=3.0),), 1.0)
     times = np.linspace(0.0, 3.0, 20001)

@@ -9,9 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.models.people.outfit import CLOTHES
-from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import Affine, shift
-from texvent.scenes.models.support_surface import top_heights
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.acts import (
@@ -201,20 +199,9 @@ def along_tool(thing: Actor) -> Affine:
         return np.column_stack([rotation(0.0, 0.0, 0.5 * math.pi), [0.0, 0.0, 0.36 * model.width]])
     if model.length < 2.0 * model.height:
         return shift(0.0, 0.0, foot_of(thing) - 0.12 * model.height)
-    turn = rotation(0.0, 0.5 * math.pi * _handle_side(model), 0.0)
+    side = -1.0 if thing.noun.name in nouns_with("handle at the rear") else 1.0
+    turn = rotation(0.0, 0.5 * math.pi * side, 0.0)
     return np.column_stack([turn, [0.0, 0.0, 0.38 * model.length]])
-
-
-def _handle_side(model: Model) -> float:
-    """+1 where the handle, the thinner half, is at +x, else -1."""
-    parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
-    along = np.linspace(0.30, 0.48, 7) * model.length
-    across = np.linspace(0.0, 0.5, 24) * model.width
-    spread = []
-    for sign in (1.0, -1.0):
-        x, y = (axis.ravel() for axis in np.meshgrid(sign * along, across))
-        spread.append(int(np.isfinite(top_heights(parts, x, y)).sum()))
-    return 1.0 if spread[0] < spread[1] else -1.0
 
 
 def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:

@@ -34,7 +34,7 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Switched,
     about_pivot,
 )
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath, flight_s
+from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
     Stationary,
@@ -201,18 +201,8 @@ def _fly_off(
 
 
 def _stand_and_catch(catcher: Actor, home: Vector, yaw: float, catch_s: float) -> Actor:
-    """Who catches, facing the thing; an animal jumps for it."""
-    if is_person(catcher):
-        path = Performed(Stationary(home, yaw), "catch", contact_s=catch_s)
-        return moving(catcher, path)
-    height = 0.4 * catcher.model.height
-    flight = flight_s(height)
-    pieces = (
-        Piece(max(catch_s - 0.5 * flight, 1e-3), activity="stand"),
-        Piece(flight, activity="stand", hop_m=height),
-        Piece(0.1, activity="stand"),
-    )
-    return moving(catcher, SteeredPath(home, yaw, pieces, floor_m=home[2]))
+    """Who catches, facing the thing."""
+    return moving(catcher, Performed(Stationary(home, yaw), "catch", contact_s=catch_s))
 
 
 def _catching(catcher: Actor, thing: Actor) -> tuple[str, Affine]:
