@@ -104,8 +104,6 @@ def mount(rider: Actor, ridden: Actor, number: int = 0, crew: int = 1) -> Actor:
         props = list_props(doing) if style == "paddled" and ridden.is_mover else ()
         if style == "astride":
             seat, grips = _astride_back(ridden, size, behind * posture["apart"])
-        elif style == "on skis":
-            seat = (0.0, 0.0, 0.0)
         elif style == "at a bar":
             x, z = 0.42 * ridden.model.length, 0.9 * ridden.model.height
             seat = (-0.08, 0.0, 0.1 * ridden.model.height)
