@@ -64,24 +64,6 @@ def test_what_moves_up_and_down_at_a_rate_stays_above_the_ground() -> None:
     assert turns == 4
 
 
-def test_a_disc_works_the_way_that_is_said() -> None:
-    turns = {
-        way: actor("spinning disc", ObjectMotion("work", way)).trajectory.at(0.5).tempo
-        for way in ("clockwise", "counter-clockwise")
-    }
-    assert turns["clockwise"] == -turns["counter-clockwise"] != 0.0
-
-
-def test_what_accelerates_to_a_side_crosses_the_picture_of_a_camera_that_rests() -> None:
-    scene = stage("sphere", ObjectMotion("move", "right", end_pace=2.0))
-    places = []
-    for time in (0.0, DURATION_S):
-        camera = scene.camera_path.at(time)
-        seen = camera.rotation @ (scene.actors[0].middle(time) - camera.position)
-        places.append(camera.focal * seen[0] / seen[2])
-    assert places[1] - places[0] > 0.15
-
-
 def test_a_barrel_that_rolls_and_stops_turns_as_far_as_it_goes() -> None:
     barrel = actor("barrel", ObjectMotion("roll", "right"), ObjectMotion("stand"))
     first, last = (barrel.trajectory.at(time) for time in (0.0, DURATION_S))

@@ -15,7 +15,6 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Spin,
     Swing,
     Wave,
-    about_pivot,
     bounce_height,
     hover,
 )
@@ -28,7 +27,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Stationary,
     Straight,
     Trajectory,
-    rotation,
 )
 
 STRAIGHT = Straight((1.0, 2.0, 0.0), math.pi, 4.0, 1.0)
@@ -71,13 +69,6 @@ def test_distance_never_falls_and_matches_the_path_on_the_ground(name: str) -> N
         assert distance[-1] - distance[0] == pytest.approx(path, rel=1e-3)
 
 
-@pytest.mark.parametrize("name", TRAJECTORIES)
-def test_body_maps_are_rotations(name: str) -> None:
-    turn = TRAJECTORIES[name].at(1.234).to_world()[:, :3]
-    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
-    assert np.linalg.det(turn) == pytest.approx(1.0)
-
-
 def test_a_rolling_ball_does_not_slide() -> None:
     """The point that touches the ground stands still: v = ω r."""
     ball = TRAJECTORIES["rolling"]
@@ -112,13 +103,6 @@ def test_an_arc_goes_from_one_state_to_the_other_under_gravity() -> None:
     assert np.diff(heights, 2) == pytest.approx(-GRAVITY_M_S2 * 0.01)
 
 
-def test_a_body_is_the_same_whatever_its_pivot() -> None:
-    state = BodyState((1.0, 2.0, 3.0), 0.3, -0.4, 1.2)
-    moved = about_pivot(state, 0.7)
-    assert moved.pivot_m == 0.7
-    np.testing.assert_allclose(moved.to_world(), state.to_world(), atol=1e-12)
-
-
 def test_a_pendulum_has_the_period_of_its_length() -> None:
     swing = Swing((0.0, 0.0, 1.0), 1.5, 0.3)
     period = 2.0 * math.pi * math.sqrt(1.5 / GRAVITY_M_S2)
@@ -126,10 +110,3 @@ def test_a_pendulum_has_the_period_of_its_length() -> None:
     assert swing.at(0.5 * period).pitch == pytest.approx(-0.3)
     top = np.array([0.0, 0.0, 1.5, 1.0])
     np.testing.assert_allclose(swing.at(0.7).to_world() @ top, [0.0, 0.0, 2.5], atol=1e-12)
-
-
-def test_a_circling_body_faces_along_its_path() -> None:
-    circle = Circle((0.0, 0.0, 0.0), 2.0, -1.5)
-    step = np.subtract(circle.at(0.3 + 1e-6).position, circle.at(0.3).position)
-    nose = rotation(circle.at(0.3).yaw, 0.0, 0.0) @ [1.0, 0.0, 0.0]
-    np.testing.assert_allclose(step / np.linalg.norm(step), nose, atol=1e-5)

@@ -37,10 +37,6 @@ _OFF_THE_BED = 0.5
 _SUNK = -0.18
 """Height of the origin of what swims at the surface, in its sizes."""
 _IDLE = frozenset({"stand", "sit", "sail", "drive"})
-_ACT_OF_ACTIVITY = {
-    "kick": "kick", "throw": "throw", "catch": "catch", "swing bat": "hit", "swing racket": "hit",
-    "swing club": "hit",
-}  # fmt: skip
 
 
 def prepare(
@@ -215,28 +211,17 @@ def _holds_tool(relation: Relation, objects: Sequence[SceneObject]) -> bool:
 
 
 def _implied_acts(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
-    """Who plays a guitar that the prompt names holds that one; who kicks kicks its ball."""
-    acts = [one for one in relations if one.kind in ACTS]
-    bound = {target for one in acts for target in one.targets}
+    """Who plays a guitar that the scene names holds that one."""
+    bound = {target for one in relations if one.kind in ACTS for target in one.targets}
     found: list[Relation] = []
-
-    def bind(kind: str, index: int, names: Sequence[str] | frozenset[str]) -> None:
-        free = [n for n, one in enumerate(objects) if one.noun in names and n not in bound]
-        if free:
-            found.append(Relation(kind, index, (free[0],)))
-            bound.add(free[0])
-
     for index, person in enumerate(objects):
-        if person.noun not in PERSON_NOUNS or person.motion is None:
-            continue
-        act = _ACT_OF_ACTIVITY.get(person.motion.kind)
-        own = [one for one in acts if one.subject == index and one.kind != "wear"]
-        if act is not None and all(_holds_tool(one, objects) for one in own):
-            bind(act, index, nouns_with("played with"))
-        for motion in (person.motion, *person.then):
-            for prop in list_props(motion.kind):
-                if prop.anchor != "ground" and not prop.is_own:
-                    bind("hold", index, prop.nouns)
+        motions = [person.motion, *person.then] if person.noun in PERSON_NOUNS else []
+        props = [prop for motion in motions if motion for prop in list_props(motion.kind)]
+        for prop in props:
+            free = [n for n, one in enumerate(objects) if one.noun in prop.nouns and n not in bound]
+            if free and prop.anchor != "ground" and not prop.is_own:
+                found.append(Relation("hold", index, (free[0],)))
+                bound.add(free[0])
     return found
 
 

@@ -12,7 +12,6 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.models.people.activities import ACTIVITIES
-from texvent.scenes.models.people.person import RUN_UP
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.shapes import Affine, bounds, moved, shift
 from texvent.scenes.models.traits import trait_value
@@ -50,8 +49,6 @@ _REACH_S = 0.85
 """Longest flight towards who catches, s."""
 _LOFT = {"kick": 0.45, "throw": 0.35, "hit": 0.45}
 """Upward speed of what flies off, as a share of its speed along the ground."""
-_STOP_BEFORE_S, _SLOWING_S, _RUN_UP_M_S = 0.25, 0.5, 1.7
-"""A run-up ends so long before the kick, and slows down so long before that."""
 _TURN_ROUND_S = 0.08
 """How long the speed takes to change at the contact."""
 _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
@@ -76,12 +73,11 @@ def heading_of(yaw: float) -> Float64Array:
 
 
 def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
-    """A run-up, the foot meets the thing, the thing flies."""
+    """The foot meets the thing, the thing flies."""
     contact_s, home = contact_time(duration_s), subject.trajectory.at(0.0)
-    if is_person(subject):
-        subject = _approach(subject, home, contact_s)
-    else:
-        subject = moving(subject, Stationary(home.position, home.yaw, "stand"))
+    activity = "kick" if is_person(subject) else "stand"
+    path = Performed(Stationary(home.position, home.yaw), activity, contact_s=contact_s)
+    subject = moving(subject, path)
     tip, heading = subject.anchor("right foot", contact_s)[:, 3], heading_of(home.yaw)
     radius, low = 0.5 * thing.model.length, home.position[2]
     inset = 0.0
@@ -162,21 +158,6 @@ def hit(
     if tool is not None:
         tool = _on_its_way(tool, HeldAt(subject, "right hand", along_tool(tool)))
     return subject, _on_its_way(thing, whole), tool
-
-
-def _approach(subject: Actor, home: BodyState, contact_s: float) -> Actor:
-    """Walks up to its home, slows down, stands, and kicks.
-
-    The standing foot is in the middle of its stance then, the other one in the air.
-    """
-    walking_s = max(contact_s - _STOP_BEFORE_S - _SLOWING_S, 1e-3)
-    way = _RUN_UP_M_S * (walking_s + 0.5 * _SLOWING_S)
-    pieces = (Piece(walking_s, _RUN_UP_M_S), Piece(_SLOWING_S, ramp_s=_SLOWING_S), Piece(0.1))
-    start = ahead(home.position, home.yaw, -way, home.position[2])
-    path = SteeredPath(start, home.yaw, pieces, _RUN_UP_M_S, floor_m=home.position[2])
-    stance = RUN_UP.stride * size_of(subject.model) * (40.0 + 0.05)
-    subject = moving(subject, Performed(path, "kick", contact_s=contact_s))
-    return replace(subject, lead_m=stance - way)
 
 
 def _on_its_way(thing: Actor, path: Trajectory) -> Actor:
