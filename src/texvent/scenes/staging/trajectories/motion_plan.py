@@ -220,13 +220,8 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
-    front, side, is_person = (
-        -0.5 * math.pi,
-        math.pi if toss < 0.5 else 0.0,
-        noun.name in PERSON_NOUNS,
-    )
-    if motion.kind == "sway" and noun.habitat != "fixed" and not is_person:
-        return front + math.copysign(0.6, tilt)
+    front, side = -0.5 * math.pi, math.pi if toss < 0.5 else 0.0
+    is_person = noun.name in PERSON_NOUNS
     if is_person and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:
         return side + 0.5 * tilt
     turned = trait_value("side view", noun.name)

@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
@@ -84,17 +86,13 @@ def schedule(motions: Sequence[ObjectMotion], duration_s: float) -> list[Phase]:
     motions = list(motions)
     if motions[0].start_s:
         motions.insert(0, STANDING)
-    known = [motion.start_s for motion in motions]
-    starts = [0.0]
-    for number in range(1, len(motions)):
-        start = known[number]
-        if start is None:
-            later = next((n for n in range(number, len(known)) if known[n] is not None), len(known))
-            after = known[later] if later < len(known) else duration_s
-            start = starts[-1] + max((after or 0.0) - starts[-1], 0.0) / (later - number + 1)
-        starts.append(max(start, starts[-1]))
-    starts.append(duration_s)
-    times = [min(start, duration_s) for start in starts]
+    known = {0: 0.0, len(motions): duration_s}
+    for number, motion in enumerate(motions):
+        if number and motion.start_s is not None:
+            known[number] = min(motion.start_s, duration_s)
+    numbers = sorted(known)
+    shares = np.interp(range(len(motions) + 1), numbers, [known[number] for number in numbers])
+    times = [float(time) for time in np.maximum.accumulate(shares)]
     shown = [
         Phase(motion, begin, max(end, begin))
         for motion, begin, end in zip(motions, times, times[1:], strict=False)
