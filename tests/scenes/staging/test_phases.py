@@ -87,12 +87,6 @@ def test_a_car_that_reverses_moves_against_its_heading() -> None:
     assert path.at(4.0).distance_m < 0.0
 
 
-def test_a_later_direction_is_one_in_the_picture() -> None:
-    path = path_of(ObjectMotion("rise"), ObjectMotion("fly", "left"), noun="helicopter")
-    assert math.cos(path.at(4.0).yaw) == pytest.approx(-1.0)
-    assert path.at(4.0).position[2] > 1.0
-
-
 @given(st.floats(0.5, 20.0))
 def test_stated_speeds_are_exact(speed: float) -> None:
     path = path_of(
