@@ -28,12 +28,12 @@ class ObjectMotion:
     """What it does: "drive", "walk", "run", "fly", "swim", "sail", "spin", "roll", "bounce",
     "fall", "rise", "sink", "orbit", "swing", "jump", "hover", "throw", "sway", "slide", "turn" (a
     curve to its own left or right as `direction` says; "around": back where it came from),
-    "reverse" (backwards without turning round), "zigzag", "enter" and "leave" (the picture),
+    "reverse" (backwards without turning round), "enter" and "leave" (the picture),
     "appear" (from behind what a "behind" or "from" relation names), "sit", "lie", "stand" (also
     for "stops"), or a gesture such as "wave" or "clap"."""
     direction: str | None = None
     """"left", "right", "towards", "away", "forward", "backward", "up", "down", "across", "circle",
-    "eight", "to and fro", "up and down", "around", "clockwise" or "counter-clockwise"; None = not
+    "to and fro", "up and down", "around", "clockwise" or "counter-clockwise"; None = not
     stated."""
     pace: float = 1.0
     """Multiple of the usual speed."""

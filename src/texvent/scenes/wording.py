@@ -102,7 +102,6 @@ _BACKDROPS = {
 _DIRECTIONS = {
     "towards": "towards the camera",
     "circle": "in a circle",
-    "eight": "in a figure eight",
     "across": "across the picture",
 }
 

@@ -1,4 +1,4 @@
-"""Sequences of motions: when each happens, and what the path does."""
+"""Paths of pieces: continuous, of the stated speed, and what sequences of motions come to."""
 
 from __future__ import annotations
 
@@ -11,24 +11,12 @@ from hypothesis import strategies as st
 
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.staging.trajectories.phases import build_path
-from texvent.scenes.staging.trajectories.schedule import left_out, schedule
-from texvent.scenes.staging.trajectories.steered_path import SteeredPath
+from texvent.scenes.staging.trajectories.phases import build_path, left_out, schedule
+from texvent.scenes.staging.trajectories.steered_path import Lagging, Piece, SteeredPath
 
-KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "zigzag", "spin", "rise", "sink",
-         "jump", "bounce", "fall", "topple", "park", "stand", "sit", "sway", "hover")  # fmt: skip
-DIRECTIONS = (
-    None,
-    "left",
-    "right",
-    "towards",
-    "away",
-    "backward",
-    "around",
-    "circle",
-    "eight",
-    "up",
-)
+KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
+         "jump", "bounce", "fall", "topple", "stand", "sit", "sway", "hover")  # fmt: skip
+DIRECTIONS = (None, "left", "right", "towards", "away", "backward", "around", "circle", "up")
 motions = st.builds(
     ObjectMotion,
     st.sampled_from(KINDS),
@@ -92,29 +80,11 @@ def test_a_car_turns_a_quarter_circle_and_drives_on(direction: str, sign: float)
     assert path.at(4.0).speed_m_s == path.at(0.0).speed_m_s
 
 
-def test_a_car_that_turns_and_stops_ends_at_rest() -> None:
-    path = path_of(ObjectMotion("turn", "left"), ObjectMotion("stand"))
-    assert path.at(4.0).speed_m_s == 0.0
-    assert path.at(1.0).speed_m_s > 3.0
-
-
 def test_a_car_that_reverses_moves_against_its_heading() -> None:
     path = path_of(ObjectMotion("drive", "backward"))
     assert path.at(4.0).position[0] < path.at(0.0).position[0] - 10.0
     assert path.at(2.0).yaw == path.at(0.0).yaw == 0.0
     assert path.at(4.0).distance_m < 0.0
-
-
-def test_turning_round_ends_with_the_opposite_heading() -> None:
-    path = path_of(ObjectMotion("walk"), ObjectMotion("turn", "around"), ObjectMotion("walk"),
-                   noun="man", speed=1.4)  # fmt: skip
-    assert math.cos(path.at(4.0).yaw) == pytest.approx(-1.0)
-
-
-def test_a_later_direction_is_one_in_the_picture() -> None:
-    path = path_of(ObjectMotion("rise"), ObjectMotion("fly", "left"), noun="helicopter")
-    assert math.cos(path.at(4.0).yaw) == pytest.approx(-1.0)
-    assert path.at(4.0).position[2] > 1.0
 
 
 @given(st.floats(0.5, 20.0))
@@ -131,12 +101,6 @@ def test_accelerating_and_braking_end_at_the_end_pace() -> None:
     assert (faster.at(0.0).speed_m_s, faster.at(4.0).speed_m_s) == (4.0, 8.0)
     braking = path_of(ObjectMotion("drive", end_pace=0.0))
     assert braking.at(4.0).speed_m_s == 0.0
-
-
-def test_what_falls_over_lies_on_the_ground() -> None:
-    path = path_of(ObjectMotion("walk"), ObjectMotion("fall"), noun="man", speed=1.4)
-    assert path.at(4.0).pitch == pytest.approx(0.5 * math.pi)
-    assert path.at(1.9).pitch == 0.0
 
 
 def test_a_domino_topples_to_its_front_and_stays_down() -> None:
@@ -163,16 +127,71 @@ def test_an_airplane_takes_off_along_a_runway_and_lands_on_it() -> None:
     assert down.at(4.0).position[2] == pytest.approx(0.0, abs=0.1)
 
 
-def test_an_eight_comes_back_and_bends_both_ways() -> None:
-    path = path_of(ObjectMotion("walk", "eight"), noun="man", speed=1.4)
-    assert path.at(4.0).position == pytest.approx(path.at(0.0).position, abs=0.9)
-    assert path.at(1.0).yaw > path.at(0.0).yaw
-    assert path.at(3.0).yaw < path.at(2.0).yaw
+pieces = st.builds(
+    Piece,
+    st.floats(0.2, 2.0),
+    st.floats(-4.0, 9.0),
+    st.floats(-3.0, 3.0),
+    st.floats(-1.0, 1.0),
+    st.floats(0.05, 1.0),
+    hop_m=st.sampled_from([0.0, 0.0, 0.3]),
+    is_dropped=st.booleans(),
+    pitch_rad=st.sampled_from([0.0, 0.0, 1.5]),
+)
+paths = st.builds(
+    SteeredPath,
+    st.just((1.0, 2.0, 0.5)),
+    st.floats(-3.0, 3.0),
+    st.lists(pieces, min_size=1, max_size=4).map(tuple),
+    st.floats(-3.0, 9.0),
+    lean=st.sampled_from([0.0, 1.0]),
+)
 
 
-def test_a_zigzag_goes_on_in_its_direction() -> None:
-    path = path_of(ObjectMotion("zigzag"), noun="man", speed=1.4)
-    yaws = [path.at(float(time_s)).yaw for time_s in np.linspace(0.0, 4.0, 81)]
-    assert min(yaws) < -0.4 < 0.4 < max(yaws)
-    start, end = path.at(0.0).position, path.at(4.0).position
-    assert abs(end[1] - start[1]) < 0.3 * (end[0] - start[0])
+@given(paths, st.floats(-0.5, 9.0))
+def test_position_heading_and_speed_are_continuous(path: SteeredPath, time_s: float) -> None:
+    instants = [time_s, *(knot.time_s - 5e-4 for knot in path._knots)]
+    for instant in instants:
+        before, after = path.at(instant), path.at(instant + 1e-3)
+        assert np.abs(np.subtract(after.position, before.position)).max() < 0.03
+        assert abs(after.yaw - before.yaw) < 0.01
+        assert abs(after.roll - before.roll) < 0.25
+        assert abs(after.speed_m_s - before.speed_m_s) < 0.5
+        assert abs(after.distance_m - before.distance_m) < 0.02
+
+
+@given(paths, st.floats(0.0, 5.0))
+def test_the_velocity_is_the_speed_along_the_heading(path: SteeredPath, time_s: float) -> None:
+    before, middle, after = (path.at(time_s + step) for step in (-1e-5, 0.0, 1e-5))
+    velocity = np.subtract(after.position, before.position)[:2] / 2e-5
+    signed = (after.distance_m - before.distance_m) / 2e-5
+    heading = np.array([math.cos(middle.yaw), math.sin(middle.yaw)])
+    np.testing.assert_allclose(velocity, signed * heading, atol=2e-3)
+    assert abs(signed) == pytest.approx(middle.speed_m_s, abs=1e-2)
+
+
+def test_the_quadrature_agrees_with_many_small_steps() -> None:
+    path = SteeredPath((0.0, 0.0, 0.0), 0.3, (Piece(3.0, 8.0, 4.0, ramp_s=3.0),), 1.0)
+    times = np.linspace(0.0, 3.0, 20001)
+    states = [path.at(float(t)) for t in times[::100]]
+    u = times / 3.0
+    speed = 1.0 + 7.0 * u * u * (3.0 - 2.0 * u)
+    heading = 0.3 + 4.0 * 3.0 * (u**3 - 0.5 * u**4)
+    x = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(times) * (
+        (speed * np.cos(heading))[1:] + (speed * np.cos(heading))[:-1]))])  # fmt: skip
+    np.testing.assert_allclose([s.position[0] for s in states], x[::100], atol=1e-6)
+
+
+def test_a_follower_stays_the_gap_behind_on_the_same_line() -> None:
+    path = SteeredPath(
+        (0.0, 0.0, 0.0), 0.0, (Piece(1.0, 5.0), Piece(1.0, 5.0, 1.6), Piece(1.0, 0.0)), 5.0
+    )
+    follower = Lagging(path, 3.0)
+    for time_s in (0.1, 1.2, 2.9):
+        way = path.distance_at(time_s) - follower.at(time_s).distance_m
+        assert way == pytest.approx(3.0)
+    earlier = min(
+        np.hypot(*np.subtract(path.at(float(t)).position, follower.at(1.9).position)[:2])
+        for t in np.linspace(0.0, 1.9, 4000)
+    )
+    assert earlier < 3e-3

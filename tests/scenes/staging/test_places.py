@@ -11,7 +11,7 @@ from texvent.scenes.models.places import PLACES, is_room, place_names
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Ground
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.levels import choose_levels
+from texvent.scenes.staging.preparation import choose_levels
 from texvent.scenes.staging.surroundings.scenery import under_snow
 from texvent.sensor import SensorSize
 

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
@@ -18,7 +15,6 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Spin,
     Swing,
     Wave,
-    about_pivot,
     bounce_height,
     hover,
 )
@@ -31,8 +27,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Stationary,
     Straight,
     Trajectory,
-    rotation,
-    state_of,
 )
 
 STRAIGHT = Straight((1.0, 2.0, 0.0), math.pi, 4.0, 1.0)
@@ -75,27 +69,6 @@ def test_distance_never_falls_and_matches_the_path_on_the_ground(name: str) -> N
         assert distance[-1] - distance[0] == pytest.approx(path, rel=1e-3)
 
 
-@pytest.mark.parametrize("name", TRAJECTORIES)
-def test_body_maps_are_rotations(name: str) -> None:
-    turn = TRAJECTORIES[name].at(1.234).to_world()[:, :3]
-    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
-    assert np.linalg.det(turn) == pytest.approx(1.0)
-
-
-@given(*[st.floats(-7.0, 7.0)] * 3)
-def test_rotation_puts_the_nose_where_yaw_and_pitch_say(
-    yaw: float, pitch: float, roll: float
-) -> None:
-    nose = rotation(yaw, pitch, roll) @ [1.0, 0.0, 0.0]
-    expected = [math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), -math.sin(pitch)]
-    np.testing.assert_allclose(nose, expected, atol=1e-12)
-
-
-def test_straight_motion_is_at_home_at_mid_clip() -> None:
-    assert STRAIGHT.at(1.0).position == pytest.approx((1.0, 2.0, 0.0))
-    assert STRAIGHT.at(0.0).position == pytest.approx((5.0, 2.0, 0.0))
-
-
 def test_a_rolling_ball_does_not_slide() -> None:
     """The point that touches the ground stands still: v = ω r."""
     ball = TRAJECTORIES["rolling"]
@@ -120,13 +93,6 @@ def test_a_bouncing_ball_falls_freely_and_keeps_its_restitution() -> None:
     assert height(200.0) == 0.0
 
 
-@given(st.floats(0.05, 3.0), st.floats(0.1, 0.95), st.floats(0.0, 20.0))
-def test_a_bouncing_ball_is_never_below_the_ground_or_above_its_start(
-    height: float, restitution: float, time_s: float
-) -> None:
-    assert 0.0 <= bounce_height(height, 0.0, restitution, time_s) <= height
-
-
 def test_an_arc_goes_from_one_state_to_the_other_under_gravity() -> None:
     start = BodyState((0.0, 0.0, 1.0), 0.2, pivot_m=0.1)
     end = BodyState((2.0, -1.0, 1.5), 1.0, 0.3, pivot_m=0.1)
@@ -137,19 +103,6 @@ def test_an_arc_goes_from_one_state_to_the_other_under_gravity() -> None:
     assert np.diff(heights, 2) == pytest.approx(-GRAVITY_M_S2 * 0.01)
 
 
-def test_a_body_is_the_same_whatever_its_pivot() -> None:
-    state = BodyState((1.0, 2.0, 3.0), 0.3, -0.4, 1.2)
-    moved = about_pivot(state, 0.7)
-    assert moved.pivot_m == 0.7
-    np.testing.assert_allclose(moved.to_world(), state.to_world(), atol=1e-12)
-
-
-def test_state_of_a_map_gives_the_map_back() -> None:
-    for yaw, pitch, roll in ((0.3, -0.4, 1.2), (-2.9, 1.1, -0.2), (0.0, 0.0, 3.0)):
-        to_world = np.column_stack([rotation(yaw, pitch, roll), [1.0, -2.0, 0.5]])
-        np.testing.assert_allclose(state_of(to_world).to_world(), to_world, atol=1e-12)
-
-
 def test_a_pendulum_has_the_period_of_its_length() -> None:
     swing = Swing((0.0, 0.0, 1.0), 1.5, 0.3)
     period = 2.0 * math.pi * math.sqrt(1.5 / GRAVITY_M_S2)
@@ -157,24 +110,3 @@ def test_a_pendulum_has_the_period_of_its_length() -> None:
     assert swing.at(0.5 * period).pitch == pytest.approx(-0.3)
     top = np.array([0.0, 0.0, 1.5, 1.0])
     np.testing.assert_allclose(swing.at(0.7).to_world() @ top, [0.0, 0.0, 2.5], atol=1e-12)
-
-
-def test_a_circling_body_faces_along_its_path() -> None:
-    circle = Circle((0.0, 0.0, 0.0), 2.0, -1.5)
-    step = np.subtract(circle.at(0.3 + 1e-6).position, circle.at(0.3).position)
-    nose = rotation(circle.at(0.3).yaw, 0.0, 0.0) @ [1.0, 0.0, 0.0]
-    np.testing.assert_allclose(step / np.linalg.norm(step), nose, atol=1e-5)
-
-
-def test_a_rider_keeps_its_seat() -> None:
-    horse = Circle((0.0, 0.0, 0.0), 3.0, 1.0)
-    rider = Riding(horse, (0.2, 0.0, 1.0))
-    for time in (0.0, 0.7, 1.9):
-        seat = horse.at(time).to_world() @ [0.2, 0.0, 1.0, 1.0]
-        np.testing.assert_allclose(rider.at(time).position, seat)
-
-
-def test_states_turn_about_their_pivot() -> None:
-    for yaw, pitch, roll in itertools.product((0.0, 1.0), (0.0, 2.0), (0.0, -1.0)):
-        state = BodyState((1.0, 2.0, 3.0), yaw, pitch, roll, pivot_m=0.5)
-        np.testing.assert_allclose(state.to_world() @ [0.0, 0.0, 0.5, 1.0], [1.0, 2.0, 3.5])

@@ -6,9 +6,9 @@ Loads nothing, so that readers can import it.
 from __future__ import annotations
 
 MOTIONS = frozenset(
-    {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide", "drift",
+    {"move", "drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "slide",
      "float",
-     "hover", "blow", "turn", "reverse", "zigzag", "park", "enter", "leave", "appear",
+     "hover", "blow", "turn", "reverse", "enter", "leave", "appear",
      "spin", "rotate", "orbit", "swing", "sway", "bounce", "jump", "fall", "rise", "sink", "throw",
      "topple", "flip", "roll over", "work", "hang", "stand", "sit", "lie"}
 )  # fmt: skip

@@ -37,7 +37,7 @@ Surface: TypeAlias = Annotated[str, Colour("surface")]
 
 Direction: TypeAlias = Literal[
     "left", "right", "towards", "away", "forward", "backward", "up", "down", "across", "diagonal",
-    "circle", "eight", "to and fro", "up and down", "around", "clockwise", "counter-clockwise",
+    "circle", "to and fro", "up and down", "around", "clockwise", "counter-clockwise",
 ]  # fmt: skip
 RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",

@@ -172,18 +172,14 @@ class Actor:
         to_world = self.trajectory.at(time_s).to_world()
         return np.asarray(to_world @ np.array([0.0, 0.0, lift, 1.0]))
 
-    def corners(self, time_s: float, limit_m: float = np.inf) -> Float64Array:
-        """[8, 3] corners of its box in the world, m; extents above `limit_m` are cut to it."""
+    def corners(self, time_s: float) -> Float64Array:
+        """[8, 3] corners of its box in the world, m."""
         time_s = float(time_s)
         if time_s not in self._boxes:
             self._boxes[time_s] = self._box(time_s)
         low, high = self._boxes[time_s]
-        high = high.copy()
-        high[2] += self.headroom_m
-        middle = 0.5 * (low + high)
-        middle[:2] = np.where(high[:2] - low[:2] > limit_m, 0.0, middle[:2])
-        half = 0.5 * np.minimum(high - low, limit_m)
-        middle[2] = low[2] + half[2]
+        high = high + np.array([0.0, 0.0, self.headroom_m])
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
         to_world = self.trajectory.at(time_s).to_world()
         return np.asarray((middle + _CORNERS * half) @ to_world[:, :3].T + to_world[:, 3])
 

@@ -24,7 +24,6 @@ from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitiv
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import plan_travel
-from texvent.scenes.staging.levels import choose_levels
 from texvent.scenes.staging.particles.choose import (
     Setting,
     Staged,
@@ -33,7 +32,7 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
-from texvent.scenes.staging.preparation import prepare
+from texvent.scenes.staging.preparation import choose_levels, prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.lighting import choose_lighting

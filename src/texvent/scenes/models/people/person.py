@@ -36,8 +36,6 @@ from texvent.scenes.scene import Colour
 WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
 RUN = Gait(stride=2.40, duty=0.34, lift=0.32)
 CRAWL = Gait(stride=0.60, duty=0.60, lift=0.07)
-RUN_UP = WALK
-"""Gait of a run-up."""
 
 
 def build_person(

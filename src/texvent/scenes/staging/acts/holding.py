@@ -1,4 +1,4 @@
-"""What a body holds or wears: where it is fixed, and where the hands are then."""
+"""What a body holds, wears, pushes or pulls: where it is fixed, and where the hands are then."""
 
 from __future__ import annotations
 
@@ -9,20 +9,18 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.models.people.outfit import CLOTHES
-from texvent.scenes.models.protocol import Model, Pose
-from texvent.scenes.models.shapes import Affine
-from texvent.scenes.models.support_surface import top_heights
+from texvent.scenes.models.shapes import Affine, shift
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.acts import (
+    HeldAt,
+    Performed,
     foot_of,
     is_person,
     lift_of,
     scaled,
-    shifted,
     size_of,
 )
-from texvent.scenes.staging.acts.attached import HeldAt, Performed
 from texvent.scenes.staging.trajectories.action_trajectories import hover
 from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector, rotation
 
@@ -30,7 +28,7 @@ Grips = tuple[tuple[str, Vector], ...]
 
 _STYLES = (
     "held as a tool", "held upright", "held up high", "held hanging", "held as a page",
-    "held as a guitar", "held as a glove", "held by a string", "flown on a string",
+    "held as a guitar", "held by a string", "flown on a string",
 )  # fmt: skip
 """Traits that say how a noun is held."""
 _LARGE_M = 0.36
@@ -42,8 +40,6 @@ _RIGHT_HAND = {
     "held as a tool": _RAISED, "held upright": _RAISED, "held by a string": _RAISED,
     "held up high": _UP_HIGH, "flown on a string": _UP_HIGH,
 }  # fmt: skip
-_LEFT_HAND: Vector = (0.30, 0.22, 1.22)
-"""The left one of who has a glove on it."""
 _HANDS_FREE = frozenset({"stand", "move", "walk", "run", "sit", "sit on ground"})
 """Activities that leave the hands to what they hold."""
 _STANDING_TORSO = 0.95
@@ -53,6 +49,10 @@ _KITE_YAW = 0.3 - 0.5 * math.pi - 1.0
 _SWAY_M = 0.28
 """How far the wind takes a kite to and fro, m."""
 _STRING_M = 0.008
+_HITCH_M = 0.5
+"""Between a vehicle and what it tows."""
+_STRETCH = 0.60
+"""From the shoulder to the palm of an arm that is nearly straight, m."""
 
 
 class Hold(NamedTuple):
@@ -129,11 +129,8 @@ def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
     if style == "held as a guitar":
         turn = rotation(0.0, 0.0, -1.05)
         return Hold("torso", np.column_stack([turn, size * np.array([0.20, -0.42, -0.08])]), False)
-    if style == "held as a glove":
-        offset = np.column_stack([rotation(0.0, 0.5 * math.pi, 0.0), [0.0, 0.0, 0.08]])
-        return Hold("left hand", offset, grips=(("left hand", scaled(_LEFT_HAND, size)),))
     if style == "mouth":
-        offset = shifted(0.35 * thing.model.length, 0.0, -lift_of(thing))
+        offset = shift(0.35 * thing.model.length, 0.0, -lift_of(thing))
         return Hold("mouth", offset, False)
     return _in_right_hand(style, holder, thing)
 
@@ -162,7 +159,7 @@ def _in_right_hand(style: str, holder: Actor, thing: Actor) -> Hold:
         x = min(0.5 * model.length, 0.06)
     if holder.trajectory.at(0.0).activity == "drink":
         below = 0.8 * model.height  # so that the rim is at the mouth
-    return Hold("right hand", shifted(x, 0.0, foot - below), grips=grips)
+    return Hold("right hand", shift(x, 0.0, foot - below), grips=grips)
 
 
 def _in_both_arms(thing: Actor, size: float) -> Hold:
@@ -201,18 +198,48 @@ def along_tool(thing: Actor) -> Affine:
         # It lies along its y.
         return np.column_stack([rotation(0.0, 0.0, 0.5 * math.pi), [0.0, 0.0, 0.36 * model.width]])
     if model.length < 2.0 * model.height:
-        return shifted(0.0, 0.0, foot_of(thing) - 0.12 * model.height)
-    turn = rotation(0.0, 0.5 * math.pi * _handle_side(model), 0.0)
+        return shift(0.0, 0.0, foot_of(thing) - 0.12 * model.height)
+    side = -1.0 if thing.noun.name in nouns_with("handle at the rear") else 1.0
+    turn = rotation(0.0, 0.5 * math.pi * side, 0.0)
     return np.column_stack([turn, [0.0, 0.0, 0.38 * model.length]])
 
 
-def _handle_side(model: Model) -> float:
-    """+1 where the handle, the thinner half, is at +x, else -1."""
-    parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
-    along = np.linspace(0.30, 0.48, 7) * model.length
-    across = np.linspace(0.0, 0.5, 24) * model.width
-    spread = []
-    for sign in (1.0, -1.0):
-        x, y = (axis.ravel() for axis in np.meshgrid(sign * along, across))
-        spread.append(int(np.isfinite(top_heights(parts, x, y)).sum()))
-    return 1.0 if spread[0] < spread[1] else -1.0
+def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """Hands at the thing's back."""
+    size, model = size_of(subject.model), target.model
+    shoulder = 1.38 * size if is_person(subject) else 0.75 * subject.model.height
+    height = max(min(0.85 * model.height, 0.95 * shoulder), 0.64 * shoulder)
+    reach = 0.5 * subject.model.length
+    if is_person(subject):
+        drop = 1.34 - height / size
+        reach = size * (0.10 + math.sqrt(max(_STRETCH**2 - drop**2, 0.04)))
+    side = min(0.16 * size, 0.45 * model.width)
+    grips = (("left hand", (reach, side, height)), ("right hand", (reach, -side, height)))
+    subject = _performing(subject, "push along", grips)
+    return subject, _along(subject, target, reach + 0.02 + 0.5 * model.length)
+
+
+def pull(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """A rope from the hand, or from the rear of a vehicle, to the thing's front."""
+    size, model = size_of(subject.model), target.model
+    behind = 0.9 * size
+    if subject.noun.motion == "drive":
+        behind = 0.5 * subject.model.length + _HITCH_M
+    hand = (-0.34 * size, -0.20 * size, 0.92 * size)
+    subject = _performing(subject, "pull along", (("right hand", hand),))
+    end = (0.5 * model.length, 0.0, 0.5 * model.height - foot_of(target))
+    target = _along(subject, target, -(behind + 0.5 * model.length))
+    return subject, replace(target, tether=Tether(subject, "right hand", end, 0.025))
+
+
+def _performing(subject: Actor, activity: str | None, grips: Grips) -> Actor:
+    if not is_person(subject):
+        return subject
+    return replace(subject, trajectory=Performed(subject.trajectory, activity, grips))
+
+
+def _along(subject: Actor, target: Actor, along_m: float) -> Actor:
+    """The thing on the ground so far ahead of who moves it."""
+    offset = shift(along_m, 0.0, foot_of(target))
+    path = HeldAt(subject, "ground", offset, is_upright=True, activity="move")
+    return replace(target, trajectory=path, lead_m=subject.lead_m, is_mover=subject.is_mover)

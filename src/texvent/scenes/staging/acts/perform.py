@@ -1,33 +1,26 @@
-"""Binds placed actors together by the acts of a scene."""
+"""Binds placed actors together by the acts of a scene, and turns those who look at something."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from texvent.scenes.description import RIDES, Relation, SceneDescription
-from texvent.scenes.models.people.outfit import CLOTHES
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.people.activities import PAIR_GAPS
+from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.staging.actors import Actor, Tether
-from texvent.scenes.staging.acts import pushing, striking
-from texvent.scenes.staging.acts.acts import (
-    ACTS,
-    Cast,
-    foot_of,
-    scaled,
-    shifted,
-    size_of,
-)
-from texvent.scenes.staging.acts.attached import HeldAt
-from texvent.scenes.staging.acts.colliding import collide
-from texvent.scenes.staging.acts.facing import climb_all, face_each_other, look_at
-from texvent.scenes.staging.acts.holding import carried, hold, wear
+from texvent.scenes.staging.acts import holding, striking
+from texvent.scenes.staging.acts.acts import ACTS, Cast, is_person, size_of
 from texvent.scenes.staging.acts.riding import board
+from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
 
 _ORDER = ("push", "pull", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
 """What moves bodies comes before what hangs on them."""
+_TIED = frozenset({"at", "on", "in", "ride", "ride along", "push", "pull"})
+"""Relations that give their subject its heading."""
 
 
 def perform_acts(
@@ -42,15 +35,13 @@ def perform_acts(
 
     Returns:
         The actors in the same order, without those whose part a model plays itself: the rider of
-        a bicycle.
+        a bicycle, and what that rider has.
     """
     cast = Cast(actors)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     bound = {one for act in acts for one in (act.subject, *act.targets)}
-    free = [n for n, one in enumerate(actors) if one.object_index not in bound]
-    look_at(cast, description.relations, duration_s)
-    face_each_other(cast, free)
-    climb_all(cast, description.relations)
+    _look_at(cast, description.relations, duration_s)
+    _face_each_other(cast, [n for n, one in enumerate(actors) if one.object_index not in bound])
     ridden = {one.targets[0] for one in acts if one.kind in RIDES}
     towed = [r for r in acts if r.kind in ("push", "pull") and r.targets[0] in ridden]
     for relation in towed:
@@ -59,11 +50,7 @@ def perform_acts(
     for kind in _ORDER:
         for relation in (one for one in acts if one.kind == kind and one not in towed):
             _perform(cast, relation, duration_s)
-    for relation in description.relations:
-        if relation.kind == "with" and relation.way == "lead":
-            _perform(cast, replace(relation, kind="lead"), duration_s)
     _take_off_doubles(cast, actors)
-    _take_along(cast, description.relations, actors)
     return [_tied_to_ground(actor) for actor in cast.actors()]
 
 
@@ -72,31 +59,28 @@ def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
     subjects, targets = cast.copies(relation.subject), cast.copies(relation.targets[0])
     if relation.kind == "collide":
         met = list(dict.fromkeys([*subjects, *targets]))
-        for one, two in zip(met[::2], met[1::2], strict=False):
-            first, second = collide(cast.get(one), cast.get(two), duration_s)
-            cast.put(one, first)
-            cast.put(two, second)
+        for pair in zip(met[::2], met[1::2], strict=False):
+            _bind(cast, relation.kind, (*pair, None), duration_s)
         return
-    if not subjects and relation.subject in cast.stood_in:
-        _stow(cast, relation, cast.stood_in[relation.subject])
     others = cast.copies(relation.targets[1]) if len(relation.targets) > 1 else []
     for turn, target in enumerate(targets):
-        at = subjects[turn % len(subjects)] if subjects else target
-        if at != target:
+        if not subjects:
+            cast.put(target, None)
+        elif subjects[turn % len(subjects)] != target:
             third = others[turn] if turn < len(others) else None
-            _bind(cast, relation.kind, (at, target, third), duration_s)
+            _bind(cast, relation.kind, (subjects[turn % len(subjects)], target, third), duration_s)
 
 
 _Act = Callable[[Actor, Actor, Actor | None, float], tuple[Actor | None, ...]]
 _ACTS: Mapping[str, _Act] = {
-    "push": lambda who, what, _, __: pushing.push(who, what),
-    "pull": lambda who, what, _, __: pushing.pull(who, what),
-    "lead": lambda who, what, _, __: pushing.lead(who, what),
-    "hold": lambda who, what, _, __: hold(who, what),
-    "carry": lambda who, what, _, __: hold(who, what),
-    "wear": lambda who, what, _, __: wear(who, what),
+    "push": lambda who, what, _, __: holding.push(who, what),
+    "pull": lambda who, what, _, __: holding.pull(who, what),
+    "hold": lambda who, what, _, __: holding.hold(who, what),
+    "carry": lambda who, what, _, __: holding.hold(who, what),
+    "wear": lambda who, what, _, __: holding.wear(who, what),
     "kick": lambda who, what, _, duration_s: striking.kick(who, what, duration_s),
     "catch": lambda who, what, _, duration_s: striking.catch(who, what, duration_s),
+    "collide": lambda who, what, _, duration_s: striking.collide(who, what, duration_s),
     "throw": striking.throw,
     "hit": striking.hit,
 }
@@ -111,21 +95,6 @@ def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: f
             cast.put(number, body)
 
 
-def _stow(cast: Cast, relation: Relation, at: int) -> None:
-    """What the rider has who comes with a vehicle's model: on its head, or where that carries."""
-    vehicle, is_worn = cast.get(at), relation.kind == "wear"
-    place = "head of its rider" if is_worn else "carries at"
-    where = trait_value(place, vehicle.noun.name)
-    for number in cast.copies(relation.targets[0]):
-        thing = cast.get(number)
-        if where is None or thing.noun.name in CLOTHES:
-            cast.put(number, None)
-            continue
-        x, y, z = scaled(where, size_of(vehicle.model))
-        path = HeldAt(vehicle, "ground", shifted(x, y, z + foot_of(thing)))
-        cast.put(number, carried(thing, path, vehicle))
-
-
 def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:
     """A piano, a desk or a board that comes with an activity is not shown twice."""
     for person in cast.actors():
@@ -137,25 +106,6 @@ def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:
                 nouns.discard(thing.noun.name)
 
 
-def _take_along(cast: Cast, relations: Sequence[Relation], before: Sequence[Actor]) -> None:
-    """What is in or on something that an act has moved goes with it."""
-    for relation in relations:
-        holders = cast.copies(relation.targets[0])
-        if relation.kind not in ("in", "on") or not holders:
-            continue
-        for turn, at in enumerate(cast.copies(relation.subject)):
-            number = holders[turn % len(holders)]
-            holder, own = cast.get(number), cast.get(at)
-            was = before[number].trajectory
-            if holder.trajectory is was or own.trajectory is not before[at].trajectory:
-                continue
-            state, below = own.trajectory.at(0.0), was.at(0.0).to_world()
-            turned = below[:, :3].T
-            offset = turned @ (state.to_world() - np.column_stack([np.zeros((3, 3)), below[:, 3]]))
-            path = HeldAt(holder, "ground", offset, activity=state.activity)
-            cast.put(at, carried(own, path, holder))
-
-
 def _tied_to_ground(actor: Actor) -> Actor:
     """A kite that no person holds is flown from out of the picture."""
     if actor.noun.name not in nouns_with("flies on a string") or actor.tether is not None:
@@ -163,3 +113,56 @@ def _tied_to_ground(actor: Actor) -> Actor:
     x, y, z = actor.trajectory.at(0.0).position
     flier = (x + 0.8 * z, y - 1.2 * z, 0.0)
     return replace(actor, tether=Tether(flier, "", (0.0, 0.0, 0.0), 0.008))
+
+
+def _face_each_other(cast: Cast, numbers: Sequence[int]) -> None:
+    """What two people do together they do before each other.
+
+    Args:
+        cast: the actors; those of pairs are replaced.
+        numbers: positions of the actors that no other act moves.
+    """
+    waiting: dict[str, int] = {}
+    for number in numbers:
+        actor = cast.get(number)
+        path = actor.trajectory
+        if not isinstance(path, Stationary) or not is_person(actor):
+            continue
+        apart_m = PAIR_GAPS.get(path.activity)
+        if apart_m is None:
+            continue
+        first = waiting.pop(path.activity, None)
+        if first is None:
+            waiting[path.activity] = number
+        else:
+            _face(cast, (first, number), apart_m)
+
+
+def _face(cast: Cast, pair: tuple[int, int], apart_m: float) -> None:
+    """Left and right of the middle between them, as they are placed; fronts to each other."""
+    places = np.array([cast.get(number).trajectory.at(0.0).position for number in pair])
+    x, y, z = (float(value) for value in places.mean(axis=0))
+    half = 0.25 * apart_m * sum(size_of(cast.get(number).model) for number in pair)
+    is_ordered = places[0][0] <= places[1][0]
+    for number, is_left in zip(pair, (is_ordered, not is_ordered), strict=True):
+        actor, yaw = cast.get(number), 0.0 if is_left else math.pi
+        if isinstance(actor.trajectory, Stationary):
+            path = replace(actor.trajectory, home=ahead((x, y, z), yaw, -half, z), yaw=yaw)
+            cast.put(number, replace(actor, trajectory=path, lead_m=0.0, is_mover=True))
+
+
+def _look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> None:
+    """Who stays in its place turns to what it looks at, where that is at mid clip."""
+    tied = {one.subject for one in relations if one.kind in _TIED}
+    for relation in relations:
+        goals = [number for target in relation.targets for number in cast.copies(target)]
+        if relation.kind != "look at" or relation.subject in tied or not goals:
+            continue
+        if relation.targets == (relation.subject,):
+            goals = goals[1:] + goals[:1]
+        for turn, number in enumerate(cast.copies(relation.subject)):
+            actor, goal = cast.get(number), cast.get(goals[turn % len(goals)])
+            if isinstance(actor.trajectory, Stationary):
+                x, y, _ = goal.middle(0.5 * duration_s) - actor.trajectory.at(0.0).position
+                path = replace(actor.trajectory, yaw=math.atan2(y, x))
+                cast.put(number, replace(actor, trajectory=path))

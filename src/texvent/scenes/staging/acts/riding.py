@@ -13,8 +13,15 @@ from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.support_surface import find_support, top_heights
 from texvent.scenes.models.traits import trait_value
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.acts import Cast, foot_of, hides_riders, is_person, scaled, size_of
-from texvent.scenes.staging.acts.attached import Performed
+from texvent.scenes.staging.acts.acts import (
+    Cast,
+    Performed,
+    foot_of,
+    hides_riders,
+    is_person,
+    scaled,
+    size_of,
+)
 from texvent.scenes.staging.acts.holding import Grips
 from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory, Vector
 
@@ -52,8 +59,6 @@ def board(cast: Cast, relations: Sequence[Relation]) -> None:
 def _seat(cast: Cast, rider: int, at: int, number: int, crew: int) -> None:
     subject, ridden = cast.get(rider), cast.get(at)
     is_own = number == 0 and is_person(subject) and style_of(ridden) == "built-in"
-    if is_own:
-        cast.stood_in[subject.object_index] = at
     if is_own or hides_riders(ridden.noun):
         cast.put(rider, None)
     elif number < count_seats(ridden):
@@ -99,8 +104,6 @@ def mount(rider: Actor, ridden: Actor, number: int = 0, crew: int = 1) -> Actor:
         props = list_props(doing) if style == "paddled" and ridden.is_mover else ()
         if style == "astride":
             seat, grips = _astride_back(ridden, size, behind * posture["apart"])
-        elif style == "on skis":
-            seat = (0.0, 0.0, 0.0)
         elif style == "at a bar":
             x, z = 0.42 * ridden.model.length, 0.9 * ridden.model.height
             seat = (-0.08, 0.0, 0.1 * ridden.model.height)

@@ -1,4 +1,4 @@
-"""Kick, throw, catch and hit: an instant of contact, with a flight before or after it.
+"""Kick, throw, catch, hit and collide: an instant of contact, motion before and after it.
 
 Each act gives its subject an activity whose contact is at that instant, finds the place of the body
 that touches the thing then, and lets the thing fly from there, or to there.
@@ -12,14 +12,20 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.models.people.activities import ACTIVITIES
-from texvent.scenes.models.people.person import RUN_UP
 from texvent.scenes.models.people.props import list_props
-from texvent.scenes.models.shapes import Affine
+from texvent.scenes.models.shapes import Affine, bounds, moved, shift
 from texvent.scenes.models.traits import trait_value
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.acts import is_person, lift_of, shifted, size_of, vector
-from texvent.scenes.staging.acts.attached import HeldAt, Performed
+from texvent.scenes.staging.acts.acts import (
+    HeldAt,
+    Performed,
+    is_person,
+    lift_of,
+    moving,
+    size_of,
+    vector,
+)
 from texvent.scenes.staging.acts.holding import along_tool
 from texvent.scenes.staging.trajectories.action_trajectories import (
     Arc,
@@ -27,13 +33,14 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Switched,
     about_pivot,
 )
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath, flight_s
+from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
     Stationary,
     Trajectory,
     Vector,
     ahead,
+    rotation,
 )
 
 _FLIGHT_M = 2.4
@@ -42,8 +49,17 @@ _REACH_S = 0.85
 """Longest flight towards who catches, s."""
 _LOFT = {"kick": 0.45, "throw": 0.35, "hit": 0.45}
 """Upward speed of what flies off, as a share of its speed along the ground."""
-_STOP_BEFORE_S, _SLOWING_S, _RUN_UP_M_S = 0.25, 0.5, 1.7
-"""A run-up ends so long before the kick, and slows down so long before that."""
+_TURN_ROUND_S = 0.08
+"""How long the speed takes to change at the contact."""
+_REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
+"""Usual motion → share of the speed with which such a body goes back."""
+_LENGTHS = (1.0, 2.0)
+"""Least and most of its own length that a body covers before the contact."""
+_FLOWN_LENGTHS, _BOUNCED = 2.5, 0.3
+"""Way of what flies, in lengths of its own; share of its speed with which it falls back."""
+_THIN, _ASLANT = 0.6, 0.55
+"""Share of its width up to which what is hit has a front, and the way's angle to the picture then,
+rad."""
 
 
 def contact_time(duration_s: float, share: float = 0.45) -> float:
@@ -57,12 +73,11 @@ def heading_of(yaw: float) -> Float64Array:
 
 
 def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
-    """A run-up, the foot meets the thing, the thing flies."""
+    """The foot meets the thing, the thing flies."""
     contact_s, home = contact_time(duration_s), subject.trajectory.at(0.0)
-    if is_person(subject):
-        subject = _run_up(subject, home, contact_s)
-    else:
-        subject = _acting(subject, Stationary(home.position, home.yaw, "stand"))
+    activity = "kick" if is_person(subject) else "stand"
+    path = Performed(Stationary(home.position, home.yaw), activity, contact_s=contact_s)
+    subject = moving(subject, path)
     tip, heading = subject.anchor("right foot", contact_s)[:, 3], heading_of(home.yaw)
     radius, low = 0.5 * thing.model.length, home.position[2]
     inset = 0.0
@@ -71,7 +86,7 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
     spot = np.array([tip[0], tip[1], low + 0.5 * thing.model.height]) + (radius - inset) * heading
     flight = _fly_off("kick", thing, _at(thing, spot, home.yaw), home, (contact_s, duration_s))
     rolling = math.hypot(*flight.velocity_m_s[:2]) / max(0.5 * thing.model.height, 0.05)
-    return subject, _flying(thing, replace(flight, tumble_rad_s=rolling))
+    return subject, _on_its_way(thing, replace(flight, tumble_rad_s=rolling))
 
 
 def throw(
@@ -80,16 +95,16 @@ def throw(
     """Let go in the middle of the swing; it flies off, or to who catches it."""
     release_s, home = contact_time(duration_s, 0.35), subject.trajectory.at(0.0)
     path = Performed(Stationary(home.position, home.yaw), "throw", contact_s=release_s)
-    subject = _acting(subject, path)
+    subject = moving(subject, path)
     low = 0.0 if thing.is_centred else -0.5 * thing.model.height
     reach = 0.5 * min(thing.model.length, thing.model.width) + 0.03
     anchor = "right hand" if is_person(subject) else "mouth"
-    held = HeldAt(subject, anchor, shifted(reach, 0.0, low))
+    held = HeldAt(subject, anchor, shift(reach, 0.0, low))
     start = about_pivot(held.at(release_s), lift_of(thing))
     if catcher is None:
         flight = _fly_off("throw", thing, start, home, (release_s, duration_s))
         flight = replace(flight, tumble_rad_s=6.0)
-        return subject, _flying(thing, Switched(held, flight, release_s)), None
+        return subject, _on_its_way(thing, Switched(held, flight, release_s)), None
     catch_s = min(release_s + _REACH_S, release_s + 0.75 * (duration_s - release_s))
     gap = 1.2 + 2.6 * (catch_s - release_s) + 0.5 * catcher.model.length
     place = ahead(home.position, home.yaw, gap, home.position[2])
@@ -98,7 +113,7 @@ def throw(
     end = about_pivot(caught.at(catch_s), lift_of(thing))
     arc = Arc(start, end, release_s, catch_s, 1.0)
     whole = Switched(Switched(held, arc, release_s), caught, catch_s)
-    return subject, _flying(thing, whole), catcher
+    return subject, _on_its_way(thing, whole), catcher
 
 
 def catch(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
@@ -109,7 +124,7 @@ def catch(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor
     end = about_pivot(caught.at(catch_s), lift_of(thing))
     far = np.array(end.position) + (0.8 + 1.8 * catch_s) * heading_of(home.yaw) - [0.0, 0.0, 0.2]
     arc = Arc(replace(end, position=vector(far)), end, 0.0, catch_s, 1.0)
-    return subject, _flying(thing, Switched(arc, caught, catch_s))
+    return subject, _on_its_way(thing, Switched(arc, caught, catch_s))
 
 
 def hit(
@@ -123,7 +138,7 @@ def hit(
     # Who swings to the left turns so that the ball still flies where the body was to face.
     yaw = home.yaw if activity == "swing racket" else home.yaw - 0.5 * math.pi
     path = Performed(Stationary(home.position, yaw), activity, contact_s=contact_s)
-    subject = _acting(subject, path)
+    subject = moving(subject, path)
     if tool is None:
         props = list_props(activity, size_of(subject.model))
         subject = replace(subject, props=tuple(props))
@@ -141,30 +156,11 @@ def hit(
         arc = Arc(replace(start, position=vector(far)), start, 0.0, contact_s, -1.0)
         whole = Switched(arc, whole, contact_s)
     if tool is not None:
-        tool = _flying(tool, HeldAt(subject, "right hand", along_tool(tool)))
-    return subject, _flying(thing, whole), tool
+        tool = _on_its_way(tool, HeldAt(subject, "right hand", along_tool(tool)))
+    return subject, _on_its_way(thing, whole), tool
 
 
-def _run_up(subject: Actor, home: BodyState, contact_s: float) -> Actor:
-    """Walks up to its home, slows down, stands, and kicks.
-
-    The standing foot is in the middle of its stance then, the other one in the air.
-    """
-    walking_s = max(contact_s - _STOP_BEFORE_S - _SLOWING_S, 1e-3)
-    way = _RUN_UP_M_S * (walking_s + 0.5 * _SLOWING_S)
-    pieces = (Piece(walking_s, _RUN_UP_M_S), Piece(_SLOWING_S, ramp_s=_SLOWING_S), Piece(0.1))
-    start = ahead(home.position, home.yaw, -way, home.position[2])
-    path = SteeredPath(start, home.yaw, pieces, _RUN_UP_M_S, floor_m=home.position[2])
-    stance = RUN_UP.stride * size_of(subject.model) * (40.0 + 0.05)
-    subject = _acting(subject, Performed(path, "kick", contact_s=contact_s))
-    return replace(subject, lead_m=stance - way)
-
-
-def _acting(subject: Actor, path: Trajectory) -> Actor:
-    return replace(subject, trajectory=path, lead_m=0.0, is_mover=True, props=())
-
-
-def _flying(thing: Actor, path: Trajectory) -> Actor:
+def _on_its_way(thing: Actor, path: Trajectory) -> Actor:
     return replace(thing, trajectory=path, is_mover=True, lead_m=0.0)
 
 
@@ -186,23 +182,93 @@ def _fly_off(
 
 
 def _stand_and_catch(catcher: Actor, home: Vector, yaw: float, catch_s: float) -> Actor:
-    """Who catches, facing the thing; an animal jumps for it."""
-    if is_person(catcher):
-        path = Performed(Stationary(home, yaw), "catch", contact_s=catch_s)
-        return _acting(catcher, path)
-    height = 0.4 * catcher.model.height
-    flight = flight_s(height)
-    pieces = (
-        Piece(max(catch_s - 0.5 * flight, 1e-3), activity="stand"),
-        Piece(flight, activity="stand", hop_m=height),
-        Piece(0.1, activity="stand"),
-    )
-    return _acting(catcher, SteeredPath(home, yaw, pieces, floor_m=home[2]))
+    """Who catches, facing the thing."""
+    return moving(catcher, Performed(Stationary(home, yaw), "catch", contact_s=catch_s))
 
 
 def _catching(catcher: Actor, thing: Actor) -> tuple[str, Affine]:
     """Place of the body at which a thing is caught, and the thing in its axes."""
     low = 0.0 if thing.is_centred else -0.5 * thing.model.height
     if is_person(catcher):
-        return "hands", shifted(0.4 * thing.model.length, 0.0, low)
-    return "mouth", shifted(0.35 * thing.model.length, 0.0, low)
+        return "hands", shift(0.4 * thing.model.length, 0.0, low)
+    return "mouth", shift(0.35 * thing.model.length, 0.0, low)
+
+
+def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Actor]:
+    """Both come from left and right and touch at one instant; what is fixed stays.
+
+    Args:
+        subject: one of them.
+        other: the other one.
+        duration_s: length of the clip, s.
+    """
+    contact_s = contact_time(duration_s, 0.5)
+    homes = [actor.trajectory.at(0.0).position for actor in (subject, other)]
+    yaws = (0.0, math.pi) if homes[0][0] <= homes[1][0] else (math.pi, 0.0)
+    if other.noun.habitat == "fixed":
+        return _run_into(subject, other, yaws[0], contact_s)
+    if subject.noun.habitat == "fixed":
+        other, subject = _run_into(other, subject, yaws[1], contact_s)
+        return subject, other
+    x, y = (0.5 * (homes[0][axis] + homes[1][axis]) for axis in (0, 1))
+    met = []
+    for actor, yaw, home in zip((subject, other), yaws, homes, strict=True):
+        touching = ahead((x, y, home[2]), yaw, -0.5 * actor.model.length, home[2])
+        met.append(moving(actor, _run_up(actor, touching, yaw, contact_s)))
+    return met[0], met[1]
+
+
+def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple[Actor, Actor]:
+    """What comes goes back or falls off; what stands has its front to it."""
+    if still.model.length < _THIN * still.model.width:
+        yaw += _ASLANT if yaw == 0.0 else -_ASLANT
+        place = still.trajectory.at(0.0).position
+        still = replace(still, trajectory=Stationary(place, yaw + math.pi))
+    is_flying = mover.noun.habitat in ("air", "fixed")  # what cannot go by itself was thrown
+    lift, low_m = lift_of(mover), mover.trajectory.at(0.0).position[2]
+    level = float(still.middle(0.0)[2]) - lift if is_flying else low_m
+    touching = _find_contact(mover, still, yaw, level)
+    if not is_flying:
+        return moving(mover, _run_up(mover, touching, yaw, contact_s)), still
+    speed = _FLOWN_LENGTHS * mover.model.length / contact_s
+    start = ahead(touching, yaw, -speed * contact_s, touching[2])
+    coming = SteeredPath(start, yaw, (Piece(contact_s, speed),), speed)
+    hit = BodyState(touching, yaw, distance_m=speed * contact_s, pivot_m=lift)
+    back = vector(-_BOUNCED * speed * heading_of(yaw))
+    falling = Flight(hit, back, 0.5 * mover.model.height - lift, 0.55, contact_s, -3.0)
+    return moving(mover, Switched(coming, falling, contact_s)), still
+
+
+def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vector:
+    """Where a body's origin is when it meets another's middle along a heading at a height, m."""
+    frame = rotation(-yaw, 0.0, 0.0)
+    parts = still.own_parts(still.pose(0.0))
+    parts = moved(parts, frame @ still.trajectory.at(0.0).to_world())
+    y = float((frame @ still.middle(0.0))[1])
+    low = level_m + lift_of(mover) - 0.5 * mover.model.height
+    boxes = [bounds([part]) for part in parts]
+    met = [
+        box for box in boxes
+        if box[0][2] < low + mover.model.height and box[1][2] > low and box[0][1] <= y <= box[1][1]
+    ] or boxes  # fmt: skip
+    x = min(float(box[0][0]) for box in met) - 0.5 * mover.model.length
+    return vector(frame.T @ np.array([x, y, level_m]))
+
+
+def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> SteeredPath:
+    """Along the ground to where it touches, and a little back."""
+    length = actor.model.length
+    usual = actor.noun.speed_m_s or length / contact_s
+    speed = min(max(usual * contact_s, _LENGTHS[0] * length), _LENGTHS[1] * length) / contact_s
+    back = speed * _REBOUND.get(actor.noun.motion, 0.0)
+    return SteeredPath(
+        ahead(touching, yaw, -speed * contact_s, touching[2]),
+        yaw,
+        (
+            Piece(contact_s, speed),
+            Piece(0.25, -back, ramp_s=_TURN_ROUND_S),
+            Piece(0.6, 0.0, ramp_s=0.6),
+            Piece(0.1, activity="stand"),
+        ),
+        initial_speed_m_s=speed,
+    )

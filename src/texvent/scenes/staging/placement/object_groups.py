@@ -208,7 +208,7 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
     length = max(model.length for model in models)
     width = max(model.width for model in models)
     size = max(length, width)
-    if plan.motion.direction in ("circle", "eight"):
+    if plan.motion.direction == "circle":
         return 4.0 * size, 4.0 * size
     if noun.motion == "drive":
         return 1.45 * length + 0.5, max(width + 0.9, 2.9)

@@ -14,9 +14,8 @@ from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.attached import OnPart
+from texvent.scenes.staging.acts.acts import OnPart
 from texvent.scenes.staging.acts.perform import perform_acts
-from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer
 from texvent.scenes.staging.placement.object_groups import (
@@ -41,6 +40,7 @@ from texvent.scenes.staging.placement.spatial_relations import (
     place_by_subject,
     place_on_targets,
 )
+from texvent.scenes.staging.preparation import settle_motions
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M

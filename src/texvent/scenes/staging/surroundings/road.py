@@ -13,7 +13,7 @@ from texvent.scenes.models.places import Place
 from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.attached import HeldAt
+from texvent.scenes.staging.acts.acts import HeldAt
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath

@@ -26,7 +26,6 @@ from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, a
 from texvent.scenes.staging.trajectories.steered_path import (
     Piece,
     SteeredPath,
-    bend_path,
     flight_s,
 )
 from texvent.scenes.staging.trajectories.trajectory import (
@@ -51,8 +50,6 @@ _STUNTS: Mapping[str, tuple[Axis, float, str, float]] = {
 """Motion → axis, turns per second, what limbs do meanwhile, and how high it is, in its sizes."""
 _LARGEST_AFLOAT_M = 2.5
 """What is larger bobs no more than that: a moon, a cloud."""
-_DRIFT_TURN_RAD, _SLIP_RAD = 1.3, 0.62
-"""Change of heading of a car that drifts, over the clip; from where it goes to where it points."""
 _ROUND_RAD, _ROUND_RAD_S = 2.6, 1.3
 """Angle of the round that what goes in a circle covers in a clip at least, and the rate up to which
 it turns for that."""
@@ -96,8 +93,6 @@ def choose_trajectory(
         return _go_round(plan, model, home, phase)
     if direction in ("to and fro", "up and down") and kind != "sway":
         return _go_and_return(plan, model, home)
-    if kind == "drift":
-        return _drift(plan, home)
     if kind in PATH_KINDS:
         return _follow_path(plan, model, home, phase)
     if kind in ("bounce", "fall", "throw"):
@@ -127,20 +122,14 @@ def _leap(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> Steer
 
 
 def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
-    """Along a circle; that of a flat shape stands upright in the picture.
-
-    At a usual speed it is fast enough for a good part of the round to be seen.
-    """
+    """Along a circle, at a usual speed fast enough for a good part of the round to be seen."""
     kind, motion = plan.motion.kind, plan.motion
     rounds_hz = 0.0 if motion.speed_m_s is not None else motion.pace / plan.duration_s
     radius = 1.3 * max(model.length, model.width)
     rate = max(plan.speed_m_s / radius, min(_ROUND_RAD_S, _ROUND_RAD * rounds_hz))
     lean = 0.35 * (kind in ("fly", "orbit"))
     circle = Circle(home, radius, rate, phase, activity_of(kind), lean)
-    if plan.is_facing:
-        once = replace(circle, rate_rad_s=2.0 * math.pi * rounds_hz or rate)
-        return Facing(once, _raised(home, radius))
-    return circle
+    return Facing(circle) if plan.is_facing else circle
 
 
 def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
@@ -156,33 +145,16 @@ def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
     return Facing(path) if plan.is_facing else path
 
 
-def _drift(plan: MotionPlan, home: Vector) -> Trajectory:
-    """Round a bend to its left, its front turned further left than it goes."""
-    speed, duration_s = 1.2 * plan.speed_m_s, plan.duration_s
-    path = bend_path(plan.yaw, speed, _DRIFT_TURN_RAD / (duration_s * speed), duration_s)
-    x, y, _ = path.start
-    start = (x + home[0], y + home[1], home[2])
-    return replace(path, start=start, floor_m=home[2], slip_rad=_SLIP_RAD)
-
-
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
-    kind = plan.motion.kind
-    is_air = kind == "fly"
+    kind, mid_s = plan.motion.kind, 0.5 * plan.duration_s
+    if plan.is_facing:
+        home = _raised(home, plan.climb * plan.speed_m_s * mid_s)
+    doing = activity_of(kind)
+    path: Trajectory = Straight(home, plan.yaw, plan.speed_m_s, mid_s, doing, climb=plan.climb)
     is_flat = model.length < _FLAT * min(model.width, model.height)
-    is_flat = plan.is_facing or (is_flat and (is_air or kind == "slide"))
-    path = Straight(
-        home,
-        plan.yaw,
-        plan.speed_m_s,
-        0.5 * plan.duration_s,
-        activity_of(kind),
-        climb=plan.climb,
-        facing_rad=TO_CAMERA + 0.35 * is_air if is_flat else None,
-    )
-    if plan.is_facing and path.climb:
-        reach = 0.5 * path.climb * path.speed_m_s * plan.duration_s
-        return Facing(replace(path, home=_raised(home, reach)))
-    if is_air or kind in ("sail", "paddle"):
+    if plan.is_facing or (is_flat and kind in ("fly", "slide")):
+        path = Facing(path, TO_CAMERA + 0.35 * (kind == "fly"))
+    if kind in ("fly", "sail", "paddle"):
         return Oscillating(path, (Wave("z", 0.04 * model.height, _BOB_HZ, phase),))
     if kind == "swim":
         return Oscillating(path, (Wave("yaw", _WEAVE_RAD, _WEAVE_HZ, phase),))

@@ -68,7 +68,7 @@ class MotionPlan:
     @property
     def is_path(self) -> bool:
         """Whether it goes from one place to another along a straight line."""
-        is_straight = self.motion.direction not in ("circle", "eight", "to and fro", "up and down")
+        is_straight = self.motion.direction not in ("circle", "to and fro", "up and down")
         return self.path is None and self.motion.kind in PATH_KINDS and is_straight
 
     def turned(self, yaw: float) -> MotionPlan:
@@ -141,7 +141,7 @@ def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss:
     motion, default = motions[0], YAWS["left" if toss < 0.5 else "right"]
     later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
     direction = motion.direction or next(later, None) or ""
-    goes = motion.kind in PATH_KINDS or any(m.kind in GOING | {"turn", "zigzag"} for m in motions)
+    goes = motion.kind in PATH_KINDS or any(m.kind in GOING | {"turn"} for m in motions)
     is_toppling = motion.kind == "topple" or any(one.kind == "fall" for one in motions[1:])
     if motion.kind == "turn":
         return default  # "turns left" is to its own left
@@ -220,13 +220,8 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
-    front, side, is_person = (
-        -0.5 * math.pi,
-        math.pi if toss < 0.5 else 0.0,
-        noun.name in PERSON_NOUNS,
-    )
-    if motion.kind == "sway" and noun.habitat != "fixed" and not is_person:
-        return front + math.copysign(0.6, tilt)
+    front, side = -0.5 * math.pi, math.pi if toss < 0.5 else 0.0
+    is_person = noun.name in PERSON_NOUNS
     if is_person and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:
         return side + 0.5 * tilt
     turned = trait_value("side view", noun.name)

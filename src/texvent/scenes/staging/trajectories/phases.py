@@ -1,15 +1,17 @@
-"""What an object does one after the other, as the pieces of one continuous path."""
+"""What an object does one after the other: when, and as the pieces of one continuous path."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
-from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
+import numpy as np
+
+from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.traits import nouns_with
-from texvent.scenes.staging.trajectories.schedule import Phase, schedule
 from texvent.scenes.staging.trajectories.steered_path import (
     HOP_PAUSE_S,
     Piece,
@@ -19,13 +21,11 @@ from texvent.scenes.staging.trajectories.steered_path import (
     flight_s,
 )
 
-PATH_KINDS = TRAVELLING | frozenset(
-    {"drive", "fly", "sail", "paddle", "slide", "roll", "move", "drift"}
-)
+PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""
 GOING = PATH_KINDS | {"reverse", "enter", "leave", "appear"}
 """Those with a direction of travel."""
-_STEERED = GOING | {"turn", "zigzag", "park"}
+_STEERED = GOING | {"turn"}
 _PIECED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
 
 YAWS = {
@@ -38,10 +38,10 @@ YAWS = {
     "down": -0.5 * math.pi,
 }
 """Direction → heading; up and down are along a slope for what moves on the ground."""
-_STEERED_DIRECTIONS = frozenset({"backward", "around", "eight"})
+_STEERED_DIRECTIONS = frozenset({"backward", "around"})
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
-QUARTER, ZIGZAG_RAD = 0.5 * math.pi, 0.55
+QUARTER = 0.5 * math.pi
 _TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
 """Shares of a phase that a turn takes where it is all that happens, for it comes and goes on; and
 that the turn to another direction takes."""
@@ -62,6 +62,47 @@ _SUNK = 0.8
 _CLOCKWISE = frozenset({"clockwise", "right"})
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
+
+
+@dataclass(frozen=True)
+class Phase:
+    """One motion and when it happens, s."""
+
+    motion: ObjectMotion
+    start_s: float
+    end_s: float
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the phase, s."""
+        return self.end_s - self.start_s
+
+
+def schedule(motions: Sequence[ObjectMotion], duration_s: float) -> list[Phase]:
+    """When each motion happens: where the prompt says so, else in even shares of the time.
+
+    Motions that would begin at the end of the clip or later are left out.
+    """
+    motions = list(motions)
+    if motions[0].start_s:
+        motions.insert(0, STANDING)
+    known = {0: 0.0, len(motions): duration_s}
+    for number, motion in enumerate(motions):
+        if number and motion.start_s is not None:
+            known[number] = min(motion.start_s, duration_s)
+    numbers = sorted(known)
+    shares = np.interp(range(len(motions) + 1), numbers, [known[number] for number in numbers])
+    times = [float(time) for time in np.maximum.accumulate(shares)]
+    shown = [
+        Phase(motion, begin, max(end, begin))
+        for motion, begin, end in zip(motions, times, times[1:], strict=False)
+    ]
+    return [phase for phase in shown if phase.duration_s > 1e-6 * duration_s]
+
+
+def left_out(motions: Sequence[ObjectMotion], duration_s: float) -> list[ObjectMotion]:
+    """Motions that would begin when the clip is over."""
+    return [m for m in motions if m.start_s is not None and m.start_s >= duration_s]
 
 
 def needs_steering(motions: Sequence[ObjectMotion]) -> bool:
@@ -110,7 +151,7 @@ def build_path(
         builder.add(phase)
     path = SteeredPath(
         (0.0, 0.0, builder.initial_height),
-        yaw + builder.initial_yaw,
+        yaw,
         tuple(builder.pieces),
         builder.initial_speed,
         builder.initial_turn,
@@ -130,8 +171,6 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
         motion = phase.motion
         if motion.speed_m_s is not None:
             continue
-        if motion.kind == "park":
-            needed = max(needed, QUARTER * radius / (0.45 * phase.duration_s))
         if motion.kind in ("enter", "leave"):
             needed = max(needed, 2.0 * model.length / phase.duration_s)
         if motion.kind == "turn" or motion.direction == "around":
@@ -142,7 +181,7 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
 
 
 class _Builder:
-    """Collects pieces; knows the speed and height at the end of the last one."""
+    """Collects pieces; knows the heading and height at the end of the last one."""
 
     def __init__(
         self, noun: Noun, model: Model, usual_m_s: float, yaw: float, *, is_single: bool
@@ -154,10 +193,7 @@ class _Builder:
         self._height = 0.0
         self._heading = yaw
         self.pieces: list[Piece] = []
-        self.initial_speed = 0.0
-        self.initial_turn = 0.0
-        self.initial_yaw = 0.0
-        self.initial_height = 0.0
+        self.initial_speed = self.initial_turn = self.initial_height = 0.0
 
     def add(self, phase: Phase) -> None:
         """Append the pieces of one phase."""
@@ -170,7 +206,7 @@ class _Builder:
             turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
             turn = -turn if motion.direction in _CLOCKWISE else turn
             self._start(0.0, turn)
-            self._append(span, 0.0, turn, ramp=min(0.4, 0.5 * span))
+            self._append(Piece(span, 0.0, turn, ramp_s=min(0.4, 0.5 * span)))
         elif motion.kind in ("jump", "bounce"):
             self._hop(motion, span)
         elif motion.kind in ("fall", "topple"):
@@ -178,15 +214,27 @@ class _Builder:
         else:
             self._rest(motion, span)
 
+    @property
+    def _last(self) -> Piece:
+        return self.pieces[-1] if self.pieces else Piece(0.0)
+
+    def _start(self, speed: float, turn: float = 0.0) -> None:
+        """Let the clip begin in full motion."""
+        if not self.pieces:
+            self.initial_speed, self.initial_turn = speed, turn
+
+    def _append(self, piece: Piece) -> None:
+        before = self._last.turn_rad_s if self.pieces else self.initial_turn
+        span, turn, ramp = piece.duration_s, piece.turn_rad_s, piece.ramp_s
+        self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
+        self._height += piece.climb_m_s * span
+        self.pieces.append(piece)
+
     def _speed(self, motion: ObjectMotion) -> float:
         """Signed speed at the beginning of a motion, m/s."""
         speed = self._usual * motion.pace if motion.speed_m_s is None else motion.speed_m_s
         if motion.kind == "turn" and not self._is_mobile:
             return 0.0
-        if motion.direction == "around" and self._is_mobile and self._noun.motion != "drive":
-            speed *= 0.4
-        if motion.kind == "run" and self._noun.motion == "walk" and motion.speed_m_s is None:
-            speed *= 1.6 if self.pieces else 1.0
         is_back = motion.direction == "backward" or motion.kind == "reverse"
         return -speed if is_back else speed
 
@@ -197,80 +245,41 @@ class _Builder:
             return speed * motion.end_pace / max(motion.pace, 1e-6)
         return math.copysign(self._usual * motion.end_pace, speed)
 
-    def _carried(self) -> float:
-        """Speed with which a jump begins: that of what went before."""
-        return self.pieces[-1].speed_m_s if self.pieces else 0.0
-
-    def _start(self, speed: float, turn: float = 0.0) -> None:
-        """Let the clip begin in full motion."""
-        if not self.pieces:
-            self.initial_speed, self.initial_turn = speed, turn
-
-    def _append(
-        self, span: float, speed: float, turn: float = 0.0, climb: float = 0.0, *,
-        ramp: float | None = None, activity: str = "move", hop: float = 0.0,
-    ) -> None:  # fmt: skip
-        ramp = min(_RAMP_S, 0.35 * span) if ramp is None else ramp
-        self.pieces.append(Piece(span, speed, turn, climb, ramp, activity, hop))
-        self._height += climb * span
-        before = self.pieces[-2].turn_rad_s if len(self.pieces) > 1 else self.initial_turn
-        self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
-
     def _travel(self, motion: ObjectMotion, span: float) -> None:
         """Along segments, straight or turning, at the end of which it may change its speed."""
         speed, activity = self._speed(motion), activity_of(motion.kind)
-        end = 0.0 if motion.kind == "park" else self._end_speed(motion, speed)
+        end = self._end_speed(motion, speed)
         slope = {"up": _CLIMB, "down": -_CLIMB}.get(motion.direction or "", 0.0)
         climb = slope * abs(speed) if self._is_free else 0.0
-        if motion.direction == "circle":
-            turn = speed / max(1.3 * max(self._model.length, self._model.width), 0.3)
-            self._start(speed, turn)
-            self._append(span, speed, turn, activity=activity)
-            return
-        segments = self._choose_segments(motion, span)
+        segments = self._choose_segments(motion)
         self._start(speed)
         if end is not None and segments[-1][1]:
             segments = [(0.65 * share, turn) for share, turn in segments] + [(0.35, 0.0)]
         last_s = segments.pop()[0] * span if end is not None else 0.0
         for share, turn in segments:
             if turn:
-                is_weaving = motion.kind == "zigzag"
-                least = 0.0 if is_weaving else least_radius(self._model, self._noun)
-                for one in arc(share * span, speed, turn, least):
-                    self._append(one.duration_s, speed, one.turn_rad_s, ramp=one.ramp_s,
-                                 activity=activity)  # fmt: skip
+                for one in arc(share * span, speed, turn, least_radius(self._model, self._noun)):
+                    self._append(replace(one, activity=activity))
             else:
-                self._append(share * span, speed, climb=climb, activity=activity)
+                ramp = min(_RAMP_S, 0.35 * share * span)
+                self._append(Piece(share * span, speed, 0.0, climb, ramp, activity))
         if end is not None:
             # What brakes is seen going, and at rest or slow for a while.
-            is_braking = abs(end) < abs(speed)
-            lead, ramp = (0.3, 0.4) if is_braking else (0.12, 0.88)
-            self._append(lead * last_s, speed, climb=climb, activity=activity)
-            self._append((1.0 - lead) * last_s, end, climb=climb, ramp=ramp * last_s,
-                         activity=activity)  # fmt: skip
+            lead, ramp = (0.3, 0.4) if abs(end) < abs(speed) else (0.12, 0.88)
+            first_ramp = min(_RAMP_S, 0.35 * lead * last_s)
+            self._append(Piece(lead * last_s, speed, 0.0, climb, first_ramp, activity))
+            rest_s = (1.0 - lead) * last_s
+            self._append(Piece(rest_s, end, 0.0, climb, ramp * last_s, activity))
 
-    def _choose_segments(self, motion: ObjectMotion, span: float) -> list[tuple[float, float]]:
+    def _choose_segments(self, motion: ObjectMotion) -> list[tuple[float, float]]:
         """Shares of the time, and by what angle each one turns, rad."""
-        kind, direction = motion.kind, motion.direction
-        angle = math.pi if direction == "around" else QUARTER
+        direction = motion.direction or ""
+        angle = {"around": math.pi, "circle": 2.0 * math.pi}.get(direction, QUARTER)
         angle = -angle if direction in _CLOCKWISE else angle
-        if kind == "zigzag":
-            count = max(2, round(span / 0.8))
-            turns = [2.0 * ZIGZAG_RAD * (-1.0) ** number for number in range(count)]
-            if self.pieces:
-                turns[0] = ZIGZAG_RAD
-            else:
-                self.initial_yaw = -ZIGZAG_RAD
-            return [(1.0 / count, turn) for turn in turns]
-        if kind == "park":
-            return [(0.2, 0.0), (0.45, angle), (0.35, 0.0)]
-        if direction == "eight":
-            return [(0.5, 2.0 * math.pi), (0.5, -2.0 * math.pi)]
-        if kind == "turn" or direction == "around":
+        if motion.kind == "turn" or direction in ("around", "circle"):
             lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
-            turning = [(1.0 - 2.0 * lead, angle)]
-            return [(lead, 0.0), *turning, (lead, 0.0)] if lead else turning
-        target = YAWS.get(direction or "")
+            return [(lead, 0.0), (1.0 - 2.0 * lead, angle), (lead, 0.0)] if lead else [(1.0, angle)]
+        target = YAWS.get(direction)
         if not self.pieces or target is None or direction in ("up", "down"):
             return [(1.0, 0.0)]
         turn = math.remainder(target - self._heading, 2.0 * math.pi)
@@ -284,11 +293,11 @@ class _Builder:
         if self._is_single and self._noun.name in nouns_with("takes off"):
             speed = self._speed(motion)
             climb = _TAKE_OFF * speed if is_up else -_LANDING * speed
-            share = _LIFT_SHARE if is_up else _LANDING_SHARE
+            first_s = span * (_LIFT_SHARE if is_up else _LANDING_SHARE)
             self._start(speed)
-            self._append(share * span, speed, climb=0.0 if is_up else climb, ramp=0.0)
-            self._append(span - share * span, speed, climb=climb if is_up else 0.0, ramp=0.6)
-            self.initial_height = 0.0 if is_up else -climb * (share * span + 0.3)
+            self._append(Piece(first_s, speed, 0.0, 0.0 if is_up else climb, 0.0))
+            self._append(Piece(span - first_s, speed, 0.0, climb if is_up else 0.0, 0.6))
+            self.initial_height = 0.0 if is_up else -climb * (first_s + 0.3)
             return
         size = max(self._model.length, self._model.height)
         climb = min(max(self._usual, 0.3 * size), size) * motion.pace
@@ -300,12 +309,13 @@ class _Builder:
         elif not is_up:
             climb = -climb if self._is_free else -min(climb, self._height / span)
         # What rises alone starts slowly and gets faster all along.
-        ramp = span if is_up and self._is_single else min(0.6, 0.6 * span)
-        self._append(span, 0.0, climb=climb * (2.0 if ramp == span else 1.0), ramp=ramp)
+        is_slow = is_up and self._is_single
+        ramp, factor = (span, 2.0) if is_slow else (min(0.6, 0.6 * span), 1.0)
+        self._append(Piece(span, climb_m_s=factor * climb, ramp_s=ramp))
 
     def _hop(self, motion: ObjectMotion, span: float) -> None:
         """Jump or bounce."""
-        model, speed = self._model, self._carried()
+        model, speed = self._model, self._last.speed_m_s
         height = max(1.5 * model.height, 0.4)
         if motion.kind == "jump":
             height = min(max(0.35 * model.height, 0.12), 1.5) * motion.pace
@@ -315,37 +325,34 @@ class _Builder:
                 speed = model.length / (flight_s(height) + HOP_PAUSE_S)
                 self._start(speed)
         activity = "jump" if motion.kind == "jump" and not speed else "move"
-        self._append(span, speed, hop=height, activity=activity)
+        ramp = min(_RAMP_S, 0.35 * span)
+        self._append(Piece(span, speed, 0.0, 0.0, ramp, activity, height))
 
     def _fall(self, kind: str, span: float) -> None:
         """Drop to the floor; or what stands there falls over."""
         is_standing = self._height < 0.1 * self._model.height and self._noun.habitat != "air"
         if kind == "topple" and not self.pieces:
-            self._append(0.15 * span, 0.0, activity="stand")
+            self._append(Piece(0.15 * span, ramp_s=0.05 * span, activity="stand"))
             span *= 0.85
+        piece = Piece(span, activity="stand", is_dropped=True)
         if kind == "topple" or is_standing:
             piece = Piece(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)
-        else:
-            piece = Piece(span, activity="stand", is_dropped=True)
-        self.pieces.append(piece)
+        self._append(piece)
         self._height = 0.0
 
     def _rest(self, motion: ObjectMotion, span: float) -> None:
         """Come to rest, and act in place."""
-        braking = max(0.25, abs(self._carried()) / _BRAKING_M_S2)
+        last = self._last
         activity = "stand" if motion.kind in ("stand", "hover", "work") else motion.kind
         if self.pieces:
             activity = _REACHED.get(activity, activity)
         if self._noun.name in PERSON_NOUNS:
             activity = ON_GROUND.get(activity, activity)
         if self.pieces and motion.kind == "stand":
-            activity = self.pieces[-1].activity  # wheels and legs go on until it stands
-        pitch = self.pieces[-1].pitch_rad if self.pieces else 0.0
-        sway = 0.2 if motion.kind == "sway" else 0.0
+            activity = last.activity  # wheels and legs go on until it stands
+        braking = max(0.25, abs(last.speed_m_s) / _BRAKING_M_S2)
         ramp = min(braking, 0.9 * span)
-        self.pieces.append(
-            Piece(span, ramp_s=ramp, activity=activity, pitch_rad=pitch, sway_rad=sway)
-        )
+        self._append(Piece(span, ramp_s=ramp, activity=activity, pitch_rad=last.pitch_rad))
 
 
 def activity_of(kind: str) -> str:

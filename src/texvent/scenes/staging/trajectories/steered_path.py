@@ -3,7 +3,7 @@
 Within a piece these three change smoothly (3u² - 2u³) from the values that the last piece ended
 with and stay there, so position, heading and speed are continuous. Heading, height and distance
 follow in closed form; the position is the integral of the velocity, in closed form on straight
-lines and circular arcs and by Gauss-Legendre quadrature while speed or rate of turning change.
+lines and by Gauss-Legendre quadrature in bends.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +22,6 @@ from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector, ah
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _RADIANS_PER_STEP = 1.0
 """Most heading that one step of the quadrature spans."""
-_STRAIGHT_RAD_S = 1e-9
 _RAMP_S, _SAMPLES = 0.3, 41
 
 
@@ -44,8 +44,6 @@ class Piece:
     """Whether it falls to the floor, with small bounces."""
     pitch_rad: float = 0.0
     """Pitch of the body at its end, as of a person who falls over."""
-    sway_rad: float = 0.0
-    """Amplitude of leaning from side to side."""
 
     @property
     def rates(self) -> tuple[float, float, float, float]:
@@ -82,8 +80,6 @@ class SteeredPath:
     restitution: float = 0.3
     side_m: float = 0.0
     """Half the width of what falls onto its side; 0 = it falls forwards."""
-    slip_rad: float = 0.0
-    """From where it goes to where it points, as of a car that drifts; positive = to its left."""
 
     @property
     def duration_s(self) -> float:
@@ -102,16 +98,13 @@ class SteeredPath:
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        number, knot, piece, elapsed = self._find(time_s)
+        knot, piece, elapsed = self._find(time_s)
         now = self._advance(knot, piece, elapsed)
         speed, turn, climb, pitch = now.rates
         (x, y, height), roll, act_s = now.place, 0.0, None
-        if 0.0 <= elapsed <= piece.duration_s and number >= 0:
-            if piece.hop_m > 0.0:
-                hop, act_s = _hop(piece, elapsed)
-                height += hop
-            share = elapsed / piece.duration_s
-            roll += piece.sway_rad * math.sin(math.pi * share) ** 2 * math.sin(9.0 * elapsed)
+        if piece.hop_m > 0.0 and 0.0 <= elapsed <= piece.duration_s:
+            hop, act_s = _hop(piece, elapsed)
+            height += hop
         if self.side_m > 0.0:
             height += self.side_m * math.sin(pitch)
             pitch, roll = 0.0, roll + pitch
@@ -120,7 +113,7 @@ class SteeredPath:
         roll -= math.atan(self.lean * speed * turn / GRAVITY_M_S2)
         return BodyState(
             (x, y, height),
-            now.heading + self.slip_rad,
+            now.heading,
             pitch,
             roll,
             distance_m=now.distance_m,
@@ -131,19 +124,19 @@ class SteeredPath:
 
     def distance_at(self, time_s: float) -> float:
         """Way covered since t = 0, forwards less backwards, m."""
-        _, knot, piece, elapsed = self._find(time_s)
+        knot, piece, elapsed = self._find(time_s)
         return knot.distance_m + _integral(knot.rates[0], piece.speed_m_s, _ramp(piece), elapsed)
 
-    def _find(self, time_s: float) -> tuple[int, _Knot, Piece, float]:
-        """The piece that holds an instant: its number, its beginning, itself, and time in it."""
+    def _find(self, time_s: float) -> tuple[_Knot, Piece, float]:
+        """The piece that holds an instant: its beginning, itself, and time in it."""
         knots = self._knots
         if time_s < 0.0:
             speed = self.initial_speed_m_s
             steady = Piece(1.0, speed, activity=self.pieces[0].activity)
-            return -1, knots[0]._replace(rates=(speed, 0.0, 0.0, 0.0)), steady, time_s
+            return knots[0]._replace(rates=(speed, 0.0, 0.0, 0.0)), steady, time_s
         for number, piece in enumerate(self.pieces):
             if time_s < knots[number + 1].time_s or number == len(self.pieces) - 1:
-                return number, knots[number], piece, time_s - knots[number].time_s
+                return knots[number], piece, time_s - knots[number].time_s
         raise AssertionError("a path has at least one piece")
 
     def _advance(self, knot: _Knot, piece: Piece, elapsed: float) -> _Knot:
@@ -214,35 +207,19 @@ def _travel(knot: _Knot, piece: Piece, ramp: float, elapsed: float) -> tuple[flo
     if elapsed < 0.0 or turn == 0.0 == piece.turn_rad_s:
         way = _integral(speed, piece.speed_m_s, ramp, elapsed)
         return x + way * math.cos(heading), y + way * math.sin(heading)
-    dx, dy = _quadrature(knot, piece, ramp, min(elapsed, ramp))
-    x, y = x + dx, y + dy
-    heading += _integral(turn, piece.turn_rad_s, ramp, min(elapsed, ramp))
-    rest, speed, turn = max(elapsed - ramp, 0.0), piece.speed_m_s, piece.turn_rad_s
-    if abs(turn) < _STRAIGHT_RAD_S:
-        return x + speed * rest * math.cos(heading), y + speed * rest * math.sin(heading)
-    end, radius = heading + turn * rest, speed / turn
-    return (
-        x + radius * (math.sin(end) - math.sin(heading)),
-        y - radius * (math.cos(end) - math.cos(heading)),
-    )
-
-
-def _quadrature(knot: _Knot, piece: Piece, ramp: float, elapsed: float) -> tuple[float, float]:
-    """Integral of the velocity over the first `elapsed` s of a piece, within its ramp, m."""
-    if elapsed <= 0.0:
-        return 0.0, 0.0
-    speed, turn, _, _ = knot.rates
-    steps = max(1, math.ceil(max(abs(turn), abs(piece.turn_rad_s)) * ramp / _RADIANS_PER_STEP))
-    edges = np.linspace(0.0, elapsed, steps + 1)
-    half = 0.5 * elapsed / steps
-    times = (0.5 * (edges[:-1] + edges[1:]))[:, None] + half * _NODES
-    u = times / ramp
-    ease, area = u * u * (3.0 - 2.0 * u), ramp * (u**3 - 0.5 * u**4)
-    speeds = speed + (piece.speed_m_s - speed) * ease
-    headings = knot.heading + turn * times + (piece.turn_rad_s - turn) * area
-    dx = half * float(np.sum(_WEIGHTS * speeds * np.cos(headings)))
-    dy = half * float(np.sum(_WEIGHTS * speeds * np.sin(headings)))
-    return dx, dy
+    edges = [0.0, min(elapsed, ramp), elapsed]
+    most = max(abs(turn), abs(piece.turn_rad_s))
+    for begin, end in pairwise(edges):
+        steps = max(1, math.ceil(most * (end - begin) / _RADIANS_PER_STEP))
+        half = 0.5 * (end - begin) / steps
+        times = begin + half * (2.0 * np.arange(steps)[:, None] + 1.0 + _NODES)
+        u = np.minimum(times / max(ramp, 1e-9), 1.0)
+        speeds = speed + (piece.speed_m_s - speed) * u * u * (3.0 - 2.0 * u)
+        eased = (piece.turn_rad_s - turn) * (u**3 - 0.5 * u**4)
+        headings = heading + ramp * (turn * u + eased) + piece.turn_rad_s * (times - ramp * u)
+        x += half * float(np.sum(_WEIGHTS * speeds * np.cos(headings)))
+        y += half * float(np.sum(_WEIGHTS * speeds * np.sin(headings)))
+    return x, y
 
 
 HOP_PAUSE_S = 0.12

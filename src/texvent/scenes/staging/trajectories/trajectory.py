@@ -121,16 +121,13 @@ class Straight:
     activity: str = "move"
     climb: float = 0.0
     """Metres up per metre along."""
-    facing_rad: float | None = None
-    """Where its front points if not along its heading (a kite's face)."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        facing = self.yaw if self.facing_rad is None else self.facing_rad
         along = self.speed_m_s * (time_s - self.mid_s)
         return BodyState(
             ahead(self.home, self.yaw, along, self.home[2] + along * self.climb),
-            facing,
+            self.yaw,
             -math.atan(self.climb),
             distance_m=self.speed_m_s * time_s,
             speed_m_s=self.speed_m_s,
@@ -229,16 +226,11 @@ class Facing:
     """A board or a flat shape that shows its front to the camera all along a path."""
 
     path: Trajectory
-    upright: Vector | None = None
-    """Middle of a round that stands upright in the picture, m; None = the path lies level."""
+    yaw: float = TO_CAMERA
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        state = self.path.at(time_s)
-        if self.upright is not None:
-            (x, y, _), (_, depth, height) = state.position, self.upright
-            state = replace(state, position=(x, depth, height + y - depth))
-        return replace(state, yaw=TO_CAMERA, pitch=0.0, roll=0.0)
+        return replace(self.path.at(time_s), yaw=self.yaw, pitch=0.0, roll=0.0)
 
 
 @dataclass(frozen=True)
