@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS, act_stance
-from texvent.scenes.models.bodies.nouns import BODY_FAMILIES
-from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.nouns import FAMILIES, NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
 from texvent.scenes.scene import Shape
 
-QUADRUPEDS = tuple(noun.name for noun in BODY_FAMILIES["quadrupeds"])
+QUADRUPEDS = tuple(noun.name for noun in FAMILIES["quadrupeds"])
 
 
 def parts_at(noun: str, act: str, time_s: float) -> list:

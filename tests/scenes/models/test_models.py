@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.errors import InputError
-from texvent.scenes.models import limb_kinematics, shapes, variation
-from texvent.scenes.models.limb_kinematics import Gait
+from texvent.scenes.models import limbs, shapes, variation
+from texvent.scenes.models.limbs import Gait
 from texvent.scenes.models.materials import DARK, RED
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
@@ -254,8 +254,8 @@ def test_a_foot_on_the_ground_moves_back_as_fast_as_the_body_moves_on(
 ) -> None:
     gait = Gait(stride, duty, 0.1)
     step = 1e-4 * stride
-    x, z = limb_kinematics.foot_path(gait, distance, offset, 1.0)
-    later_x, later_z = limb_kinematics.foot_path(gait, distance + step, offset, 1.0)
+    x, z = limbs.foot_path(gait, distance, offset, 1.0)
+    later_x, later_z = limbs.foot_path(gait, distance + step, offset, 1.0)
     assert 0.0 <= z <= 0.1 + 1e-12
     assert abs(x) <= 0.5 * duty * stride + 1e-9
     phase = (distance / stride + offset) % 1.0
@@ -268,27 +268,25 @@ def test_a_foot_on_the_ground_moves_back_as_fast_as_the_body_moves_on(
 
 def test_foot_path_by_hand() -> None:
     gait = Gait(stride=2.0, duty=0.5, lift=0.3)
-    assert limb_kinematics.foot_path(gait, 0.0, 0.0, 1.0) == (0.5, 0.0)
-    assert limb_kinematics.foot_path(gait, 0.5, 0.0, 1.0) == (0.0, 0.0)
-    x, z = limb_kinematics.foot_path(gait, 1.5, 0.0, 1.0)
+    assert limbs.foot_path(gait, 0.0, 0.0, 1.0) == (0.5, 0.0)
+    assert limbs.foot_path(gait, 0.5, 0.0, 1.0) == (0.0, 0.0)
+    x, z = limbs.foot_path(gait, 1.5, 0.0, 1.0)
     assert (x, z) == pytest.approx((0.0, 0.3))
-    assert limb_kinematics.foot_path(gait, 1.5, 0.0, 0.0) == (0.0, 0.0)
+    assert limbs.foot_path(gait, 1.5, 0.0, 0.0) == (0.0, 0.0)
 
 
 def test_a_knee_bends_forward_by_hand() -> None:
     # A 3-4-5 triangle: hip at height 8, ankle at 0, both bones 5 long.
-    assert limb_kinematics.bend((0, 0, 8.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0)) == pytest.approx(
-        (3, 0, 4)
-    )
-    straight = limb_kinematics.bend((0, 0, 12.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0))
+    assert limbs.bend((0, 0, 8.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0)) == pytest.approx((3, 0, 4))
+    straight = limbs.bend((0, 0, 12.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0))
     assert straight == pytest.approx((0, 0, 6))
 
 
 def test_step_amount_is_zero_at_rest_and_one_at_speed() -> None:
-    assert limb_kinematics.step_amount("stand", 3.0, 1.0) == 0.0
-    assert limb_kinematics.step_amount("move", 0.0, 1.0) == 0.0
-    assert limb_kinematics.step_amount("move", 0.5, 1.0) == pytest.approx(0.5)
-    assert limb_kinematics.step_amount("run", 9.0, 1.0) == 1.0
+    assert limbs.step_amount("stand", 3.0, 1.0) == 0.0
+    assert limbs.step_amount("move", 0.0, 1.0) == 0.0
+    assert limbs.step_amount("move", 0.5, 1.0) == pytest.approx(0.5)
+    assert limbs.step_amount("run", 9.0, 1.0) == 1.0
 
 
 def test_a_limb_reaches_both_joints_and_its_stripes_ring_it() -> None:

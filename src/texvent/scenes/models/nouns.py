@@ -9,23 +9,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.resources import files
+from itertools import chain
 from types import MappingProxyType
 
-from texvent.scenes.models.bodies.nouns import BODY_FAMILIES
 from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.people import hand, person
 from texvent.scenes.models.protocol import Noun
 
 
 def _read_families() -> dict[str, tuple[Noun, ...]]:
-    """Nouns of the files of `data/nouns`, by the files' names."""
-    folder = files("texvent.scenes.models") / "data" / "nouns"
-    found = {one.name: one for one in folder.iterdir() if one.name.endswith(".toml")}
-    return {name.removesuffix(".toml"): read_nouns(found[name]) for name in sorted(found)}
+    """Nouns of the files of `data/bodies` and `data/nouns`, by the files' names."""
+    data = files("texvent.scenes.models") / "data"
+    listed = [sorted((data / folder).iterdir(), key=lambda one: one.name)
+              for folder in ("bodies", "nouns")]  # fmt: skip
+    return {
+        file.name.removesuffix(".toml"): read_nouns(file)
+        for file in chain(*listed)
+        if file.name.endswith(".toml")
+    }
 
 
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
-    {"people": (*person.NOUNS, *hand.NOUNS), **BODY_FAMILIES, **_read_families()}
+    {"people": (*person.NOUNS, *hand.NOUNS), **_read_families()}
 )
 """Nouns by family, such as "vehicles"."""
 

@@ -53,6 +53,21 @@ _ROUNDED = 0.6
 """How far a limb reaches beyond its joints, in its half thicknesses."""
 
 
+def read_groups(text: str) -> list[tuple[str, str]]:
+    """What stands after "moving" in lines that begin with it, and the lines of parts that follow.
+
+    The first has no such line: its parts do not move.
+    """
+    groups: list[tuple[str, list[str]]] = [("", [])]
+    for line in _whole_lines(text):
+        first, _, rest = line.partition(" ")
+        if first == "moving":
+            groups.append((rest.strip(), []))
+        else:
+            groups[-1][1].append(line)
+    return [(how, "\n".join(lines)) for how, lines in groups]
+
+
 def read_parts(text: str) -> tuple[tuple[Placed, ...], list[Wheel]]:
     """Parts that the lines of a text describe, and its wheels.
 
@@ -109,8 +124,10 @@ def _split(line: str) -> _Words:
     if shape.endswith("wheel"):
         return shape, "", rest
     taken = 1
-    if rest[0].startswith("("):
-        taken = next(n for n, word in enumerate(rest, 1) if ")" in word)
+    while " ".join(rest[:taken]).count("(") > " ".join(rest[:taken]).count(")"):
+        if taken == len(rest):
+            raise ValueError("a bracket is not closed")
+        taken += 1
     return shape, " ".join(rest[:taken]), rest[taken:]
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from texvent.scenes.models.limb_kinematics import bend
+from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.materials import BLACK, WHITE, Material, shade
 from texvent.scenes.models.people.outfit import Outfit, PersonKind
 from texvent.scenes.models.people.part_table import draw_parts

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
-from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
+from texvent.scenes.models.limbs import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import SEATED, SINGLE_ACTS
 from texvent.scenes.models.people.anchors import locate_anchor
 from texvent.scenes.models.people.figure import draw_figure

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.limb_kinematics import bend
+from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.shapes import Affine, Point, part_way
 
 THIGH, SHIN, ANKLE = 0.43, 0.43, 0.08

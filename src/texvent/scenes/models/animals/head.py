@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from texvent.scenes.models.animals.acts import STANDING, Stance
-from texvent.scenes.models.bodies.quadruped.build import Build, Coat, placed_marks
+from texvent.scenes.models.animals.build import Build, Coat, placed_marks
 from texvent.scenes.models.materials import BLACK, Material
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import (

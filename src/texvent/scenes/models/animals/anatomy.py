@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from texvent.scenes.models.animals.acts import Stance
-from texvent.scenes.models.bodies.quadruped.build import Build, Coat
-from texvent.scenes.models.bodies.quadruped.head import draw_head
-from texvent.scenes.models.bodies.quadruped.posture import LOWEST, curled_trunk, lowered_head
-from texvent.scenes.models.limb_kinematics import bend
+from texvent.scenes.models.animals.build import Build, Coat
+from texvent.scenes.models.animals.head import draw_head
+from texvent.scenes.models.animals.posture import LOWEST, curled_trunk, lowered_head
+from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.materials import Material, fur
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import (
