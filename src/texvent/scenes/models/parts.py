@@ -62,7 +62,13 @@ _KEYS: Mapping[str, tuple[type, ...]] = {
 """Keys of a noun, and what their values are."""
 _OWN = ("names", "plurals")
 """Keys that no noun takes from the one that it is like."""
-_HABITATS = ("ground", "air", "water", "fixed")
+_HABITATS: Mapping[str, str] = {
+    **dict.fromkeys(("drive", "walk", "run", "roll", "slide"), "ground"),
+    **dict.fromkeys(("fly", "float"), "air"),
+    **dict.fromkeys(("swim", "sail", "paddle"), "water"),
+    "stand": "fixed",
+}
+"""Usual motion → habitat, where an entry does not say it."""
 
 
 @dataclass(frozen=True)
@@ -272,7 +278,7 @@ def _laid(parts: Sequence[Placed]) -> tuple[Placed, ...]:
 
 def _is_centred(table: Mapping[str, Any]) -> bool:
     """Whether the origin is its middle: of what flies or swims, not of what floats."""
-    habitat = table.get("habitat", "fixed")
+    habitat = _habitat(table)
     return habitat == "air" or (habitat == "water" and table.get("motion") == "swim")
 
 
@@ -310,6 +316,10 @@ def _merged(model: Mapping[str, Any], own: Mapping[str, Any]) -> Mapping[str, An
     }
 
 
+def _habitat(table: Mapping[str, Any]) -> Any:
+    return table.get("habitat") or _HABITATS.get(table.get("motion", "stand"), "ground")
+
+
 def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
     for key, value in table.items():
         if key not in _KEYS:
@@ -318,9 +328,9 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
             raise FileFormatError(
                 f"{where}: {key} must be a {_KEYS[key][0].__name__} but is {value!r}"
             )
-    habitat = table.get("habitat", "fixed")
-    if habitat not in _HABITATS:
-        known = ", ".join(_HABITATS)
+    habitat = _habitat(table)
+    if habitat not in _HABITATS.values():
+        known = ", ".join(dict.fromkeys(_HABITATS.values()))
         raise FileFormatError(f"{where}: habitat must be one of {known} but is {habitat!r}")
     return Noun(
         name,

@@ -6,7 +6,7 @@ them.
     seat = ["chair", "sofa"]
 
     ["seat height"]
-    chair = 0.46
+    "chair, office chair" = 0.46
 """
 
 from __future__ import annotations
@@ -29,8 +29,15 @@ def _read() -> Mapping[str, Any]:
             twice = found.keys() & traits.keys()
             if twice:
                 raise ValueError(f"{file.name}: {sorted(twice)} are traits of another file too")
-            found |= traits
+            found |= {name: _by_noun(nouns) for name, nouns in traits.items()}
     return found
+
+
+def _by_noun(nouns: Any) -> Any:
+    """A table with a row for each noun of its keys."""
+    if not isinstance(nouns, Mapping):
+        return nouns
+    return {noun: value for key, value in nouns.items() for noun in key.split(", ")}
 
 
 @cache
