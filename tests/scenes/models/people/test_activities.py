@@ -17,13 +17,11 @@ from texvent.scenes.models.people.activities import (
     SINGLE_ACTS,
     TRAVELLING,
 )
-from texvent.scenes.models.people.hand import build_hand
-from texvent.scenes.models.people.hand_gestures import find_shape
+from texvent.scenes.models.people.hand import build_hand, find_shape
 from texvent.scenes.models.people.movements import find_posture
 from texvent.scenes.models.people.outfit import ADULT
 from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
-from texvent.scenes.models.people.tables import read_table
-from texvent.scenes.models.people.timing import ease, follow_keys, pulse
+from texvent.scenes.models.people.track import ease, follow_keys
 from texvent.scenes.models.protocol import Pose
 
 from ...every_row import for_every
@@ -51,7 +49,6 @@ def points(body: Skeleton) -> np.ndarray:
 def test_every_activity_has_a_posture_and_every_word_one_activity() -> None:
     still = {name for name in ACTIVITIES if find_posture(name, 0.0) is None}
     assert still == {"walk", "run", "crawl", "jump"}
-    assert set(read_table("movements")) <= set(ACTIVITIES)
     assert set(ON_GROUND.values()) <= set(ACTIVITIES)
     assert {"walk", "run", "crawl", "swim", "surf"} <= TRAVELLING
     owner: dict[str, str] = {}
@@ -237,7 +234,5 @@ def test_keys_are_met_and_slopes_continuous(time_s: float) -> None:
     np.testing.assert_allclose(left, right, atol=5e-3)
 
 
-def test_ease_and_pulse_by_hand() -> None:
+def test_ease_by_hand() -> None:
     assert (ease(0.0, 1.0, 2.0), ease(1.5, 1.0, 2.0), ease(3.0, 1.0, 2.0)) == (0.0, 0.5, 1.0)
-    assert pulse(0.25, 2.0) == pytest.approx(1.0)
-    assert pulse(0.5, 2.0) == pytest.approx(0.0)

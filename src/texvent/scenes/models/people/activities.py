@@ -1,6 +1,6 @@
 """Names of what people and hands can do, with the English phrases that mean them.
 
-The rows of `data/activities.toml` and of `data/hand_gestures.toml`, without the motion.
+The rows of `data/activities.toml` and of `data/hand_gestures.toml`, and their motion.
 """
 
 from __future__ import annotations
@@ -53,6 +53,13 @@ def _read(name: str) -> Mapping[str, Activity]:
 
 def _frozen(value: Any) -> Any:
     return tuple(value) if isinstance(value, list) else value
+
+
+def motion_of(table: str, activity: str) -> dict[str, Any]:
+    """What a row says of motion: the channels of a track."""
+    known = {one.name for one in fields(Activity)} | {"props"}
+    row = read_table(table).get(activity, {})
+    return {key: value for key, value in row.items() if key not in known}
 
 
 ACTIVITIES: Mapping[str, Activity] = _read("activities")
