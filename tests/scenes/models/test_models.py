@@ -303,7 +303,7 @@ def test_a_limb_reaches_both_joints_and_its_stripes_ring_it() -> None:
 def test_half_extents_match_points_on_the_surface() -> None:
     material = DARK
     for part in (
-        shapes.box(material, (1.0, 0.0, 2.0), (1.0, 2.0, 3.0), lean=0.4),
+        shapes.plank(material, (0, 0, 0), (1, 0, 2), chord=(0, 1, 0), thickness=(1, 0, 0.5)),
         shapes.limb(material, (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 0.4),
         shapes.rod(material, (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 0.4),
         shapes.spike(material, (0.0, 0.0, 0.0), (-1.0, 2.0, 3.0), 0.4),

@@ -52,7 +52,7 @@ CASES = [
     (kind, source)
     for kind, words in EFFECTS.items()
     for source in (0, None)
-    if source == 0 or not words.needs_source
+    if source == 0 or not words.ends_source
 ]
 
 

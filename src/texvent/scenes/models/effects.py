@@ -6,7 +6,7 @@ The table is `data/effects.toml`; `staging.particles` shows what it says. Reader
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from types import MappingProxyType
@@ -108,10 +108,6 @@ class EffectWords:
     """Said of the object it comes from, such as "steaming"."""
     happens_once: bool = False
     """Whether it begins at one instant (a burst) rather than going on."""
-    needs_source: bool = False
-    """Whether it comes from an object; otherwise it can be all around."""
-    is_around: bool = False
-    """Whether it is all around, whatever the prompt says that it comes from."""
     ends_source: bool = False
     """Whether the object it comes from is gone afterwards."""
     breathed: bool = False
@@ -148,15 +144,25 @@ def _effect(row: Mapping[str, Any]) -> EffectWords:
     """An effect from its table."""
     fields = {name: _frozen(value) for name, value in row.items()}
     fields["emitters"] = tuple(
-        EmitterStyle(**{name: _frozen(value) for name, value in one.items()})
-        for one in row.get("emitters", ())
+        emitter for one in row.get("emitters", ()) for emitter in _emitters(one)
     )
     if "lights" in row:
         fields["lights"] = LightStyle(**{n: _frozen(value) for n, value in row["lights"].items()})
     return EffectWords(**fields)
 
 
+def _emitters(row: Mapping[str, Any]) -> Iterator[EmitterStyle]:
+    """The emitter of a table, one for each of its salvos."""
+    fields = {name: _frozen(value) for name, value in (_USUAL[row["body"]] | row).items()}
+    for salvo in fields.pop("salvo", (None,)):
+        yield EmitterStyle(**fields, salvo=salvo)
+
+
 _TABLE = _read()
+_USUAL: Mapping[str, dict[str, Any]] = {
+    body: _TABLE.pop(f"usual {body}") for body in ("puff", "drop", "chip")
+}
+"""Body → what its emitters usually have."""
 LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(
     {name: _frozen(rgb) for name, rgb in _TABLE.pop("liquid colours").items()}
 )

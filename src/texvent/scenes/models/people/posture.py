@@ -26,8 +26,6 @@ SIDES = (1.0, -1.0)
 """Left, right: the sign of y."""
 SEAT = 0.42
 """Height of the chair on which one sits, m: hips are a little above it."""
-BOARD_STANCE = 0.09
-"""Height of the soles of who stands on a board, m."""
 
 DOWN: Point = (-0.2, 0.5, -1.0)
 OUT: Point = (-0.3, 1.0, -0.5)
