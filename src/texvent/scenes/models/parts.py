@@ -56,11 +56,11 @@ _KEYS: Mapping[str, tuple[type, ...]] = {
     "names": (list,), "plurals": (list,), "place": (str,), "habitat": (str,), "motion": (str,),
     "speed": (float, int), "works": (bool,), "laid": (bool,), "like": (str,), "rider": (dict,),
     "colours": (list, dict), "varied": (dict,), "surfaces": (dict,), "variants": (dict,),
-    "parts": (str,), "size": (float, int), "wave": (str,), "chains": (list,), "clumps": (list,),
+    "parts": (str,), "more": (str,), "size": (float, int), "wave": (str,), "chains": (list,), "clumps": (list,),
     "legs": (list,), "gait": (dict,), "bob": (list,), **QUADRUPED_KEYS,
 }  # fmt: skip
 """Keys of a noun, and what their values are."""
-_OWN = ("names", "plurals")
+_OWN = ("names", "plurals", "more")
 """Keys that no noun takes from the one that it is like."""
 _HABITATS: Mapping[str, str] = {
     **dict.fromkeys(("drive", "walk", "run", "roll", "slide"), "ground"),
@@ -168,8 +168,9 @@ class PartsBuilder:
     @cached_property
     def _drawing(self) -> tuple[tuple[Placed, ...], tuple[_Group, ...]]:
         """Parts that stay in the body, and groups of those that move."""
-        (_, still), *moving = read_groups(self.table.get("parts", ""))
-        rigid, wheels = read_parts(still)
+        texts = [read_groups(self.table.get(key, "")) for key in ("parts", "more")]
+        rigid, wheels = read_parts("\n".join(first[1] for first, *_ in texts))
+        moving = [one for _, *rest in texts for one in rest]
         if self.table.get("laid"):
             rigid = _laid(rigid)
         groups, named = [], dict[str, tuple[Joint, ...]]()
