@@ -10,7 +10,7 @@ from texvent.errors import FileFormatError
 from texvent.scenes.models.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent.scenes.models.joints import read_joint, read_light
 from texvent.scenes.models.materials import Material
-from texvent.scenes.models.nouns import DRESSING, FAMILIES, NOUNS
+from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.part_lines import read_parts
 from texvent.scenes.models.parts import PartsBuilder, read_nouns
 from texvent.scenes.models.protocol import Model, Noun, Pose
@@ -51,11 +51,6 @@ def test_every_noun_has_a_class_id() -> None:
     assert (CLASS_IDS["airplane"], CLASS_IDS["zebra"], CLASS_IDS["hand"]) == (1, 117, 118)
     # Numbers from `FIRST_OTHER` on are of names that are no nouns.
     assert max(CLASS_IDS.values()) < FIRST_OTHER
-
-
-def test_set_dressing_has_no_other_names() -> None:
-    assert {noun.name for noun in FAMILIES["dressing"]} == DRESSING
-    assert "pitch lines" in DRESSING
 
 
 def one(line: str) -> np.ndarray:
@@ -230,17 +225,3 @@ def test_a_noun_may_be_like_another(tmp_path: Path) -> None:
     file.write_text('[perch]\nlike = "stool"\n')
     with pytest.raises(FileFormatError, match="no noun 'stool' above it"):
         read_nouns(file)
-
-
-@pytest.mark.parametrize("step_s", [0.2, 0.4])
-@pytest.mark.parametrize("noun", ["fan", "propeller", "pinwheel", "wind turbine", "windmill"])
-def test_blades_stand_elsewhere_in_the_next_still(noun: str, step_s: float) -> None:
-    model = NOUNS[noun].build(colour=None, scale=1.0, seed=3)
-    first, second = (
-        np.array([part.to_body[:, 3] for part in model.parts(Pose(time_s, 0.0, 0.0))])
-        for time_s in (0.0, step_s)
-    )
-    # Each blade is apart from where any blade was, by some share of the whole.
-    moved = np.linalg.norm(first - second, axis=1) > 1e-6
-    apart = np.linalg.norm(second[moved][:, None] - first[moved][None], axis=2).min(axis=1)
-    assert apart.max() > 0.02 * model.height

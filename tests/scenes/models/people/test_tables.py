@@ -48,13 +48,6 @@ def test_a_track_by_hand() -> None:
     assert track.at(7.0)["nod"] == (2.0,)
 
 
-def test_keys_repeat_unless_they_happen_once() -> None:
-    track = read_track({"keys": {"at_s": [0.0, 1.0], "period_s": 2.0, "nod": [0.0, 1.0]}})
-    assert track.at(3.0)["nod"] == pytest.approx((1.0,))
-    assert track.at(4.0)["nod"] == pytest.approx((0.0,))
-    assert track.at(4.0, once=True)["nod"] == (1.0,)
-
-
 @pytest.mark.parametrize("noun", sorted(PERSON_NOUNS))
 def test_every_person_is_drawn_and_stands_on_the_ground(noun: str) -> None:
     model = person.build_person(KINDS[noun], colour=None, scale=1.0, seed=3)
