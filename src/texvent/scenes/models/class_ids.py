@@ -20,8 +20,9 @@ FIRST_OTHER = 2001
 
 def _read() -> Mapping[str, int]:
     file = files("texvent.scenes.models") / "data" / "class_ids.toml"
-    names: list[str] = tomllib.loads(file.read_text(encoding="utf-8"))["nouns"]
-    return MappingProxyType({name: number for number, name in enumerate(names, start=1)})
+    names: str = tomllib.loads(file.read_text(encoding="utf-8"))["nouns"]
+    numbered = enumerate(names.split(","), start=1)
+    return MappingProxyType({" ".join(name.split()): number for number, name in numbered})
 
 
 CLASS_IDS: Mapping[str, int] = _read()
