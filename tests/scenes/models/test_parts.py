@@ -170,7 +170,7 @@ def test_joints_by_hand() -> None:
     assert turned("spin z 0 0 0 1hz", quarter, (1, 0, 0)) == [0, 1, 0]
     assert turned("swing z 1 0 0 90deg 1hz", quarter, (2, 0, 0)) == [1, 1, 0]
     assert turned("swing z 0 0 0 90deg 1hz below 0deg", quarter, (1, 0, 0)) == [1, 0, 0]
-    assert turned("slide y .5m 1hz", quarter, (0, 0, 0)) == [0, 0.5, 0]
+    assert turned("sway y .5 1hz", quarter, (0, 0, 0)) == [0, 0.5, 0]
     assert turned("belt x 2m 1m/s", Pose(1.5, 0, 0), (0, 0, 0)) == [0.5, 0, 0]
     assert turned("roll y 0 0 1 1m", Pose(0, math.pi, 1), (0, 0, 0)) == [0, 0, 2]
     assert turned("lie y 0 0 0 90deg", Pose(0, 0, 1, "move"), (1, 0, 0)) == [1, 0, 0]

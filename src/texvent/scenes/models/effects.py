@@ -5,13 +5,12 @@ The table is `data/effects.toml`; `staging.particles` shows what it says. Reader
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from importlib.resources import files
 from types import MappingProxyType
 from typing import Any, Literal
 
+from texvent.scenes.models.tables import frozen, read_table
 from texvent.scenes.scene import Colour
 
 Vector = tuple[float, float, float]
@@ -130,41 +129,31 @@ class EffectWords:
     lights: LightStyle | None = None
 
 
-def _frozen(value: Any) -> Any:
-    """Lists as tuples, all the way down."""
-    return tuple(_frozen(one) for one in value) if isinstance(value, list) else value
-
-
-def _read() -> dict[str, Any]:
-    file = files("texvent.scenes.models") / "data" / "effects.toml"
-    return tomllib.loads(file.read_text(encoding="utf-8"))
-
-
 def _effect(row: Mapping[str, Any]) -> EffectWords:
     """An effect from its table."""
-    fields = {name: _frozen(value) for name, value in row.items()}
+    fields = {name: frozen(value) for name, value in row.items()}
     fields["emitters"] = tuple(
         emitter for one in row.get("emitters", ()) for emitter in _emitters(one)
     )
     if "lights" in row:
-        fields["lights"] = LightStyle(**{n: _frozen(value) for n, value in row["lights"].items()})
+        fields["lights"] = LightStyle(**{n: frozen(value) for n, value in row["lights"].items()})
     return EffectWords(**fields)
 
 
 def _emitters(row: Mapping[str, Any]) -> Iterator[EmitterStyle]:
     """The emitter of a table, one for each of its salvos."""
-    fields = {name: _frozen(value) for name, value in (_USUAL[row["body"]] | row).items()}
+    fields = {name: frozen(value) for name, value in (_USUAL[row["body"]] | row).items()}
     for salvo in fields.pop("salvo", (None,)):
         yield EmitterStyle(**fields, salvo=salvo)
 
 
-_TABLE = _read()
+_TABLE = dict(read_table("effects"))
 _USUAL: Mapping[str, dict[str, Any]] = {
     body: _TABLE.pop(f"usual {body}") for body in ("puff", "drop", "chip")
 }
 """Body → what its emitters usually have."""
 LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(
-    {name: _frozen(rgb) for name, rgb in _TABLE.pop("liquid colours").items()}
+    {name: frozen(rgb) for name, rgb in _TABLE.pop("liquid colours").items()}
 )
 """Name of a liquid → its colour."""
 EFFECTS: Mapping[str, EffectWords] = MappingProxyType(

@@ -134,10 +134,6 @@ def _sine(phase: float, low: float, high: float) -> float:
     return 0.5 + 0.5 * math.sin(2.0 * math.pi * phase)
 
 
-def _triangle(phase: float, low: float, high: float) -> float:
-    return 2.0 * abs(phase - 0.5)
-
-
 _RAMP = 0.01
 """Share of a cycle in which a lamp comes on or goes off: a filament's glow."""
 
@@ -151,7 +147,7 @@ def _switched(phase: float, low: float, high: float) -> float:
 
 
 _WAVES: Mapping[str, Callable[[float, float, float], float]] = {
-    "sine": _sine, "triangle": _triangle, "switched": _switched,
+    "sine": _sine, "switched": _switched,
 }  # fmt: skip
 
 
@@ -247,19 +243,6 @@ def _lie(axis: str, words: Sequence[str]) -> Joint:
     )
 
 
-def _slide(axis: str, words: Sequence[str]) -> Joint:
-    """To and fro along an axis: greatest distance, rate."""
-    options = _Options(words)
-    reach, rate, lag = options.first("m"), options.first("hz"), options.angle("from")
-    start = options.start()
-
-    def motion(pose: Pose, seed: int) -> Affine:
-        phase = 2.0 * math.pi * (rate * pose.time_s + start(seed)) + lag
-        return shift(**{axis: reach * math.sin(phase)})
-
-    return Joint(motion)
-
-
 def _belt(axis: str, words: Sequence[str]) -> Joint:
     """Along a belt, then from its start again: length, speed; sinking by a depth at its ends."""
     options = _Options(words)
@@ -317,7 +300,7 @@ def _bow(axis: str, words: Sequence[str]) -> Joint:
 
 
 _JOINTS: Mapping[str, Callable[[str, Sequence[str]], Joint]] = {
-    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "lie": _lie, "slide": _slide,
+    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "lie": _lie,
     "belt": _belt, "bow": _bow, "sway": _sway, "pulse": _pulse, "grow": _grow, "vary": _vary,
 }  # fmt: skip
 _STRETCHING = ("pulse", "grow", "vary")

@@ -8,25 +8,19 @@ middle, except that what floats (`AFLOAT`) has it on the waterline: put it at th
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib.resources import files
 from itertools import chain
 from types import MappingProxyType
 
 from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.people import hand, person
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.tables import list_data
 
 
 def _read_families() -> dict[str, tuple[Noun, ...]]:
     """Nouns of the files of `data/bodies` and `data/nouns`, by the files' names."""
-    data = files("texvent.scenes.models") / "data"
-    listed = [sorted((data / folder).iterdir(), key=lambda one: one.name)
-              for folder in ("bodies", "nouns")]  # fmt: skip
-    return {
-        file.name.removesuffix(".toml"): read_nouns(file)
-        for file in chain(*listed)
-        if file.name.endswith(".toml")
-    }
+    listed = chain(list_data("bodies"), list_data("nouns"))
+    return {file.name.removesuffix(".toml"): read_nouns(file) for file in listed}
 
 
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(

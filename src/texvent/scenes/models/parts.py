@@ -56,8 +56,8 @@ _KEYS: Mapping[str, tuple[type, ...]] = {
     "names": (list,), "plurals": (list,), "place": (str,), "habitat": (str,), "motion": (str,),
     "speed": (float, int), "works": (bool,), "laid": (bool,), "like": (str,), "rider": (dict,),
     "colours": (list, dict), "varied": (dict,), "surfaces": (dict,), "variants": (dict,),
-    "parts": (str,), "more": (str,), "size": (float, int), "wave": (str,), "chains": (list,), "clumps": (list,),
-    "legs": (list,), "gait": (dict,), "bob": (list,), **QUADRUPED_KEYS,
+    "parts": (str,), "more": (str,), "size": (float, int), "wave": (str,), "chains": (list,),
+    "clumps": (list,), "legs": (list,), "gait": (dict,), "bob": (list,), **QUADRUPED_KEYS,
 }  # fmt: skip
 """Keys of a noun, and what their values are."""
 _OWN = ("names", "plurals", "more")

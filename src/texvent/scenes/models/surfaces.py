@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from importlib.resources import files
 from typing import Any
 
 from texvent.scenes.models.materials import BLACK, WHITE, Material, decode_hex, made_of, shade
 from texvent.scenes.models.part_lines import Placed, read_parts
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import part
+from texvent.scenes.models.tables import read_table
 from texvent.scenes.models.variation import choose
 from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture
 
@@ -30,9 +29,7 @@ _TEXTURES = {one.name.lower(): one for one in Texture}
 @cache
 def shared_surfaces() -> Mapping[str, Material]:
     """Surfaces that all nouns may name, from `data/surfaces.toml`."""
-    file = files("texvent.scenes.models") / "data" / "surfaces.toml"
-    table: dict[str, str] = tomllib.loads(file.read_text(encoding="utf-8"))
-    return {name: read_surface(text, {}) for name, text in table.items()}
+    return {name: read_surface(text, {}) for name, text in read_table("surfaces").items()}
 
 
 def read_colour(text: str, hues: Mapping[str, Colour]) -> Colour:

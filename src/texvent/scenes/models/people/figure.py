@@ -9,6 +9,7 @@ import numpy as np
 from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.materials import BLACK, WHITE, Material, shade
 from texvent.scenes.models.people.outfit import Outfit, PersonKind
+from texvent.scenes.models.people.part_table import draw_parts
 from texvent.scenes.models.people.posture import (
     FOREARM,
     LOWER_ARM,
@@ -17,7 +18,6 @@ from texvent.scenes.models.people.posture import (
     THIGH,
     Skeleton,
 )
-from texvent.scenes.models.people.tables import draw_parts
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Affine, Point, ball, limb, moved, part_way, spike
 

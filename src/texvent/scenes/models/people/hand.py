@@ -14,7 +14,6 @@ import numpy as np
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import CLOTH_COLOURS, SKIN_TONES, Material, cloth, mix, skin
 from texvent.scenes.models.people.activities import HAND_GESTURES, motion_of
-from texvent.scenes.models.people.tables import read_table
 from texvent.scenes.models.people.track import Track, read_track
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
@@ -29,6 +28,7 @@ from texvent.scenes.models.shapes import (
     turn_y,
     turn_z,
 )
+from texvent.scenes.models.tables import read_table
 from texvent.scenes.models.variation import choose, paint
 from texvent.scenes.scene import Colour
 

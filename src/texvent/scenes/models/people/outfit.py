@@ -17,7 +17,7 @@ from texvent.scenes.models.materials import (
     fur,
     skin,
 )
-from texvent.scenes.models.people.tables import read_table
+from texvent.scenes.models.tables import frozen, read_table
 from texvent.scenes.models.variation import choose, paint
 from texvent.scenes.scene import Colour
 
@@ -70,11 +70,7 @@ _FIELDS = frozenset(one.name for one in fields(PersonKind))
 
 
 def _read_kind(row: Mapping[str, Any]) -> PersonKind:
-    return PersonKind(**{key: _frozen(value) for key, value in row.items() if key in _FIELDS})
-
-
-def _frozen(value: Any) -> Any:
-    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+    return PersonKind(**{key: frozen(value) for key, value in row.items() if key in _FIELDS})
 
 
 ADULT = PersonKind()
@@ -95,7 +91,7 @@ def put_on(kind: PersonKind, worn: Iterable[tuple[str, Colour | None]]) -> Perso
     """
     for noun, said in worn:
         row = CLOTHES[noun]
-        colour = said or _frozen(row.get("usual"))
+        colour = said or frozen(row.get("usual"))
         kind = replace(kind, **{key: value for key, value in row.items() if key in _FIELDS})
         if colour is not None:
             painted: dict[str, Any] = {

@@ -26,10 +26,10 @@ from texvent.scenes.models.people.posture import (
     fill,
     solve,
 )
-from texvent.scenes.models.people.tables import read_table
 from texvent.scenes.models.people.track import ease
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Affine
+from texvent.scenes.models.tables import read_table
 from texvent.scenes.scene import Colour
 
 WALK = Gait(stride=1.25, duty=0.60, lift=0.12)

@@ -1,25 +1,15 @@
-"""Tables of people in `models/data`: activities, hand gestures, outfits, props."""
+"""Lists of parts in the tables of people: props, hats and garments."""
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
-from importlib.resources import files
-from typing import Any
 
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.part_lines import Placed, read_parts
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.surfaces import FIXED_HUES, PAINT, Painted
-
-
-@cache
-def read_table(name: str) -> Mapping[str, Any]:
-    """The content of `data/<name>.toml`."""
-    file = files("texvent.scenes.models") / "data" / f"{name}.toml"
-    return tomllib.loads(file.read_text(encoding="utf-8"))
+from texvent.scenes.models.tables import read_table
 
 
 def draw_parts(table: str, group: str, name: str, paint: Material | None = None) -> list[ModelPart]:
