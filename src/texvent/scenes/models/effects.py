@@ -142,7 +142,7 @@ def _effect(row: Mapping[str, Any]) -> EffectWords:
 
 def _emitters(row: Mapping[str, Any]) -> Iterator[EmitterStyle]:
     """The emitter of a table, one for each of its salvos."""
-    fields = {name: frozen(value) for name, value in (_USUAL[row["body"]] | row).items()}
+    fields = {name: frozen(value) for name, value in {**_USUAL[row["body"]], **row}.items()}
     for salvo in fields.pop("salvo", (None,)):
         yield EmitterStyle(**fields, salvo=salvo)
 
