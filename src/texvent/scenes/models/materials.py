@@ -15,8 +15,8 @@ class Material:
     second_colour: Colour = (0.0, 0.0, 0.0)
     texture: Texture = Texture.WORN
     scale: float = 1.0
-    """How much finer than in life a material is; of the patterns MOTTLED, STRIPES, CHECKS and
-    WINDOWS, repeats per local unit (half the part's size)."""
+    """How much finer than in life a material is; of the patterns MOTTLED, STRIPES and
+    CHECKS, repeats per local unit (half the part's size)."""
     emission: float = 0.0
 
 
