@@ -14,10 +14,11 @@ from texvent.scenes.models.people.outfit import (
     CLOTHES,
     KINDS,
     PersonKind,
+    draw_parts,
     dress_person,
     put_on,
+    read_table,
 )
-from texvent.scenes.models.people.part_table import draw_parts, read_table
 from texvent.scenes.models.people.props import HOLDS, PROPS, list_props
 from texvent.scenes.models.people.track import read_track
 from texvent.scenes.models.protocol import Pose

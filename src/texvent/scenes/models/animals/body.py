@@ -13,6 +13,8 @@ import numpy as np
 
 from texvent.scenes.models.animals.acts import STANDING, act_stance, lowered
 from texvent.scenes.models.animals.anatomy import (
+    NOSE,
+    draw_head,
     draw_leg,
     draw_neck_and_head,
     draw_tail,
@@ -25,7 +27,6 @@ from texvent.scenes.models.animals.build import (
     placed_marks,
     read_build,
 )
-from texvent.scenes.models.animals.head import NOSE, draw_head
 from texvent.scenes.models.animals.posture import (
     bob,
     droop,

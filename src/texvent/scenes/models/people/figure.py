@@ -8,8 +8,7 @@ import numpy as np
 
 from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.materials import BLACK, WHITE, Material, shade
-from texvent.scenes.models.people.outfit import Outfit, PersonKind
-from texvent.scenes.models.people.part_table import draw_parts
+from texvent.scenes.models.people.outfit import Outfit, PersonKind, draw_parts
 from texvent.scenes.models.people.posture import (
     FOREARM,
     LOWER_ARM,

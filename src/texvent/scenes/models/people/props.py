@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 from texvent.scenes.models.materials import BLUE, ORANGE, RED, YELLOW, Material, striped
-from texvent.scenes.models.people.part_table import draw_parts
+from texvent.scenes.models.people.outfit import draw_parts
 from texvent.scenes.models.people.track import ease
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import ball, rod
