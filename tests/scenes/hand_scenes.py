@@ -181,7 +181,7 @@ def showcase(ground: Ground = Ground.ROAD) -> HandScene:
                 instance=6,
                 colour=(0.45, 0.3, 0.2),
                 second=(0.05, 0.07, 0.1),
-                texture=Texture.WINDOWS,
+                texture=Texture.CHECKS,
                 texture_scale=3.0,
             ),
         ),

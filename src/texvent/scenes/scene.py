@@ -47,8 +47,6 @@ class Texture(IntEnum):
     """Bands along local z: a zebra, a barrier, planks."""
     CHECKS = 3
     """3-D checker: tiles, a football, windows."""
-    WINDOWS = 4
-    """Grid of panes on the sides: a façade."""
 
     # Materials: textures at life size, from the tiles in `raycast.surfaces`.
     VARIATION = 16

@@ -156,13 +156,6 @@ def test_a_bad_index_is_one_clear_line(tmp_path: Path, text: str, message: str) 
     assert "\n" not in str(caught.value)
 
 
-def test_a_folder_without_models_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="holds no model"):
-        read_folder(tmp_path)
-    with pytest.raises(InputError, match="does not exist"):
-        read_folder(tmp_path / "nowhere")
-
-
 def test_damaged_glb_files_are_one_clear_line(tmp_path: Path) -> None:
     whole = write_bar(tmp_path / "whole.glb").read_bytes()
     cases = {

@@ -7,12 +7,10 @@ import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent.scenes.models.bodies.figure import build_figure, mirrored
-from texvent.scenes.models.bodies.joints import read_body_joint, read_cycle, read_wave
-from texvent.scenes.models.bodies.nouns import BodyBuilder, _merged
-from texvent.scenes.models.bodies.quadruped.body import build_quadruped
+from texvent.scenes.models.joints import read_cycle, read_joint, read_wave
 from texvent.scenes.models.materials import WHITE, Material
 from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.parts import PartsBuilder, _merged, mirrored
 from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import limb
 
@@ -20,8 +18,7 @@ STILL = Pose(0.0, 0.0, 0.0, "stand")
 
 
 def build(text: str) -> Model:
-    table = tomllib.loads(text)
-    return build_figure(table, False, colour=None, scale=1.0, seed=3)
+    return PartsBuilder("dodo", tomllib.loads(text))(colour=None, scale=1.0, seed=3)
 
 
 def middles(model: Model, pose: Pose) -> np.ndarray:
@@ -47,7 +44,7 @@ def test_a_cycle_counts_seconds_or_metres() -> None:
 def test_a_stretched_part_keeps_its_pivot(
     text: str, time_s: float, size: tuple[float, float, float]
 ) -> None:
-    motion = read_body_joint(text).motion(Pose(time_s, 0.0, 0.0), 0)
+    motion = read_joint(text).motion(Pose(time_s, 0.0, 0.0), 0)
     np.testing.assert_allclose(np.diag(motion[:, :3]), size)
     np.testing.assert_allclose(motion @ [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0])
 
@@ -58,7 +55,7 @@ def test_a_stretched_part_keeps_its_pivot(
 )
 def test_a_joint_that_cannot_be_read_is_named(text: str) -> None:
     with pytest.raises(ValueError, match="joint"):
-        read_body_joint(text)
+        read_joint(text)
 
 
 def test_a_wave_bends_the_tail_more_than_the_head_and_less_at_rest() -> None:
@@ -138,8 +135,8 @@ def test_a_chain_hangs_together_and_its_wave_runs_along_it() -> None:
 
 
 def test_an_entry_has_the_keys_of_the_one_that_it_is_like() -> None:
-    merged = _merged({"size": 1, "moving": {"a": {"x": 1, "y": 2}}}, {"moving": {"a": {"x": 3}}})
-    assert merged == {"size": 1, "moving": {"a": {"x": 3, "y": 2}}}
+    merged = _merged({"size": 1, "colours": {"x": 1, "y": 2}}, {"colours": {"x": 3}})
+    assert merged == {"size": 1, "colours": {"x": 3, "y": 2}}
     assert NOUNS["eagle"].acts == NOUNS["bird"].acts
 
 
@@ -151,15 +148,16 @@ def test_a_new_quadruped_is_one_entry() -> None:
     surfaces = { stripe = "white fur" }
     marks = "limb stripe   .4 0 .4   -.4 0 .4   .1"
     """)
-    model = build_quadruped(table, False, colour=None, scale=2.0, seed=0)
+    model = PartsBuilder("dodo", table)(colour=None, scale=2.0, seed=0)
     assert model.height == pytest.approx(2.0 * 0.6, rel=0.3)
     assert math.isclose(sum(p.colour[0] > 0.7 for p in model.parts(STILL)), 1)
 
 
 @pytest.mark.parametrize(
-    "change", [{"parts": "bal paint 0 0 0 1 1 1"}, {"moving": {"a": {"joints": ["swing x"]}}}]
+    "change",
+    [{"parts": "bal paint 0 0 0 1 1 1"}, {"parts": "moving swing x\nball paint 0 0 0 1 1 1"}],
 )
 def test_a_damaged_entry_names_the_noun(change: dict[str, object]) -> None:
     table = {"colours": {"paint": ["(.1 .1 .1)"]}, "parts": "ball paint 0 0 1 1 1 1", **change}
     with pytest.raises(FileFormatError, match="'dodo'"):
-        BodyBuilder("dodo", table, False)(colour=None, scale=1.0, seed=0)
+        PartsBuilder("x.toml, 'dodo'", table)(colour=None, scale=1.0, seed=0)

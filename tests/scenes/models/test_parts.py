@@ -10,7 +10,7 @@ from texvent.errors import FileFormatError
 from texvent.scenes.models.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent.scenes.models.joints import read_joint, read_light
 from texvent.scenes.models.materials import Material
-from texvent.scenes.models.nouns import DRESSING, FAMILIES, NOUNS
+from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.part_lines import read_parts
 from texvent.scenes.models.parts import PartsBuilder, read_nouns
 from texvent.scenes.models.protocol import Model, Noun, Pose
@@ -21,34 +21,29 @@ DIGEST = Path(__file__).with_name("noun_digest.txt")
 AT_REST = Pose(0.0, 0.0, 0.0, "stand")
 
 
-def describe(noun: Noun) -> str:
-    """Number of parts, size and mean colour of a noun: what a wrong edit of its data changes."""
+def describe(noun: Noun) -> list[float]:
+    """Number of parts, size, mean height and brightness: what a wrong edit of data changes."""
     model = noun.build(colour=None, scale=1.0, seed=1)
     parts = model.parts(Pose(0.4, 0.7, 1.0))
     places = np.array([part.to_body for part in parts])
     volumes = np.abs(np.linalg.det(places[:, :, :3])) ** (1 / 3)
-    middle = volumes @ places[:, :, 3] / volumes.sum()
-    hue = volumes @ np.array([part.colour for part in parts]) / volumes.sum()
-    numbers = [model.length, model.width, model.height, *middle, *hue]
-    return f"{noun.name}: {len(parts)} {' '.join(f'{one + 0.0:.3g}' for one in numbers)}"
+    mean = volumes @ np.array([(part.to_body[2, 3], sum(part.colour)) for part in parts])
+    return [len(parts), model.length, model.width, model.height, *(mean / volumes.sum())]
 
 
 def listed() -> list[Noun]:
     return [noun for noun in NOUNS.values() if isinstance(noun.build, PartsBuilder)]
 
 
-def numbers(line: str) -> list[float]:
-    return [float(word) for word in line.split(": ", 1)[1].split()]
-
-
 def test_every_noun_of_the_files_is_as_it_was() -> None:
-    stored = {line.split(":")[0]: line for line in DIGEST.read_text("utf-8").splitlines()}
+    entries = DIGEST.read_text("utf-8").replace("\n", ";").strip(";").split(";")
+    stored = {name.strip(): line.split() for name, line in (one.split(":") for one in entries)}
     found = {noun.name: describe(noun) for noun in listed()}
     assert sorted(found) == sorted(stored)
-    for name, line in found.items():
+    for name, numbers in found.items():
         # Processors differ in the last digit of a sum.
-        np.testing.assert_allclose(numbers(line), numbers(stored[name]), rtol=0.02, atol=2e-3,
-                                   err_msg=name)  # fmt: skip
+        wanted = [float(word) for word in stored[name]]
+        np.testing.assert_allclose(numbers, wanted, rtol=0.02, atol=2e-3, err_msg=name)
 
 
 def test_every_noun_has_a_class_id() -> None:
@@ -56,11 +51,6 @@ def test_every_noun_has_a_class_id() -> None:
     assert (CLASS_IDS["airplane"], CLASS_IDS["zebra"], CLASS_IDS["hand"]) == (1, 117, 118)
     # Numbers from `FIRST_OTHER` on are of names that are no nouns.
     assert max(CLASS_IDS.values()) < FIRST_OTHER
-
-
-def test_set_dressing_has_no_other_names() -> None:
-    assert {noun.name for noun in FAMILIES["dressing"]} == DRESSING
-    assert "pitch lines" in DRESSING
 
 
 def one(line: str) -> np.ndarray:
@@ -138,7 +128,7 @@ def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[a]\nsize = 3", "unknown key 'size'"),
+        ("[a]\nsise = 3", "unknown key 'sise'"),
         ('[a]\nnames = "b"', "names must be a list but is 'b'"),
         ('[a]\nspeed = "fast"', "speed must be a float"),
         ('[a]\nhabitat = "moon"', "habitat must be one of"),
@@ -180,7 +170,7 @@ def test_joints_by_hand() -> None:
     assert turned("spin z 0 0 0 1hz", quarter, (1, 0, 0)) == [0, 1, 0]
     assert turned("swing z 1 0 0 90deg 1hz", quarter, (2, 0, 0)) == [1, 1, 0]
     assert turned("swing z 0 0 0 90deg 1hz below 0deg", quarter, (1, 0, 0)) == [1, 0, 0]
-    assert turned("slide y .5m 1hz", quarter, (0, 0, 0)) == [0, 0.5, 0]
+    assert turned("sway y .5 1hz", quarter, (0, 0, 0)) == [0, 0.5, 0]
     assert turned("belt x 2m 1m/s", Pose(1.5, 0, 0), (0, 0, 0)) == [0.5, 0, 0]
     assert turned("roll y 0 0 1 1m", Pose(0, math.pi, 1), (0, 0, 0)) == [0, 0, 2]
     assert turned("lie y 0 0 0 90deg", Pose(0, 0, 1, "move"), (1, 0, 0)) == [1, 0, 0]
@@ -206,15 +196,12 @@ place = "indoor"
 [mobile]
 colours = ["#ff0000"]
 varied.cord = ["(.1 .1 .1)"]
-parts = "rod cord  0 0 1  0 0 2  .01"
-[[mobile.moving]]
-name = "arm"
-joint = "spin z 0 0 0 .25hz"
-parts = "bar paint  0 -1 1 1 1 .1 .1"
-[[mobile.moving]]
-on = "arm"
-joint = "swing x 0 1 1 10deg 1hz"
-parts = "ball paint*.5  0 1 .5  .2 .2 .2"
+parts = '''
+rod cord  0 0 1  0 0 2  .01
+moving spin z 0 0 0 .25hz, called arm
+bar paint  0 -1 1 1 1 .1 .1
+moving on arm, swing x 0 1 1 10deg 1hz
+ball paint*.5  0 1 .5  .2 .2 .2'''
 """
     model = _model(text, tmp_path, colour=(0.2, 0.2, 0.8))
     first, second = (model.parts(Pose(time_s, 0.0, 0.0)) for time_s in (0.0, 1.0))
@@ -236,19 +223,5 @@ def test_a_noun_may_be_like_another(tmp_path: Path) -> None:
     heights = {one.build(colour=None, scale=1.0, seed=0).height for one in (stool, perch)}
     assert heights == {1.5}
     file.write_text('[perch]\nlike = "stool"\n')
-    with pytest.raises(FileFormatError, match="no noun 'stool' to be like"):
+    with pytest.raises(FileFormatError, match="no noun 'stool' above it"):
         read_nouns(file)
-
-
-@pytest.mark.parametrize("step_s", [0.2, 0.4])
-@pytest.mark.parametrize("noun", ["fan", "propeller", "pinwheel", "wind turbine", "windmill"])
-def test_blades_stand_elsewhere_in_the_next_still(noun: str, step_s: float) -> None:
-    model = NOUNS[noun].build(colour=None, scale=1.0, seed=3)
-    first, second = (
-        np.array([part.to_body[:, 3] for part in model.parts(Pose(time_s, 0.0, 0.0))])
-        for time_s in (0.0, step_s)
-    )
-    # Each blade is apart from where any blade was, by some share of the whole.
-    moved = np.linalg.norm(first - second, axis=1) > 1e-6
-    apart = np.linalg.norm(second[moved][:, None] - first[moved][None], axis=2).min(axis=1)
-    assert apart.max() > 0.02 * model.height

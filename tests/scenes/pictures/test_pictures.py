@@ -16,7 +16,7 @@ from texvent.scenes.description import Picture, SceneDescription, SceneObject, S
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.traits import nouns_with
-from texvent.scenes.pictures import PicturedModel, can_show, check_picture, load_picture
+from texvent.scenes.pictures import PicturedModel, check_picture, load_picture
 from texvent.scenes.pictures.source import draw_text
 from texvent.scenes.pictures.video import PlayedVideo
 from texvent.scenes.staging.compose import compose_scene
@@ -102,12 +102,6 @@ def test_damaged_files_are_one_clear_line(tmp_path: Path) -> None:
             load_picture(Picture("file", str(path)))
     with pytest.raises(FileFormatError, match="no video that can be decoded"):
         load_picture(Picture("file", str(video)))
-
-
-def test_nouns_with_a_face_for_pictures_say_so() -> None:
-    assert all(can_show(name) for name in nouns_with("shows a picture"))
-    assert nouns_with("shows a picture") <= NOUNS.keys()
-    assert not can_show("car")
 
 
 @pytest.mark.parametrize("noun", sorted(nouns_with("shows a picture")))

@@ -10,8 +10,6 @@ from hypothesis import strategies as st
 from texvent.scenes.raycast.acceleration import bin_rectangles
 from texvent.scenes.raycast.shading.value_noise import (
     box_coverage,
-    detail_fade,
-    fractal_2d,
     noise_2d,
     noise_3d,
     square_wave,
@@ -39,14 +37,6 @@ def test_a_band_is_the_share_of_the_footprint_inside(
     assert box_coverage(x, low, low + width, footprint) == pytest.approx(expected, abs=2e-3)
 
 
-def test_a_pattern_is_shown_whole_when_large_and_not_at_all_below_two_pixels_a_period() -> None:
-    assert detail_fade(0.1) == 1.0
-    assert detail_fade(0.5) == 0.0
-    assert fractal_2d(3.7, 1.2, 5, 0.6) == 0.0
-    shares = [detail_fade(footprint) for footprint in np.linspace(0.0, 1.0, 50)]
-    assert (np.diff(shares) <= 0.0).all()
-
-
 @given(x=PLACES, y=PLACES, z=PLACES)
 @settings(max_examples=100)
 def test_noise_is_bounded_and_continuous(x: float, y: float, z: float) -> None:
@@ -56,12 +46,6 @@ def test_noise_is_bounded_and_continuous(x: float, y: float, z: float) -> None:
     ):
         assert abs(value) <= 1.0 + 1e-12  # -1.0000000000000004 at (0, -2.9e-6)
         assert abs(value - near) < 2e-3
-
-
-def test_noise_varies_and_has_no_bias() -> None:
-    values = [noise_2d(0.61 * i, 0.37 * i, 0) for i in range(4000)]
-    assert abs(np.mean(values)) < 0.05
-    assert np.std(values) > 0.2
 
 
 @given(

@@ -11,7 +11,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.scenes.projection import camera_rays
-from texvent.scenes.raycast.lamps.light_up import light_up
 from texvent.scenes.raycast.puffs.bins import WIDENED_PX
 from texvent.scenes.raycast.puffs.compositing import density_integral, optical_depth
 from texvent.scenes.raycast.render import render_light, world_at
@@ -88,14 +87,6 @@ def test_optical_depth_is_the_integral_of_the_density(point, stop):
     assert seen == pytest.approx(numeric_depth(row, scene, point, stop), abs=2e-4)
 
 
-def test_a_camera_inside_a_puff_sees_what_lies_before_it():
-    row = puff((0.0, -6.0, 0.0), (2.0, 2.0, 2.0))
-    scene = scene_of(row)
-    seen = optical_depth(world_at(scene, 0.0, SMALL), 48.0, 36.0, np.inf)
-    assert seen == pytest.approx(0.5, abs=0.01)
-    assert seen == pytest.approx(numeric_depth(row, scene, (48.0, 36.0), np.inf), abs=2e-4)
-
-
 def test_a_black_puff_dims_what_is_behind_it_and_hides_nothing_before_it():
     row = puff((0.0, 0.0, 0.0), thickness=1.0)
     wall = MovingShape(Shape.BOX, (3.0, 0.1, 3.0), still(0.0, -2.0, 0.0), emission=0.5)
@@ -104,20 +95,6 @@ def test_a_black_puff_dims_what_is_behind_it_and_hides_nothing_before_it():
         bare = render_light(scene_of(shapes=(shape,)), 0.0, SMALL)[36, 48]
         smoky = render_light(scene_of(row, shapes=(shape,)), 0.0, SMALL)[36, 48]
         np.testing.assert_allclose(smoky, share * bare, rtol=0.03)
-
-
-def test_a_glowing_puff_tends_to_its_own_light():
-    thin, thick = (
-        render_light(
-            scene_of(puff((0, 0, 0), thickness=t, colour=(0.5, 0.25, 0.1), emission=1.0)),
-            0.0, SMALL,
-        )[36, 48]
-        for t in (0.5, 12.0)
-    )  # fmt: skip
-    np.testing.assert_allclose(thick, [0.5, 0.25, 0.1], atol=1e-3)
-    np.testing.assert_allclose(
-        thin, np.exp(-0.5) * SKY + (1 - np.exp(-0.5)) * np.array([0.5, 0.25, 0.1]), rtol=0.02
-    )
 
 
 def test_overlapping_puffs_of_one_colour_solve_the_equation_of_transfer():
@@ -162,16 +139,3 @@ def test_a_puff_smaller_than_a_pixel_hides_as_much_wherever_it_is():
     ]
     np.testing.assert_allclose(lost, lost[0], rtol=0.05)
     assert lost[0] > 0.0
-
-
-def test_a_scene_without_lamps_and_puffs_is_left_as_it_is():
-    scene = scene_of(shapes=(MovingShape(Shape.BOX, (1.0, 1.0, 1.0), still(0.0, 0.0, 0.0)),))
-    world = world_at(scene, 0.0, SMALL)
-    rays = camera_rays(scene.camera(0.0), SMALL)
-    again = light_up(world, scene.primitives(0.0), scene.environment(0.0), rays, shadows=True)
-    assert again is world
-    unseen = puff((0.0, -60.0, 0.0))
-    np.testing.assert_array_equal(
-        render_light(scene, 0.0, SMALL),
-        render_light(replace(scene, environment_base=air(unseen)), 0.0, SMALL),
-    )

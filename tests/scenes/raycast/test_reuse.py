@@ -14,7 +14,6 @@ from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.reuse import changed
 from texvent.scenes.raycast.reuse.changed import Drawn, changed_tiles
 from texvent.scenes.raycast.reuse.memory import FrameMemory
-from texvent.scenes.raycast.reuse.tiles import touched_tiles
 from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Shape
 from texvent.sensor import SensorSize
 
@@ -229,8 +228,3 @@ def test_embedded_scenes_are_drawn_as_if_whole(prompt):
 def test_a_moving_camera_draws_all():
     scene = HandScene((BOX,), lambda time: look_at((time, -8.0, 1.7), (0.0, 0.0, 1.0)))
     assert share_changed(scene, 0.0, 0.1) == 1.0
-
-
-def test_rectangles_touch_tiles_with_their_edges():
-    windows = np.array([[16.0, 16.0, 3.0, 4.0], [5.0, 4.0, 0.0, 9.0], [-90.0, -80.0, 0.0, 9.0]])
-    assert touched_tiles(windows, (2, 3)).tolist() == [[True, True, False], [False] * 3]

@@ -97,17 +97,6 @@ def test_a_patch_smaller_than_a_texel_blends_the_texels_around_it(u: float, v: f
     np.testing.assert_allclose(shown, expected, atol=1e-9)
 
 
-@given(*(st.floats(-3, 3, width=16) for _ in range(4)))
-@settings(max_examples=100)
-def test_the_axes_of_a_patch_are_those_of_its_ellipse(
-    a: float, b: float, c: float, d: float
-) -> None:
-    x, y, long, short = patch_axes((a, b, c, d))
-    sizes = np.linalg.svd(np.array([[a, b], [c, d]]), compute_uv=False)
-    np.testing.assert_allclose((long, short), sizes, atol=1e-6)
-    assert np.hypot(x, y) == pytest.approx(long, abs=1e-9)
-
-
 def textured_plane(texture: Texture, speed: float) -> HandScene:
     """A wall of a material that slides past a still camera, metres per second."""
     wall = MovingShape(

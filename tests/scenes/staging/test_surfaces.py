@@ -6,7 +6,7 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.scenes.description import NamedColour, SceneDescription, SceneObject, Surroundings
-from texvent.scenes.models.material_override import in_material
+from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.scene import Texture

@@ -23,7 +23,7 @@ def locate(model: Model, name: str, pose: Pose) -> Affine:
 
     Args:
         model: any model.
-        name: see `people.anchors.locate_anchor`; also "tail" and "top".
+        name: see `people.figure.locate_anchor`; also "tail" and "top".
         pose: of the model.
 
     Returns:

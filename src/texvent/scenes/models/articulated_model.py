@@ -17,7 +17,7 @@ Anchorage = Callable[[str, Pose], Affine | None]
 
 # Poses that together show how far limbs, wings and rotors reach: times and distances spread
 # evenly by the golden ratio and its two-dimensional counterpart, out of step with any cycle.
-_SAMPLE_POSES = tuple(
+SAMPLE_POSES = tuple(
     Pose(
         time_s=5.0 * (0.6180339887 * step % 1.0),
         distance_m=6.0 * (0.7548776662 * step % 1.0),
@@ -27,7 +27,7 @@ _SAMPLE_POSES = tuple(
     for what in ("stand", "move", "run")
     for step in range(12)
 )
-STANDING_POSES = _SAMPLE_POSES[:12]
+STANDING_POSES = SAMPLE_POSES[:12]
 """The sample for what moves with time alone."""
 
 
@@ -47,7 +47,7 @@ class ArticulatedModel:
         articulate: Articulation | None = None,
         is_centred: bool = False,
         anchor: Anchorage | None = None,
-        poses: Sequence[Pose] = _SAMPLE_POSES,
+        poses: Sequence[Pose] = SAMPLE_POSES,
         is_wheeled: bool = False,
     ) -> None:
         """Measure the figure.

@@ -5,10 +5,10 @@ New nouns are added at the end of `data/class_ids.toml`; no number is ever given
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping
-from importlib.resources import files
 from types import MappingProxyType
+
+from texvent.scenes.models.tables import read_table
 
 BACKGROUND = 0
 """Class of what is no object: ground, sky, walls, scenery without an id."""
@@ -19,9 +19,9 @@ FIRST_OTHER = 2001
 
 
 def _read() -> Mapping[str, int]:
-    file = files("texvent.scenes.models") / "data" / "class_ids.toml"
-    names: list[str] = tomllib.loads(file.read_text(encoding="utf-8"))["nouns"]
-    return MappingProxyType({name: number for number, name in enumerate(names, start=1)})
+    names: str = read_table("class_ids")["nouns"]
+    numbered = enumerate(names.split(","), start=1)
+    return MappingProxyType({" ".join(name.split()): number for number, name in numbered})
 
 
 CLASS_IDS: Mapping[str, int] = _read()

@@ -1,4 +1,9 @@
-"""Joints of nouns: how a group of parts moves or shines with time and distance."""
+"""Joints of nouns: how a group of parts moves, bends or shines with time and distance.
+
+docs/nouns.md lists them. RATE is "2hz" (cycles per second) or, of what bends, "1.5/m" (cycles per
+metre travelled); "start NAME" lets the seed choose where the cycle begins, "from .25" begins it
+later by a share of a cycle.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +13,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS, act_stance
 from texvent.scenes.models.materials import shade
 from texvent.scenes.models.protocol import ModelPart, Pose
-from texvent.scenes.models.shapes import Affine, Point, compose, shift, turn_about
-from texvent.scenes.models.variation import fraction
+from texvent.scenes.models.shapes import Affine, Point, compose, moved, shift, turn_about
+from texvent.scenes.models.variation import between, fraction
 
-_UNITS: Mapping[str, float] = {"deg": math.radians(1.0), "hz": 1.0, "s": 1.0, "m/s": 1.0, "m": 1.0}
+_UNITS = {"": 1.0, "deg": math.radians(1.0), "hz": 1.0, "m/s": 1.0, "m": 1.0}
+
+RESTING = frozenset({"stand", "sit", "lie", *ANIMAL_ACTS})
+"""Activities of a body that stays where it is."""
+_RESTING_VIGOUR = 0.3
+"""How far a swimmer at rest undulates."""
+_HEAD_X, _HEAD_REACH, _WAVE_LAG = 0.45, 0.12, 3.6
+"""Where a swimmer's head is, how far it swings compared with its tail, and how much the wave lags
+along its body, rad: for a body of length 1."""
+
+Cycle = Callable[[Pose, int], float]
+"""Pose and seed → cycles so far."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +97,8 @@ def read_joint(text: str) -> Joint:
     """
     try:
         kind, axis, *rest = text.split()
-        if kind not in _JOINTS or axis not in ("x", "y", "z"):
+        axes = axis if kind in _STRETCHING else [axis]
+        if kind not in _JOINTS or not set(axes) <= set("xyz"):
             raise ValueError(f"it must begin with {', '.join(_JOINTS)} and an axis x, y or z")
         return _JOINTS[kind](axis, rest)
     except (ValueError, IndexError) as error:
@@ -116,10 +134,6 @@ def _sine(phase: float, low: float, high: float) -> float:
     return 0.5 + 0.5 * math.sin(2.0 * math.pi * phase)
 
 
-def _triangle(phase: float, low: float, high: float) -> float:
-    return 2.0 * abs(phase - 0.5)
-
-
 _RAMP = 0.01
 """Share of a cycle in which a lamp comes on or goes off: a filament's glow."""
 
@@ -133,7 +147,7 @@ def _switched(phase: float, low: float, high: float) -> float:
 
 
 _WAVES: Mapping[str, Callable[[float, float, float], float]] = {
-    "sine": _sine, "triangle": _triangle, "switched": _switched,
+    "sine": _sine, "switched": _switched,
 }  # fmt: skip
 
 
@@ -229,19 +243,6 @@ def _lie(axis: str, words: Sequence[str]) -> Joint:
     )
 
 
-def _slide(axis: str, words: Sequence[str]) -> Joint:
-    """To and fro along an axis: greatest distance, rate."""
-    options = _Options(words)
-    reach, rate, lag = options.first("m"), options.first("hz"), options.angle("from")
-    start = options.start()
-
-    def motion(pose: Pose, seed: int) -> Affine:
-        phase = 2.0 * math.pi * (rate * pose.time_s + start(seed)) + lag
-        return shift(**{axis: reach * math.sin(phase)})
-
-    return Joint(motion)
-
-
 def _belt(axis: str, words: Sequence[str]) -> Joint:
     """Along a belt, then from its start again: length, speed; sinking by a depth at its ends."""
     options = _Options(words)
@@ -258,7 +259,108 @@ def _belt(axis: str, words: Sequence[str]) -> Joint:
     return Joint(motion)
 
 
+def _pulse(axes: str, words: Sequence[str]) -> Joint:
+    """Stretched along axes and shrunk: pivot, greatest share, rate."""
+    options, cycle = _Options(words), read_cycle(words[4:])
+    pivot, share = options.point(), options.first("")
+    return Joint(lambda pose, seed: _stretch(axes, 1.0 + share * sine(cycle, pose, seed), pivot))
+
+
+def _grow(axes: str, words: Sequence[str]) -> Joint:
+    """From a share of its size to the whole, again and again: pivot, least share, rate."""
+    options, cycle = _Options(words), read_cycle(words[4:])
+    pivot, least = options.point(), options.first("")
+    return Joint(
+        lambda pose, seed: _stretch(axes, least + (1.0 - least) * (cycle(pose, seed) % 1.0), pivot)
+    )
+
+
+def _vary(axes: str, words: Sequence[str]) -> Joint:
+    """Stretched once and for all: pivot, least and greatest factor, name of the seed's choice."""
+    options, name = _Options(words), words[5]
+    pivot, low, high = options.point(), options.first(""), options.first("")
+    return Joint(lambda pose, seed: _stretch(axes, between(seed, name, low, high), pivot))
+
+
+def _sway(axis: str, words: Sequence[str]) -> Joint:
+    """To and fro along an axis: greatest distance, rate."""
+    reach, cycle = read_number(words[0]), read_cycle(words[1:])
+    return Joint(lambda pose, seed: shift(**{axis: reach * sine(cycle, pose, seed)}))
+
+
+def _bow(axis: str, words: Sequence[str]) -> Joint:
+    """Turned down while the mouth is at the ground: pivot, degrees."""
+    options = _Options(words)
+    pivot, reach = options.point(), math.radians(options.first(""))
+    return Joint(
+        lambda pose, seed: turn_about(
+            axis, reach * act_stance(pose.activity, pose.time_s).head_down, pivot
+        )
+    )
+
+
 _JOINTS: Mapping[str, Callable[[str, Sequence[str]], Joint]] = {
-    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "lie": _lie, "slide": _slide,
-    "belt": _belt,
+    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "lie": _lie,
+    "belt": _belt, "bow": _bow, "sway": _sway, "pulse": _pulse, "grow": _grow, "vary": _vary,
 }  # fmt: skip
+_STRETCHING = ("pulse", "grow", "vary")
+"""Joints of several axes, such as "yz"."""
+
+
+def _stretch(axes: str, factor: float, pivot: Point) -> Affine:
+    """A stretching along axes such as "yz" that leaves a point where it is."""
+    factors = np.array([factor if axis in axes else 1.0 for axis in "xyz"])
+    return np.column_stack([np.diag(factors), (1.0 - factors) * np.array(pivot)])
+
+
+def read_cycle(words: Sequence[str]) -> Cycle:
+    """Cycles from the words of a rate, such as ("2hz", "start", "flap").
+
+    Raises:
+        ValueError: they are none.
+    """
+    rate, *more = words
+    options = dict(zip(more[::2], more[1::2], strict=True))
+    late, label = read_number(options.pop("from", "0")), options.pop("start", None)
+    if options:
+        raise ValueError(f"unknown words {' '.join(options)!r}; there are 'start' and 'from'")
+    unit = next((one for one in ("hz", "/m") if rate.endswith(one)), None)
+    if unit is None:
+        raise ValueError(f"rate {rate!r} needs the unit 'hz' or '/m'")
+    pace = read_number(rate.removesuffix(unit))
+
+    def cycle(pose: Pose, seed: int) -> float:
+        begun = fraction(seed, label) if label is not None else 0.0
+        return pace * (pose.time_s if unit == "hz" else pose.distance_m) + begun + late
+
+    return cycle
+
+
+def sine(cycle: Cycle, pose: Pose, seed: int) -> float:
+    """The sine of a cycle at one instant."""
+    return math.sin(2.0 * math.pi * cycle(pose, seed))
+
+
+def read_wave(text: str) -> Callable[[ModelPart, Pose, int], ModelPart]:
+    """A swimmer's wave from text such as "y .07 2hz start beat": axis, reach of the tail, rate.
+
+    It runs from the head, .5 ahead of the origin, to the tail, .5 behind it, and takes each part
+    along where that part is.
+
+    Raises:
+        ValueError: it cannot be read.
+    """
+    axis, reach, *rate = text.split()
+    cycle, far = read_cycle(rate), read_number(reach)
+    axle, sign = ("y", -1.0) if axis == "z" else ("z", 1.0)
+
+    def waved(part: ModelPart, pose: Pose, seed: int) -> ModelPart:
+        x = float(part.to_body[0, 3])
+        vigour = _RESTING_VIGOUR if pose.activity in RESTING else 1.0
+        swing = vigour * far * (_HEAD_REACH + (1.0 - _HEAD_REACH) * ((_HEAD_X - x) / 0.95) ** 2)
+        phase = 2.0 * math.pi * cycle(pose, seed) + _WAVE_LAG * x
+        slant = sign * math.atan(_WAVE_LAG * swing * math.cos(phase))
+        offset = shift(**{axis: swing * math.sin(phase)})
+        return moved([part], compose(offset, turn_about(axle, slant, (x, 0.0, 0.0))))[0]
+
+    return waved

@@ -1,9 +1,12 @@
-"""Surfaces of models: linear-light colours, textures and the materials that models share."""
+"""Surfaces of models: colours, textures, shared materials; models made of another material."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
+from texvent.errors import InputError
+from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.scene import Colour, Texture
 
 
@@ -15,8 +18,8 @@ class Material:
     second_colour: Colour = (0.0, 0.0, 0.0)
     texture: Texture = Texture.WORN
     scale: float = 1.0
-    """How much finer than in life a material is; of the patterns MOTTLED, STRIPES, CHECKS and
-    WINDOWS, repeats per local unit (half the part's size)."""
+    """How much finer than in life a material is; of the patterns MOTTLED, STRIPES and
+    CHECKS, repeats per local unit (half the part's size)."""
     emission: float = 0.0
 
 
@@ -170,3 +173,66 @@ CLOTH_COLOURS: tuple[Colour, ...] = (
     (0.62, 0.33, 0.03),
     (0.25, 0.05, 0.25),
 )
+
+
+_OWN_SHARE = 0.25
+"""How much of a part's own brightness stays, so that parts can be told apart."""
+
+
+class OverriddenModel:
+    """A model whose parts are all of one material; lamps and glass that glows stay."""
+
+    def __init__(self, model: Model, material: NamedMaterial, colour: Colour | None) -> None:
+        """Keep the model.
+
+        Args:
+            model: as the noun builds it.
+            material: what it is made of.
+            colour: what the prompt says; None = the material's usual one, or each part's own.
+        """
+        self._model = model
+        self._material = material
+        self._colour = colour
+        self.length, self.width, self.height = model.length, model.width, model.height
+
+    def parts(self, pose: Pose) -> Sequence[ModelPart]:
+        """The model's parts in the material."""
+        return [self._made_of(each) for each in self._model.parts(pose)]
+
+    def _made_of(self, part: ModelPart) -> ModelPart:
+        if part.emission > 0.0:
+            return part
+        wanted = self._colour if self._colour is not None else self._material.colour
+        own = sum(part.colour) / 3.0
+        if self._colour is not None or wanted is None:
+            colour = part.colour
+        else:
+            usual = sum(wanted) / 3.0
+            factor = 1.0 + _OWN_SHARE * (min(own / max(usual, 1e-3), 2.0) - 1.0)
+            colour = mix((0.0, 0.0, 0.0), wanted, factor)
+        surface = made_of(self._material.texture, colour, self._material.second_colour)
+        return replace(
+            part,
+            colour=surface.colour,
+            second_colour=surface.second_colour,
+            texture=surface.texture,
+            texture_scale=1.0,
+        )
+
+
+def in_material(model: Model, name: str | None, colour: Colour | None) -> Model:
+    """A model in the material that a prompt names.
+
+    Args:
+        model: as the noun builds it.
+        name: key of `materials.MATERIALS`; None = as usual.
+        colour: colour that the prompt says; it wins over the material's own.
+
+    Raises:
+        InputError: there is no such material.
+    """
+    if name is None:
+        return model
+    if name not in MATERIALS:
+        raise InputError(f"unknown material {name!r}; known: {', '.join(MATERIALS)}")
+    return OverriddenModel(model, MATERIALS[name], colour)

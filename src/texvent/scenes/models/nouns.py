@@ -8,24 +8,23 @@ middle, except that what floats (`AFLOAT`) has it on the waterline: put it at th
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib.resources import files
+from itertools import chain
 from types import MappingProxyType
 
-from texvent.scenes.models.bodies.nouns import BODY_FAMILIES
 from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.people import hand, person
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.tables import list_data
 
 
 def _read_families() -> dict[str, tuple[Noun, ...]]:
-    """Nouns of the files of `data/nouns`, by the files' names."""
-    folder = files("texvent.scenes.models") / "data" / "nouns"
-    found = {one.name: one for one in folder.iterdir() if one.name.endswith(".toml")}
-    return {name.removesuffix(".toml"): read_nouns(found[name]) for name in sorted(found)}
+    """Nouns of the files of `data/bodies` and `data/nouns`, by the files' names."""
+    listed = chain(list_data("bodies"), list_data("nouns"))
+    return {file.name.removesuffix(".toml"): read_nouns(file) for file in listed}
 
 
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
-    {"people": (*person.NOUNS, *hand.NOUNS), **BODY_FAMILIES, **_read_families()}
+    {"people": (*person.NOUNS, *hand.NOUNS), **_read_families()}
 )
 """Nouns by family, such as "vehicles"."""
 

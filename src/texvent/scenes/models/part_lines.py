@@ -44,13 +44,28 @@ _AXES = {
     **dict.fromkeys(_SPANNED, "xyzxyzxyzxyz"),
     "bar": "xyzyz--", "disc": "xyz--", "frame": "xyz----", "ring": "xyz------", "lathe": "xyz",
     "bits": "xyz---", "chain": "-" + 40 * "xyz", "wheel": "xyz--",
-    "thin-wheel": "xyz--", "spoked-wheel": "xyz--",
+    "thin-wheel": "xyz--",
 }  # fmt: skip
 """Shape → the axis that each number of a line is along, "-" for lengths."""
-_WORDS = frozenset({"lean", "turn", "map", "about", "rows"})
+_WORDS = frozenset({"lean", "turn", "about", "rows"})
 """Words with which the options of a line begin."""
 _ROUNDED = 0.6
 """How far a limb reaches beyond its joints, in its half thicknesses."""
+
+
+def read_groups(text: str) -> list[tuple[str, str]]:
+    """What stands after "moving" in lines that begin with it, and the lines of parts that follow.
+
+    The first has no such line: its parts do not move.
+    """
+    groups: list[tuple[str, list[str]]] = [("", [])]
+    for line in _whole_lines(text):
+        first, _, rest = line.partition(" ")
+        if first == "moving":
+            groups.append((rest.strip(), []))
+        else:
+            groups[-1][1].append(line)
+    return [(how, "\n".join(lines)) for how, lines in groups]
 
 
 def read_parts(text: str) -> tuple[tuple[Placed, ...], list[Wheel]]:
@@ -109,8 +124,10 @@ def _split(line: str) -> _Words:
     if shape.endswith("wheel"):
         return shape, "", rest
     taken = 1
-    if rest[0].startswith("("):
-        taken = next(n for n, word in enumerate(rest, 1) if ")" in word)
+    while " ".join(rest[:taken]).count("(") > " ".join(rest[:taken]).count(")"):
+        if taken == len(rest):
+            raise ValueError("a bracket is not closed")
+        taken += 1
     return shape, " ".join(rest[:taken]), rest[taken:]
 
 
@@ -182,8 +199,6 @@ def _read_one(
 ) -> list[Placed]:
     """The parts of one copy of a line."""
     if shape in _SOLIDS:
-        if more and more[0] == "map":
-            return [Placed(_SOLIDS[shape], surface, np.reshape(np.array(more[1:], float), (3, 4)))]
         x, y, z, *size = _count(values, 6)
         return [Placed(_SOLIDS[shape], surface, _solid((x, y, z), size, more))]
     if shape in _RODS:
@@ -213,7 +228,7 @@ def _solid(centre: Point, size: Sequence[float], more: Sequence[float | str]) ->
         for axis, angle in zip("xyz", more[1:4], strict=True):
             to_body = compose(turn_about(axis, math.radians(float(angle))), to_body)
     elif word:
-        raise ValueError(f"{word!r} is not for it; there are 'lean', 'turn' and 'map'")
+        raise ValueError(f"{word!r} is not for it; there are 'lean' and 'turn'")
     return compose(shift(*centre), to_body)
 
 
@@ -321,11 +336,10 @@ _COMPOSED: dict[str, Callable[[str, list[float], list[float | str]], Iterator[Pl
 def _wheel(kind: str, values: Sequence[float]) -> Wheel:
     """A wheel at its place: middle, radius and width."""
     x, y, z, radius, width = values
-    drawn = {"wheel": _disc_wheel, "thin-wheel": _thin_wheel, "spoked-wheel": _spoked_wheel}
+    draw = _thin_wheel if kind == "thin-wheel" else _disc_wheel
     here = shift(x, y, z)
     parts = tuple(
-        Placed(one.shape, one.surface, compose(here, one.to_body))
-        for one in drawn[kind](radius, width)
+        Placed(one.shape, one.surface, compose(here, one.to_body)) for one in draw(radius, width)
     )
     return parts, rolling("y", (x, y, z), radius)
 
@@ -360,20 +374,3 @@ def _thin_wheel(radius: float, width: float) -> list[Placed]:
         _axle("(.3 .31 .32)", half + 0.002, 0.86 * radius),
         *_cross(1.72 * radius, width + 0.01, 2.0 * (0.03 * radius + 0.006)),
     ]
-
-
-_RIM_PIECES, _SPOKES = 16, 5
-
-
-def _spoked_wheel(radius: float, width: float) -> list[Placed]:
-    """A cycle's tyre, thin spokes and a hub; one sees through between them."""
-    half, far, reach = 0.5 * width, 0.94 * radius, 0.90 * radius
-    around = [2.0 * math.pi * k / _RIM_PIECES for k in range(_RIM_PIECES + 1)]
-    rim: list[Point] = [(far * math.cos(a), 0.0, far * math.sin(a)) for a in around]
-    thin = 0.014 * radius + 0.002
-    parts = [*_limbs("rubber", rim, 0.06 * radius, half), _axle("dark", half, 0.12 * radius)]
-    for a in (math.pi * k / _SPOKES for k in range(_SPOKES)):
-        end = (reach * math.cos(a), 0.0, reach * math.sin(a))
-        to_body = placed_between((-end[0], 0.0, -end[2]), end, thin, thin, 0.0)
-        parts.append(Placed(Shape.CYLINDER, "chrome", to_body))
-    return parts

@@ -1,16 +1,12 @@
-"""Lists of parts as nouns: the TOML files of `data/nouns/`, read when a noun is first built.
+"""Nouns as data: the TOML files of `data/nouns/` and `data/bodies/`, built when they are shown.
 
     [pendulum]
     colours = ["(.6 .3 .04)"]
     parts = '''
     box wood   0 0 .03   .4 .9 .06
     rod wood   0 ±.42 .05   0 ±.42 1.18   .025
-    '''
-    [[pendulum.moving]]
-    joint = "swing x 0 0 1.17 22.9deg .541hz"
-    parts = '''
-    ball paint   0 0 .32   .2 .2 .2
-    '''
+    moving swing x 0 0 1.17 22.9deg .541hz
+    ball paint   0 0 .32   .2 .2 .2'''
 
 docs/nouns.md describes the format.
 """
@@ -24,33 +20,55 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 
-from texvent.errors import FileFormatError
-from texvent.scenes.models.articulated_model import STANDING_POSES, ArticulatedModel
-from texvent.scenes.models.joints import Joint, Light, place, read_joint, read_light
-from texvent.scenes.models.materials import Material
-from texvent.scenes.models.part_lines import Placed, read_parts
+from texvent.errors import FileFormatError, InputError
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
+from texvent.scenes.models.animals.body import build_quadruped
+from texvent.scenes.models.animals.build import QUADRUPED_KEYS
+from texvent.scenes.models.articulated_model import (
+    SAMPLE_POSES,
+    STANDING_POSES,
+    ArticulatedModel,
+)
+from texvent.scenes.models.joints import (
+    RESTING,
+    Joint,
+    Light,
+    place,
+    read_joint,
+    read_light,
+    read_wave,
+)
+from texvent.scenes.models.limbs import Chain, read_walk
+from texvent.scenes.models.materials import shade
+from texvent.scenes.models.part_lines import Placed, read_groups, read_parts
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.riders import Rider, read_rider
-from texvent.scenes.models.shapes import compose, half_extents, moved, part, shift, turn_y
-from texvent.scenes.models.surfaces import PAINT, read_colour, read_surface
-from texvent.scenes.models.variation import choose
+from texvent.scenes.models.riders import read_rider
+from texvent.scenes.models.shapes import ball, compose, half_extents, moved, shift, turn_y
+from texvent.scenes.models.surfaces import Painted, paint_model
+from texvent.scenes.models.variation import between, choose, fraction
 from texvent.scenes.scene import Colour
 
 _KEYS: Mapping[str, tuple[type, ...]] = {
     "names": (list,), "plurals": (list,), "place": (str,), "habitat": (str,), "motion": (str,),
     "speed": (float, int), "works": (bool,), "laid": (bool,), "like": (str,), "rider": (dict,),
     "colours": (list, dict), "varied": (dict,), "surfaces": (dict,), "variants": (dict,),
-    "parts": (str,), "moving": (list,),
+    "parts": (str,), "more": (str,), "size": (float, int), "wave": (str,), "chains": (list,),
+    "clumps": (list,), "legs": (list,), "gait": (dict,), "bob": (list,), **QUADRUPED_KEYS,
 }  # fmt: skip
 """Keys of a noun, and what their values are."""
-_OWN = ("names", "plurals")
+_OWN = ("names", "plurals", "more")
 """Keys that no noun takes from the one that it is like."""
-_HABITATS = ("ground", "air", "water", "fixed")
-_GREY = "(.4 .4 .4)"
+_HABITATS: Mapping[str, str] = {
+    **dict.fromkeys(("drive", "walk", "run", "roll", "slide"), "ground"),
+    **dict.fromkeys(("fly", "float"), "air"),
+    **dict.fromkeys(("swim", "sail", "paddle"), "water"),
+    "stand": "fixed",
+}
+"""Usual motion → habitat, where an entry does not say it."""
 
 
 @dataclass(frozen=True)
@@ -59,9 +77,33 @@ class _Group:
 
     parts: tuple[Placed, ...]
     joints: tuple[Joint, ...]
+    at_rest: tuple[Joint, ...] | None = None
+    """Its joints while the body stays where it is; None = the same."""
     light: Light | None = None
     clip: tuple[int, float, float] | None = None
     """Axis, least and greatest coordinate between which its boxes are seen, m."""
+    is_paired: bool = False
+    """Whether the other side of the body has the same."""
+
+    def draw(self, parts: Sequence[ModelPart], pose: Pose, seed: int) -> list[ModelPart]:
+        """Its parts, painted, where they are at that pose."""
+        is_resting = self.at_rest is not None and pose.activity in RESTING
+        joints = self.at_rest if self.at_rest is not None and is_resting else self.joints
+        lit = self.light.shine(parts, pose, seed) if self.light else list(parts)
+        there = moved(lit, place(joints, pose, seed)) if joints else lit
+        if self.clip is not None:
+            there = [_clip(one, *self.clip) for one in there]
+        return [*there, *mirrored(there)] if self.is_paired else there
+
+
+def mirrored(parts: Sequence[ModelPart]) -> list[ModelPart]:
+    """The same parts on the other side of the body, their surfaces not turned inside out."""
+    return [each.at(_MIRROR[:, None] * each.to_body * _TURNED_BACK) for each in parts]
+
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
+_TURNED_BACK = np.array([-1.0, 1.0, 1.0, 1.0])
+"""Signs of the columns of a map: its first axis the other way round."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,119 +115,136 @@ class PartsBuilder:
     table: Mapping[str, Any]
 
     def __call__(self, *, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-        """Build it; `colour` takes the place of `colours`."""
-        rigid, groups = self._drawing
+        """Build it; `colour` takes the place of `colours`.
+
+        Raises:
+            FileFormatError: its table cannot be read.
+        """
+        try:
+            return self._build(colour, scale, seed)
+        except InputError:
+            raise
+        except (KeyError, TypeError, ValueError) as error:
+            raise FileFormatError(f"{self.where}: {error}") from None
+
+    def _build(self, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
+        table, is_centred = self.table, _is_centred(self.table)
+        if "build" in table:
+            return build_quadruped(table, is_centred, colour=colour, scale=scale, seed=seed)
+        painted = paint_model(table, colour=colour, seed=seed)
+        placed, groups = self._drawing
         for label, texts in self._variants.items():
-            rigid = (*rigid, *choose(seed, label, texts))
-        surfaces = self._surfaces(colour, seed)
-        rider = self._rider
-        upper = rider.upper_body(seed) if rider is not None else []
-        drawn = [(_draw(one.parts, surfaces), one) for one in groups]
+            placed = (*placed, *choose(seed, label, texts))
+        rigid = painted.draw(placed)
+        drawn = [(painted.draw(one.parts), one) for one in groups]
+        drawn += [_read_clump(one, painted, seed) for one in table.get("clumps", ())]
+        chains = [Chain(**one).drawn_in(painted) for one in table.get("chains", ())]
+        rider = read_rider(table["rider"]) if "rider" in table else None
+        wave = read_wave(table["wave"]) if "wave" in table else None
+        walk = read_walk(table, painted) if "gait" in table else None
+        moves_all = wave is not None or walk is not None
 
         def articulate(pose: Pose) -> list[ModelPart]:
-            parts = []
-            for shapes, group in drawn:
-                lit = group.light.shine(shapes, pose, seed) if group.light else shapes
-                there = moved(lit, place(group.joints, pose, seed)) if group.joints else lit
-                parts += there if group.clip is None else [_clip(one, *group.clip) for one in there]
-            return parts + (rider.legs(seed, pose.distance_m) if rider is not None else [])
+            parts = list(rigid) if moves_all else []
+            if wave is not None:
+                parts = [wave(part, pose, seed) for part in parts]
+            parts += [part for shapes, group in drawn for part in group.draw(shapes, pose, seed)]
+            parts += [part for draw in chains for part in draw(pose, seed)]
+            if rider is not None:
+                parts += rider.legs(seed, pose.distance_m)
+            return parts if walk is None else walk(parts, pose, seed)
 
+        upper = rider.upper_body(seed) if rider is not None else []
+        rests = moves_all or any(one.at_rest is not None for one in groups)
         return ArticulatedModel(
-            [*_draw(rigid, surfaces), *upper],
-            scale=scale,
-            articulate=articulate if groups or rider is not None else None,
-            is_centred=_is_centred(self.table),
-            poses=STANDING_POSES,
+            upper if moves_all else [*rigid, *upper],
+            scale=scale * table.get("size", 1.0),
+            articulate=articulate if moves_all or drawn or chains or rider is not None else None,
+            is_centred=is_centred,
+            poses=SAMPLE_POSES if rests else STANDING_POSES,
             is_wheeled=any(one.rolls for group in groups for one in group.joints[:1]),
         )
 
     @cached_property
     def _drawing(self) -> tuple[tuple[Placed, ...], tuple[_Group, ...]]:
-        rigid, wheels = self._read(self.table.get("parts", ""))
+        """Parts that stay in the body, and groups of those that move."""
+        texts = [read_groups(self.table.get(key, "")) for key in ("parts", "more")]
+        rigid, wheels = read_parts("\n".join(first[1] for first, *_ in texts))
+        moving = [one for _, *rest in texts for one in rest]
         if self.table.get("laid"):
             rigid = _laid(rigid)
         groups, named = [], dict[str, tuple[Joint, ...]]()
-        for number, moving in enumerate(self.table.get("moving", ()), 1):
-            parts, more = self._read(moving.get("parts", ""))
-            if not (parts or more) or not {"joint", "light"} & set(moving):
-                self._fail(f"moving part {number} needs 'parts' and a 'joint' or a 'light'")
-            groups.append(self._group(moving, parts, named))
+        for how, lines in moving:
+            parts, more = read_parts(lines)
+            if not how or not (parts or more):
+                raise ValueError(f"'moving {how}' needs a joint or a light, and parts below it")
+            groups.append(_read_group(how, parts, named))
             wheels += more
         groups += [_Group(shapes, (joint,)) for shapes, joint in wheels]
         return rigid, tuple(groups)
 
     @cached_property
-    def _rider(self) -> Rider | None:
-        try:
-            return read_rider(self.table["rider"]) if "rider" in self.table else None
-        except (ValueError, TypeError) as error:
-            self._fail(str(error))
-
-    @cached_property
     def _variants(self) -> Mapping[str, Sequence[tuple[Placed, ...]]]:
         """Parts of which the seed chooses one list, by the label of the choice."""
         said = self.table.get("variants", {})
-        return {label: [self._read(one)[0] for one in texts] for label, texts in said.items()}
-
-    def _group(
-        self,
-        moving: Mapping[str, Any],
-        parts: tuple[Placed, ...],
-        named: dict[str, tuple[Joint, ...]],
-    ) -> _Group:
-        """A group, on another one where "on" names it."""
-        said = moving.get("joint", ())
-        try:
-            joints = tuple(map(read_joint, [said] if isinstance(said, str) else said))
-            light = read_light(moving["light"]) if "light" in moving else None
-            clip = _read_clip(moving["clip"]) if "clip" in moving else None
-        except ValueError as error:
-            self._fail(str(error))
-        if "on" in moving:
-            if moving["on"] not in named:
-                self._fail(f"no moving part before it has the name {moving['on']!r}")
-            joints = named[moving["on"]] + joints
-        if "name" in moving:
-            named[moving["name"]] = joints
-        return _Group(parts, joints, light, clip)
-
-    def _read(self, text: str) -> tuple[tuple[Placed, ...], list[tuple[tuple[Placed, ...], Joint]]]:
-        try:
-            return read_parts(text)
-        except ValueError as error:
-            self._fail(str(error))
-
-    def _surfaces(self, colour: Colour | None, seed: int) -> Mapping[str, Material]:
-        """Every surface that the parts name."""
-        said = self.table.get("colours", [_GREY])
-        paints = said if isinstance(said, Mapping) else {PAINT: said}
-        try:
-            if not all({**paints, **self.table.get("varied", {})}.values()):
-                raise ValueError("a list of colours is empty")
-            hues = {
-                name: choose(seed, name, [read_colour(one, {}) for one in options])
-                for name, options in {**paints, **self.table.get("varied", {})}.items()
-            }
-            if colour is not None:
-                hues.update(dict.fromkeys(paints, colour))
-            own = self.table.get("surfaces", {})
-            return {name: read_surface(own.get(name, name), hues) for name in self._named}
-        except ValueError as error:
-            self._fail(str(error))
-
-    @cached_property
-    def _named(self) -> frozenset[str]:
-        rigid, groups = self._drawing
-        chosen = [one for texts in self._variants.values() for one in texts]
-        every = [rigid, *chosen, *(group.parts for group in groups)]
-        return frozenset(one.surface for parts in every for one in parts)
-
-    def _fail(self, what: str) -> NoReturn:
-        raise FileFormatError(f"{self.where}: {what}") from None
+        return {label: [read_parts(one)[0] for one in texts] for label, texts in said.items()}
 
 
-def _draw(parts: Sequence[Placed], surfaces: Mapping[str, Material]) -> list[ModelPart]:
-    return [part(one.shape, surfaces[one.surface], one.to_body) for one in parts]
+def _read_group(how: str, parts: tuple[Placed, ...], named: dict[str, tuple[Joint, ...]]) -> _Group:
+    """A group from what stands after "moving", on another one where "on" names it."""
+    joints: list[Joint] = []
+    at_rest: list[Joint] | None = None
+    light, clip, is_paired, name = None, None, False, ""
+    for item in map(str.strip, how.rstrip(",").split(",")):
+        first, _, rest = item.partition(" ")
+        if first == "on":
+            if rest not in named:
+                raise ValueError(f"no moving part before it has the name {rest!r}")
+            joints += named[rest]
+        elif first == "called":
+            name = rest
+        elif first == "light":
+            light = read_light(rest)
+        elif first == "clip":
+            clip = _read_clip(rest)
+        elif item == "pair":
+            is_paired = True
+        elif item == "at rest":
+            at_rest = []
+        else:
+            (joints if at_rest is None else at_rest).append(read_joint(item))
+    if name:
+        named[name] = tuple(joints)
+    resting = None if at_rest is None else tuple(at_rest)
+    return _Group(parts, tuple(joints), resting, light, clip, is_paired)
+
+
+def _read_clump(
+    table: Mapping[str, Any], painted: Painted, seed: int
+) -> tuple[list[ModelPart], _Group]:
+    """Balls around an upright axis, their places, sizes and shades chosen by the seed.
+
+    Its table: count, surface; lowest and highest `out` (from the axis), `up`, `size` (m) and
+    `shade`; `across` (their places and extents along y compared with those along x), `flat`
+    (their extents along z); joints.
+    """
+    material, count = painted.material(table["surface"]), table["count"]
+    across, flat = table.get("across", 1.0), table.get("flat", 1.0)
+    parts = []
+    for index in range(count):
+        angle = math.tau * (index + 0.6 * fraction(seed, f"angle {index}")) / count
+        out, up, size, tint = (
+            between(seed, f"{name} {index}", *table[name])
+            for name in ("out", "up", "size", "shade")
+        )
+        tinted = replace(
+            material,
+            colour=shade(material.colour, tint),
+            second_colour=shade(material.second_colour, tint),
+        )
+        at = (out * math.cos(angle), across * out * math.sin(angle), up)
+        parts.append(ball(tinted, at, (size, across * size, flat * size)))
+    return parts, _Group((), tuple(map(read_joint, table.get("joints", ()))))
 
 
 def _read_clip(text: str) -> tuple[int, float, float]:
@@ -220,7 +279,7 @@ def _laid(parts: Sequence[Placed]) -> tuple[Placed, ...]:
 
 def _is_centred(table: Mapping[str, Any]) -> bool:
     """Whether the origin is its middle: of what flies or swims, not of what floats."""
-    habitat = table.get("habitat", "fixed")
+    habitat = _habitat(table)
     return habitat == "air" or (habitat == "water" and table.get("motion") == "swim")
 
 
@@ -236,16 +295,30 @@ def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise FileFormatError(f"{file}: {error}") from error
     usual = {key: value for key, value in tables.items() if not isinstance(value, Mapping)}
-    nouns = {name: table for name, table in tables.items() if name not in usual}
-    for name, table in nouns.items():
-        like = table.get("like")
-        if like is not None and like not in nouns:
-            raise FileFormatError(f"{file.name}, {name!r}: there is no noun {like!r} to be like")
-        model = nouns.get(like, {})
-        table |= {key: value for key, value in model.items() if key not in {*_OWN, *table}}
-    return tuple(
-        _noun(f"{file.name}, {name!r}", name, {**usual, **table}) for name, table in nouns.items()
-    )
+    entries: dict[str, Mapping[str, Any]] = {}
+    for name in (key for key in tables if key not in usual):
+        own, like = tables[name], tables[name].get("like")
+        if like is not None and like not in entries:
+            raise FileFormatError(
+                f"{file.name}, {name!r}: there is no noun {like!r} above it to be like"
+            )
+        model = usual if like is None else entries[like]
+        entries[name] = _merged({key: model[key] for key in model if key not in _OWN}, own)
+    return tuple(_noun(f"{file.name}, {name!r}", name, entries[name]) for name in entries)
+
+
+def _merged(model: Mapping[str, Any], own: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A table with what it does not say taken from another, in the tables within it too."""
+    return {
+        key: _merged(model[key], own[key])
+        if isinstance(own.get(key), Mapping) and isinstance(model.get(key), Mapping)
+        else own.get(key, model.get(key))
+        for key in {**model, **own}
+    }
+
+
+def _habitat(table: Mapping[str, Any]) -> Any:
+    return table.get("habitat") or _HABITATS.get(table.get("motion", "stand"), "ground")
 
 
 def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
@@ -256,9 +329,9 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
             raise FileFormatError(
                 f"{where}: {key} must be a {_KEYS[key][0].__name__} but is {value!r}"
             )
-    habitat = table.get("habitat", "fixed")
-    if habitat not in _HABITATS:
-        known = ", ".join(_HABITATS)
+    habitat = _habitat(table)
+    if habitat not in _HABITATS.values():
+        known = ", ".join(dict.fromkeys(_HABITATS.values()))
         raise FileFormatError(f"{where}: habitat must be one of {known} but is {habitat!r}")
     return Noun(
         name,
@@ -269,5 +342,17 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         tuple(table.get("names", ())),
         tuple(table.get("plurals", ())),
         place=table.get("place", ""),
-        is_working=bool(table.get("works", habitat == "fixed" and "moving" in table)),
+        acts=_acts_of(table),
+        is_working=bool(table.get("works", habitat == "fixed" and _has(table, "moving"))),
     )
+
+
+def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
+    """What an animal does in its place: all on four legs, what the mouth does if it bows."""
+    if "build" in table:
+        return frozenset(ANIMAL_ACTS)
+    return MOUTH_ACTS if _has(table, "bow") else frozenset()
+
+
+def _has(table: Mapping[str, Any], word: str) -> bool:
+    return word in table.get("parts", "").split()

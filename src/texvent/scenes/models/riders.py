@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from texvent.scenes.models.limb_kinematics import bend
+from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.materials import STEEL
 from texvent.scenes.models.people.figure import draw_arm, draw_head, draw_leg, draw_torso
 from texvent.scenes.models.people.outfit import ADULT, dress_person

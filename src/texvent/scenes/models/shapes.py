@@ -1,4 +1,4 @@
-"""Shapes placed in body coordinates: boxes, balls, rods, limbs, cones and fins.
+"""Shapes placed in body coordinates: balls, rods, limbs, cones, planks and blades.
 
 All lengths are metres; `size` is always the full extent, `radius` half of it. Maps are [3, 4]
 affine matrices from unit-shape to body coordinates (`ModelPart.to_body`), always with a positive
@@ -36,16 +36,6 @@ def part(shape: Shape, material: Material, to_body: Affine) -> ModelPart:
     )
 
 
-def box(material: Material, centre: Point, size: Point, *, lean: float = 0.0) -> ModelPart:
-    """A box; `lean` metres of x per metre of z slant it, as a windscreen or a roof slants."""
-    x, y, z = centre
-    half_x, half_y, half_z = (0.5 * extent for extent in size)
-    to_body = np.array(
-        [[half_x, 0.0, lean * half_z, x], [0.0, half_y, 0.0, y], [0.0, 0.0, half_z, z]]
-    )
-    return part(Shape.BOX, material, to_body)
-
-
 def ball(material: Material, centre: Point, size: Point) -> ModelPart:
     """An ellipsoid with axes along x, y, z."""
     return part(Shape.ELLIPSOID, material, placed_upright(centre, size))
@@ -54,11 +44,6 @@ def ball(material: Material, centre: Point, size: Point) -> ModelPart:
 def post(material: Material, centre: Point, size: Point) -> ModelPart:
     """An upright cylinder."""
     return part(Shape.CYLINDER, material, placed_upright(centre, size))
-
-
-def peak(material: Material, centre: Point, size: Point) -> ModelPart:
-    """An upright cone."""
-    return part(Shape.CONE, material, placed_upright(centre, size))
 
 
 def rod(
@@ -91,24 +76,6 @@ def limb(
 def spike(material: Material, base: Point, tip: Point, radius: float) -> ModelPart:
     """A cone from the middle of its base to its tip."""
     return part(Shape.CONE, material, placed_between(base, tip, radius, radius, 0.0))
-
-
-def fin(
-    material: Material, base: Point, tip: Point, *, chord: Point, thickness: Point
-) -> ModelPart:
-    """A flat, possibly swept cone: fins, tail planes, ears.
-
-    Args:
-        material: its surface.
-        base: middle of its root, m.
-        tip: its tip, m.
-        chord: vector along the whole root, m.
-        thickness: vector across the whole root, m.
-
-    Returns:
-        The part.
-    """
-    return part(Shape.CONE, material, placed_spanned(base, tip, chord, thickness))
 
 
 def plank(

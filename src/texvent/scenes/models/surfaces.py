@@ -4,17 +4,24 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cache
-from importlib.resources import files
+from typing import Any
 
-from texvent.scenes.models.materials import Material, decode_hex, made_of, shade
+from texvent.scenes.models.materials import BLACK, WHITE, Material, decode_hex, made_of, shade
+from texvent.scenes.models.part_lines import Placed, read_parts
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.shapes import part
+from texvent.scenes.models.tables import read_table
+from texvent.scenes.models.variation import choose
 from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture
 
 PAINT = "paint"
 """Name of the colour that a prompt may say."""
+FIXED_HUES: Mapping[str, Colour] = {"black": BLACK, "white": WHITE}
+"""Colours that every noun may name."""
+_GREY = "(.4 .4 .4)"
 _WORDS = re.compile(r"\([^)]*\)(?:\*[\d.]+)*|\S+")
 _TEXTURES = {one.name.lower(): one for one in Texture}
 
@@ -22,9 +29,7 @@ _TEXTURES = {one.name.lower(): one for one in Texture}
 @cache
 def shared_surfaces() -> Mapping[str, Material]:
     """Surfaces that all nouns may name, from `data/surfaces.toml`."""
-    file = files("texvent.scenes.models") / "data" / "surfaces.toml"
-    table: dict[str, str] = tomllib.loads(file.read_text(encoding="utf-8"))
-    return {name: read_surface(text, {}) for name, text in table.items()}
+    return {name: read_surface(text, {}) for name, text in read_table("surfaces").items()}
 
 
 def read_colour(text: str, hues: Mapping[str, Colour]) -> Colour:
@@ -96,3 +101,47 @@ def _toned(surface: Material, factors: list[str]) -> Material:
         colour=shade(surface.colour, factor),
         second_colour=shade(surface.second_colour, factor),
     )
+
+
+@dataclass(frozen=True)
+class Painted:
+    """The colours of one model, and the surfaces that they give."""
+
+    hues: Mapping[str, Colour]
+    surfaces: Mapping[str, str]
+    """Name → words of a surface."""
+    made: dict[str, Material] = field(default_factory=dict)
+
+    def material(self, name: str) -> Material:
+        """The surface of that name, or that these words mean."""
+        if name not in self.made:
+            self.made[name] = read_surface(self.surfaces.get(name, name), self.hues)
+        return self.made[name]
+
+    def draw(self, parts: Iterable[Placed]) -> list[ModelPart]:
+        """Placed shapes in their surfaces."""
+        return [part(one.shape, self.material(one.surface), one.to_body) for one in parts]
+
+    def draw_lines(self, lines: str) -> list[ModelPart]:
+        """The parts of some lines."""
+        return self.draw(read_parts(lines)[0])
+
+
+def paint_model(table: Mapping[str, Any], *, colour: Colour | None, seed: int) -> Painted:
+    """The colours of a noun's table: those of `colours` give way to the one that is said.
+
+    Raises:
+        ValueError: a colour is not understood, or a list of them is empty.
+    """
+    said = table.get("colours", [_GREY])
+    paints: Mapping[str, Sequence[str]] = said if isinstance(said, Mapping) else {PAINT: said}
+    varied = {**paints, **table.get("varied", {})}
+    if not all(varied.values()):
+        raise ValueError("a list of colours is empty")
+    hues = {
+        name: choose(seed, name, [read_colour(one, FIXED_HUES) for one in options])
+        for name, options in varied.items()
+    }
+    if colour is not None:
+        hues.update(dict.fromkeys(paints, colour))
+    return Painted({**FIXED_HUES, **hues}, table.get("surfaces", {}))

@@ -6,31 +6,36 @@ them.
     seat = ["chair", "sofa"]
 
     ["seat height"]
-    chair = 0.46
+    "chair, office chair" = 0.46
 """
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
 from typing import Any
+
+from texvent.scenes.models.tables import list_data, read_table
 
 
 @cache
 def _read() -> Mapping[str, Any]:
     """Trait → its nouns, or its nouns with their values."""
-    folder = files("texvent.scenes.models") / "data" / "traits"
     found: dict[str, Any] = {}
-    for file in sorted(folder.iterdir(), key=lambda one: one.name):
-        if file.name.endswith(".toml"):
-            traits = tomllib.loads(file.read_text(encoding="utf-8"))
-            twice = found.keys() & traits.keys()
-            if twice:
-                raise ValueError(f"{file.name}: {sorted(twice)} are traits of another file too")
-            found |= traits
+    for file in list_data("traits"):
+        traits = read_table(f"traits/{file.name.removesuffix('.toml')}")
+        twice = found.keys() & traits.keys()
+        if twice:
+            raise ValueError(f"{file.name}: {sorted(twice)} are traits of another file too")
+        found |= {name: _by_noun(nouns) for name, nouns in traits.items()}
     return found
+
+
+def _by_noun(nouns: Any) -> Any:
+    """A table with a row for each noun of its keys."""
+    if not isinstance(nouns, Mapping):
+        return nouns
+    return {noun: value for key, value in nouns.items() for noun in key.split(", ")}
 
 
 @cache

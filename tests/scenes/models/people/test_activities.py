@@ -18,12 +18,10 @@ from texvent.scenes.models.people.activities import (
     TRAVELLING,
 )
 from texvent.scenes.models.people.hand import build_hand
-from texvent.scenes.models.people.hand_gestures import find_shape
 from texvent.scenes.models.people.movements import find_posture
 from texvent.scenes.models.people.outfit import ADULT
 from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
-from texvent.scenes.models.people.tables import read_table
-from texvent.scenes.models.people.timing import ease, follow_keys, pulse
+from texvent.scenes.models.people.track import follow_keys
 from texvent.scenes.models.protocol import Pose
 
 from ...every_row import for_every
@@ -51,7 +49,6 @@ def points(body: Skeleton) -> np.ndarray:
 def test_every_activity_has_a_posture_and_every_word_one_activity() -> None:
     still = {name for name in ACTIVITIES if find_posture(name, 0.0) is None}
     assert still == {"walk", "run", "crawl", "jump"}
-    assert set(read_table("movements")) <= set(ACTIVITIES)
     assert set(ON_GROUND.values()) <= set(ACTIVITIES)
     assert {"walk", "run", "crawl", "swim", "surf"} <= TRAVELLING
     owner: dict[str, str] = {}
@@ -133,17 +130,6 @@ def test_feet_do_not_slide_in_place(activity: str) -> None:
     assert np.ptp(ankles[:, :, :2], axis=0).max() < 1e-6
 
 
-@given(time_s=st.floats(0.0, 20.0))
-def test_hands_and_knees_of_a_crawler_do_not_slide(time_s: float) -> None:
-    speed = 0.4
-    before, after = joints("crawl", time_s, speed), joints("crawl", time_s + STEP_S, speed)
-    for pair, again, ground in ((before.hands, after.hands, 0.05),
-                                (before.ankles, after.ankles, 0.09)):  # fmt: skip
-        for a, b in zip(pair, again, strict=True):
-            if a[2] == pytest.approx(ground, abs=1e-9) == b[2]:
-                assert b[0] - a[0] == pytest.approx(-speed * STEP_S, abs=1e-9)
-
-
 def test_a_gesture_while_walking_leaves_the_legs_to_the_gait() -> None:
     walking, waving = joints("move", 1.3, 1.4), joints("wave", 1.3, 1.4)
     assert walking.ankles == waving.ankles
@@ -173,23 +159,12 @@ def test_hands_of_two_who_stand_before_each_other_meet(activity: str, time_s: fl
     assert math.dist((x, y, z), other) < 0.05
 
 
-def test_the_foot_is_at_the_ball_at_the_instant_of_the_kick() -> None:
-    body = pose_joints(Pose(0.0, 0.0, 0.0, "kick", act_s=0.0))
-    assert body.ankles[1] == pytest.approx((0.30, -0.09, 0.115), abs=1e-6)
-
-
 def test_grips_hold_hands_and_feet() -> None:
     hand, foot = (0.35, -0.15, 1.0), (0.1, 0.12, 0.3)
     grips = (("right hand", hand), ("left foot", foot))
     body = pose_joints(Pose(0.4, 0.0, 0.0, "stand", grips=grips))
     assert body.hands[1] == pytest.approx(hand)
     assert body.ankles[0] == pytest.approx(foot)
-
-
-def test_a_hand_out_of_reach_is_drawn_at_the_end_of_the_arm() -> None:
-    body = pose_joints(Pose(0.0, 0.0, 0.0, "stand", grips=(("left hand", (5.0, 0.2, 1.3)),)))
-    reach = math.dist(body.shoulders[0], body.hands[0])
-    assert reach == pytest.approx(UPPER_ARM + LOWER_ARM)
 
 
 def test_places_of_a_body_have_upright_right_handed_axes() -> None:
@@ -216,14 +191,6 @@ def test_a_hand_moves_smoothly_and_keeps_its_parts(gesture: str) -> None:
             assert np.abs(b.to_body[:, 3] - a.to_body[:, 3]).max() < 5e-3
 
 
-def test_all_fingers_bend_into_the_fist_and_the_thumb_points_up() -> None:
-    fist = find_shape("fist", 1.2)
-    assert min(fist.bent) > 0.85
-    thumb = find_shape("thumbs up", 0.0)
-    assert thumb.bent[0] == 0.0
-    assert thumb.roll == pytest.approx(-0.5 * math.pi, abs=1e-3)
-
-
 @given(time_s=st.floats(-2.0, 5.0))
 def test_keys_are_met_and_slopes_continuous(time_s: float) -> None:
     keys = [(0.0, (0.0, 1.0)), (0.5, (2.0, 0.0)), (1.5, (-1.0, 3.0))]
@@ -235,9 +202,3 @@ def test_keys_are_met_and_slopes_continuous(time_s: float) -> None:
     left = np.subtract(follow_keys(time_s, keys, 2.0), follow_keys(time_s - h, keys, 2.0)) / h
     right = np.subtract(follow_keys(time_s + h, keys, 2.0), follow_keys(time_s, keys, 2.0)) / h
     np.testing.assert_allclose(left, right, atol=5e-3)
-
-
-def test_ease_and_pulse_by_hand() -> None:
-    assert (ease(0.0, 1.0, 2.0), ease(1.5, 1.0, 2.0), ease(3.0, 1.0, 2.0)) == (0.0, 0.5, 1.0)
-    assert pulse(0.25, 2.0) == pytest.approx(1.0)
-    assert pulse(0.5, 2.0) == pytest.approx(0.0)

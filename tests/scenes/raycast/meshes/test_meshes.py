@@ -16,7 +16,6 @@ from texvent.runtime.jit import jit
 from texvent.scenes.mesh import deformed, make_mesh, recoloured, smooth_normals
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.meshes.hit import hit_mesh
-from texvent.scenes.raycast.meshes.tree import tree_of
 from texvent.scenes.raycast.render import render, world_at
 from texvent.scenes.raycast.uncounted import uncounted_world
 from texvent.scenes.scene import Ground
@@ -86,23 +85,6 @@ def test_no_ray_slips_between_triangles_at_vertices_and_edges() -> None:
         origins = np.broadcast_to(np.array(origin), targets.shape).copy()
         depth, _ = cast(mesh, origins, targets - origins)
         assert np.isfinite(depth).all()
-
-
-def test_tree_is_the_same_every_time_and_lists_every_triangle_once() -> None:
-    vertices, triangles = ball(40, 20)
-    first, second = (tree_of(make_mesh(vertices, triangles)[0]) for _ in range(2))
-    np.testing.assert_array_equal(first.nodes, second.nodes)
-    np.testing.assert_array_equal(np.sort(first.order), np.arange(len(triangles)))
-    assert first.nodes["count"].sum() == len(triangles)
-    assert first.nodes["count"].max() <= 4
-
-
-def test_a_flat_mesh_and_one_of_equal_triangles_have_trees() -> None:
-    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    mesh, to_body = make_mesh(corners, np.tile([0, 1, 2], (9, 1)))
-    assert len(tree_of(mesh).nodes) == 1
-    np.testing.assert_allclose(to_body[:2, 3], [0.5, 0.5])
-    assert to_body[2, 2] > 0.0
 
 
 def test_meshes_that_are_none_are_refused_in_one_line() -> None:

@@ -1,6 +1,6 @@
 """Names of what people and hands can do, with the English phrases that mean them.
 
-The rows of `data/activities.toml` and of `data/hand_gestures.toml`, without the motion.
+The rows of `data/activities.toml` and of `data/hand_gestures.toml`, and their motion.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 from types import MappingProxyType
 from typing import Any
 
-from texvent.scenes.models.people.tables import read_table
+from texvent.scenes.models.tables import frozen, read_table
 
 
 @dataclass(frozen=True)
@@ -43,16 +43,17 @@ def _read(name: str) -> Mapping[str, Activity]:
     known = {one.name for one in fields(Activity)}
     return MappingProxyType(
         {
-            activity: Activity(
-                **{key: _frozen(value) for key, value in row.items() if key in known}
-            )
+            activity: Activity(**{key: frozen(value) for key, value in row.items() if key in known})
             for activity, row in read_table(name).items()
         }
     )
 
 
-def _frozen(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value
+def motion_of(table: str, activity: str) -> dict[str, Any]:
+    """What a row says of motion: the channels of a track."""
+    known = {one.name for one in fields(Activity)} | {"props"}
+    row = read_table(table).get(activity, {})
+    return {key: value for key, value in row.items() if key not in known}
 
 
 ACTIVITIES: Mapping[str, Activity] = _read("activities")

@@ -1,15 +1,20 @@
-"""A hand with a forearm: palm and five fingers with joints."""
+"""A hand with a forearm: palm, five fingers with joints, and its gestures over time.
+
+The motion of the gestures is in `data/hand_gestures.toml`.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import CLOTH_COLOURS, SKIN_TONES, Material, cloth, mix, skin
-from texvent.scenes.models.people.hand_gestures import HandShape, find_shape, mix_shapes
-from texvent.scenes.models.people.tables import read_table
+from texvent.scenes.models.people.activities import HAND_GESTURES, motion_of
+from texvent.scenes.models.people.track import Track, read_track
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,
@@ -23,6 +28,7 @@ from texvent.scenes.models.shapes import (
     turn_y,
     turn_z,
 )
+from texvent.scenes.models.tables import read_table
 from texvent.scenes.models.variation import choose, paint
 from texvent.scenes.scene import Colour
 
@@ -37,6 +43,52 @@ _JOINTS = (1.45, 1.75, 1.05)
 """How far the joints of a finger in a fist are bent, radians."""
 _SPREAD = (0.22, 0.04, -0.12, -0.30)
 _WRIST_Z = -0.055
+
+
+@dataclass(frozen=True)
+class HandShape:
+    """One instant of a hand: a right hand, fingers up, its palm to the front."""
+
+    bent: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
+    """Thumb, index, middle, ring and little finger: 0 = straight .. 1 = in the fist."""
+    spread: float = 0.3
+    """0 = fingers side by side .. 1 = apart."""
+    roll: float = 0.0
+    """Turn in the plane of the palm, to its left (as seen from the front: clockwise), radians."""
+    pitch: float = 0.0
+    """Fingers to the front, radians."""
+    yaw: float = 0.0
+    """About the forearm, radians."""
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Of the whole hand: front, left, up, m."""
+
+
+def mix_shapes(first: HandShape, second: HandShape, share: float) -> HandShape:
+    """Between two shapes: the first at share 0, the second at 1."""
+    thumb, index, middle, ring, little = (
+        a + share * (b - a) for a, b in zip(first.bent, second.bent, strict=True)
+    )
+    x, y, z = (a + share * (b - a) for a, b in zip(first.shift, second.shift, strict=True))
+    numbers = {
+        name: getattr(first, name) + share * (getattr(second, name) - getattr(first, name))
+        for name in ("spread", "roll", "pitch", "yaw")
+    }
+    return HandShape((thumb, index, middle, ring, little), shift=(x, y, z), **numbers)
+
+
+def find_shape(gesture: str, time_s: float) -> HandShape:
+    """The shape of a gesture at a time, s; of an unknown one that of a hand at rest."""
+    values = _find_track(gesture if gesture in HAND_GESTURES else "stand").at(time_s)
+    return HandShape(**{name: numbers if name in _ROWS else numbers[0]
+                        for name, numbers in values.items()})  # type: ignore[arg-type]  # fmt: skip
+
+
+_ROWS = ("bent", "shift")
+
+
+@cache
+def _find_track(gesture: str) -> Track:
+    return read_track(motion_of("hand_gestures", gesture))
 
 
 def build_hand(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:

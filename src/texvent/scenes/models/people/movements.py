@@ -1,4 +1,4 @@
-"""Movements of people: postures over time, from the tracks of `data/movements.toml`."""
+"""Movements of people: postures over time, from the tracks of `data/activities.toml`."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
-from texvent.scenes.models.people.activities import ACTIVITIES
+from texvent.scenes.models.people.activities import ACTIVITIES, motion_of
 from texvent.scenes.models.people.posture import DOWN, OUT, SIDES, Arm, Leg, Posture
-from texvent.scenes.models.people.tables import read_table
 from texvent.scenes.models.people.track import Track, Values, read_track
 from texvent.scenes.models.shapes import Point
 
@@ -40,7 +39,7 @@ def find_posture(activity: str, time_s: float, act_s: float | None = None) -> Po
 @cache
 def find_track(activity: str) -> Track | None:
     """The channels that an activity decides; None = those of standing and walking."""
-    row = read_table("movements").get(activity)
+    row = motion_of("activities", activity)
     return read_track(_with_elbows(row)) if row else None
 
 

@@ -1,9 +1,10 @@
-"""Kinds of people and their clothes."""
+"""Kinds of people and their clothes; parts of hats, garments and props."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from types import MappingProxyType
 from typing import Any
 
@@ -17,7 +18,10 @@ from texvent.scenes.models.materials import (
     fur,
     skin,
 )
-from texvent.scenes.models.people.tables import read_table
+from texvent.scenes.models.part_lines import Placed, read_parts
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.surfaces import FIXED_HUES, PAINT, Painted
+from texvent.scenes.models.tables import frozen, read_table
 from texvent.scenes.models.variation import choose, paint
 from texvent.scenes.scene import Colour
 
@@ -70,11 +74,7 @@ _FIELDS = frozenset(one.name for one in fields(PersonKind))
 
 
 def _read_kind(row: Mapping[str, Any]) -> PersonKind:
-    return PersonKind(**{key: _frozen(value) for key, value in row.items() if key in _FIELDS})
-
-
-def _frozen(value: Any) -> Any:
-    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+    return PersonKind(**{key: frozen(value) for key, value in row.items() if key in _FIELDS})
 
 
 ADULT = PersonKind()
@@ -95,7 +95,7 @@ def put_on(kind: PersonKind, worn: Iterable[tuple[str, Colour | None]]) -> Perso
     """
     for noun, said in worn:
         row = CLOTHES[noun]
-        colour = said or _frozen(row.get("usual"))
+        colour = said or frozen(row.get("usual"))
         kind = replace(kind, **{key: value for key, value in row.items() if key in _FIELDS})
         if colour is not None:
             painted: dict[str, Any] = {
@@ -123,3 +123,28 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfi
         hands=flesh if kind.gloves is None else Material(kind.gloves),
         hat=cloth(kind.hat_colour),
     )
+
+
+def draw_parts(table: str, group: str, name: str, paint: Material | None = None) -> list[ModelPart]:
+    """The parts of an entry.
+
+    Args:
+        table: "props" or "outfits".
+        group: its table of part lists, such as "hats".
+        name: of the entry.
+        paint: surface of its parts that are of "paint".
+    """
+    painted = _painted(table)
+    if paint is not None:
+        painted = replace(painted, made={**painted.made, PAINT: paint})
+    return painted.draw(_placed(table, group, name))
+
+
+@cache
+def _placed(table: str, group: str, name: str) -> tuple[Placed, ...]:
+    return read_parts(read_table(table)[group][name])[0]
+
+
+@cache
+def _painted(table: str) -> Painted:
+    return Painted(FIXED_HUES, read_table(table)["surfaces"])

@@ -9,10 +9,9 @@ from functools import partial
 from typing import Any
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
-from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
+from texvent.scenes.models.limbs import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import SEATED, SINGLE_ACTS
-from texvent.scenes.models.people.anchors import locate_anchor
-from texvent.scenes.models.people.figure import draw_figure
+from texvent.scenes.models.people.figure import draw_figure, locate_anchor
 from texvent.scenes.models.people.movements import find_posture
 from texvent.scenes.models.people.outfit import KINDS, PersonKind, dress_person, put_on
 from texvent.scenes.models.people.posture import (
@@ -27,10 +26,10 @@ from texvent.scenes.models.people.posture import (
     fill,
     solve,
 )
-from texvent.scenes.models.people.tables import read_table
-from texvent.scenes.models.people.timing import ease
+from texvent.scenes.models.people.track import ease
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Affine
+from texvent.scenes.models.tables import read_table
 from texvent.scenes.scene import Colour
 
 WALK = Gait(stride=1.25, duty=0.60, lift=0.12)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.models.limb_kinematics import bend
+from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.shapes import Affine, Point, part_way
 
 THIGH, SHIN, ANKLE = 0.43, 0.43, 0.08
@@ -26,8 +26,6 @@ SIDES = (1.0, -1.0)
 """Left, right: the sign of y."""
 SEAT = 0.42
 """Height of the chair on which one sits, m: hips are a little above it."""
-BOARD_STANCE = 0.09
-"""Height of the soles of who stands on a board, m."""
 
 DOWN: Point = (-0.2, 0.5, -1.0)
 OUT: Point = (-0.3, 1.0, -0.5)

@@ -11,11 +11,11 @@ from types import MappingProxyType
 from typing import Any
 
 from texvent.scenes.models.materials import BLUE, ORANGE, RED, YELLOW, Material, striped
-from texvent.scenes.models.people.part_table import draw_parts
-from texvent.scenes.models.people.tables import read_table
-from texvent.scenes.models.people.timing import ease
+from texvent.scenes.models.people.outfit import draw_parts
+from texvent.scenes.models.people.track import ease
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import ball, rod
+from texvent.scenes.models.tables import read_table
 
 Draw = Callable[[float], Sequence[ModelPart]]
 

@@ -94,7 +94,7 @@ def surface_look(
         scale * (abs(right[1]) + abs(down[1])),
         scale * (abs(right[2]) + abs(down[2])),
     )
-    share = _pattern(shape.texture, face, scaled(mapped(m, point), scale), steps)
+    share = _pattern(shape.texture, scaled(mapped(m, point), scale), steps)
     return mix(plain, triple(shape.second_colour), share), normal
 
 
@@ -150,16 +150,11 @@ def _facing_shares(x: float, y: float, z: float) -> Colour:
 
 
 @jit(error_model="numpy", inner=True)
-def _pattern(texture: int, face: int, p: Colour, steps: Colour) -> float:
+def _pattern(texture: int, p: Colour, steps: Colour) -> float:
     """Share of the second colour at texture coordinates `p`, averaged over `steps`."""
     if texture == 2:
         return square_wave(p[2], steps[2])
-    if texture == 3:
-        x = 2.0 * square_wave(0.5 * p[0] + 0.01, 0.5 * steps[0]) - 1.0
-        y = 2.0 * square_wave(0.5 * p[1] + 0.01, 0.5 * steps[1]) - 1.0
-        z = 2.0 * square_wave(0.5 * p[2] + 0.01, 0.5 * steps[2]) - 1.0
-        return 0.5 + 0.5 * x * y * z
-    if face >= 4:
-        return 0.0
-    along, step = (p[1], steps[1]) if face < 2 else (p[0], steps[0])
-    return square_wave(along + 0.25, step) * square_wave(p[2] + 0.25, steps[2])
+    x = 2.0 * square_wave(0.5 * p[0] + 0.01, 0.5 * steps[0]) - 1.0
+    y = 2.0 * square_wave(0.5 * p[1] + 0.01, 0.5 * steps[1]) - 1.0
+    z = 2.0 * square_wave(0.5 * p[2] + 0.01, 0.5 * steps[2]) - 1.0
+    return 0.5 + 0.5 * x * y * z

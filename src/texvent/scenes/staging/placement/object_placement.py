@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import AMID, STANDING, Relation, SceneDescription
-from texvent.scenes.models.material_override import in_material
+from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from texvent.scenes.models.animals.acts import STANDING, Stance
-from texvent.scenes.models.bodies.quadruped.build import Build
+from texvent.scenes.models.animals.build import Build
 from texvent.scenes.models.shapes import Affine, turn_y
 
 LOWEST = -1.15

@@ -12,22 +12,22 @@ from typing import Any
 import numpy as np
 
 from texvent.scenes.models.animals.acts import STANDING, act_stance, lowered
-from texvent.scenes.models.articulated_model import ArticulatedModel
-from texvent.scenes.models.bodies.quadruped.anatomy import (
+from texvent.scenes.models.animals.anatomy import (
+    NOSE,
+    draw_head,
     draw_leg,
     draw_neck_and_head,
     draw_tail,
     draw_torso,
 )
-from texvent.scenes.models.bodies.quadruped.build import (
+from texvent.scenes.models.animals.build import (
     Build,
     Coat,
     paint_coat,
     placed_marks,
     read_build,
 )
-from texvent.scenes.models.bodies.quadruped.head import NOSE, draw_head
-from texvent.scenes.models.bodies.quadruped.posture import (
+from texvent.scenes.models.animals.posture import (
     bob,
     droop,
     lying_drop,
@@ -36,7 +36,8 @@ from texvent.scenes.models.bodies.quadruped.posture import (
     tail_lift,
     tip,
 )
-from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.limbs import Gait, foot_path, step_amount
 from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.models.shapes import Affine, Point, moved, shift
 from texvent.scenes.models.variation import fraction

@@ -1,4 +1,4 @@
-"""Limbs of bodies given as data: legs that step without sliding, and chains of links that wave."""
+"""Limbs: gait cycles without sliding feet, knees between two points, legs and waving chains."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise, product
 from typing import Any
 
-from texvent.scenes.models.bodies.joints import read_cycle
-from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
+from texvent.scenes.models.joints import read_cycle
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.models.shapes import (
@@ -20,7 +19,79 @@ from texvent.scenes.models.shapes import (
     shift,
     turn_z,
 )
+from texvent.scenes.models.surfaces import Painted
 from texvent.scenes.models.variation import fraction
+
+
+@dataclass(frozen=True)
+class Gait:
+    """A cycle of steps as a function of the distance travelled."""
+
+    stride: float
+    """Distance of one whole cycle, m."""
+    duty: float
+    """Share of the cycle that a foot stays on the ground."""
+    lift: float
+    """Height of a foot in mid-swing, m."""
+
+
+def foot_path(gait: Gait, distance: float, offset: float, amount: float) -> tuple[float, float]:
+    """Where a foot is, relative to the point on the ground below its hip.
+
+    On the ground the foot moves back exactly as fast as the body moves forward, so it does not
+    slide; then it swings forward in an arc.
+
+    Args:
+        gait: the cycle.
+        distance: distance travelled, m.
+        offset: share of a cycle by which this foot is ahead.
+        amount: 0 = stands still .. 1 = full steps.
+
+    Returns:
+        Its x and its height, m.
+    """
+    phase = (distance / gait.stride + offset) % 1.0
+    half_step = 0.5 * gait.duty * gait.stride
+    if phase < gait.duty:
+        return amount * (half_step - phase * gait.stride), 0.0
+    swing = (phase - gait.duty) / (1.0 - gait.duty)
+    eased = swing * swing * (3.0 - 2.0 * swing)
+    rise = math.sin(math.pi * swing)
+    return amount * half_step * (2.0 * eased - 1.0), amount * gait.lift * rise * rise
+
+
+def step_amount(activity: str, speed: float, full_speed: float) -> float:
+    """How fully a body steps: 0 while it stands or sits, 1 from `full_speed` (m/s) on."""
+    if activity in ("stand", "sit", "lie"):
+        return 0.0
+    share = min(1.0, max(0.0, speed / full_speed))
+    return share * share * (3.0 - 2.0 * share)
+
+
+def bend(start: Point, end: Point, upper: float, lower: float, towards: Point) -> Point:
+    """The knee or elbow between two points.
+
+    Args:
+        start: hip or shoulder, m.
+        end: ankle or wrist, m.
+        upper: length of thigh or upper arm, m.
+        lower: length of shin or forearm, m.
+        towards: direction in which the joint points (need not be a unit vector).
+
+    Returns:
+        The joint. If the two lengths cannot meet, the joint lies on the straight line.
+    """
+    span = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
+    reach = max(math.sqrt(sum(v * v for v in span)), 1e-9)
+    along = (span[0] / reach, span[1] / reach, span[2] / reach)
+    near = (reach * reach + upper * upper - lower * lower) / (2.0 * reach)
+    near = min(max(near, -upper), reach)
+    out = math.sqrt(max(upper * upper - near * near, 0.0))
+    slope = sum(a * t for a, t in zip(along, towards, strict=True))
+    side = [t - slope * a for a, t in zip(along, towards, strict=True)]
+    norm = max(math.sqrt(sum(v * v for v in side)), 1e-9)
+    x, y, z = (s + near * a + out * v / norm for s, a, v in zip(start, along, side, strict=True))
+    return (x, y, z)
 
 
 @dataclass(frozen=True)
@@ -64,8 +135,9 @@ class Legs:
     apart: float = 0.5
     """How far the right legs are ahead of the left ones, cycles: 0 = it hops."""
 
-    def drawn_in(self, material: Material, foot: Sequence[ModelPart]) -> DrawLegs:
-        """Draws all legs; `foot` are the parts around an ankle."""
+    def drawn_in(self, painted: Painted) -> DrawLegs:
+        """Draws all legs."""
+        material, foot = painted.material(self.surface), painted.draw_lines(self.foot)
 
         def draw(steps: Steps, rise: float) -> list[ModelPart]:
             parts: list[ModelPart] = []
@@ -114,10 +186,10 @@ class Chain:
     head: str = ""
     """Part lines around the first joint."""
 
-    def drawn_in(
-        self, material: Material, beads: Sequence[ModelPart], head: Sequence[ModelPart]
-    ) -> Callable[[Pose, int], list[ModelPart]]:
-        """Draws all links; `beads` and `head` are the parts around joints."""
+    def drawn_in(self, painted: Painted) -> Callable[[Pose, int], list[ModelPart]]:
+        """Draws all links."""
+        material = painted.material(self.surface)
+        beads, head = painted.draw_lines(self.beads), painted.draw_lines(self.head)
         axis, reach, *rate = self.wave.split()
         cycle = read_cycle(rate)
 
@@ -165,3 +237,30 @@ def read_legs(table: Mapping[str, Any]) -> Legs:
     """Legs from a table of their fields; pairs are lines of six numbers."""
     rows = (row.split() for row in table["pairs"].splitlines() if row.strip())
     return Legs(**{**table, "pairs": tuple(tuple(float(one) for one in row) for row in rows)})
+
+
+def read_walk(
+    table: Mapping[str, Any], painted: Painted
+) -> Callable[[Sequence[ModelPart], Pose, int], list[ModelPart]]:
+    """The walk of a noun's table: `gait`, `legs`, and `bob`.
+
+    These are {stride, duty, lift}, tables of `Legs`, and how far the body is lifted (m), how often
+    in each stride and how late.
+
+    Returns:
+        What lifts the parts of the body and adds the legs, at a pose and by the seed.
+    """
+    gait = Gait(**table["gait"])
+    legs = [read_legs(one).drawn_in(painted) for one in table.get("legs", ())]
+    reach, times, late = table.get("bob", (0.0, 0.0, 0.0))
+
+    def walk(parts: Sequence[ModelPart], pose: Pose, seed: int) -> list[ModelPart]:
+        steps = steps_at(gait, pose, seed)
+        cycle = 2.0 * math.pi * (times * steps.strides - late)
+        rise = steps.amount * reach * (0.5 - 0.5 * math.cos(cycle))
+        return [
+            *moved(parts, shift(z=rise)),
+            *(part for draw_legs in legs for part in draw_legs(steps, rise)),
+        ]
+
+    return walk

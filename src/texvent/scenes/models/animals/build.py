@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from texvent.scenes.models.bodies.figure import FIXED_HUES, Painted, paint_body
 from texvent.scenes.models.materials import Material, fur, shade
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import Point
-from texvent.scenes.models.surfaces import read_colour
+from texvent.scenes.models.surfaces import FIXED_HUES, Painted, paint_model, read_colour
 from texvent.scenes.scene import Colour
 
 
@@ -67,6 +66,16 @@ class Coat:
     """On the head: the neck's end is the origin, and the skull is 1 long."""
 
 
+QUADRUPED_KEYS: Mapping[str, tuple[type, ...]] = {
+    "build": (list,), "coat": (list,), "pattern": (str,), "limb_pattern": (str,), "dark": (str,),
+    "hoof": (str,), "leg": (str,), "muzzle": (str,), "ears": (str,), "tail_rings": (str,),
+    "marks": (str,), "usual_marks": (str,), "face": (str,), "stride": (float, int),
+    "thick": (float, int), "mane": (str,), "trunk_length": (float, int), "hop": (float, int),
+    "fleece": (bool,), "bushy_tail": (bool,), "waist": (float, int),
+}  # fmt: skip
+"""Keys of a four-legged animal besides those of every noun, and what their values are."""
+
+
 def read_build(table: Mapping[str, Any]) -> Build:
     """The proportions in the table of an animal: `build` holds those that all have, in order."""
     more = {one.name: table[one.name] for one in fields(Build) if one.name in table}
@@ -81,7 +90,7 @@ def paint_coat(table: Mapping[str, Any], *, colour: Colour | None, seed: int) ->
     `tail_rings` are colours too: without them these are as the coat. `marks` and `face` are part
     lines; only an animal of a usual colour has `usual_marks`: a white cow has no patches.
     """
-    painted = paint_body({**table, "colours": {"coat": table["coat"]}}, colour=colour, seed=seed)
+    painted = paint_model({**table, "colours": {"coat": table["coat"]}}, colour=colour, seed=seed)
     hue = painted.hues["coat"]
     plain, fleece = fur(hue), table.get("fleece", False)
     trunk = painted.material(table["pattern"]) if "pattern" in table else plain
@@ -93,7 +102,7 @@ def paint_coat(table: Mapping[str, Any], *, colour: Colour | None, seed: int) ->
         painted.surfaces,
         {"trunk": trunk, "limbs": limbs, "dark": dark},
     )
-    lines = table.get("marks", "") + (table.get("usual_marks", "") if colour is None else "")
+    lines = [table.get("marks", ""), table.get("usual_marks", "") if colour is None else ""]
     rings = table.get("tail_rings")
     return Coat(
         trunk=trunk,
@@ -104,8 +113,8 @@ def paint_coat(table: Mapping[str, Any], *, colour: Colour | None, seed: int) ->
         muzzle=_fur(table, "muzzle") or (dark if fleece else limbs),
         ears=_fur(table, "ears") or (dark if flops else limbs),
         tail=painted.material(f"coat stripes {rings} scale 2.5") if rings else limbs,
-        marks=tuple(lined.draw(lines)),
-        face=tuple(lined.draw(table.get("face", ""))),
+        marks=tuple(lined.draw_lines("\n".join(lines))),
+        face=tuple(lined.draw_lines(table.get("face", ""))),
     )
 
 

@@ -1,1 +1,0 @@
-"""Bodies that bend, step, wave or depend on the seed: their engine, and what needs code."""

@@ -1,1 +1,0 @@
-"""Four-legged animals: their tables, trunk and legs, and head."""
