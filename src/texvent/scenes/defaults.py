@@ -59,9 +59,9 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     description = _move_others(description, nouns)
     description = _darken(description)
     place = _choose_place(description, nouns)
-    if description.surroundings.place is None:
+    if description.surroundings.name is None:
         description = _note(description, f"no place is said: {place} is chosen")
-    surroundings = replace(description.surroundings, place=place)
+    surroundings = replace(description.surroundings, name=place)
     description = replace(description, surroundings=surroundings)
     if not _has_motion(description):
         description = _set_in_motion(description, nouns)
@@ -144,7 +144,7 @@ def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
     motions: dict[int, ObjectMotion] = {}
     for one in description.relations:
         motions.update(_rest_of(one, description.objects, nouns))
-    is_plain = description.surroundings.place is None and not description.shot.is_moving
+    is_plain = description.surroundings.name is None and not description.shot.is_moving
     resting = nouns_with("lies still") | (
         nouns_with("parked unless ridden") if is_plain else frozenset()
     )
@@ -242,7 +242,7 @@ def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) ->
 
 def _usual_motion(description: SceneDescription, noun: Noun) -> str:
     """What it does if nothing else moves: people stay in a close shot, cars in a room."""
-    place, is_person = description.surroundings.place, noun.name in PERSON_NOUNS
+    place, is_person = description.surroundings.name, noun.name in PERSON_NOUNS
     if is_person and (place == "space" or description.shot.framing in ("close", "medium")):
         return "hover" if place == "space" else "stand"
     is_parked = place is None or place == "parking lot" or is_room(place)
@@ -287,18 +287,18 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
     said, usual = description.surroundings, _usual_place(members, description, kinds)
     dives = all(noun.habitat == "water" and noun.motion not in _AFLOAT for noun in members)
     dives = dives and bool(members) and "jump" not in kinds
-    if dives and said.place in (None, "sea", "lake", "river"):
+    if dives and said.name in (None, "sea", "lake", "river"):
         return "underwater"
     stands = any(noun.habitat in ("ground", "fixed") for noun in members) and not kinds & _ALOFT
-    if said.place == "sky" and stands:
+    if said.name == "sky" and stands:
         return "grass" if usual in _NO_GROUND or is_room(usual) else usual
-    if said.place == "sea" and any(noun.habitat == "ground" for noun in members):
+    if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
         return "sea" if kinds.intersection(_IN_WATER) else "beach"
     travel = (one.means or "" for one in description.shot.moves if one.kind == "travel")
     of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
-    if said.place is None and not of_travel and (said.has_snow or said.weather == "snow"):
+    if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):
         return "snow"
-    return said.place or (of_travel[0] if of_travel else usual)
+    return said.name or (of_travel[0] if of_travel else usual)
 
 
 def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: set[str]) -> str:

@@ -170,7 +170,7 @@ def _draw(noun: Noun, nouns: Mapping[str, Noun], options: ShowOptions) -> bytes:
     description = SceneDescription(
         noun.name,
         objects=(SceneObject(noun.name, motion=motion),),
-        surroundings=Surroundings(place="plain"),
+        surroundings=Surroundings("plain"),
     )
     scene = compose_scene(
         description, seed=options.seed, size=SIZE, duration_s=_TURN_S, nouns=nouns

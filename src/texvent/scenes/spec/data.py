@@ -226,7 +226,7 @@ _TIMED = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", 
 def _check_moves(scene: Scene) -> None:
     """Refuse times of camera moves that would have no effect."""
     for n, one in enumerate(scene.camera.moves):
-        if one.start_s is None and one.stop_s is None:
+        if not one.is_timed:
             continue
         if one.kind not in _TIMED:
             raise ConfigError(

@@ -8,8 +8,8 @@ from typing import get_args
 import numpy as np
 import pytest
 
+from texvent.scenes.colours import COLOURS
 from texvent.scenes.description import (
-    NamedColour,
     ObjectMotion,
     Relation,
     SceneDescription,
@@ -36,9 +36,7 @@ CONTACT_M = 0.02
 def stage(
     *objects: SceneObject, acts: tuple[Relation, ...], place: str | None = None, seed: int = 0
 ) -> ComposedScene:
-    description = SceneDescription(
-        "hand-built", objects, acts, surroundings=Surroundings(place=place)
-    )
+    description = SceneDescription("hand-built", objects, acts, surroundings=Surroundings(place))
     return compose_scene(description, seed=seed, size=SensorSize(96, 72), duration_s=DURATION_S)
 
 
@@ -307,12 +305,11 @@ def test_what_is_worn_goes_with_the_body(what: str, place: str) -> None:
 
 
 def test_a_worn_shirt_is_the_colour_of_the_body_s_own() -> None:
-    red = NamedColour("red", (0.6, 0.0, 0.0))
-    scene = stage(SceneObject("man"), SceneObject("shirt", colour=red),
+    scene = stage(SceneObject("man"), SceneObject("shirt", colour="red"),
                   acts=(Relation("wear", 0, (1,)),))  # fmt: skip
     (man,) = scene.actors
     colours = {part.colour for part in man.place(0.0).parts}
-    assert red.rgb in colours
+    assert COLOURS["red"] in colours
 
 
 def test_who_plays_a_guitar_that_the_prompt_names_holds_that_one() -> None:

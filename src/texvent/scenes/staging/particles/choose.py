@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.effects import EFFECTS, EmitterStyle, LightStyle
@@ -153,7 +154,7 @@ def _light_up(
     source = _source(effect.kind, None, setting)
     if actor is not None:
         source = Source(_bulk(actor), np.array([0.0, 0.0, lowest_m(actor)]), actor)
-    colour = None if effect.colour is None else effect.colour.rgb
+    colour = rgb_of(effect.colour, "effect")
     if colour is None and effect.kind == "beacon" and noun in nouns_with("blue beacon"):
         colour = _BLUE
     return BodyLights.of(lights, source, colour, tapers=noun in nouns_with("tapers upwards"))
@@ -169,7 +170,7 @@ def _emit(
     if effect.kind == "splash":
         middle = source.at(np.array([start_s or 0.0]))[0]
         source = Source(source.size_m, middle * [1.0, 1.0, 0.0])
-    colour = None if effect.colour is None else effect.colour.rgb
+    colour = rgb_of(effect.colour, "effect")
     return [
         Emitter.of(
             _fitted(style, effect.kind, actor), source, rng, colour=colour, start_s=start_s,

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import SceneLamp
 from texvent.scenes.scene import LAMP_COLUMNS, Float64Array
 from texvent.scenes.staging.surroundings.environment import ON_SHARE
@@ -20,9 +21,7 @@ def scene_lamp_rows(lamps: Sequence[SceneLamp], time_s: float) -> Float64Array:
     """[m, 15] the lamps at an instant, as in `Environment.lamps`."""
     rows = np.zeros((len(lamps), LAMP_COLUMNS))
     for row, lamp in zip(rows, lamps, strict=True):
-        light = lamp.strength * np.array(
-            (1.0, 1.0, 1.0) if lamp.colour is None else lamp.colour.rgb
-        )
+        light = lamp.strength * np.array(rgb_of(lamp.colour or "#ffffff", "light"))
         row[:3] = lamp.position_m
         row[3:6] = light * level_at(lamp, time_s)
         row[6] = math.sqrt(max(light.max(), 1e-9) / FAINTEST)
