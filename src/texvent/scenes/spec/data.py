@@ -70,6 +70,12 @@ def inner_type(hint: Any) -> Any:
     return hint
 
 
+def plain_type(hint: Any) -> Any:
+    """The type of a field when it is given, without its limits."""
+    inner = inner_type(hint)
+    return get_args(inner)[0] if get_origin(inner) is Annotated else inner
+
+
 def required_fields(owner: type) -> list[str]:
     """Fields without a default."""
     return [
