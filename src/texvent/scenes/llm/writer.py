@@ -80,7 +80,7 @@ def model_schema(hint: Any = spec.Scene, name: str = "") -> dict[str, Any]:
     """
     is_open = inner_type(hint) is not hint
     plain: Any = plain_type(hint)
-    if dataclasses.is_dataclass(plain):
+    if plain in FIELDS:
         types, texts, names = field_types(plain), option_help(plain), FIELDS[plain]
         return {
             "type": "object",

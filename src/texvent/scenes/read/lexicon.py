@@ -172,19 +172,13 @@ def _list_verbs() -> Iterator[tuple[str, Sense]]:
 
 def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
     words = read_table("words")
-    for table in ("motions", "near"):
-        for kind, verbs in words[table].items():
-            for verb in verbs:
-                base, _, pace = verb.partition("*")
-                yield base, VerbSense("plain", kind, float(pace or 1), is_near=table == "near")
+    for who, kinds in words["doing"].items():
+        for verb, kind in ((verb, kind) for kind, verbs in kinds.items() for verb in verbs):
+            base, _, pace = verb.partition("*")
+            field = "object" if who == "mover" else "kind"
+            yield base, VerbSense(who, pace=float(pace or 1), **{field: kind})
     for base, fields in words["verbs"].items():
         yield base, VerbSense(**fields)
-    for motion, verbs in words["moved"].items():
-        yield from ((base, VerbSense("mover", object=motion)) for base in verbs)
-    for move, verbs in words["camera_verbs"].items():
-        yield from ((base, VerbSense("camera", move)) for base in verbs)
-    for who, verbs in words["more_verbs"].items():
-        yield from ((base, VerbSense(who)) for base in verbs)
 
 
 _SHOWING = ("show", "make", "do", "give")

@@ -12,7 +12,7 @@ from typing import Any
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.traits import trait_value
-from texvent.scenes.read.camera import add_move, aims_at, find_move, split_move
+from texvent.scenes.read.camera import add_move, find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import SceneDraft, Thing
 from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
@@ -419,7 +419,7 @@ class _Reader:
         heads = [group.head for group in clause.subjects]
         is_place = all(one is not None and self._is_place(one, "") for one in heads)
         verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
-        travels = any(one.value == VerbSense("camera", "travel") for one in verbs)
+        travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
         return travels and is_place and not self._draft.things and not clause.is_nearest
 
     def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
@@ -457,7 +457,7 @@ class _Reader:
         if not found and self._draft.parts["place"] != place:
             self._go_to_place(phrase.preposition, self._nearest, [])
         self._draft.show(phrase.preposition)
-        return found if aims_at(kind) else []
+        return found if kind in word_set("things", "aims") else []
 
 
 def _is_liquid(head: Token) -> bool:
