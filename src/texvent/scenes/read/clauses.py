@@ -64,7 +64,7 @@ class Phrase:
     """Preposition with its groups; without any, a pronoun follows: "behind them"."""
 
     preposition: Token
-    groups: tuple[Group, ...] = ()
+    groups: tuple[Group, ...]
 
 
 @dataclass(frozen=True)
@@ -87,8 +87,6 @@ class Clause:
     """Whether it is about the last group of the clause before: "that", "jumping"."""
     is_next: bool = False
     """Whether it happens after the clause before: "then"."""
-    is_back: bool = False
-    """Whether a pronoun is the object: "follows it"."""
 
     @property
     def has_subject(self) -> bool:
@@ -149,34 +147,24 @@ class _Parser:
     def _end(self, clause: Clause) -> Clause | None:
         """How the next clause begins, where this one ends here."""
         token, word = self._token(), self._token().text
-        is_begun = clause != Clause()
         if token.is_sign:
             self._take()
             return None if word == "," and self._continues_list(clause) else Clause()
         if token.has("conjunctions"):
             self._take()
             return Clause(is_next=word == "then", is_joined=word == "then")
-        if token.has("relatives") and is_begun and self._follows_relative():
+        if token.has("relatives") and clause != Clause() and not self._starts_group(1):
             self._take()
             return Clause(is_nearest=True)
         if word == "and":
             return self._end_at_and(clause)
-        if token.has("camera") and is_begun and self._token(1).has("verb", "shot", "small"):
-            return Clause()
         if clause.verb is not None and self._is_verb(clause, is_second=True):
             is_nearest = bool(token.verbs("ing"))
             return Clause(is_nearest=is_nearest, is_joined=not is_nearest)
         return None
 
-    def _follows_relative(self) -> bool:
-        after = self._token(1)
-        return after.has("picture") or not self._starts_group(1)
-
     def _end_at_and(self, clause: Clause) -> Clause | None:
         self._take()
-        if self._token().text == "then":
-            self._take()
-            return Clause(is_next=True, is_joined=True)
         starts = self._starts_group() or self._token().has("camera")
         if clause.verb is None:
             return Clause() if self._token().has("camera") else None
@@ -227,26 +215,16 @@ class _Parser:
 
     def _read_setting(self, clause: Clause) -> Clause | None:
         """A word of the scene or of the camera, in any place."""
-        is_after_article = self._token().has("articles") and self._token(1).has("shot", "scene")
-        token = self._token(1) if is_after_article and _is_alone(self._token(1)) else self._token()
-        is_verb = token.has("verb") and clause.verb is None and self._is_verb(clause)
+        token = self._token()
+        is_verb = clause.verb is None and self._is_verb(clause)
         if not token.has("scene", "shot") or token.has("noun") or is_verb:
             return None
-        ahead = token.at - self._token().at
-        after = self._token(ahead + 1)
-        is_before = token.has(*_MODIFIERS) and not _is_alone(token)
-        if is_before and after.has(*_HEADS, "field") and not self._is_verb(clause, ahead + 1):
-            return None
-        self._at += ahead + 1
-        return replace(clause, after=(*clause.after, token))
+        return replace(clause, after=(*clause.after, self._take()))
 
     def _read_verb(self, clause: Clause) -> Clause | None:
         if clause.verb is not None or not self._is_verb(clause):
             return None
         verb = self._take()
-        if self._token().has("pronouns"):
-            self._take()
-            return replace(clause, verb=verb, is_back=True)
         is_object = self._starts_group() and not self._token().has("adverb")
         return replace(clause, verb=verb, objects=self._groups() if is_object else ())
 
@@ -255,17 +233,14 @@ class _Parser:
 
         A bare form needs several subjects, and a word that is a noun too needs one right before.
         """
-        token, last = self._token(ahead), self._token(ahead - 1)
+        token = self._token(ahead)
         forms = {one.form for one in token.all("verb")}
-        if last.has("articles") and not last.has("relatives") and ahead == 0:
-            return False
         if not forms or (forms == {"base"} and not clause.is_plural):
             return False
         if is_second:
             return not token.has("noun", "relation") and bool(forms & {"ing", "s"})
         if token.has("noun", "effect", "place", "scene", "field"):
-            agrees = "s" not in forms or not any(one.is_plural for one in clause.subjects)
-            return clause.has_subject and (not clause.after or clause.is_joined) and agrees
+            return clause.has_subject
         is_ego = "ing" in forms and not self._token(ahead + 1).has("noun")
         return clause.has_subject or is_ego
 
@@ -273,17 +248,14 @@ class _Parser:
         token = self._token()
         if not token.has("relation", "small") or token.text in ("and", "or"):
             return None
-        if self._token(1).has("pronouns") and token.has("relation"):
-            self._at += 2
-            phrase = Phrase(token)
-        elif self._starts_group(1) and not self._token(1).has("adverb"):
-            self._take()
-            phrase = Phrase(token, self._groups(is_phrase=True))
-        elif token.has("adverb") or not token.has("relation"):
-            return None
-        else:
+        is_back = token.has("relation") and self._token(1).has("pronouns")
+        if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
+            if token.has("adverb") or not token.has("relation"):
+                return None
             self._take()
             return clause
+        self._at += 1 + is_back
+        phrase = Phrase(token, () if is_back else self._groups(is_phrase=True))
         if clause.verb is None and clause.subjects:
             return replace(clause, before=(*clause.before, phrase))
         return replace(clause, after=(*clause.after, phrase))
@@ -294,8 +266,7 @@ class _Parser:
             self._take()
             is_subject = not clause.has_subject and clause.verb is None
             return replace(clause, is_joined=True) if is_subject else clause
-        is_before_noun = not clause.has_subject and self._starts_group(1)
-        if not token.has("adverb") or is_before_noun:
+        if not token.has("adverb"):
             return None
         return replace(clause, after=(*clause.after, self._take()))
 
@@ -348,9 +319,8 @@ class _Parser:
         while self._token().text == "and" and self._starts_group(1):
             start = self._at
             self._take()
-            group, token = self._group(is_phrase=is_phrase), self._token()
-            is_unknown = token.is_unknown and not token.is_manner
-            if is_unknown or self._is_verb(Clause((group,))):
+            group = self._group(is_phrase=is_phrase)
+            if self._is_verb(Clause((group,))):
                 self._at = start
                 break
             found.append(group)
@@ -365,9 +335,7 @@ class _Parser:
         first = self._at
         while head is None and not self._ends_group(first):
             token = self._take()
-            if token.text == "and":  # a second colour: "black and white"
-                unknown.append(self._take())
-            elif token.is_unknown or _is_bare_verb(token):
+            if token.is_unknown or _is_bare_verb(token):
                 unknown.append(token)
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
@@ -388,16 +356,12 @@ class _Parser:
 
     def _ends_group(self, first: int) -> bool:
         token, after = self._token(), self._token(1)
-        if token is NO_TOKEN or token.is_sign or token.has(*_STANDPOINTS):
+        if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
-        if token.text == "and":
-            return not (_is_colour(self._token(-1)) and _is_colour(after))
         if token.has("picture") or token.is_unknown:
             return False
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
-        if _is_bare_verb(token) and self._token(-1).has("articles", *_MODIFIERS):
-            return not after.has(*_HEADS)  # "an open field"
         is_attribute = after.has(*_HEADS, *_MODIFIERS) or after.is_unknown
         return not (is_attribute and token.verbs("ing", "ed"))
 
@@ -429,7 +393,3 @@ def _is_alone(token: Token) -> bool:
 def _is_bare_verb(token: Token) -> bool:
     """Whether a token is nothing but the base form of a verb."""
     return bool(token.senses) and all(one.form == "base" for one in token.senses)
-
-
-def _is_colour(token: Token) -> bool:
-    return any(one.value[0] == "colour" for one in token.all("field"))

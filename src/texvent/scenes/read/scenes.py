@@ -111,11 +111,8 @@ class _Reader:
             subjects = self._subjects
         elif not clause.is_nearest:
             subjects = [index for group in clause.subjects for index in self._name(group)]
-            is_lost = not subjects and any(group.head is None for group in clause.subjects)
         for phrase in clause.before:
             self._relate(phrase, subjects, subjects, is_lost=is_lost)
-        if clause.before and self._goes_nearest(clause):
-            subjects = self._nearest
         objects = [index for group in clause.objects for index in self._name(group)]
         moved = subjects
         if clause.verb is not None:
@@ -129,12 +126,6 @@ class _Reader:
             elif not self._set_scene(one) and not is_lost:
                 self._say(one, moved)
         self._subjects = list(subjects)
-
-    def _goes_nearest(self, clause: Clause) -> bool:
-        """Whether the last group before the verb does it: "a boat with dolphins jumping"."""
-        is_ing = clause.verb is not None and bool(clause.verb.verbs("ing"))
-        nouns = [self._nouns[self._draft.things[one].noun] for one in self._nearest]
-        return is_ing and bool(nouns) and all(noun.habitat != "fixed" for noun in nouns)
 
     # Noun groups
 
@@ -217,8 +208,6 @@ class _Reader:
             if not self._set_scene(token) and verbs:
                 self._apply_act(token, verbs, subjects, [])
             return
-        elif field == "colour" and any("colour" in one.values for one in things):
-            return
         for thing in things if field not in ("picture", "effect") else ():
             _set_field(thing, said.kind if said else "", field, value)
         draft.show(token)
@@ -236,13 +225,8 @@ class _Reader:
                 return None
             self._draft.show(verb)
             return []
-        others = [one for one in self._nearest if one not in subjects] if clause.is_back else []
-        is_unknown = clause.is_back or any(
-            group.head is None or _is_liquid(group.head) for group in clause.objects
-        )
-        return self._apply_act(
-            verb, verb.all("verb"), subjects, [*objects, *others], has_object=is_unknown
-        )
+        is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
+        return self._apply_act(verb, verb.all("verb"), subjects, objects, has_object=is_unknown)
 
     def _apply_act(
         self, verb: Token, senses: Iterable[Sense], subjects: Sequence[int],
@@ -302,15 +286,14 @@ class _Reader:
         are_people = {draft.things[one].noun for one in subjects} <= PERSON_NOUNS | HAND_NOUNS
         for index in objects if act.object is not None else ():
             _add_motion(draft.things[index], VerbSense(kind=act.object or ""))
-        is_meal = act.who == "person" and act.kind in ("eat", "drink")
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
         elif act.relation == "carry" and not are_people:  # "a conveyor belt carries boxes"
             for index in objects:
                 draft.relate(index, "on", subjects)
-        elif objects and (act.relation is not None or is_meal):
+        elif objects and act.relation is not None:
             for index in subjects:
-                draft.relate(index, act.relation or "hold", objects)
+                draft.relate(index, act.relation, objects)
         return list(objects if act.object is not None and objects else subjects)
 
     # Prepositions
@@ -323,11 +306,8 @@ class _Reader:
         draft, token = self._draft, phrase.preposition
         sense = token.first("relation")
         kind, way = (sense.value, sense.form) if sense is not None else ("", "")
-        if not phrase.groups:  # "behind them"
-            others = [one for one in self._nearest if one not in subjects]
-            placed = [draft.relate(index, kind, subjects, way) for index in others]
-            (draft.show if any(placed) else draft.lose)(token)
-            return
+        if not phrase.groups:
+            draft.lose(token)
         place, targets = draft.parts["place"].get("name"), []
         for group in phrase.groups:
             head = group.head
@@ -429,20 +409,15 @@ class _Reader:
             self._name(group, "in")
         for group in clause.objects if not is_ego else ():
             targets += self._name(group)
-        targets += self._subjects if clause.is_back else ()
         for one in (*clause.before, *clause.after):
             if isinstance(one, Phrase):
                 targets += self._aim(one, targets)
             else:
                 self._set_scene(one)
-        senses = clause.verb.all("verb") if clause.verb is not None else ()
-        looks = bool(targets) and any(one.value.relation == "look at" for one in senses)
         if move is not None:
             add_move(draft, move, self._phase)
-        if clause.verb is not None and looks:
-            draft.show(clause.verb)
-        if targets and (move or looks):
-            draft.parts["camera"].setdefault("target", targets[0])
+            if targets:
+                draft.parts["camera"].setdefault("target", targets[0])
 
     def _aim(self, phrase: Phrase, targets: Sequence[int]) -> list[int]:
         """Add what a phrase of a camera's clause names; the objects that it looks at."""
@@ -451,8 +426,6 @@ class _Reader:
         if targets:  # as "orbits a car in front of a house"
             self._relate(phrase, targets, targets, is_lost=False)
             return []
-        if not phrase.groups:
-            return list(self._subjects)
         found = [one for group in phrase.groups for one in self._name(group, kind or "with")]
         if not found and self._draft.parts["place"] != place:
             self._go_to_place(phrase.preposition, self._nearest, [])
@@ -485,14 +458,12 @@ def _set_field(thing: Thing, kind: str, field: str, value: Any) -> None:
 
 
 def _add_motion(thing: Thing, act: VerbSense) -> None:
-    """Add a motion; it takes the place of a posture, and of one of which only the pace is said."""
+    """Add a motion; it takes the place of one of which only the pace is said."""
     motions, pace = thing.motions, act.pace
     said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
     motion = {name: value for name, value in said.items() if value is not None}
     if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
         pace *= motions.pop().get("pace", 1.0)
-    elif motions and motions[-1]["kind"] in ("stand", "sit") and act.who == "person":
-        motions.pop()
     motion |= {"pace": pace} if pace != 1.0 else {}
     if motion not in motions[-1:]:
         motions.append(motion)

@@ -118,11 +118,11 @@ def _read_phrase(
     length = 1
     senses: tuple[Sense, ...] = ()
     phrase: list[str] = []
-    skipped: set[str] = set()
+    is_cut = False
     for end in range(at, len(words)):
         word = words[end].casefold()
         if end > at and word in word_set("senses", "articles"):
-            skipped.add(word)
+            is_cut = True  # no article stands in a name
             continue
         phrase.append(_OWNER.sub("", word))
         if len(phrase) > max(1, lexicon.longest.get(phrase[0], 0)):
@@ -130,18 +130,13 @@ def _read_phrase(
         found = lexicon.senses.get(tuple(phrase), ())
         if end == at and _OWNER.search(word):
             found = ()  # "the cat's" alone: whose, not what
-        if skipped:
-            not_cut = _UNCUT if skipped & {"a", "an"} else _UNCUT[:2]
-            found = tuple(one for one in found if one.kind not in not_cut)
+        if is_cut:
+            found = tuple(one for one in found if one.kind not in ("noun", "place"))
         if len(phrase) > 1:
             found = _without_chance(found, words, end, before)
         if found:
             length, senses = end + 1 - at, found
     return length, senses
-
-
-_UNCUT = ("noun", "place", "scene")
-"""Senses of phrases that no article stands in; "in the dark", but not "in a dark"."""
 
 
 def _without_chance(
