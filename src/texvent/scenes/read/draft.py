@@ -8,17 +8,17 @@ from typing import Any
 
 from texvent.scenes.read.tokens import Token
 from texvent.scenes.report import Substitution
-from texvent.scenes.spec import scene as spec
-from texvent.scenes.spec.data import PLACING
+from texvent.scenes.spec.data import PLACING, scene_from_data
+from texvent.scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 
-_GRAMMAR = frozenset({"articles", "pronouns", "conjunctions", "relatives", "negations", "small",
-                      "style", "relation", "camera"})  # fmt: skip
+_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "negations", "small", "style",
+            "relation", "camera")  # fmt: skip
 """Senses of words that a report does not list unless they are lost or shown."""
 
 
 def is_grammar(token: Token) -> bool:
     """Whether a token names nothing by itself: "the", "of", "under", "footage"."""
-    return any(one.kind in _GRAMMAR for one in token.senses)
+    return token.has(*_GRAMMAR)
 
 
 @dataclass
@@ -31,17 +31,12 @@ class Thing:
     values: dict[str, Any] = field(default_factory=dict)
     motions: list[dict[str, Any]] = field(default_factory=list)
     relations: list[dict[str, Any]] = field(default_factory=list)
+    """Relations to objects by their index."""
 
     @property
     def count(self) -> int:
         """Number of copies."""
         return int(self.values.get("count", 1))
-
-    @property
-    def all_motions(self) -> list[dict[str, Any]]:
-        """Its motions, or the usual one."""
-        is_open = self.usual and not self.motions and not self.relations
-        return [{"kind": self.usual}] if is_open else self.motions
 
 
 @dataclass
@@ -52,6 +47,7 @@ class SceneDraft:
     things: list[Thing] = field(default_factory=list)
     moves: list[dict[str, Any]] = field(default_factory=list)
     effects: list[dict[str, Any]] = field(default_factory=list)
+    """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)
     parts: dict[str, dict[str, Any]] = field(
         default_factory=lambda: {"camera": {}, "light": {}, "place": {}, "scene": {}}
@@ -91,50 +87,32 @@ class SceneDraft:
             self._stands_by(target, other) for one in relations for target in one["to"]
         )
 
-    def limit_bodies(self) -> None:
-        """Leave out copies of objects that have most, until a scene holds them all."""
-        while sum(one.count for one in self.things) > spec.MAX_BODIES:
-            most = max(self.things, key=lambda one: one.count)
-            most.values["count"] -= 1
-
-    def add_effect(self, kind: str, source: int | None) -> None:
-        """Add an effect, from an object or all around."""
-        self.effects.append({"kind": kind, "source": source})
-
-    def build(self, prompt: str) -> spec.Scene:
-        """The scene."""
-        ids = spec.number_nouns([one.noun for one in self.things])
-
-        def relation(one: dict[str, Any]) -> spec.Relation:
-            return spec.Relation(**{**one, "to": tuple(ids[target] for target in one["to"])})
-
-        def named(index: int | None) -> str | None:
-            return None if index is None else ids[index]
-
-        camera = self.parts["camera"]
-        return spec.Scene(
-            prompt=prompt,
-            objects=tuple(
-                spec.SceneObject(
-                    noun=one.noun,
-                    motions=tuple(spec.Motion(**motion) for motion in one.all_motions),
-                    relations=tuple(map(relation, one.relations)),
-                    **one.values,
-                )
-                for one in self.things
-            ),
-            effects=tuple(
-                spec.Effect(**{**one, "source": named(one["source"])}) for one in self.effects
-            ),
-            camera=spec.Camera(
-                moves=tuple(spec.CameraMove(**one) for one in self.moves),
-                **{**camera, "target": named(camera.get("target"))},
-            ),
-            light=spec.Light(**self.parts["light"]),
-            place=spec.Place(**self.parts["place"]),
-            absent=tuple(self.absent),
-            **self.parts["scene"],
-        )
+    def build(self, prompt: str) -> Scene:
+        """The scene; copies of objects that have most are left out until it holds them all."""
+        while sum(one.count for one in self.things) > MAX_BODIES:
+            max(self.things, key=lambda one: one.count).values["count"] -= 1
+        ids = number_nouns([one.noun for one in self.things])
+        for one in self.things:
+            if one.usual and not one.motions and not one.relations:
+                one.motions.append({"kind": one.usual})
+            for relation in one.relations:
+                relation["to"] = [ids[target] for target in relation["to"]]
+        for each, name in (
+            (self.parts["camera"], "target"),
+            *((e, "source") for e in self.effects),
+        ):
+            if each.get(name) is not None:
+                each[name] = ids[each[name]]
+        objects = [
+            {"noun": one.noun, "motions": one.motions, "relations": one.relations, **one.values}
+            for one in self.things
+        ]
+        camera = {"moves": self.moves, **self.parts["camera"]}
+        return scene_from_data(
+            {"prompt": prompt, "objects": objects, "effects": self.effects, "camera": camera,
+             "light": self.parts["light"], "place": self.parts["place"], "absent": self.absent,
+             **self.parts["scene"]}
+        )  # fmt: skip
 
     def report(self) -> tuple[tuple[str, ...], tuple[Substitution, ...], tuple[str, ...]]:
         """Words that are shown, shown as something else, and not understood, each once.
@@ -143,19 +121,10 @@ class SceneDraft:
         """
         fates: dict[str, str] = {}
         for token in self.tokens:
-            fate = self._fates.get(token.at)
-            if fate is None and not token.is_sign and not is_grammar(token):
-                fate = "lost"
-            if fate is not None and fates.get(token.text, "shown") == "shown":
+            is_open = token.is_sign or is_grammar(token)
+            fate = self._fates.get(token.at, "" if is_open else "lost")
+            if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
                 fates[token.text] = fate
-            if fate == "lost":
-                fates[token.text] = fate
-        return (
-            tuple(word for word, fate in fates.items() if fate == "shown"),
-            tuple(
-                Substitution(word, fate.removeprefix("as "))
-                for word, fate in fates.items()
-                if fate.startswith("as ")
-            ),
-            tuple(word for word, fate in fates.items() if fate == "lost"),
-        )
+        shown, lost = ([w for w, fate in fates.items() if fate == one] for one in ("shown", "lost"))
+        others = ((word, fate[3:]) for word, fate in fates.items() if fate.startswith("as "))
+        return tuple(shown), tuple(Substitution(*one) for one in others), tuple(lost)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
@@ -14,6 +14,7 @@ from texvent.scenes.colours import SURFACES
 from texvent.scenes.inflection import list_plurals, list_verb_forms
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.nouns import DRESSING, NOUNS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
 from texvent.scenes.models.places import place_names
 from texvent.scenes.models.protocol import Noun
@@ -91,16 +92,12 @@ class Lexicon:
 
 
 def lexicon_of(nouns: Mapping[str, Noun] | None) -> Lexicon:
-    """Lexicon of nouns; None: the embedded ones."""
-    from texvent.scenes.models.nouns import NOUNS
-
+    """Lexicon of nouns; None: the embedded ones, of which it is made once."""
     return _embedded() if nouns is None or nouns is NOUNS else _make(nouns)
 
 
 @cache
 def _embedded() -> Lexicon:
-    from texvent.scenes.models.nouns import NOUNS
-
     return _make(NOUNS)
 
 
@@ -125,7 +122,6 @@ def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
     """The noun that a word names, or shows as a kind; None: none.
 
     Example:
-        >>> from texvent.scenes.models.nouns import NOUNS
         >>> find_noun("fire truck", NOUNS), find_noun("wug", NOUNS)
         ('fire engine', None)
     """
@@ -135,29 +131,25 @@ def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
 
 
 def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
-    from texvent.scenes.models.nouns import DRESSING
-
     said = [
         one for one in nouns.values()
         if one.name not in DRESSING and not one.name.startswith(_UNSAID)
     ]  # fmt: skip
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
-    doers = {
-        doer: activity
-        for activity, phrases in read_table("words")["doers"].items()
-        for doer in phrases
-    }
+    acts = read_table("words")["doers"].items()
+    usual = {doer: activity for activity, doers in acts for doer in doers}
     for noun, kinds in read_table("kinds").items():
         for kind in kinds if noun in nouns else ():
-            if kind not in names and kind not in plurals:
+            if kind not in plurals:
                 is_mass = kind in word_set("things", "plurals")
-                names[kind] = NounSense(noun, is_mass, is_kind=True, usual=doers.get(kind, ""))
-    for name, sense in names.items():
-        yield name, Sense("noun", sense)
+                sense = NounSense(noun, is_mass, is_kind=True, usual=usual.get(kind, ""))
+                names.setdefault(kind, sense)
+    for name, one in names.items():
+        yield name, Sense("noun", one)
     for name, one in names.items():
         for plural in set(list_plurals(name)) - {name}:
-            yield plural, Sense("noun", NounSense(one.noun, True, one.is_kind, one.usual))
+            yield plural, Sense("noun", replace(one, is_plural=True))
     for name, sense in plurals.items():
         yield name, Sense("noun", sense)
 

@@ -5,7 +5,7 @@ A word that changes the scene is counted as shown; every other one is not unders
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,7 @@ from texvent.scenes.models.traits import trait_value
 from texvent.scenes.read.camera import add_move, find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import SceneDraft, Thing
-from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
+from texvent.scenes.read.lexicon import VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec.scene import MAX_BODIES, Scene
@@ -34,7 +34,7 @@ _OF_PEOPLE = frozenset({"hold", "wear", "ride", "kick", "hit", "throw", "catch"}
 _SENDING = frozenset({"kick", "hit", "throw"})
 _ROUTES = frozenset({"above", "past", "through", "under", "around", "between", "in", "on"})
 """Relations that are about what is sent: "kicks a ball over a wall"."""
-_ACTS = frozenset({"kick", "throw", "catch", "push", "pull", "walk"})
+_ACTS = frozenset({"kick", "throw", "catch", "push", "pull", "walk", "hug"})
 """Activities that are a relation where something is done to a thing: "kicks a ball"."""
 _DOERS = ("person", "hand", "animal", "mover", "source", "lamp", "plain")
 """Kinds of subjects of verbs; what only they can do goes before what anything can."""
@@ -70,7 +70,6 @@ def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     reader = _Reader(draft, nouns)
     for clause in read_clauses(tokens):
         reader.apply(clause)
-    draft.limit_bodies()
     shown, substituted, lost = draft.report()
     scene = draft.build(prompt)
     return Reading(scene=scene, shown=shown, substituted=substituted, not_understood=lost)
@@ -116,8 +115,10 @@ class _Reader:
         objects = [index for group in clause.objects for index in self._name(group)]
         moved = subjects
         if clause.verb is not None:
-            found = None if is_lost else self._act(clause, clause.verb, subjects, objects)
-            is_lost, moved = found is None, found or subjects
+            is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
+            found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
+            is_lost = found is None and not self._moves_effect(clause, clause.verb)
+            moved = found or subjects
             for index in subjects if is_lost else ():  # what it does is not made up
                 self._draft.things[index].usual = "stand"
         for one in clause.after:
@@ -127,10 +128,22 @@ class _Reader:
                 self._say(one, moved)
         self._subjects = list(subjects)
 
+    def _moves_effect(self, clause: Clause, verb: Token) -> bool:
+        """As "smoke rises from a chimney", which smoke does by itself."""
+        kinds = {one.value.kind for one in verb.all("verb")}
+        is_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
+        if is_effect and kinds & word_set("effects", "motions"):
+            self._draft.show(verb)
+            return True
+        return False
+
     # Noun groups
 
-    def _name(self, group: Group, relation: str = "") -> list[int]:
-        """Add what a group names; the indices of its objects, at most one."""
+    def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
+        """Add what a group names; the indices of its objects, at most one.
+
+        An effect comes from the first of the owners.
+        """
         head = group.head
         words = {one.text.removesuffix("s") for one in (*group.unknown, *([head] if head else []))}
         of = None if words & word_set("things", "likenesses") else group.of
@@ -141,15 +154,15 @@ class _Reader:
             found = self._name_thing(group, head)
         else:  # an effect, light, weather, or nothing that is known
             for token in (*group.modifiers, *([head] if head else [])):
-                if not self._set_scene(token):
-                    self._add_effect(token, None)
+                effect = token.first("effect")
+                if not self._set_scene(token) and effect is not None:
+                    self._add_effect(token, effect.value, owners)
         if of is not None and of.head is not None and not _is_liquid(of.head):
             inside = self._name(of)
-            if (
-                found
-                and inside
-                and self._draft.things[found[0]].noun in word_set("things", "vessels")
-            ):
+            vessels = word_set("things", "vessels").intersection(
+                self._draft.things[one].noun for one in found
+            )
+            if inside and vessels:
                 self._draft.relate(inside[0], "in", found)  # "a bowl of apples"
             self._nearest = found or inside
         return found
@@ -183,11 +196,9 @@ class _Reader:
         self._nearest = [index]
         return [index]
 
-    def _add_effect(self, token: Token, source: int | None) -> None:
-        effect = token.first("effect")
-        if effect is not None:
-            self._draft.add_effect(effect.value, source)
-            self._draft.show(token)
+    def _add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
+        self._draft.effects.append({"kind": kind, "source": owners[0] if owners else None})
+        self._draft.show(token)
 
     # What is said of things
 
@@ -200,48 +211,36 @@ class _Reader:
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
-            (things or draft.things)[-1].values["picture"] = value
-        elif field == "effect" and subjects:
-            draft.add_effect(value, subjects[0])
-        elif said is None or not things:
-            verbs = token.verbs("ing", "ed") if things else ()
-            if not self._set_scene(token) and verbs:
-                self._apply_act(token, verbs, subjects, [])
+            (things or draft.things)[-1].values["picture"] = vars(value)
+        elif field == "effect" and things:
+            self._add_effect(token, value, subjects)
+        elif said is not None and things:
+            for thing in things:
+                _set_field(thing, said.kind, field, value)
+        else:
+            if not self._set_scene(token) and things and token.verbs("ing", "ed"):
+                self._act(token, subjects, [], forms=("ing", "ed"))
             return
-        for thing in things if field not in ("picture", "effect") else ():
-            _set_field(thing, said.kind if said else "", field, value)
         draft.show(token)
 
     # Verbs
 
     def _act(
-        self, clause: Clause, verb: Token, subjects: Sequence[int], objects: Sequence[int]
-    ) -> list[int] | None:
-        """Apply a verb with its objects; who moves, or None where it is not known."""
-        if not subjects:  # "smoke rises from a chimney"
-            kinds = {one.value.kind for one in verb.all("verb")}
-            is_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
-            if not is_effect or not kinds & word_set("effects", "motions"):
-                return None
-            self._draft.show(verb)
-            return []
-        is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
-        return self._apply_act(verb, verb.all("verb"), subjects, objects, has_object=is_unknown)
-
-    def _apply_act(
-        self, verb: Token, senses: Iterable[Sense], subjects: Sequence[int],
-        objects: Sequence[int], *, has_object: bool = False,
+        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *,
+        has_object: bool = False, forms: tuple[str, ...] = ("base", "s", "ing", "ed"),
     ) -> list[int] | None:  # fmt: skip
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
-        able = [one.value for one in senses if self._fits(one.value, subjects, has_object)]
+        able = [
+            one.value for one in verb.verbs(*forms) if self._fits(one.value, subjects, has_object)
+        ]
         act = min(able, key=lambda one: _DOERS.index(one.who), default=None)
-        if act is None or (has_object and not objects and act.who in ("mover", "plain")):
+        if (
+            act is None
+            or not subjects
+            or (has_object and not objects and act.who in ("mover", "plain"))
+        ):
             return None  # what it is done to is not known
-        if act.kind in word_set("things", "pair_acts") and objects:
-            if any(draft.things[one].noun not in PERSON_NOUNS for one in objects):
-                return None
-            subjects = [*subjects, *objects]
         draft.show(verb)
         if act.is_near:
             draft.substitute(verb, act.kind)
@@ -249,7 +248,7 @@ class _Reader:
             thing = draft.things[index]
             if act.who == "source" and index == subjects[0]:
                 if act.kind != "fire" or not _is_flame(thing):
-                    draft.add_effect(act.kind, index)
+                    self._add_effect(verb, act.kind, [index])
             elif act.who == "lamp" and not _is_flame(thing):
                 thing.values["blink_hz"] = BLINK_HZ
             elif act.kind and act.who != "source":
@@ -257,26 +256,27 @@ class _Reader:
         return self._apply_to_objects(act, subjects, objects)
 
     def _fits(self, verb: VerbSense, subjects: Sequence[int], has_object: bool) -> bool:
+        """Whether the subjects can do it, with an object or without one."""
         things = [self._draft.things[one] for one in subjects]
         names = {one.noun for one in things}
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
-        if verb.who == "person":
-            return names <= PERSON_NOUNS and not (has_object and verb.kind in _ACTS)
-        if verb.who == "hand":
-            return names <= HAND_NOUNS and not has_object
-        if verb.who == "animal":
-            return all(verb.kind in self._nouns[one].acts for one in names)
-        if verb.who == "mover":
-            return has_object and is_acting
-        if verb.who in ("source", "lamp"):
-            return not has_object and not is_acting
-        if verb.kind == "drive" and names & PERSON_NOUNS:
+        match verb.who:
+            case "person":
+                return names <= PERSON_NOUNS and not (has_object and verb.kind in _ACTS)
+            case "hand":
+                return names <= HAND_NOUNS and not has_object
+            case "animal":
+                return all(verb.kind in self._nouns[one].acts for one in names)
+            case "mover":
+                return has_object and is_acting
+            case "source" | "lamp":
+                return not has_object and not is_acting
+        if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
             return False
-        if verb.who != "plain" or has_object != bool(verb.relation):
-            meets = verb.relation == "collide" and sum(one.count for one in things) > 1
-            is_alone = meets or (bool(verb.kind) and not verb.object)
-            return verb.who == "plain" and not has_object and is_alone
-        return is_acting or verb.relation not in _OF_PEOPLE
+        if has_object:
+            return bool(verb.relation) and (is_acting or verb.relation not in _OF_PEOPLE)
+        meets = verb.relation == "collide" and sum(one.count for one in things) > 1
+        return meets or not verb.relation or (bool(verb.kind) and not verb.object)
 
     def _apply_to_objects(
         self, act: VerbSense, subjects: Sequence[int], objects: Sequence[int]
@@ -291,7 +291,7 @@ class _Reader:
         elif act.relation == "carry" and not are_people:  # "a conveyor belt carries boxes"
             for index in objects:
                 draft.relate(index, "on", subjects)
-        elif objects and act.relation is not None:
+        elif act.relation is not None:
             for index in subjects:
                 draft.relate(index, act.relation, objects)
         return list(objects if act.object is not None and objects else subjects)
@@ -308,14 +308,10 @@ class _Reader:
         kind, way = (sense.value, sense.form) if sense is not None else ("", "")
         if not phrase.groups:
             draft.lose(token)
-        place, targets = draft.parts["place"].get("name"), []
+        place, targets = draft.parts["place"].get("name"), list[int]()
+        owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
-            head = group.head
-            if head is not None and head.has("effect") and not head.has("noun", "place", "scene"):
-                if kind in ("with", "in", "on"):  # "a car in flames"
-                    self._add_effect(head, subjects[0] if subjects else None)
-            else:
-                targets += self._name(group, kind or token.text)
+            targets += self._name(group, kind or token.text, owners)
         done = [one["kind"] for index in subjects for one in draft.things[index].relations]
         is_sent = is_of_verb and kind in _ROUTES and bool(_SENDING.intersection(done))
         if not targets:
