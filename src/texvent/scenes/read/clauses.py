@@ -18,8 +18,6 @@ _STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
 """Senses of words that no noun group holds."""
 _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
-_LONGEST_LIST = 12
-"""Groups after a comma that are looked through for "and"."""
 _PARTICLES = ("up", "down", "off", "out", "over", "in", "on")
 """Prepositions that go with a verb right before them: "picks up"."""
 
@@ -165,28 +163,17 @@ class _Parser:
 
     def _end_at_and(self, clause: Clause) -> Clause | None:
         self._take()
-        starts = self._starts_group() or self._token().has("camera")
         if clause.verb is None:
-            return Clause() if self._token().has("camera") else None
+            return None
         joined = Clause(is_joined=True)
         if self._is_verb(joined):
             return joined
-        return Clause() if starts else None
+        return Clause() if self._starts_group() or self._token().has("camera") else None
 
     def _continues_list(self, clause: Clause) -> bool:
         """Whether a comma stands between subjects: "a car, a bus and a van drive"."""
-        if not clause.subjects or clause != Clause(clause.subjects):
-            return False
-        start, is_list = self._at, False
-        for _ in range(_LONGEST_LIST):
-            if is_list or not self._starts_group():
-                break
-            self._group()
-            is_list = self._take().text == "and"
-            if not is_list and self._token(-1).text != ",":
-                break
-        self._at = start
-        return is_list
+        is_open = bool(clause.subjects) and clause == Clause(clause.subjects)
+        return is_open and self._starts_group() and not self._token().has("scene", "shot")
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 
@@ -238,7 +225,7 @@ class _Parser:
         if not forms or (forms == {"base"} and not clause.is_plural):
             return False
         if is_second:
-            return not token.has("noun", "relation") and bool(forms & {"ing", "s"})
+            return bool(forms & {"ing", "s"})
         if token.has("noun", "effect", "place", "scene", "field"):
             return clause.has_subject
         is_ego = "ing" in forms and not self._token(ahead + 1).has("noun")
@@ -289,8 +276,7 @@ class _Parser:
         token = self._take()
         is_verb = clause.subjects and not clause.verb and (is_noun or token.is_unknown)
         if not is_verb or token.is_manner:
-            is_grammar = token.has("small", "style", "articles") and not token.is_unknown
-            return clause if is_grammar else replace(clause, after=(*clause.after, token))
+            return replace(clause, after=(*clause.after, token))
         if self._token().text in _PARTICLES:
             self._take()
         groups = self._groups() if self._starts_group() else ()
@@ -306,8 +292,6 @@ class _Parser:
             return False
         if token.has("noun", "place", "effect", "pose", "field"):
             return True
-        if token.has("picture"):
-            return after.has("noun")
         is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
         if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relation"):
             return True
@@ -335,7 +319,7 @@ class _Parser:
         first = self._at
         while head is None and not self._ends_group(first):
             token = self._take()
-            if token.is_unknown or _is_bare_verb(token):
+            if token.is_unknown:
                 unknown.append(token)
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
@@ -345,9 +329,6 @@ class _Parser:
                 head = token
         if self._at == first and not self.is_done:
             unknown.append(self._take())
-        is_shown = self._token().has("picture") and not self._token(1).has("noun")
-        if head is not None and is_shown:  # "the digit 7"
-            modifiers.append(self._take())
         of = None
         if self._token().text == "of" and self._starts_group(1):
             self._take()
@@ -355,32 +336,28 @@ class _Parser:
         return Group(head, tuple(modifiers), tuple(unknown), article, of)
 
     def _ends_group(self, first: int) -> bool:
-        token, after = self._token(), self._token(1)
+        token = self._token()
         if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
         if token.has("picture") or token.is_unknown:
             return False
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
-        is_attribute = after.has(*_HEADS, *_MODIFIERS) or after.is_unknown
-        return not (is_attribute and token.verbs("ing", "ed"))
+        return not token.verbs("ing", "ed")
 
     def _stands_before(self, token: Token) -> bool:
         """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
         after = self._token()
-        if not token.has(*_MODIFIERS):
-            return token.has("place") and after.has("place") and not after.has("noun")
-        return after.has(*_HEADS, "field") and not after.has("relation")
+        is_before = token.has(*_MODIFIERS) and not after.has("relation")
+        return is_before and after.has(*_HEADS, "field")
 
     def _is_compound(self, *, is_phrase: bool) -> bool:
         """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
         after, third = self._token(), self._token(1)
         if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
-            return not (after.text.endswith(("s", "ing")) and third.has("articles"))
-        follows = third.verbs("s") or (third.verbs("ing") and not after.text.endswith("s"))
-        is_verb = bool(follows) or third.text == "is"
-        is_end = is_phrase and third.is_sign
-        return after.is_unknown and not after.is_manner and (is_verb or is_end)
+            return not (after.text.endswith("s") and third.has("articles"))
+        is_end = third.verbs("s") or third.text == "is" or (is_phrase and third.is_sign)
+        return after.is_unknown and not after.is_manner and bool(is_end)
 
 
 def _is_alone(token: Token) -> bool:
@@ -388,8 +365,3 @@ def _is_alone(token: Token) -> bool:
     return token.text.startswith(_PREPOSITIONS) or (
         token.has("shot") and not token.has("noun", "place")
     )
-
-
-def _is_bare_verb(token: Token) -> bool:
-    """Whether a token is nothing but the base form of a verb."""
-    return bool(token.senses) and all(one.form == "base" for one in token.senses)

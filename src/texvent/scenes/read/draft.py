@@ -26,8 +26,8 @@ class Thing:
     """Object of the scene."""
 
     noun: str
-    usual: str = ""
-    """What it does if nothing else is said."""
+    is_lost: bool = False
+    """Whether what it does is not known."""
     values: dict[str, Any] = field(default_factory=dict)
     motions: list[dict[str, Any]] = field(default_factory=list)
     relations: list[dict[str, Any]] = field(default_factory=list)
@@ -93,8 +93,8 @@ class SceneDraft:
             max(self.things, key=lambda one: one.count).values["count"] -= 1
         ids = number_nouns([one.noun for one in self.things])
         for one in self.things:
-            if one.usual and not one.motions and not one.relations:
-                one.motions.append({"kind": one.usual})
+            if one.is_lost and not one.motions and not one.relations:
+                one.motions.append({"kind": "stand"})
             for relation in one.relations:
                 relation["to"] = [ids[target] for target in relation["to"]]
         for each, name in (

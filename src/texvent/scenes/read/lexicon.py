@@ -44,8 +44,6 @@ class NounSense:
     is_plural: bool = False
     is_kind: bool = False
     """Whether the word means a kind that is shown as this noun: "terrier", a dog."""
-    usual: str = ""
-    """What who is named so does if nothing else is said: "dancer"."""
 
 
 @dataclass(frozen=True)
@@ -137,14 +135,11 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     ]  # fmt: skip
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
-    acts = read_table("words")["doers"].items()
-    usual = {doer: activity for activity, doers in acts for doer in doers}
     for noun, kinds in read_table("kinds").items():
         for kind in kinds if noun in nouns else ():
             if kind not in plurals:
                 is_mass = kind in word_set("things", "plurals")
-                sense = NounSense(noun, is_mass, is_kind=True, usual=usual.get(kind, ""))
-                names.setdefault(kind, sense)
+                names.setdefault(kind, NounSense(noun, is_mass, is_kind=True))
     for name, one in names.items():
         yield name, Sense("noun", one)
     for name, one in names.items():
@@ -195,7 +190,6 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
     for name, effect in EFFECTS.items():
         for phrase in effect.nouns:
             yield from _with_plurals(phrase, Sense("effect", name))
-        yield from ((phrase, Sense("field", ("effect", name))) for phrase in effect.adjectives)
     for who, table in _PERFORMERS:
         for name, activity in table.items():
             yield from ((phrase, Sense("pose", (who, name))) for phrase in activity.named)

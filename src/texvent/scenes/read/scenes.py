@@ -120,7 +120,7 @@ class _Reader:
             is_lost = found is None and not self._moves_effect(clause, clause.verb)
             moved = found or subjects
             for index in subjects if is_lost else ():  # what it does is not made up
-                self._draft.things[index].usual = "stand"
+                self._draft.things[index].is_lost = True
         for one in clause.after:
             if isinstance(one, Phrase):
                 self._relate(one, subjects, moved, is_lost=is_lost, is_of_verb=bool(objects))
@@ -159,11 +159,6 @@ class _Reader:
                     self._add_effect(token, effect.value, owners)
         if of is not None and of.head is not None and not _is_liquid(of.head):
             inside = self._name(of)
-            vessels = word_set("things", "vessels").intersection(
-                self._draft.things[one].noun for one in found
-            )
-            if inside and vessels:
-                self._draft.relate(inside[0], "in", found)  # "a bowl of apples"
             self._nearest = found or inside
         return found
 
@@ -182,7 +177,7 @@ class _Reader:
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
-            thing = Thing(noun.value.noun, noun.value.usual)
+            thing = Thing(noun.value.noun)
             if noun.value.is_kind:
                 draft.substitute(head, thing.noun)
         else:
@@ -212,8 +207,6 @@ class _Reader:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1].values["picture"] = vars(value)
-        elif field == "effect" and things:
-            self._add_effect(token, value, subjects)
         elif said is not None and things:
             for thing in things:
                 _set_field(thing, said.kind, field, value)
@@ -338,10 +331,9 @@ class _Reader:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
         if target.noun in word_set("things", "worn") and kind in ("in", "with"):
-            others = {draft.things[one].noun for one in targets} - word_set("things", "worn")
-            if others or (kind == "in" and thing.noun not in PERSON_NOUNS):
+            if thing.noun not in PERSON_NOUNS:
                 return False
-            kind, way = ("wear", "") if thing.noun in PERSON_NOUNS else (kind, way)
+            kind, way = "wear", ""
         elif kind == "at" and target.noun not in word_set("things", "tables"):
             kind, way = "beside", "at"
         for one in (draft.things[each] for each in targets if kind == "surround"):
@@ -370,8 +362,6 @@ class _Reader:
                 draft.parts["light"].setdefault("kind", "night")
             elif colours:
                 place["sky" if name == "sky" else "colour"] = colours[0]
-            elif token.has("place"):
-                self._add_backdrop(token, token.all("place")[0].value)
             draft.show(*([token] if token.text == "dark" or colours else []))
             self._set_scene(token)
         self._set_scene(head)
@@ -461,5 +451,4 @@ def _add_motion(thing: Thing, act: VerbSense) -> None:
     if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
         pace *= motions.pop().get("pace", 1.0)
     motion |= {"pace": pace} if pace != 1.0 else {}
-    if motion not in motions[-1:]:
-        motions.append(motion)
+    motions.append(motion)

@@ -118,11 +118,9 @@ def _read_phrase(
     length = 1
     senses: tuple[Sense, ...] = ()
     phrase: list[str] = []
-    is_cut = False
     for end in range(at, len(words)):
         word = words[end].casefold()
         if end > at and word in word_set("senses", "articles"):
-            is_cut = True  # no article stands in a name
             continue
         phrase.append(_OWNER.sub("", word))
         if len(phrase) > max(1, lexicon.longest.get(phrase[0], 0)):
@@ -130,8 +128,6 @@ def _read_phrase(
         found = lexicon.senses.get(tuple(phrase), ())
         if end == at and _OWNER.search(word):
             found = ()  # "the cat's" alone: whose, not what
-        if is_cut:
-            found = tuple(one for one in found if one.kind not in ("noun", "place"))
         if len(phrase) > 1:
             found = _without_chance(found, words, end, before)
         if found:
@@ -153,20 +149,10 @@ def _without_chance(
 
     def stands(one: Sense) -> bool:
         if one.kind == "verb" and one.value.who == "camera":
-            return _is_of_camera(before)
+            return not before or before[-1].is_sign or any(token.has("camera") for token in before)
         return one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural))
 
     return tuple(filter(stands, senses))
-
-
-def _is_of_camera(before: Sequence[Token]) -> bool:
-    """Whether the camera was named since the last sign, or nothing was."""
-    for token in reversed(before):
-        if token.has("camera"):
-            return True
-        if token.is_sign:
-            break
-    return not before or before[-1].is_sign
 
 
 def _read_quantity(
