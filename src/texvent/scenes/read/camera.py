@@ -55,10 +55,3 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
     if move["kind"] == "travel" and means:
         move["means"] = means[0]
     return move
-
-
-def add_move(draft: SceneDraft, move: dict[str, Any], phase: int) -> None:
-    """Add a move; what flies is seen from the air."""
-    draft.moves.append({**move, **({"phase": phase} if phase else {})})
-    if move.get("means") == "fly":
-        draft.parts["camera"].setdefault("view", "aerial")

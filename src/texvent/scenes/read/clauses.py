@@ -156,9 +156,6 @@ class _Parser:
             return Clause(is_nearest=True)
         if word == "and":
             return self._end_at_and(clause)
-        if clause.verb is not None and self._is_verb(clause, is_second=True):
-            is_nearest = bool(token.verbs("ing"))
-            return Clause(is_nearest=is_nearest, is_joined=not is_nearest)
         return None
 
     def _end_at_and(self, clause: Clause) -> Clause | None:
@@ -215,20 +212,18 @@ class _Parser:
         is_object = self._starts_group() and not self._token().has("adverb")
         return replace(clause, verb=verb, objects=self._groups() if is_object else ())
 
-    def _is_verb(self, clause: Clause, ahead: int = 0, *, is_second: bool = False) -> bool:
+    def _is_verb(self, clause: Clause) -> bool:
         """Whether the token is a verb of the clause.
 
         A bare form needs several subjects, and a word that is a noun too needs one right before.
         """
-        token = self._token(ahead)
+        token = self._token()
         forms = {one.form for one in token.all("verb")}
         if not forms or (forms == {"base"} and not clause.is_plural):
             return False
-        if is_second:
-            return bool(forms & {"ing", "s"})
         if token.has("noun", "effect", "place", "scene", "field"):
             return clause.has_subject
-        is_ego = "ing" in forms and not self._token(ahead + 1).has("noun")
+        is_ego = "ing" in forms and not self._token(1).has("noun")
         return clause.has_subject or is_ego
 
     def _read_phrase(self, clause: Clause) -> Clause | None:

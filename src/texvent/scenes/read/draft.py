@@ -69,15 +69,14 @@ class SceneDraft:
         """Count a token as shown as something else."""
         self._fates[token.at] = f"as {shown}"
 
-    def relate(self, subject: int, kind: str, targets: Sequence[int], way: str = "") -> bool:
+    def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
         """Add a relation of an object to others; False: it has none, or goes round in a circle."""
         is_one = self.things[subject].count == 1
         if not targets or (subject in targets and is_one):
             return False
         if kind in PLACING and any(self._stands_by(target, subject) for target in targets):
             return False
-        relation = {"kind": kind, "to": tuple(targets), **({"way": way} if way else {})}
-        self.things[subject].relations.append(relation)
+        self.things[subject].relations.append({"kind": kind, "to": tuple(targets)})
         return True
 
     def _stands_by(self, subject: int, other: int) -> bool:

@@ -77,7 +77,7 @@ class Sense:
     [grammar]."""
     value: Any
     form: str = ""
-    """Of a verb "base", "s", "ing" or "ed"; of a relation its way."""
+    """Of a verb: "base", "s", "ing" or "ed"."""
 
 
 @dataclass(frozen=True)
@@ -219,14 +219,14 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
 
 
 def _sense_of(path: tuple[str, ...]) -> Sense:
-    """As ("scene", "light", "kind", "dusk"), ("field", "size", "1.4"), ("way", "on", "across")."""
+    """As ("scene", "light", "kind", "dusk"), ("field", "size", "1.4")."""
     kind, *rest = path
     if kind in ("field", "adverb"):
         return Sense(kind, (rest[0], _plain(rest[1])))
     if kind == "scene":
         value = (rest[2],) if rest[1] == "backdrops" else _plain(rest[2])
         return Sense(kind, (rest[0], rest[1], value))
-    return Sense("relation", *rest) if kind == "way" else Sense(kind, rest[0] if rest else kind)
+    return Sense(kind, rest[0] if rest else kind)
 
 
 def _with_plurals(phrase: str, sense: Sense) -> Iterator[tuple[str, Sense]]:

@@ -12,7 +12,7 @@ from typing import Any
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.traits import trait_value
-from texvent.scenes.read.camera import add_move, find_move, split_move
+from texvent.scenes.read.camera import find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import SceneDraft, Thing
 from texvent.scenes.read.lexicon import VerbSense, lexicon_of, word_set
@@ -25,17 +25,6 @@ PLURAL_COUNT, SURROUND_COUNT = 3, 14
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 _BACKDROPS = ("mountain", "forest", "city")
-_POSITIONS = frozenset({"behind", "front", "beside", "left of", "right of", "between", "around",
-                        "towards", "away from", "surround", "among", "past", "under", "from",
-                        "with"})  # fmt: skip
-"""Relations to a thing, where a word is both thing and place: "behind a mountain"."""
-_OF_PEOPLE = frozenset({"hold", "wear", "ride", "kick", "hit", "throw", "catch"})
-"""Relations that need hands, or legs."""
-_SENDING = frozenset({"kick", "hit", "throw"})
-_ROUTES = frozenset({"above", "past", "through", "under", "around", "between", "in", "on"})
-"""Relations that are about what is sent: "kicks a ball over a wall"."""
-_ACTS = frozenset({"kick", "throw", "catch", "push", "pull", "walk", "hug"})
-"""Activities that are a relation where something is done to a thing: "kicks a ball"."""
 _DOERS = ("person", "hand", "animal", "mover", "source", "lamp", "plain")
 """Kinds of subjects of verbs; what only they can do goes before what anything can."""
 
@@ -117,7 +106,12 @@ class _Reader:
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
             found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
-            is_lost = found is None and not self._moves_effect(clause, clause.verb)
+            kinds = {one.value.kind for one in clause.verb.all("verb")}
+            of_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
+            if not subjects and of_effect and kinds & word_set("effects", "motions"):
+                found = []  # "smoke rises from a chimney", as it does by itself
+                self._draft.show(clause.verb)
+            is_lost = found is None
             moved = found or subjects
             for index in subjects if is_lost else ():  # what it does is not made up
                 self._draft.things[index].is_lost = True
@@ -127,15 +121,6 @@ class _Reader:
             elif not self._set_scene(one) and not is_lost:
                 self._say(one, moved)
         self._subjects = list(subjects)
-
-    def _moves_effect(self, clause: Clause, verb: Token) -> bool:
-        """As "smoke rises from a chimney", which smoke does by itself."""
-        kinds = {one.value.kind for one in verb.all("verb")}
-        is_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
-        if is_effect and kinds & word_set("effects", "motions"):
-            self._draft.show(verb)
-            return True
-        return False
 
     # Noun groups
 
@@ -164,7 +149,7 @@ class _Reader:
 
     def _is_place(self, head: Token, relation: str) -> bool:
         is_thing = head.has("noun", "pose") or _is_liquid(head)
-        is_where = bool(relation) and relation not in _POSITIONS
+        is_where = bool(relation) and relation not in word_set("things", "positions")
         return head.has("place") and (is_where or not is_thing)
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
@@ -255,7 +240,9 @@ class _Reader:
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
         match verb.who:
             case "person":
-                return names <= PERSON_NOUNS and not (has_object and verb.kind in _ACTS)
+                return names <= PERSON_NOUNS and not (
+                    has_object and verb.kind in word_set("things", "acts")
+                )
             case "hand":
                 return names <= HAND_NOUNS and not has_object
             case "animal":
@@ -267,7 +254,9 @@ class _Reader:
         if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
             return False
         if has_object:
-            return bool(verb.relation) and (is_acting or verb.relation not in _OF_PEOPLE)
+            return bool(verb.relation) and (
+                is_acting or verb.relation not in word_set("things", "of_people")
+            )
         meets = verb.relation == "collide" and sum(one.count for one in things) > 1
         return meets or not verb.relation or (bool(verb.kind) and not verb.object)
 
@@ -298,7 +287,7 @@ class _Reader:
         """Apply a preposition with its groups; `moved` are those that the verb moves."""
         draft, token = self._draft, phrase.preposition
         sense = token.first("relation")
-        kind, way = (sense.value, sense.form) if sense is not None else ("", "")
+        kind = sense.value if sense is not None else ""
         if not phrase.groups:
             draft.lose(token)
         place, targets = draft.parts["place"].get("name"), list[int]()
@@ -306,7 +295,11 @@ class _Reader:
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
         done = [one["kind"] for index in subjects for one in draft.things[index].relations]
-        is_sent = is_of_verb and kind in _ROUTES and bool(_SENDING.intersection(done))
+        is_sent = (
+            is_of_verb
+            and kind in word_set("things", "routes")
+            and bool(word_set("things", "sending").intersection(done))
+        )
         if not targets:
             if draft.parts["place"].get("name") != place and not is_lost:
                 self._go_to_place(token, subjects, moved)
@@ -314,7 +307,7 @@ class _Reader:
             draft.effects[-1]["source"] = targets[0]
         elif kind and subjects:
             able = () if is_lost or is_sent else subjects
-            placed = [self._relate_one(kind, way, index, targets) for index in able]
+            placed = [self._relate_one(kind, index, targets) for index in able]
             (draft.show if any(placed) else draft.lose)(token)
 
     def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
@@ -327,18 +320,18 @@ class _Reader:
             if draft.parts["place"]["name"] == "road" and self._nouns[thing.noun].motion != "drive":
                 thing.values.setdefault("placement", "lane")
 
-    def _relate_one(self, kind: str, way: str, index: int, targets: Sequence[int]) -> bool:
+    def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
         if target.noun in word_set("things", "worn") and kind in ("in", "with"):
             if thing.noun not in PERSON_NOUNS:
                 return False
-            kind, way = "wear", ""
+            kind = "wear"
         elif kind == "at" and target.noun not in word_set("things", "tables"):
-            kind, way = "beside", "at"
+            kind = "beside"
         for one in (draft.things[each] for each in targets if kind == "surround"):
             one.values["count"] = SURROUND_COUNT if one.count == PLURAL_COUNT else one.count
-        return draft.relate(index, kind, targets, way)
+        return draft.relate(index, kind, targets)
 
     # The scene
 
@@ -346,7 +339,7 @@ class _Reader:
         """Apply a word of light, weather, place or camera, wherever it stands."""
         draft = self._draft
         for sense in token.all("shot"):
-            add_move(draft, split_move(sense.value), self._phase)
+            self._add_move(split_move(sense.value))
         for part, field, value in (sense.value for sense in token.all("scene")):
             draft.parts[part][field] = value
         draft.show(*([token] if token.has("shot", "scene") else []))
@@ -366,17 +359,10 @@ class _Reader:
             self._set_scene(token)
         self._set_scene(head)
         is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
-        if (name == "sky" and is_said) or place.setdefault("name", name) == name:
-            draft.show(head)
-        else:
-            self._add_backdrop(head, name)
-
-    def _add_backdrop(self, token: Token, name: str) -> None:
-        """A second place is seen behind the first one, if it can be."""
-        place = self._draft.parts["place"]
-        if name in _BACKDROPS:
-            place["backdrops"] = tuple(dict.fromkeys((*place.get("backdrops", ()), name)))
-            self._draft.show(token)
+        is_first = (name == "sky" and is_said) or place.setdefault("name", name) == name
+        if not is_first and name in _BACKDROPS:  # a second place is behind the first one
+            place["backdrops"] = sorted({*place.get("backdrops", ()), name})
+        draft.show(*([head] if is_first or name in _BACKDROPS else []))
 
     # The camera
 
@@ -401,9 +387,15 @@ class _Reader:
             else:
                 self._set_scene(one)
         if move is not None:
-            add_move(draft, move, self._phase)
+            self._add_move(move)
             if targets:
                 draft.parts["camera"].setdefault("target", targets[0])
+
+    def _add_move(self, move: dict[str, Any]) -> None:
+        """Add a move; what flies is seen from the air."""
+        self._draft.moves.append({**move, **({"phase": self._phase} if self._phase else {})})
+        if move.get("means") == "fly":
+            self._draft.parts["camera"].setdefault("view", "aerial")
 
     def _aim(self, phrase: Phrase, targets: Sequence[int]) -> list[int]:
         """Add what a phrase of a camera's clause names; the objects that it looks at."""
