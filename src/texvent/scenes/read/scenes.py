@@ -84,25 +84,22 @@ class _Reader:
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head)
-        goes_on = not clause.subjects and not clause.is_nearest
-        is_camera = clause.is_camera or (self._was_camera and goes_on and clause.is_joined)
+        is_camera = clause.is_camera or (self._was_camera and clause.is_joined)
         is_ego = not is_camera and self._is_ego(clause)
         self._was_camera = is_camera
         if is_camera or is_ego:
             self._apply_to_camera(clause, is_ego=is_ego)
         else:
-            self._apply_to_things(clause, goes_on=goes_on)
+            self._apply_to_things(clause)
 
-    def _apply_to_things(self, clause: Clause, *, goes_on: bool) -> None:
-        subjects, is_lost = self._nearest, False
-        if goes_on:
-            subjects = self._subjects
-        elif not clause.is_nearest:
+    def _apply_to_things(self, clause: Clause) -> None:
+        subjects = self._nearest if clause.is_nearest else self._subjects
+        if clause.subjects:
             subjects = [index for group in clause.subjects for index in self._name(group)]
         for phrase in clause.before:
-            self._relate(phrase, subjects, subjects, is_lost=is_lost)
+            self._relate(phrase, subjects, subjects)
         objects = [index for group in clause.objects for index in self._name(group)]
-        moved = subjects
+        self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
             found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
@@ -111,16 +108,14 @@ class _Reader:
             if not subjects and of_effect and kinds & word_set("effects", "motions"):
                 found = []  # "smoke rises from a chimney", as it does by itself
                 self._draft.show(clause.verb)
-            is_lost = found is None
-            moved = found or subjects
-            for index in subjects if is_lost else ():  # what it does is not made up
+            for index in subjects if found is None else ():  # what it does is not made up
                 self._draft.things[index].is_lost = True
+            subjects, moved = ([], []) if found is None else (subjects, found or subjects)
         for one in clause.after:
             if isinstance(one, Phrase):
-                self._relate(one, subjects, moved, is_lost=is_lost, is_of_verb=bool(objects))
-            elif not self._set_scene(one) and not is_lost:
+                self._relate(one, subjects, moved, is_of_verb=bool(objects))
+            elif not self._set_scene(one):
                 self._say(one, moved)
-        self._subjects = list(subjects)
 
     # Noun groups
 
@@ -282,7 +277,7 @@ class _Reader:
 
     def _relate(
         self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int], *,
-        is_lost: bool, is_of_verb: bool = False,
+        is_of_verb: bool = False,
     ) -> None:  # fmt: skip
         """Apply a preposition with its groups; `moved` are those that the verb moves."""
         draft, token = self._draft, phrase.preposition
@@ -294,19 +289,15 @@ class _Reader:
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
-        done = [one["kind"] for index in subjects for one in draft.things[index].relations]
-        is_sent = (
-            is_of_verb
-            and kind in word_set("things", "routes")
-            and bool(word_set("things", "sending").intersection(done))
-        )
+        done = {one["kind"] for index in subjects for one in draft.things[index].relations}
+        is_route = is_of_verb and kind in word_set("things", "routes")
         if not targets:
-            if draft.parts["place"].get("name") != place and not is_lost:
+            if draft.parts["place"].get("name") != place:
                 self._go_to_place(token, subjects, moved)
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
-        elif kind and subjects:
-            able = () if is_lost or is_sent else subjects
+        elif kind and (subjects or kind != "with"):  # "an office with a desk"
+            able = () if is_route and done & word_set("things", "sending") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             (draft.show if any(placed) else draft.lose)(token)
 
@@ -402,7 +393,7 @@ class _Reader:
         sense = phrase.preposition.first("relation")
         kind, place = sense.value if sense else "", dict(self._draft.parts["place"])
         if targets:  # as "orbits a car in front of a house"
-            self._relate(phrase, targets, targets, is_lost=False)
+            self._relate(phrase, targets, targets)
             return []
         found = [one for group in phrase.groups for one in self._name(group, kind or "with")]
         if not found and self._draft.parts["place"] != place:
