@@ -5,7 +5,7 @@ Nothing is decided here about what can be shown: a token keeps all its senses.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from texvent.scenes.read.tokens import NO_TOKEN, Token
@@ -18,8 +18,6 @@ _STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
 """Senses of words that no noun group holds."""
 _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
-_PARTICLES = ("up", "down", "off", "out", "over", "in", "on")
-"""Prepositions that go with a verb right before them: "picks up"."""
 
 
 @dataclass(frozen=True)
@@ -77,35 +75,27 @@ class Clause:
     after: tuple[Phrase | Token, ...] = ()
     """Phrases, adverbs and words of the scene, and words that are not known."""
     absent: tuple[Group, ...] = ()
-    is_camera: bool = False
-    """Whether the camera is the subject."""
-    is_joined: bool = False
-    """Whether it goes on about the subjects of the clause before."""
-    is_nearest: bool = False
-    """Whether it is about the last group of the clause before: "that", "jumping"."""
+    about: str = ""
+    """Subject that is not named here: "camera"; "same", those of the clause before; or "nearest",
+    the last group of it."""
     is_next: bool = False
     """Whether it happens after the clause before: "then"."""
 
     @property
     def has_subject(self) -> bool:
         """Whether a verb may follow."""
-        return bool(self.subjects) or self.is_joined or self.is_nearest or self.is_camera
+        return bool(self.subjects or self.about)
 
     @property
     def is_plural(self) -> bool:
         """Whether a verb in its base form agrees with the subject."""
-        is_open = self.is_joined or self.is_nearest or self.is_camera
-        return is_open or len(self.subjects) > 1 or any(one.is_plural for one in self.subjects)
+        is_open = bool(self.about) or len(self.subjects) > 1
+        return is_open or any(one.is_plural for one in self.subjects)
 
 
 def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
     """Clauses of the tokens, in order."""
-    parser, found, before = _Parser(tokens), [], Clause()
-    while not parser.is_done:
-        clause, before = parser.clause(before)
-        if clause != Clause():
-            found.append(clause)
-    return tuple(found)
+    return tuple(one for one in _Parser(tokens).clauses() if one != Clause())
 
 
 class _Parser:
@@ -115,10 +105,20 @@ class _Parser:
         self._tokens = tokens
         self._at = 0
 
-    @property
-    def is_done(self) -> bool:
-        """Whether all tokens are read."""
-        return self._at >= len(self._tokens)
+    def clauses(self) -> Iterator[Clause]:
+        """All clauses; each is begun as the one before says."""
+        steps = (self._read_camera, self._read_absence, self._read_setting, self._read_verb,
+                 self._read_phrase, self._read_adverb, self._read_group)  # fmt: skip
+        clause = Clause()
+        while self._token() is not NO_TOKEN:
+            following = self._end(clause)
+            if following is not None:
+                yield clause
+                clause = following
+            elif self._token() is not NO_TOKEN:
+                done = next((one for step in steps if (one := step(clause)) is not None), None)
+                clause = self._read_rest(clause) if done is None else done
+        yield clause
 
     def _token(self, ahead: int = 0) -> Token:
         at = self._at + ahead
@@ -128,18 +128,6 @@ class _Parser:
         self._at += 1
         return self._token(-1)
 
-    def clause(self, clause: Clause) -> tuple[Clause, Clause]:
-        """The next clause, begun as the one before says, and how the one after it begins."""
-        steps = (self._read_camera, self._read_absence, self._read_setting, self._read_verb,
-                 self._read_phrase, self._read_adverb, self._read_group)  # fmt: skip
-        while not self.is_done:
-            following = self._end(clause)
-            if following is not None:
-                return clause, following
-            done = next((one for step in steps if (one := step(clause)) is not None), None)
-            clause = self._read_rest(clause) if done is None else done
-        return clause, Clause()
-
     # Where a clause ends
 
     def _end(self, clause: Clause) -> Clause | None:
@@ -147,30 +135,22 @@ class _Parser:
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
-            return None if word == "," and self._continues_list(clause) else Clause()
+            is_list = bool(clause.subjects) and clause == Clause(clause.subjects)
+            goes_on = self._starts_group() and not self._token().has("scene", "shot")
+            return None if word == "," and is_list and goes_on else Clause()
         if token.has("conjunctions"):
             self._take()
-            return Clause(is_next=word == "then", is_joined=word == "then")
+            return Clause(about="same", is_next=True) if word == "then" else Clause()
         if token.has("relatives") and clause != Clause() and not self._starts_group(1):
             self._take()
-            return Clause(is_nearest=True)
-        if word == "and":
-            return self._end_at_and(clause)
-        return None
-
-    def _end_at_and(self, clause: Clause) -> Clause | None:
-        self._take()
-        if clause.verb is None:
+            return Clause(about="nearest")
+        if word != "and":
             return None
-        joined = Clause(is_joined=True)
-        if self._is_verb(joined):
-            return joined
-        return Clause() if self._starts_group() or self._token().has("camera") else None
-
-    def _continues_list(self, clause: Clause) -> bool:
-        """Whether a comma stands between subjects: "a car, a bus and a van drive"."""
-        is_open = bool(clause.subjects) and clause == Clause(clause.subjects)
-        return is_open and self._starts_group() and not self._token().has("scene", "shot")
+        self._take()
+        if clause.verb is not None and self._is_verb(Clause(about="same")):
+            return Clause(about="same")
+        starts = self._starts_group() or self._token().has("camera")
+        return Clause() if clause.verb is not None and starts else None
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 
@@ -179,10 +159,10 @@ class _Parser:
         ahead = 1 if self._token().has("articles") else 0
         if not clause.has_subject and clause.verb is None and self._token(ahead).has("camera"):
             self._at += ahead + 1
-            return replace(clause, is_camera=True)
+            return replace(clause, about="camera")
         is_command = any(one.value.who == "camera" for one in self._token().verbs("base"))
         if clause == Clause() and is_command and not self._token().has("noun"):
-            return Clause(is_camera=True, verb=self._take())
+            return Clause(about="camera", verb=self._take())
         return None
 
     def _read_absence(self, clause: Clause) -> Clause | None:
@@ -192,8 +172,6 @@ class _Parser:
         if self._token(1).verbs("base", "ing", "ed"):
             self._at += 2
             return clause
-        if not self._starts_group(1):
-            return None
         self._take()
         return replace(clause, absent=(*clause.absent, self._group()))
 
@@ -247,7 +225,7 @@ class _Parser:
         if token.has("pronouns"):
             self._take()
             is_subject = not clause.has_subject and clause.verb is None
-            return replace(clause, is_joined=True) if is_subject else clause
+            return replace(clause, about="same") if is_subject else clause
         if not token.has("adverb"):
             return None
         return replace(clause, after=(*clause.after, self._take()))
@@ -272,8 +250,6 @@ class _Parser:
         is_verb = clause.subjects and not clause.verb and (is_noun or token.is_unknown)
         if not is_verb or token.is_manner:
             return replace(clause, after=(*clause.after, token))
-        if self._token().text in _PARTICLES:
-            self._take()
         groups = self._groups() if self._starts_group() else ()
         return replace(clause, verb=token, objects=groups)
 
@@ -322,7 +298,7 @@ class _Parser:
                 unknown.append(token)
             else:
                 head = token
-        if self._at == first and not self.is_done:
+        if self._at == first and self._token() is not NO_TOKEN:
             unknown.append(self._take())
         of = None
         if self._token().text == "of" and self._starts_group(1):

@@ -21,6 +21,24 @@ def is_grammar(token: Token) -> bool:
     return token.has(*_GRAMMAR)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """The scene that a sentence describes, and what became of its words."""
+
+    scene: Scene
+    shown: tuple[str, ...]
+    """Words that the scene shows."""
+    substituted: tuple[Substitution, ...]
+    """Words that are shown as something else."""
+    not_understood: tuple[str, ...]
+    """Words without effect on the scene."""
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is understood."""
+        return self.scene == Scene(prompt=self.scene.prompt)
+
+
 @dataclass
 class Thing:
     """Object of the scene."""
@@ -61,13 +79,9 @@ class SceneDraft:
         for one in tokens:
             self._fates.setdefault(one.at, "shown")
 
-    def lose(self, token: Token) -> None:
-        """Count a token as not understood, as all words are that are neither shown nor grammar."""
-        self._fates[token.at] = "lost"
-
-    def substitute(self, token: Token, shown: str) -> None:
-        """Count a token as shown as something else."""
-        self._fates[token.at] = f"as {shown}"
+    def mark(self, token: Token, fate: str) -> None:
+        """Count a token as "lost", or as shown by a noun."""
+        self._fates[token.at] = fate
 
     def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
         """Add a relation of an object to others; False: it has none, or goes round in a circle."""
@@ -86,7 +100,23 @@ class SceneDraft:
             self._stands_by(target, other) for one in relations for target in one["to"]
         )
 
-    def build(self, prompt: str) -> Scene:
+    def reading(self, prompt: str) -> Reading:
+        """The scene, and its words; one that is lost at one place of the prompt is not shown."""
+        fates: dict[str, str] = {}
+        for token in self.tokens:
+            is_open = token.is_sign or is_grammar(token)
+            fate = self._fates.get(token.at, "" if is_open else "lost")
+            if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
+                fates[token.text] = fate
+        others = [one for one in fates.items() if one[1] not in ("shown", "lost")]
+        return Reading(
+            scene=self._build(prompt),
+            shown=tuple(word for word, fate in fates.items() if fate == "shown"),
+            substituted=tuple(Substitution(*one) for one in others),
+            not_understood=tuple(word for word, fate in fates.items() if fate == "lost"),
+        )
+
+    def _build(self, prompt: str) -> Scene:
         """The scene; copies of objects that have most are left out until it holds them all."""
         while sum(one.count for one in self.things) > MAX_BODIES:
             max(self.things, key=lambda one: one.count).values["count"] -= 1
@@ -112,18 +142,3 @@ class SceneDraft:
              "light": self.parts["light"], "place": self.parts["place"], "absent": self.absent,
              **self.parts["scene"]}
         )  # fmt: skip
-
-    def report(self) -> tuple[tuple[str, ...], tuple[Substitution, ...], tuple[str, ...]]:
-        """Words that are shown, shown as something else, and not understood, each once.
-
-        A word that is lost at one place of the prompt is not shown.
-        """
-        fates: dict[str, str] = {}
-        for token in self.tokens:
-            is_open = token.is_sign or is_grammar(token)
-            fate = self._fates.get(token.at, "" if is_open else "lost")
-            if fate == "lost" or (fate and fates.get(token.text, "shown") == "shown"):
-                fates[token.text] = fate
-        shown, lost = ([w for w, fate in fates.items() if fate == one] for one in ("shown", "lost"))
-        others = ((word, fate[3:]) for word, fate in fates.items() if fate.startswith("as "))
-        return tuple(shown), tuple(Substitution(*one) for one in others), tuple(lost)

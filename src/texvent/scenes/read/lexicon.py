@@ -51,8 +51,8 @@ class VerbSense:
     """Verb, and what it asks for of its subject and its object."""
 
     who: str = "plain"
-    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "mover" (a person whose
-    object moves), "source" (of an effect) or "plain" (anything)."""
+    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect)
+    or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0
@@ -162,8 +162,7 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
     for who, kinds in words["doing"].items():
         for verb, kind in ((verb, kind) for kind, verbs in kinds.items() for verb in verbs):
             base, _, pace = verb.partition("*")
-            field = "object" if who == "mover" else "kind"
-            yield base, VerbSense(who, pace=float(pace or 1), **{field: kind})
+            yield base, VerbSense(who, kind, float(pace or 1))
     for base, fields in words["verbs"].items():
         yield base, VerbSense(**fields)
 

@@ -6,45 +6,24 @@ A word that changes the scene is counted as shown; every other one is not unders
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.traits import trait_value
 from texvent.scenes.read.camera import find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
-from texvent.scenes.read.draft import SceneDraft, Thing
+from texvent.scenes.read.draft import Reading, SceneDraft, Thing
 from texvent.scenes.read.lexicon import VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
-from texvent.scenes.report import Substitution
-from texvent.scenes.spec.scene import MAX_BODIES, Scene
+from texvent.scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 _BACKDROPS = ("mountain", "forest", "city")
-_DOERS = ("person", "hand", "animal", "mover", "source", "lamp", "plain")
+_DOERS = ("person", "hand", "animal", "source", "lamp", "plain")
 """Kinds of subjects of verbs; what only they can do goes before what anything can."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Reading:
-    """The scene that a sentence describes, and what became of its words."""
-
-    scene: Scene
-    shown: tuple[str, ...]
-    """Words that the scene shows."""
-    substituted: tuple[Substitution, ...]
-    """Words that are shown as something else."""
-    not_understood: tuple[str, ...]
-    """Words without effect on the scene."""
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing is understood."""
-        return self.scene == Scene(prompt=self.scene.prompt)
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -59,9 +38,7 @@ def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     reader = _Reader(draft, nouns)
     for clause in read_clauses(tokens):
         reader.apply(clause)
-    shown, substituted, lost = draft.report()
-    scene = draft.build(prompt)
-    return Reading(scene=scene, shown=shown, substituted=substituted, not_understood=lost)
+    return draft.reading(prompt)
 
 
 class _Reader:
@@ -84,7 +61,7 @@ class _Reader:
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head)
-        is_camera = clause.is_camera or (self._was_camera and clause.is_joined)
+        is_camera = clause.about == "camera" or (self._was_camera and clause.about == "same")
         is_ego = not is_camera and self._is_ego(clause)
         self._was_camera = is_camera
         if is_camera or is_ego:
@@ -93,7 +70,7 @@ class _Reader:
             self._apply_to_things(clause)
 
     def _apply_to_things(self, clause: Clause) -> None:
-        subjects = self._nearest if clause.is_nearest else self._subjects
+        subjects = self._nearest if clause.about == "nearest" else self._subjects
         if clause.subjects:
             subjects = [index for group in clause.subjects for index in self._name(group)]
         for phrase in clause.before:
@@ -159,7 +136,7 @@ class _Reader:
         if noun is not None:
             thing = Thing(noun.value.noun)
             if noun.value.is_kind:
-                draft.substitute(head, thing.noun)
+                draft.mark(head, thing.noun)
         else:
             who, activity = head.all("pose")[0].value
             thing = Thing("hand" if who == "hand" else "person", motions=[{"kind": activity}])
@@ -208,24 +185,21 @@ class _Reader:
             one.value for one in verb.verbs(*forms) if self._fits(one.value, subjects, has_object)
         ]
         act = min(able, key=lambda one: _DOERS.index(one.who), default=None)
-        if (
-            act is None
-            or not subjects
-            or (has_object and not objects and act.who in ("mover", "plain"))
-        ):
+        if act is None or not subjects or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
         if act.is_near:
-            draft.substitute(verb, act.kind)
+            draft.mark(verb, act.kind)
         for index in subjects:
             thing = draft.things[index]
-            if act.who == "source" and index == subjects[0]:
-                if act.kind != "fire" or not _is_flame(thing):
-                    self._add_effect(verb, act.kind, [index])
-            elif act.who == "lamp" and not _is_flame(thing):
-                thing.values["blink_hz"] = BLINK_HZ
-            elif act.kind and act.who != "source":
+            if act.who not in ("source", "lamp"):
                 _add_motion(thing, act)
+            elif thing.noun in word_set("things", "flames"):
+                continue  # it burns and flickers by itself
+            elif act.who == "lamp":
+                thing.values["blink_hz"] = BLINK_HZ
+            elif index == subjects[0]:
+                self._add_effect(verb, act.kind, [index])
         return self._apply_to_objects(act, subjects, objects)
 
     def _fits(self, verb: VerbSense, subjects: Sequence[int], has_object: bool) -> bool:
@@ -242,8 +216,6 @@ class _Reader:
                 return names <= HAND_NOUNS and not has_object
             case "animal":
                 return all(verb.kind in self._nouns[one].acts for one in names)
-            case "mover":
-                return has_object and is_acting
             case "source" | "lamp":
                 return not has_object and not is_acting
         if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
@@ -260,14 +232,10 @@ class _Reader:
     ) -> list[int]:
         """Relate subjects to objects; who the adverbs are about."""
         draft = self._draft
-        are_people = {draft.things[one].noun for one in subjects} <= PERSON_NOUNS | HAND_NOUNS
         for index in objects if act.object is not None else ():
             _add_motion(draft.things[index], VerbSense(kind=act.object or ""))
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
-        elif act.relation == "carry" and not are_people:  # "a conveyor belt carries boxes"
-            for index in objects:
-                draft.relate(index, "on", subjects)
         elif act.relation is not None:
             for index in subjects:
                 draft.relate(index, act.relation, objects)
@@ -284,7 +252,7 @@ class _Reader:
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         if not phrase.groups:
-            draft.lose(token)
+            draft.mark(token, "lost")
         place, targets = draft.parts["place"].get("name"), list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
@@ -299,7 +267,9 @@ class _Reader:
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             able = () if is_route and done & word_set("things", "sending") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
-            (draft.show if any(placed) else draft.lose)(token)
+            draft.show(token)
+            if not any(placed):
+                draft.mark(token, "lost")
 
     def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
         """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
@@ -359,11 +329,11 @@ class _Reader:
 
     def _is_ego(self, clause: Clause) -> bool:
         """Whether a camera goes that is not named: "driving through a city"."""
-        heads = [group.head for group in clause.subjects]
-        is_place = all(one is not None and self._is_place(one, "") for one in heads)
         verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
-        return travels and is_place and not self._draft.things and not clause.is_nearest
+        heads = [group.head for group in clause.subjects]
+        is_place = all(one is not None and self._is_place(one, "") for one in heads)
+        return travels and is_place and not self._draft.things and clause.about != "nearest"
 
     def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
         draft, targets = self._draft, list[int]()
@@ -373,10 +343,12 @@ class _Reader:
         for group in clause.objects if not is_ego else ():
             targets += self._name(group)
         for one in (*clause.before, *clause.after):
-            if isinstance(one, Phrase):
-                targets += self._aim(one, targets)
-            else:
+            if not isinstance(one, Phrase):
                 self._set_scene(one)
+            elif targets:  # as "orbits a car in front of a house"
+                self._relate(one, targets, targets)
+            else:
+                targets += self._aim(one)
         if move is not None:
             self._add_move(move)
             if targets:
@@ -388,13 +360,10 @@ class _Reader:
         if move.get("means") == "fly":
             self._draft.parts["camera"].setdefault("view", "aerial")
 
-    def _aim(self, phrase: Phrase, targets: Sequence[int]) -> list[int]:
+    def _aim(self, phrase: Phrase) -> list[int]:
         """Add what a phrase of a camera's clause names; the objects that it looks at."""
         sense = phrase.preposition.first("relation")
         kind, place = sense.value if sense else "", dict(self._draft.parts["place"])
-        if targets:  # as "orbits a car in front of a house"
-            self._relate(phrase, targets, targets)
-            return []
         found = [one for group in phrase.groups for one in self._name(group, kind or "with")]
         if not found and self._draft.parts["place"] != place:
             self._go_to_place(phrase.preposition, self._nearest, [])
@@ -405,12 +374,6 @@ class _Reader:
 def _is_liquid(head: Token) -> bool:
     """Whether it is seen in nothing but its vessel, or as a place: "a bottle of water"."""
     return head.text in word_set("things", "liquids")
-
-
-def _is_flame(thing: Thing) -> bool:
-    """Whether it burns and flickers by itself."""
-    lamps = trait_value("lamps", thing.noun) or ()
-    return any((trait_value("lamp kind", one) or {}).get("wave") == "flame" for one in lamps)
 
 
 def _set_field(thing: Thing, kind: str, field: str, value: Any) -> None:
@@ -429,6 +392,8 @@ def _set_field(thing: Thing, kind: str, field: str, value: Any) -> None:
 def _add_motion(thing: Thing, act: VerbSense) -> None:
     """Add a motion; it takes the place of one of which only the pace is said."""
     motions, pace = thing.motions, act.pace
+    if not act.kind:
+        return
     said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
     motion = {name: value for name, value in said.items() if value is not None}
     if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
