@@ -36,7 +36,6 @@ _PACES = {"walk": 0.7, "run": 1.0}
 """Pace of running in place that looks as walking and running do."""
 _AFLOAT = ("sail", "paddle")
 _IN_WATER = ("swim", "surf", *_AFLOAT)
-_ALOFT = frozenset({"fly", "hover", "float", "fall", "rise", "sink", "throw", "blow", "orbit"})
 _DARK_EFFECTS = frozenset({"lightning", "fireworks", "blinking lights"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 _NO_GROUND = ("sky", "space", "underwater")
@@ -51,13 +50,11 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     first object that can move does what it usually does; when none can, the camera sways.
     """
     description = _rest(_set_far(description), nouns)
-    objects = description.objects
-    decided = [_decide_motion(one.motion, nouns[one.noun]) for one in objects]
-    description = _change(
-        description, {n: replace(objects[n], motion=motion) for n, motion in enumerate(decided)}
+    objects = tuple(
+        replace(one, motion=_decide_motion(one.motion, nouns[one.noun]))
+        for one in description.objects
     )
-    description = _move_others(description, nouns)
-    description = _darken(description)
+    description = _darken(_move_others(replace(description, objects=objects), nouns))
     place = _choose_place(description, nouns)
     if description.surroundings.name is None:
         description = _note(description, f"no place is said: {place} is chosen")
@@ -81,9 +78,9 @@ def _change(description: SceneDescription, new: Mapping[int, SceneObject]) -> Sc
 
 def _move(description: SceneDescription, motions: Mapping[int, ObjectMotion]) -> SceneDescription:
     """The description with motions of objects that have none."""
-    objects = description.objects
-    open_ones = {n: motion for n, motion in motions.items() if objects[n].motion is None}
-    return _change(description, {n: replace(objects[n], motion=m) for n, m in open_ones.items()})
+    both = enumerate(description.objects)
+    new = {n: replace(one, motion=motions.get(n)) for n, one in both if one.motion is None}
+    return _change(description, new)
 
 
 def _set_far(description: SceneDescription) -> SceneDescription:
@@ -289,9 +286,6 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
     dives = dives and bool(members) and "jump" not in kinds
     if dives and said.name in (None, "sea", "lake", "river"):
         return "underwater"
-    stands = any(noun.habitat in ("ground", "fixed") for noun in members) and not kinds & _ALOFT
-    if said.name == "sky" and stands:
-        return "grass" if usual in _NO_GROUND or is_room(usual) else usual
     if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
         return "sea" if kinds.intersection(_IN_WATER) else "beach"
     travel = (one.means or "" for one in description.shot.moves if one.kind == "travel")
