@@ -24,7 +24,7 @@ MOST_WRONG, MOST_SILENT = 0.07, 0.03
 """Share of facts that are wrong, and of prompts that are wrong without a word in the report."""
 MOST_SECONDS = 0.001
 """Mean time to read a prompt."""
-WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None).senses)
+WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None))
 VOCABULARY = list_words(NOUNS)
 SIGNS = [
     ",",

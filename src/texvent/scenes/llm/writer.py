@@ -213,7 +213,7 @@ def list_meanings(word: str) -> Iterator[tuple[str, str]]:
         yield "count", str(float(word))
     words = word.casefold().replace("_", " ").replace("-", " ").split()
     phrase = tuple(one for one in words if one not in ("a", "an", "the"))
-    for sense in lexicon_of(None).senses.get(phrase, ()):
+    for sense in lexicon_of(None).get(phrase, ()):
         yield from ((kind, str(one)) for kind, one in _meanings(sense) if one)
 
 
@@ -237,7 +237,7 @@ def _meanings(sense: Sense) -> Iterator[tuple[str, object]]:
 
 
 def _is_plain(word: str) -> bool:
-    return any(sense.kind in _PLAIN for sense in lexicon_of(None).senses.get((word,), ()))
+    return any(sense.kind in _PLAIN for sense in lexicon_of(None).get((word,), ()))
 
 
 def _split(text: str) -> list[str]:

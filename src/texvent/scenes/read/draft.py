@@ -40,29 +40,13 @@ class Reading:
 
 
 @dataclass
-class Thing:
-    """Object of the scene."""
-
-    noun: str
-    is_lost: bool = False
-    """Whether what it does is not known."""
-    values: dict[str, Any] = field(default_factory=dict)
-    motions: list[dict[str, Any]] = field(default_factory=list)
-    relations: list[dict[str, Any]] = field(default_factory=list)
-    """Relations to objects by their index."""
-
-    @property
-    def count(self) -> int:
-        """Number of copies."""
-        return int(self.values.get("count", 1))
-
-
-@dataclass
 class SceneDraft:
     """Scene that is being read; clauses are applied one after the other."""
 
     tokens: Sequence[Token]
-    things: list[Thing] = field(default_factory=list)
+    things: list[dict[str, Any]] = field(default_factory=list)
+    """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
+    not known."""
     moves: list[dict[str, Any]] = field(default_factory=list)
     effects: list[dict[str, Any]] = field(default_factory=list)
     """Effects, each with the index of its source."""
@@ -85,17 +69,17 @@ class SceneDraft:
 
     def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
         """Add a relation of an object to others; False: it has none, or goes round in a circle."""
-        is_one = self.things[subject].count == 1
+        is_one = self.things[subject]["count"] == 1
         if not targets or (subject in targets and is_one):
             return False
         if kind in PLACING and any(self._stands_by(target, subject) for target in targets):
             return False
-        self.things[subject].relations.append({"kind": kind, "to": tuple(targets)})
+        self.things[subject]["relations"].append({"kind": kind, "to": tuple(targets)})
         return True
 
     def _stands_by(self, subject: int, other: int) -> bool:
         """Whether where an object stands depends on where another one does."""
-        relations = [one for one in self.things[subject].relations if one["kind"] in PLACING]
+        relations = [one for one in self.things[subject]["relations"] if one["kind"] in PLACING]
         return subject == other or any(
             self._stands_by(target, other) for one in relations for target in one["to"]
         )
@@ -118,13 +102,13 @@ class SceneDraft:
 
     def _build(self, prompt: str) -> Scene:
         """The scene; copies of objects that have most are left out until it holds them all."""
-        while sum(one.count for one in self.things) > MAX_BODIES:
-            max(self.things, key=lambda one: one.count).values["count"] -= 1
-        ids = number_nouns([one.noun for one in self.things])
+        while sum(one["count"] for one in self.things) > MAX_BODIES:
+            max(self.things, key=lambda one: int(one["count"]))["count"] -= 1
+        ids = number_nouns([one["noun"] for one in self.things])
         for one in self.things:
-            if one.is_lost and not one.motions and not one.relations:
-                one.motions.append({"kind": "stand"})
-            for relation in one.relations:
+            if one.pop("is_lost", False) and not one["motions"] and not one["relations"]:
+                one["motions"].append({"kind": "stand"})
+            for relation in one["relations"]:
                 relation["to"] = [ids[target] for target in relation["to"]]
         for each, name in (
             (self.parts["camera"], "target"),
@@ -132,13 +116,9 @@ class SceneDraft:
         ):
             if each.get(name) is not None:
                 each[name] = ids[each[name]]
-        objects = [
-            {"noun": one.noun, "motions": one.motions, "relations": one.relations, **one.values}
-            for one in self.things
-        ]
         camera = {"moves": self.moves, **self.parts["camera"]}
         return scene_from_data(
-            {"prompt": prompt, "objects": objects, "effects": self.effects, "camera": camera,
+            {"prompt": prompt, "objects": self.things, "effects": self.effects, "camera": camera,
              "light": self.parts["light"], "place": self.parts["place"], "absent": self.absent,
              **self.parts["scene"]}
         )  # fmt: skip

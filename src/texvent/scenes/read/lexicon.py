@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 from texvent.scenes.colours import SURFACES
 from texvent.scenes.inflection import list_plurals, list_verb_forms
@@ -80,13 +80,10 @@ class Sense:
     """Of a verb: "base", "s", "ing" or "ed"."""
 
 
-@dataclass(frozen=True)
-class Lexicon:
-    """Phrases, as words in lower case without articles, and their senses."""
-
-    senses: Mapping[tuple[str, ...], tuple[Sense, ...]]
-    longest: Mapping[str, int]
-    """First word of phrases → most words of one."""
+Lexicon: TypeAlias = Mapping[tuple[str, ...], tuple[Sense, ...]]
+"""Phrases, as words in lower case without articles, and their senses."""
+LONGEST_PHRASE = 8
+"""Most words of a phrase that is read."""
 
 
 def lexicon_of(nouns: Mapping[str, Noun] | None) -> Lexicon:
@@ -109,11 +106,7 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
     for word in word_set("ambiguous", "words"):
         for form in (word, *list_plurals(word)):
             found.pop((form,), None)
-    senses = {phrase: tuple(one) for phrase, one in found.items()}
-    longest: dict[str, int] = {}
-    for phrase in senses:
-        longest[phrase[0]] = max(len(phrase), longest.get(phrase[0], 0))
-    return Lexicon(MappingProxyType(senses), MappingProxyType(longest))
+    return MappingProxyType({phrase: tuple(one) for phrase, one in found.items()})
 
 
 def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
@@ -124,7 +117,7 @@ def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
         ('fire engine', None)
     """
     phrase = tuple(word.casefold().replace("-", " ").split())
-    senses = lexicon_of(nouns).senses.get(phrase, ())
+    senses = lexicon_of(nouns).get(phrase, ())
     return next((one.value.noun for one in senses if one.kind == "noun"), None)
 
 

@@ -12,7 +12,7 @@ from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.camera import find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
-from texvent.scenes.read.draft import Reading, SceneDraft, Thing
+from texvent.scenes.read.draft import Reading, SceneDraft
 from texvent.scenes.read.lexicon import VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.spec.scene import MAX_BODIES
@@ -86,7 +86,7 @@ class _Reader:
                 found = []  # "smoke rises from a chimney", as it does by itself
                 self._draft.show(clause.verb)
             for index in subjects if found is None else ():  # what it does is not made up
-                self._draft.things[index].is_lost = True
+                self._draft.things[index]["is_lost"] = True
             subjects, moved = ([], []) if found is None else (subjects, found or subjects)
         for one in clause.after:
             if isinstance(one, Phrase):
@@ -129,20 +129,20 @@ class _Reader:
         if len(draft.things) == MAX_BODIES:
             return []
         draft.show(head)
-        known = [n for n, one in enumerate(draft.things) if noun and one.noun == noun.value.noun]
+        known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
         if known and group.is_definite and not group.modifiers and not group.unknown:
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
-            thing = Thing(noun.value.noun)
+            thing = {"noun": noun.value.noun, "motions": []}
             if noun.value.is_kind:
-                draft.mark(head, thing.noun)
+                draft.mark(head, noun.value.noun)
         else:
             who, activity = head.all("pose")[0].value
-            thing = Thing("hand" if who == "hand" else "person", motions=[{"kind": activity}])
-        draft.things.append(thing)
+            thing = {"noun": who, "motions": [{"kind": activity}]}
+        count = PLURAL_COUNT if group.is_plural else 1
+        draft.things.append({**thing, "count": count, "relations": []})
         index = len(draft.things) - 1
-        thing.values["count"] = PLURAL_COUNT if group.is_plural else 1
         for token in group.modifiers:
             self._say(token, [index])
         self._nearest = [index]
@@ -163,7 +163,7 @@ class _Reader:
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
-            (things or draft.things)[-1].values["picture"] = vars(value)
+            (things or draft.things)[-1]["picture"] = vars(value)
         elif said is not None and things:
             for thing in things:
                 _set_field(thing, said.kind, field, value)
@@ -194,18 +194,24 @@ class _Reader:
             thing = draft.things[index]
             if act.who not in ("source", "lamp"):
                 _add_motion(thing, act)
-            elif thing.noun in word_set("things", "flames"):
+            elif thing["noun"] in word_set("things", "flames"):
                 continue  # it burns and flickers by itself
             elif act.who == "lamp":
-                thing.values["blink_hz"] = BLINK_HZ
+                thing["blink_hz"] = BLINK_HZ
             elif index == subjects[0]:
                 self._add_effect(verb, act.kind, [index])
-        return self._apply_to_objects(act, subjects, objects)
+        for index in objects if act.object is not None else ():
+            _add_motion(draft.things[index], VerbSense(kind=act.object or ""))
+        if act.relation == "collide" and not objects:
+            draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
+        for index in subjects if act.relation is not None else ():
+            draft.relate(index, act.relation or "", objects)
+        return list(objects if act.object is not None and objects else subjects)
 
     def _fits(self, verb: VerbSense, subjects: Sequence[int], has_object: bool) -> bool:
         """Whether the subjects can do it, with an object or without one."""
         things = [self._draft.things[one] for one in subjects]
-        names = {one.noun for one in things}
+        names = {one["noun"] for one in things}
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
         match verb.who:
             case "person":
@@ -224,22 +230,8 @@ class _Reader:
             return bool(verb.relation) and (
                 is_acting or verb.relation not in word_set("things", "of_people")
             )
-        meets = verb.relation == "collide" and sum(one.count for one in things) > 1
+        meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         return meets or not verb.relation or (bool(verb.kind) and not verb.object)
-
-    def _apply_to_objects(
-        self, act: VerbSense, subjects: Sequence[int], objects: Sequence[int]
-    ) -> list[int]:
-        """Relate subjects to objects; who the adverbs are about."""
-        draft = self._draft
-        for index in objects if act.object is not None else ():
-            _add_motion(draft.things[index], VerbSense(kind=act.object or ""))
-        if act.relation == "collide" and not objects:
-            draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
-        elif act.relation is not None:
-            for index in subjects:
-                draft.relate(index, act.relation, objects)
-        return list(objects if act.object is not None and objects else subjects)
 
     # Prepositions
 
@@ -257,7 +249,7 @@ class _Reader:
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
-        done = {one["kind"] for index in subjects for one in draft.things[index].relations}
+        done = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
         is_route = is_of_verb and kind in word_set("things", "routes")
         if not targets:
             if draft.parts["place"].get("name") != place:
@@ -275,23 +267,26 @@ class _Reader:
         """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
         draft = self._draft
         for index in moved if token.text == "across" else ():
-            for motion in draft.things[index].motions[-1:]:
+            for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
         for thing in (draft.things[index] for index in subjects if token.text == "on"):
-            if draft.parts["place"]["name"] == "road" and self._nouns[thing.noun].motion != "drive":
-                thing.values.setdefault("placement", "lane")
+            if (
+                draft.parts["place"]["name"] == "road"
+                and self._nouns[thing["noun"]].motion != "drive"
+            ):
+                thing.setdefault("placement", "lane")
 
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
-        if target.noun in word_set("things", "worn") and kind in ("in", "with"):
-            if thing.noun not in PERSON_NOUNS:
+        if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
+            if thing["noun"] not in PERSON_NOUNS:
                 return False
             kind = "wear"
-        elif kind == "at" and target.noun not in word_set("things", "tables"):
+        elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
         for one in (draft.things[each] for each in targets if kind == "surround"):
-            one.values["count"] = SURROUND_COUNT if one.count == PLURAL_COUNT else one.count
+            one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
         return draft.relate(index, kind, targets)
 
     # The scene
@@ -376,22 +371,22 @@ def _is_liquid(head: Token) -> bool:
     return head.text in word_set("things", "liquids")
 
 
-def _set_field(thing: Thing, kind: str, field: str, value: Any) -> None:
+def _set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     """Set a field of an object, or an adverb of its last motion."""
-    if field == "rate_hz" and "blink_hz" in thing.values:
+    if field == "rate_hz" and "blink_hz" in thing:
         field, kind = "blink_hz", "field"
     if kind == "field" or field == "placement":
-        thing.values[field] = int(value) if field == "count" else value
+        thing[field] = int(value) if field == "count" else value
         return
-    if not thing.motions:
-        thing.motions.append({"kind": "move"})
-    motion = thing.motions[-1]
+    if not thing["motions"]:
+        thing["motions"].append({"kind": "move"})
+    motion = thing["motions"][-1]
     motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
 
 
-def _add_motion(thing: Thing, act: VerbSense) -> None:
+def _add_motion(thing: dict[str, Any], act: VerbSense) -> None:
     """Add a motion; it takes the place of one of which only the pace is said."""
-    motions, pace = thing.motions, act.pace
+    motions, pace = thing["motions"], act.pace
     if not act.kind:
         return
     said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}

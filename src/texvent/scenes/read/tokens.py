@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from texvent.scenes.read.lexicon import Lexicon, Sense, word_set
+from texvent.scenes.read.lexicon import LONGEST_PHRASE, Lexicon, Sense, word_set
 from texvent.scenes.read.literals import find_literals
 
 MOST_WORDS = 1000
@@ -104,9 +104,9 @@ def _read_phrase(
         if end > at and word in word_set("senses", "articles"):
             continue
         phrase.append(_OWNER.sub("", word))
-        if len(phrase) > max(1, lexicon.longest.get(phrase[0], 0)):
+        if len(phrase) > LONGEST_PHRASE:
             break
-        found = lexicon.senses.get(tuple(phrase), ())
+        found = lexicon.get(tuple(phrase), ())
         if end == at and _OWNER.search(word):
             found = ()  # "the cat's" alone: whose, not what
         if len(phrase) > 1:
@@ -143,7 +143,7 @@ def _read_quantity(
     number = float(words[at].replace(",", ""))
     for length in (3, 2, 1):
         unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
-        for sense in lexicon.senses.get(unit, ()):
+        for sense in lexicon.get(unit, ()):
             if sense.kind == "unit":
                 field, factor = sense.value
                 least, most = _RANGES[field]
