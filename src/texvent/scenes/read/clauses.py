@@ -34,11 +34,6 @@ class Group:
     """Group after "of"."""
 
     @property
-    def is_definite(self) -> bool:
-        """Whether "the" or an owner stands before it."""
-        return self.article in ("the", "its", "his", "her", "their")
-
-    @property
     def is_plural(self) -> bool:
         """Whether it names several things: "two dogs", "fish"."""
         fields = [sense.value for one in self.modifiers for sense in one.all("field")]
@@ -135,7 +130,7 @@ class _Parser:
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
-            is_list = bool(clause.subjects) and clause == Clause(clause.subjects)
+            is_list = clause.subjects and not (clause.verb or clause.before or clause.after)
             goes_on = self._starts_group() and not self._token().has("scene", "shot")
             return None if word == "," and is_list and goes_on else Clause()
         if token.has("conjunctions"):
@@ -248,7 +243,7 @@ class _Parser:
         is_noun = self._follows_head(clause) and self._token().has("noun")
         token = self._take()
         is_verb = clause.subjects and not clause.verb and (is_noun or token.is_unknown)
-        if not is_verb or token.is_manner:
+        if not is_verb or token.text.endswith("ly"):
             return replace(clause, after=(*clause.after, token))
         groups = self._groups() if self._starts_group() else ()
         return replace(clause, verb=token, objects=groups)
@@ -266,7 +261,7 @@ class _Parser:
         is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
         if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relation"):
             return True
-        return token.has("scene") or (token.is_unknown and not token.is_manner)
+        return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
     def _groups(self, *, is_phrase: bool = False) -> tuple[Group, ...]:
         """Groups with "and" between them, but for one that begins a clause."""
@@ -328,7 +323,7 @@ class _Parser:
         if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
             return not (after.text.endswith("s") and third.has("articles"))
         is_end = third.verbs("s") or third.text == "is" or (is_phrase and third.is_sign)
-        return after.is_unknown and not after.is_manner and bool(is_end)
+        return after.is_unknown and not after.text.endswith("ly") and bool(is_end)
 
 
 def _is_alone(token: Token) -> bool:

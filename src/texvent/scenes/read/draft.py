@@ -110,12 +110,9 @@ class SceneDraft:
                 one["motions"].append({"kind": "stand"})
             for relation in one["relations"]:
                 relation["to"] = [ids[target] for target in relation["to"]]
-        for each, name in (
-            (self.parts["camera"], "target"),
-            *((e, "source") for e in self.effects),
-        ):
-            if each.get(name) is not None:
-                each[name] = ids[each[name]]
+        for each in (self.parts["camera"], *self.effects):
+            named = {name: each.get(name) for name in ("target", "source")}
+            each.update({name: ids[one] for name, one in named.items() if one is not None})
         camera = {"moves": self.moves, **self.parts["camera"]}
         return scene_from_data(
             {"prompt": prompt, "objects": self.things, "effects": self.effects, "camera": camera,

@@ -143,7 +143,8 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
 
 
 def _list_verbs() -> Iterator[tuple[str, Sense]]:
-    for phrase, sense in (*_list_plain_verbs(), *_list_activities()):
+    """Verbs; what only persons, hands or animals can do goes before what anything can."""
+    for phrase, sense in (*_list_activities(), *_list_plain_verbs()):
         base, _, rest = phrase.replace("-", " ").partition(" ")
         written = read_table("words")["irregular"].get(base, "")
         for word, form in list_verb_forms(base, written):

@@ -22,8 +22,6 @@ PLURAL_COUNT, SURROUND_COUNT = 3, 14
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 _BACKDROPS = ("mountain", "forest", "city")
-_DOERS = ("person", "hand", "animal", "source", "lamp", "plain")
-"""Kinds of subjects of verbs; what only they can do goes before what anything can."""
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -130,7 +128,12 @@ class _Reader:
             return []
         draft.show(head)
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
-        if known and group.is_definite and not group.modifiers and not group.unknown:
+        if (
+            known
+            and group.article in ("the", "its", "his", "her", "their")
+            and not group.modifiers
+            and not group.unknown
+        ):
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
@@ -184,22 +187,14 @@ class _Reader:
         able = [
             one.value for one in verb.verbs(*forms) if self._fits(one.value, subjects, has_object)
         ]
-        act = min(able, key=lambda one: _DOERS.index(one.who), default=None)
-        if act is None or not subjects or (has_object and not objects and act.who == "plain"):
+        act = able[0] if able and subjects else None
+        if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
         if act.is_near:
             draft.mark(verb, act.kind)
         for index in subjects:
-            thing = draft.things[index]
-            if act.who not in ("source", "lamp"):
-                _add_motion(thing, act)
-            elif thing["noun"] in word_set("things", "flames"):
-                continue  # it burns and flickers by itself
-            elif act.who == "lamp":
-                thing["blink_hz"] = BLINK_HZ
-            elif index == subjects[0]:
-                self._add_effect(verb, act.kind, [index])
+            self._do(act, verb, index)
         for index in objects if act.object is not None else ():
             _add_motion(draft.things[index], VerbSense(kind=act.object or ""))
         if act.relation == "collide" and not objects:
@@ -207,6 +202,17 @@ class _Reader:
         for index in subjects if act.relation is not None else ():
             draft.relate(index, act.relation or "", objects)
         return list(objects if act.object is not None and objects else subjects)
+
+    def _do(self, act: VerbSense, verb: Token, index: int) -> None:
+        """Let an object do it; a flame burns and flickers by itself."""
+        thing = self._draft.things[index]
+        if act.who not in ("source", "lamp"):
+            _add_motion(thing, act)
+        elif thing["noun"] not in word_set("things", "flames"):
+            if act.who == "lamp":
+                thing["blink_hz"] = BLINK_HZ
+            else:
+                self._add_effect(verb, act.kind, [index])
 
     def _fits(self, verb: VerbSense, subjects: Sequence[int], has_object: bool) -> bool:
         """Whether the subjects can do it, with an object or without one."""

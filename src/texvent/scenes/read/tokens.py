@@ -41,11 +41,6 @@ class Token:
         """Whether it is a word that the reader does not know."""
         return not self.is_sign and (not self.senses or self.has("other"))
 
-    @property
-    def is_manner(self) -> bool:
-        """Whether it looks like an adverb of manner: "happily"."""
-        return self.text.endswith("ly")
-
     def all(self, kind: str) -> tuple[Sense, ...]:
         """Senses of a kind."""
         return tuple(one for one in self.senses if one.kind == kind)
@@ -109,7 +104,7 @@ def _read_phrase(
         found = lexicon.get(tuple(phrase), ())
         if end == at and _OWNER.search(word):
             found = ()  # "the cat's" alone: whose, not what
-        if len(phrase) > 1:
+        if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
         if found:
             length, senses = end + 1 - at, found
@@ -128,7 +123,7 @@ def _without_chance(
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     is_verb = words[end].endswith("ing") and after in word_set("senses", "articles")
     is_single = bool(before) and before[-1].text in ("a", "an")
-    is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before)
+    is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
     return tuple(
         one for one in senses
         if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
