@@ -213,7 +213,8 @@ def list_meanings(word: str) -> Iterator[tuple[str, str]]:
         yield "count", str(float(word))
     words = word.casefold().replace("_", " ").replace("-", " ").split()
     phrase = tuple(one for one in words if one not in ("a", "an", "the"))
-    for sense in lexicon_of(None).get(phrase, ()):
+    senses = lexicon_of(None).get(phrase, ())
+    for sense in sorted(senses, key=lambda one: one.kind == "verb" and one.value.who == "hand"):
         yield from ((kind, str(one)) for kind, one in _meanings(sense) if one)
 
 

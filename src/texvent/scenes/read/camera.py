@@ -10,7 +10,6 @@ from texvent.scenes.read.lexicon import read_table
 from texvent.scenes.spec.scene import MoveDirection, MoveKind
 
 _KINDS = sorted(get_args(MoveKind), key=len, reverse=True)
-_WAYS = {"towards": "towards", "toward": "towards", "away from": "away", "from": "away"}
 _UNTURNED = ("handheld", "static")
 _MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 
@@ -41,10 +40,8 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
     draft.show(verb)
     move = split_move("travel forward" if is_ego else moves[0])
     for one in clause.after:
-        if isinstance(one, Phrase):
-            if move["kind"] == "truck" and one.preposition.text in _WAYS:
-                move["direction"] = _WAYS[one.preposition.text]
-        elif (said := one.first("adverb")) is not None:
+        said = None if isinstance(one, Phrase) else one.first("adverb")
+        if said is not None and not isinstance(one, Phrase):
             draft.show(one)
             field, value = said.value
             move[field] = move.get("pace", 1.0) * value if field == "pace" else value

@@ -60,7 +60,7 @@ class VerbSense:
     direction: str | None = None
     relation: str | None = None
     """Relation to its object."""
-    object: str | None = None
+    object: str = ""
     """Motion of its object."""
     is_near: bool = False
     """Whether it is reported as shown by another one."""

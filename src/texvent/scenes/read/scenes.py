@@ -13,7 +13,7 @@ from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.camera import find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import Reading, SceneDraft
-from texvent.scenes.read.lexicon import VerbSense, lexicon_of, word_set
+from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.spec.scene import MAX_BODIES
 
@@ -21,7 +21,6 @@ PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
-_BACKDROPS = ("mountain", "forest", "city")
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
@@ -195,13 +194,13 @@ class _Reader:
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
-        for index in objects if act.object is not None else ():
-            _add_motion(draft.things[index], VerbSense(kind=act.object or ""))
+        for index in objects:
+            _add_motion(draft.things[index], VerbSense(kind=act.object))
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
         for index in subjects if act.relation is not None else ():
             draft.relate(index, act.relation or "", objects)
-        return list(objects if act.object is not None and objects else subjects)
+        return list(objects if act.object and objects else subjects)
 
     def _do(self, act: VerbSense, verb: Token, index: int) -> None:
         """Let an object do it; a flame burns and flickers by itself."""
@@ -312,19 +311,18 @@ class _Reader:
         draft, place = self._draft, self._draft.parts["place"]
         name = head.all("place")[0].value
         for token in group.modifiers:
-            colours = [one.value[1] for one in token.all("field") if one.value[0] == "colour"]
+            field, value = (token.first("field") or Sense("", ("", ""))).value
             if token.text == "dark":
                 draft.parts["light"].setdefault("kind", "night")
-            elif colours:
-                place["sky" if name == "sky" else "colour"] = colours[0]
-            draft.show(*([token] if token.text == "dark" or colours else []))
-            self._set_scene(token)
+            elif field == "colour":
+                place["sky" if name == "sky" else "colour"] = value
+            elif not self._set_scene(token):
+                continue
+            draft.show(token)
         self._set_scene(head)
         is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
-        is_first = (name == "sky" and is_said) or place.setdefault("name", name) == name
-        if not is_first and name in _BACKDROPS:  # a second place is behind the first one
-            place["backdrops"] = sorted({*place.get("backdrops", ()), name})
-        draft.show(*([head] if is_first or name in _BACKDROPS else []))
+        if (name == "sky" and is_said) or place.setdefault("name", name) == name:
+            draft.show(head)
 
     # The camera
 
