@@ -229,9 +229,9 @@ class _Parser:
         is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
         if (self._token().is_unknown and is_said) or not self._starts_group():
             return None
-        if clause.verb is None and self._follows_head(clause):
-            return None  # "a woman ties her shoes": a noun that stands where a verb does
         if clause.verb is None:
+            if self._follows_head(clause):
+                return None  # "a woman ties her shoes": a noun that stands where a verb does
             return replace(clause, subjects=(*clause.subjects, self._group()))
         return replace(clause, objects=(*clause.objects, self._group()))
 
@@ -305,11 +305,9 @@ class _Parser:
         token = self._token()
         if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
-        if token.has("picture") or token.is_unknown:
-            return False
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
-        return not token.verbs("ing", "ed")
+        return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
 
     def _stands_before(self, token: Token) -> bool:
         """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
@@ -322,8 +320,8 @@ class _Parser:
         after, third = self._token(), self._token(1)
         if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
             return not (after.text.endswith("s") and third.has("articles"))
-        is_end = third.verbs("s") or third.text == "is" or (is_phrase and third.is_sign)
-        return after.is_unknown and not after.text.endswith("ly") and bool(is_end)
+        is_end = is_phrase and third.is_sign
+        return is_end and after.is_unknown and not after.text.endswith("ly")
 
 
 def _is_alone(token: Token) -> bool:

@@ -99,8 +99,8 @@ class _Reader:
         An effect comes from the first of the owners.
         """
         head = group.head
-        words = {one.text.removesuffix("s") for one in (*group.unknown, *([head] if head else []))}
-        of = None if words & word_set("things", "likenesses") else group.of
+        words = [one.text.removesuffix("s") for one in (*group.unknown, head) if one is not None]
+        of = None if word_set("things", "likenesses").intersection(words) else group.of
         found: list[int] = []
         if head is not None and self._is_place(head, relation):
             self._set_place(group, head, relation)
@@ -183,10 +183,8 @@ class _Reader:
     ) -> list[int] | None:  # fmt: skip
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
-        able = [
-            one.value for one in verb.verbs(*forms) if self._fits(one.value, subjects, has_object)
-        ]
-        act = able[0] if able and subjects else None
+        acts = (one.value for one in verb.verbs(*forms) if subjects)
+        act = next((one for one in acts if self._fits(one, subjects, has_object)), None)
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
@@ -218,11 +216,10 @@ class _Reader:
         things = [self._draft.things[one] for one in subjects]
         names = {one["noun"] for one in things}
         is_acting = names <= PERSON_NOUNS | HAND_NOUNS
+        acts = word_set("things", "acts") if has_object else ()
         match verb.who:
             case "person":
-                return names <= PERSON_NOUNS and not (
-                    has_object and verb.kind in word_set("things", "acts")
-                )
+                return names <= PERSON_NOUNS and verb.kind not in acts
             case "hand":
                 return names <= HAND_NOUNS and not has_object
             case "animal":
@@ -232,9 +229,8 @@ class _Reader:
         if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
             return False
         if has_object:
-            return bool(verb.relation) and (
-                is_acting or verb.relation not in word_set("things", "of_people")
-            )
+            needs_hands = verb.relation in word_set("things", "of_people")
+            return bool(verb.relation) and (is_acting or not needs_hands)
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
         return meets or not verb.relation or (bool(verb.kind) and not verb.object)
 
