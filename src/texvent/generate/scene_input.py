@@ -56,7 +56,7 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
             "the prompt is empty; describe a scene, such as 'a red car drives left past two trees'"
         )
     reading = reader.read(prompt, nouns)
-    if reading.is_empty:
+    if reading.scene == Scene(prompt=prompt):
         raise InputError(
             f"nothing in the prompt was understood: {few(reading.not_understood, MOST_WORDS)}; "
             "docs/prompts.md lists the words of the embedded generator, texvent generators lists "

@@ -14,7 +14,6 @@ from texvent.errors import InputError
 from texvent.generate.scene_input import list_words, read
 from texvent.scenes import read as reader
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.read import find_noun
 from texvent.scenes.read.draft import is_grammar
 from texvent.scenes.read.lexicon import lexicon_of
 from texvent.scenes.read.tokens import split_prompt
@@ -97,11 +96,6 @@ def test_long_texts_are_read_too(text):
 def test_a_prompt_without_a_known_word_is_refused(prompt):
     with pytest.raises(InputError, match="prompt"):
         read(prompt)
-
-
-def test_nouns_are_found_by_their_names():
-    found = [find_noun(one, NOUNS) for one in ("Automobiles", "terrier", "wug")]
-    assert found == ["car", "dog", None]
 
 
 def test_ambiguous_words_are_in_no_scene():

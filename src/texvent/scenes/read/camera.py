@@ -15,12 +15,7 @@ _MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 
 
 def split_move(phrase: str) -> dict[str, Any]:
-    """A move of words.toml, as fields of `CameraMove`.
-
-    Example:
-        >>> split_move("dolly zoom in"), split_move("pan")
-        ({'kind': 'dolly zoom', 'direction': 'in'}, {'kind': 'pan'})
-    """
+    """A move of words.toml, such as "dolly zoom in", as fields of `CameraMove`."""
     kind = next(one for one in _KINDS if phrase == one or phrase.startswith(f"{one} "))
     direction = phrase[len(kind) + 1 :]
     is_turned = direction in (get_args(MoveDirection) if kind not in _UNTURNED else ("all axes",))

@@ -1,7 +1,4 @@
-"""Clauses of a prompt: noun groups, one verb, and what is said of both.
-
-Nothing is decided here about what can be shown: a token keeps all its senses.
-"""
+"""Clauses of a prompt: noun groups, one verb, and what is said of both, in all senses."""
 
 from __future__ import annotations
 

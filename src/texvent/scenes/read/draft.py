@@ -33,11 +33,6 @@ class Reading:
     not_understood: tuple[str, ...]
     """Words without effect on the scene."""
 
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing is understood."""
-        return self.scene == Scene(prompt=self.scene.prompt)
-
 
 @dataclass
 class SceneDraft:

@@ -109,18 +109,6 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
     return MappingProxyType({phrase: tuple(one) for phrase, one in found.items()})
 
 
-def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
-    """The noun that a word names, or shows as a kind; None: none.
-
-    Example:
-        >>> find_noun("fire truck", NOUNS), find_noun("wug", NOUNS)
-        ('fire engine', None)
-    """
-    phrase = tuple(word.casefold().replace("-", " ").split())
-    senses = lexicon_of(nouns).get(phrase, ())
-    return next((one.value.noun for one in senses if one.kind == "noun"), None)
-
-
 def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     said = [
         one for one in nouns.values()
@@ -131,8 +119,7 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     for noun, kinds in read_table("kinds").items():
         for kind in kinds if noun in nouns else ():
             if kind not in plurals:
-                is_mass = kind in word_set("things", "plurals")
-                names.setdefault(kind, NounSense(noun, is_mass, is_kind=True))
+                names.setdefault(kind, NounSense(noun, is_kind=True))
     for name, one in names.items():
         yield name, Sense("noun", one)
     for name, one in names.items():
@@ -199,7 +186,7 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
     for field, units in words["units"].items():
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
     for path, phrases in _walk(words["senses"]):
-        yield from ((phrase, _sense_of(path)) for phrase in phrases)
+        yield from ((phrase, _sense_of(*path)) for phrase in phrases)
 
 
 def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tuple[Any, list[str]]]:
@@ -211,14 +198,11 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
             yield from _walk(value, (*path, key))
 
 
-def _sense_of(path: tuple[str, ...]) -> Sense:
-    """As ("scene", "light", "kind", "dusk"), ("field", "size", "1.4")."""
-    kind, *rest = path
-    if kind in ("field", "adverb"):
-        return Sense(kind, (rest[0], _plain(rest[1])))
-    if kind == "scene":
-        value = (rest[2],) if rest[1] == "backdrops" else _plain(rest[2])
-        return Sense(kind, (rest[0], rest[1], value))
+def _sense_of(kind: str, *rest: str) -> Sense:
+    """As "scene", "light", "kind", "dusk"; "field", "size", "1.4"; or "relation", "on"."""
+    if kind in ("field", "adverb", "scene"):
+        value = (rest[-1],) if "backdrops" in rest else _plain(rest[-1])
+        return Sense(kind, (*rest[:-1], value))
     return Sense(kind, rest[0] if rest else kind)
 
 

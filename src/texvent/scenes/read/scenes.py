@@ -1,7 +1,4 @@
-"""Scenes of clauses: which objects there are, what they do and where.
-
-A word that changes the scene is counted as shown; every other one is not understood.
-"""
+"""Scenes of clauses: which objects there are, what they do and where."""
 
 from __future__ import annotations
 
@@ -24,12 +21,7 @@ BLINK_HZ = 2.0
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
-    """The scene that any text describes; what it leaves open stays open.
-
-    Args:
-        prompt: the text.
-        nouns: the objects that can be shown.
-    """
+    """The scene that any text describes, of these nouns; what it leaves open stays open."""
     tokens = split_prompt(prompt, lexicon_of(nouns))
     draft = SceneDraft(tokens)
     reader = _Reader(draft, nouns)

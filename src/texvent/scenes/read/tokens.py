@@ -63,13 +63,7 @@ NO_TOKEN = Token(".", -1)
 
 
 def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
-    """Tokens of a prompt, in order.
-
-    Example:
-        >>> from texvent.scenes.read.lexicon import lexicon_of
-        >>> [token.text for token in split_prompt("Two fire engines, 5 m/s", lexicon_of(None))]
-        ['two', 'fire engines', ',', '5 m / s']
-    """
+    """Tokens of a prompt, in order."""
     text = unicodedata.normalize("NFKC", prompt)
     found: list[Token] = []
     start = 0
