@@ -53,14 +53,7 @@ def find_unseen(
     """What the camera never shows, or never larger than a few pixels.
 
     An object without a body of its own is part of another one's, as a worn coat is, unless it was
-    to stand around others.
-
-    Args:
-        scene: the staged scene.
-        description: what it was staged from.
-        object_of: instance id → index of the description's object that it is a copy of.
-        size: of the image, pixels.
-        duration_s: of the clip, s.
+    to stand around others. `object_of` gives the object's index of each instance.
     """
     pixels = count_pixels(scene, list(object_of), size, duration_s)
     around = {i for one in description.relations if one.kind in AMID for i in one.targets}
@@ -121,12 +114,11 @@ def _box(
     to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
     corners = _CORNERS @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
     seen = project(scene.camera(float(time_s)), size, corners.reshape(-1, 3))
-    ahead = seen[:, 2] > 0.0
-    if not ahead.any():
-        return None
-    edge = np.array([size.width, size.height], dtype=np.float64)
-    if not (ahead.all() and np.isfinite(seen).all()):
-        return np.zeros(2), edge
-    low = np.clip(np.floor(seen[:, :2].min(axis=0)), 0.0, edge)
-    high = np.clip(np.ceil(seen[:, :2].max(axis=0)), 0.0, edge)
-    return (low, high) if np.all(high > low) else None
+    low, high = np.zeros(2), np.array([size.width, size.height], dtype=np.float64)
+    if (seen[:, 2] > 0.0).all() and np.isfinite(seen).all():
+        low, high = (
+            np.clip(np.floor(seen[:, :2].min(axis=0)), low, high),
+            np.clip(np.ceil(seen[:, :2].max(axis=0)), low, high),
+        )
+    is_shown = np.any(seen[:, 2] > 0.0) and np.all(high > low)
+    return (low, high) if is_shown else None

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 
@@ -20,9 +18,8 @@ from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.particles.motion import flight, flight_velocity
-from texvent.scenes.staging.particles.shapes import TINY_M, along
-from texvent.scenes.staging.surroundings.light.lightning import lightning_level
+from texvent.scenes.staging.particles.emitter import flight
+from texvent.scenes.staging.particles.shapes import TINY_M
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(64, 48)
@@ -42,17 +39,13 @@ def small(scene: ComposedScene, time_s: float) -> Float64Array:
     return np.concatenate([one.at(time_s).to_world for one in scene.particles.effects])
 
 
-def glow(scene, time_s: float):
-    return np.concatenate([one.at(time_s).emission for one in scene.particles.effects])
-
-
 LIT = {"blinking lights", "beacon", "turn signal", "hazard lights"}
 """Effects that look the same for every seed."""
 CASES = [
     (kind, source)
     for kind, words in EFFECTS.items()
     for source in (0, None)
-    if source == 0 or not words.needs_source
+    if source == 0 or not words.ends_source
 ]
 
 
@@ -63,8 +56,7 @@ def test_every_effect_is_a_function_of_time_with_as_many_shapes_at_every_instant
     count = len(small(scene, 0.0))
     puffs = len(scene.environment(0.0).puffs)
     assert count or puffs
-    moved = 0.0
-    for time_s in (0.0, 0.137, 0.4, 0.401, 0.7, 5.3):
+    for time_s in (0.137, 0.4, 5.3):
         maps, cloud = small(scene, time_s), scene.environment(time_s).puffs
         assert (len(maps), len(cloud)) == (count, puffs)
         assert np.isfinite(maps).all()
@@ -72,16 +64,10 @@ def test_every_effect_is_a_function_of_time_with_as_many_shapes_at_every_instant
         assert (cloud[:, 15] >= 0.0).all()
         np.testing.assert_array_equal(maps, small(again, time_s))
         np.testing.assert_array_equal(cloud, again.environment(time_s).puffs)
-        moved += np.abs(maps - small(scene, 0.01)).sum()
-        moved += np.abs(cloud - scene.environment(0.01).puffs).sum()
-        moved += np.abs(glow(scene, time_s) - glow(scene, 0.01)).sum()
-    assert moved > 0.0
-    if kind in LIT:
-        return
-    late = 0.7
-    assert not np.array_equal(small(scene, late), small(other, late)) or not np.array_equal(
-        scene.environment(late).puffs, other.environment(late).puffs
-    )
+    if kind not in LIT:
+        assert not np.array_equal(maps, small(other, 5.3)) or not np.array_equal(
+            cloud, other.environment(5.3).puffs
+        )
 
 
 @pytest.mark.parametrize(("kind", "source"), CASES)
@@ -140,21 +126,6 @@ def test_an_effect_takes_the_colour_it_is_said_to_have():
     np.testing.assert_allclose(hue, np.tile(red / red[0], (len(puffs), 1)))
 
 
-def test_smoke_comes_from_where_its_source_was():
-    car = SceneObject("car", motion=ObjectMotion("drive", "left"))
-    scene = staged(Effect("smoke", 0), objects=(car,), place="road")
-    puffs = scene.environment(0.5).puffs
-    rear = scene.actors[0].trajectory.at(0.5).position[0] + 2.0
-    assert puffs[:, 3].min() > rear - 1.0
-    assert puffs[:, 3].max() > rear + 3.0
-
-
-def test_what_burns_has_flames_unless_it_is_out():
-    assert len(staged(objects=(SceneObject("campfire"),)).environment(0.0).puffs)
-    out = staged(objects=(SceneObject("campfire", is_lit=False),))
-    assert not len(out.environment(0.0).puffs)
-
-
 def test_ground_truth_belongs_to_the_surface_behind_the_smoke():
     bare, smoky = staged(), staged(Effect("smoke"))
     smoky = ComposedScene(**{**vars(bare), "particles": smoky.particles})
@@ -162,12 +133,6 @@ def test_ground_truth_belongs_to_the_surface_behind_the_smoke():
     np.testing.assert_array_equal(first.depth, second.depth)
     np.testing.assert_array_equal(first.instance, second.instance)
     assert np.abs(render(bare, 0.2, SIZE) - render(smoky, 0.2, SIZE)).max() > 2.0
-
-
-def test_ground_truth_of_drops_is_finite():
-    truth = ground_truth(staged(Effect("fountain")), 0.3, 0.31, SIZE)
-    assert np.isfinite(truth.flow).all()
-    assert np.abs(truth.flow).max() < 60.0
 
 
 @pytest.mark.parametrize("drag_s", [0.3, 2.0, np.inf])
@@ -180,25 +145,9 @@ def test_flight_solves_its_equation_of_motion(drag_s):
         place += 0.9 / steps * middle
         speed += 0.9 / steps * (pull - middle / drag_s)
     age = np.array([0.9])
-    np.testing.assert_allclose(flight(age, velocity, drag_s, pull)[0], place, atol=1e-4)
-    np.testing.assert_allclose(flight_velocity(age, velocity, drag_s, pull)[0], speed, atol=1e-4)
-
-
-def test_shapes_are_laid_along_their_flight():
-    heading = np.array([[1.0, 2.0, -0.5], [0.0, 0.0, 3.0], [0.0, 0.0, 0.0]])
-    maps = along(np.zeros((3, 3)), heading, np.tile([0.1, 0.1, 0.4], (3, 1)))
-    assert (np.linalg.det(maps[:, :, :3]) > 0.0).all()
-    unit = heading[:2] / np.linalg.norm(heading[:2], axis=1, keepdims=True)
-    np.testing.assert_allclose(maps[:2, :, 2], 0.4 * unit, atol=1e-12)
-
-
-def test_no_word_names_two_effects():
-    words = [word for one in EFFECTS.values() for word in (*one.nouns, *one.verbs)]
-    twice = {word for word in words if words.count(word) > 1}
-    assert all(word == word.lower() for word in words)
-    # A noun and the verb of the same effect may be one word: "smoke".
-    for word in twice:
-        assert sum(word in (*one.nouns, *one.verbs) for one in EFFECTS.values()) == 1
+    way, later = flight(age, velocity, drag_s, pull)
+    np.testing.assert_allclose(way[0], place, atol=1e-4)
+    np.testing.assert_allclose(later[0], speed, atol=1e-4)
 
 
 def test_lightning_lights_the_sky_and_draws_a_bolt_only_while_it_flashes():
@@ -209,10 +158,10 @@ def test_lightning_lights_the_sky_and_draws_a_bolt_only_while_it_flashes():
     assert widths[0] < 1e-4 < widths[1]
 
 
-def test_strokes_of_lightning_fall_off_and_come_back():
-    levels = [lightning_level(t) for t in (0.29, 0.3, 0.38, 0.395, 1.16)]
-    assert levels[0] == 0.0
-    assert levels[1] == pytest.approx(1.0)
-    assert levels[2] == pytest.approx(math.exp(-0.08 / 0.09))
-    assert levels[3] == pytest.approx(0.55 * math.exp(-0.005 / 0.09))
-    assert levels[4] == pytest.approx(math.exp(-0.01 / 0.09))
+@pytest.mark.parametrize("kind", sorted(LIT))
+def test_small_lights_blink_at_their_frequency(kind):
+    lights = staged(Effect(kind, 0)).particles.effects[0]
+    period = 1.0 / EFFECTS[kind].lights.blink_hz
+    start, half, full = (lights.at(0.01 + share * period).emission for share in (0.0, 0.5, 1.0))
+    np.testing.assert_array_equal(start, full)
+    assert (start != half).any()

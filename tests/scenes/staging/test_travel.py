@@ -16,7 +16,6 @@ from texvent.scenes.description import (
     Surroundings,
 )
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(173, 130)
@@ -66,12 +65,6 @@ def test_scenery_stands_on_both_sides_up_to_the_end_of_the_route(place: str) -> 
     assert np.sum(is_near & (offsets[:, 0] < 0.0)) > 15
 
 
-def test_the_speed_of_the_camera_is_the_stated_one() -> None:
-    scene = travel("road", CameraMove("travel", "forward", speed_m_s=13.0))
-    step = scene.camera(1.001).position - scene.camera(1.0).position
-    assert np.linalg.norm(step) / 1e-3 == pytest.approx(13.0)
-
-
 def test_the_road_bends_with_the_route() -> None:
     scene = travel("road", CameraMove("travel", "left"))
     environment = scene.environment(0.0)
@@ -88,16 +81,6 @@ def test_the_road_bends_with_the_route() -> None:
     assert 0.5 < lanes[0] < environment.road_half_width
 
 
-def test_a_turn_after_a_straight_road_goes_into_a_crossing() -> None:
-    scene = travel("city", CameraMove("travel", "forward"), CameraMove("travel", "left", phase=1))
-    x, y, angle = scene.environment(0.0).road_crossings[0]
-    heading = scene.camera(DURATION_S).rotation[2]
-    assert abs(math.cos(angle) * heading[0] + math.sin(angle) * heading[1]) > 0.99
-    offset = scene.camera(DURATION_S).position[:2] - [x, y]
-    across = offset[1] * math.cos(angle) - offset[0] * math.sin(angle)
-    assert abs(across) < scene.environment(0.0).road_half_width
-
-
 def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass() -> None:
     ahead = SceneObject("truck", motion=ObjectMotion("drive"))
     oncoming = SceneObject("car", motion=ObjectMotion("drive", "towards"))
@@ -112,36 +95,6 @@ def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass() -> None:
     assert gaps[0, 1] - gaps[2, 1] > 20.0
 
 
-def test_objects_stand_beside_the_route_and_are_seen() -> None:
-    objects = (SceneObject("car", 4), SceneObject("bench", 2))
-    scene = travel("city", CameraMove("travel", "forward"), objects=objects)
-    camera = scene.camera(0.0)
-    for actor in scene.actors:
-        seen = camera.rotation @ (actor.middle(0.0) - camera.position)
-        assert seen[2] > 2.0
-        assert abs(seen[0] / seen[2]) < 0.6
-
-
-def test_a_car_stays_in_its_lane_on_a_curved_road() -> None:
-    description = SceneDescription(
-        "", (SceneObject("car", motion=ObjectMotion("drive", "right", speed_m_s=12.0)),),
-        surroundings=Surroundings("road", road="curved"),
-    )  # fmt: skip
-    scene = compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)
-    environment = scene.environment(0.0)
-    road = RoadLine(
-        environment.road_angle,
-        (float(environment.road_offset[0]), float(environment.road_offset[1])),
-        environment.road_curvature,
-    )
-    spots = np.array([scene.actors[0].middle(t)[:2] for t in (0.0, 1.0, 2.0)])
-    distances = road.distance(spots)
-    np.testing.assert_allclose(distances, distances[0], atol=1e-6)
-    assert 0.0 < distances[0] < environment.road_half_width
-    ways = [scene.actors[0].trajectory.at(t).distance_m for t in (0.0, 2.0)]
-    assert ways[1] - ways[0] == pytest.approx(24.0)
-
-
 @pytest.mark.parametrize("road", ["curved", "crossing"])
 def test_the_camera_travels_on_the_road_as_it_is(road: str) -> None:
     description = SceneDescription(
@@ -153,14 +106,3 @@ def test_the_camera_travels_on_the_road_as_it_is(road: str) -> None:
     )
     assert (environment.road_curvature != 0.0) == (road == "curved")
     assert (len(environment.road_crossings) == 1) == (road == "crossing")
-
-
-def test_a_room_without_things_has_walls_and_furniture_within_them() -> None:
-    description = SceneDescription("in a room", surroundings=Surroundings("indoor"))
-    scene = compose_scene(description, seed=0, size=SIZE, duration_s=1.0)
-    half = scene.camera_path.room_m
-    assert 3.0 < half < 10.0
-    position = scene.camera(0.0).position
-    assert np.all(np.abs(position[:2]) < half)
-    places = scene.still.to_world[:, :2, 3] if len(scene.still.shape) else np.zeros((1, 2))
-    assert np.all(np.abs(places) < half + 1.0)

@@ -30,12 +30,10 @@ class EmitterStyle:
     come to rest on the ground."""
     count: int
     life: float = 0.0
-    """Of a particle; 0 = without end."""
-    salvo: float | None = None
-    """Whether all are born at once, from a new place and of one colour in each life: the share of
-    a life at time 0; None = one after the other."""
-    until_ground: bool = False
-    """Whether a particle lives until it reaches the ground instead."""
+    """Of a particle; 0 = without end, and of drops until they reach the ground."""
+    salvos: int = 0
+    """Number of volleys that follow one another: in each all are born at once, from a new place and
+    of one colour in each life; 0 = one after the other."""
     speed: float = 0.0
     """At birth."""
     lift: float = 0.0
@@ -61,7 +59,7 @@ class EmitterStyle:
     """At birth and at the end."""
     proportions: Vector = (1.0, 1.0, 1.0)
     """Half extents by the radius; the last one is upright, of drops along the flight."""
-    turns: float = 0.0
+    turns: float = 1.0
     """Rate at which chips tumble."""
     colours: tuple[Colour, ...] = ()
     """Of puffs at birth and at the end; of solid bodies those that occur; empty: the object's."""
@@ -85,14 +83,14 @@ class LightStyle:
     """x and y in half extents, z in heights from below; empty: a string that winds around it."""
     phases: tuple[float, ...] = (0.0,)
     """When each goes on, in periods; repeated."""
-    colours: tuple[Colour, ...]
+    colours: tuple[Colour, ...] = ((1.0, 0.42, 0.03),)
     """Repeated."""
-    size: float
+    size: float = 0.06
     """Radius by that of a ball as large as the body."""
-    blink_hz: float
+    blink_hz: float = 1.4
     glow: float = 4.0
     """Emission of a light that is on."""
-    intensity: float = 0.0
+    intensity: float = 0.5
     """Light that each sheds at 1 m; 0 = none."""
 
 
@@ -105,25 +103,18 @@ class EffectWords:
     verbs: tuple[str, ...] = ()
     """Base forms said of the object it comes from, such as "smoke": "a chimney smokes"."""
     adjectives: tuple[str, ...] = ()
-    """Said of the object it comes from, such as "steaming"."""
+    """Said of the object it comes from, such as "ablaze"; besides the verbs in -ing."""
     happens_once: bool = False
     """Whether it begins at one instant (a burst) rather than going on."""
-    needs_source: bool = False
-    """Whether it comes from an object; otherwise it can be all around."""
-    is_around: bool = False
-    """Whether it is all around, whatever the prompt says that it comes from."""
     ends_source: bool = False
-    """Whether the object it comes from is gone afterwards."""
+    """Whether it happens once and the object it comes from is gone afterwards."""
     breathed: bool = False
     """Whether it comes from the mouth of a person."""
-    size: float = 0.5
+    size: float = 1.0
     """Its size by that of the object it comes from."""
-    alone: float = 0.15
-    """Its size where it comes from no object, by the distance of the camera."""
-    alone_height: float = 0.0
-    """Height at which it then is, above what the camera looks at; 0 = on the ground."""
-    alone_behind: float = 0.0
-    """Distance behind what the camera looks at, by the camera's."""
+    alone: Vector = (0.15, 0.0, 0.0)
+    """Its size without an object, its height above what the camera looks at (0 = on the ground)
+    and its distance behind that; by the distance of the camera."""
     anchor: Vector = (0.0, 0.0, 1.0)
     """Where it leaves its object: x and y in half extents, z in heights from below."""
     anchor_traits: tuple[str, ...] = ()
@@ -139,29 +130,39 @@ def _frozen(value: Any) -> Any:
     return tuple(_frozen(one) for one in value) if isinstance(value, list) else value
 
 
+_BODIES: Mapping[str, Literal["puff", "drop", "chip"]] = MappingProxyType(
+    {"chips": "chip", "flakes": "chip", "drops": "drop", "puffs": "puff"}
+)
+"""Kind of particles in the table → their bodies."""
+
+
 def _read() -> dict[str, Any]:
     file = files("texvent.scenes.models") / "data" / "effects.toml"
-    return tomllib.loads(file.read_text(encoding="utf-8"))
+    table = tomllib.loads(file.read_text(encoding="utf-8"))
+    return {name: _fields(row) for name, row in table.items()}
 
 
-def _effect(row: Mapping[str, Any]) -> EffectWords:
-    """An effect from its table."""
-    fields = {name: _frozen(value) for name, value in row.items()}
-    fields["emitters"] = tuple(
-        EmitterStyle(**{name: _frozen(value) for name, value in one.items()})
-        for one in row.get("emitters", ())
+def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectWords:
+    """An effect from its table; what its particles leave open is usual for their kind."""
+    row["emitters"] = tuple(
+        EmitterStyle(**{"body": body, **usual[kind], **_fields(one)})
+        for kind, body in _BODIES.items()
+        for one in row.pop(kind, ())
     )
-    if "lights" in row:
-        fields["lights"] = LightStyle(**{n: _frozen(value) for n, value in row["lights"].items()})
-    return EffectWords(**fields)
+    row["lights"] = LightStyle(**_fields(row["lights"])) if "lights" in row else None
+    row["happens_once"] = row.get("happens_once", False) or row.get("ends_source", False)
+    return EffectWords(**row)
+
+
+def _fields(row: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: _frozen(value) for name, value in row.items()}
 
 
 _TABLE = _read()
-LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(
-    {name: _frozen(rgb) for name, rgb in _TABLE.pop("liquid colours").items()}
-)
+LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(_TABLE.pop("liquid colours"))
 """Name of a liquid → its colour."""
+_USUAL = {kind: _fields(row) for kind, row in _TABLE.pop("usual particles").items()}
 EFFECTS: Mapping[str, EffectWords] = MappingProxyType(
-    {kind: _effect(row) for kind, row in _TABLE.items()}
+    {kind: _effect(row, _USUAL) for kind, row in _TABLE.items()}
 )
 """Every effect the generator shows."""

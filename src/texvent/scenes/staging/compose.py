@@ -72,8 +72,6 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
-    still_nouns: tuple[str, ...] = ()
-    """Noun of each shape of `still`."""
     object_of: Mapping[int, int] = field(default_factory=dict)
     """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
@@ -179,8 +177,6 @@ def compose_scene(
     names |= {instance: item.noun for instance, (_, item) in named.items()}
     object_of = {one.instance: one.object_index for one in actors}
     object_of |= {instance: index for instance, (index, _) in named.items()}
-    nouns_of = [item.noun for item in (*items, *(item for _, item in surrounding))]
-    still_nouns = tuple(n for n, one in zip(nouns_of, placed, strict=True) for _ in one.parts)
     looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
         description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
@@ -191,12 +187,11 @@ def compose_scene(
         strength=choose_lighting(PLACES[place], description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
-    particles = stage_effects(
-        description, Setting(actors, camera_path.framing, place, duration_s, seed)
-    )
+    setting = Setting(actors, camera_path.framing, place, duration_s, seed)
+    particles = stage_effects(description, setting)
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), still_nouns, object_of,
+        tuple(dict.fromkeys(missing)), object_of,
         scene_lamps=description.light.lamps,
     )  # fmt: skip
 
@@ -213,7 +208,6 @@ def _set_camera(
     `how` are the seed, the image's size and the length of the clip, s.
     """
     seed, size, duration_s = how
-    aspect = size.height / size.width
     has_lanes = travel is None and PLACES[place].has_road
 
     def stand(placed: list[Actor]) -> list[Actor]:
@@ -222,8 +216,8 @@ def _set_camera(
 
     def film(cast: Sequence[Actor]) -> CameraPath:
         return place_camera(
-            description, cast, place, seed=seed, aspect=aspect, duration_s=duration_s,
-            travel=travel,
+            description, cast, place, seed=seed, aspect=size.height / size.width,
+            duration_s=duration_s, travel=travel,
         )  # fmt: skip
 
     if description.is_metric:

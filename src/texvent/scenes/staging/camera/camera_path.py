@@ -1,9 +1,9 @@
-"""The camera as a function of time: a place, or a journey, plus moves that add up."""
+"""The camera as a function of time: a static pose, or a route, plus channels that add up."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,38 +11,109 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove
 from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.framing import Framing, direction, look_at
-from texvent.scenes.staging.camera.moves import MoveChannels
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
-PAN_RAD = 0.36
-"""Turn of a pan over the clip."""
-TILT_RAD = 0.24
-ROLL_RAD = 0.7
+PAN_RAD, TILT_RAD, ROLL_RAD = 0.36, 0.24, 0.7
+"""Turns over the clip."""
 DUTCH_RAD = 0.3
 """Roll of a camera in a Dutch angle, over all of the clip."""
-ORBIT_RAD = 1.0
-CRANE_RAD = 0.5
-"""Change of the angle under which a crane looks at its subject."""
-ZOOM = 1.7
-"""Focal length at the near end over the far end."""
-DOLLY = 1.6
-"""Distance at the far end over the near end."""
-DOLLY_ZOOM = 2.2
-"""The same for a dolly zoom."""
+ORBIT_RAD, CRANE_RAD = 1.0, 0.5
+"""Change of azimuth and of elevation around the subject."""
+ZOOM, DOLLY, DOLLY_ZOOM = 1.7, 1.6, 2.2
+"""Focal length at the near end over the far end; distance at the far end over the near end."""
+TRUCK_WIDTHS, PEDESTAL_WIDTHS = 0.4, 0.3
+"""Ways aside and up, in widths of the picture at the subject."""
 SHAKE_RAD = 0.015
 ALL_AXES = "all axes"
 """Direction of a handheld camera that moves in all six degrees of freedom."""
-ROAM_SHARE = 4.0
-"""How much further than one that is held still that one turns."""
-ROAM_WIDTHS = 0.08
-"""How far it goes aside, in widths of the picture."""
+ROAM_SHARE, ROAM_WIDTHS = 4.0, 0.08
+"""How much further than one that is held still that one turns, and how far it goes aside."""
+_ROAM_RAD_S = np.array([4.9, 3.7, 6.1])
+"""Angular frequencies of its way aside, along and up."""
+_HIGH_WIDTHS = 1.3
+"""Width of the picture of a camera that travels, in heights above the ground."""
 STEP_M = 0.02
 """Amplitude of the bob of a camera that walks."""
 LOWEST_M = 0.25
 """The camera stays at least this high above the ground."""
 MOST_PITCH_RAD = 1.5
+EASE = 0.2
+"""Share of a move in which it starts or stops, where it does so within the clip."""
+USUAL_S = 2.0
+"""Length of a move that goes its usual way; shorter ones go less far."""
+_STEPS = 64
+"""Steps of the clip in which the range of a move is found."""
+_NEGATIVE = ("left", "down", "out", "counter-clockwise")
+
+
+class MoveChannels:
+    """Progress of all moves of a shot; each a smooth function of time.
+
+    Moves with times of their own keep to them; others of one phase happen together, and phases
+    follow each other and share the clip evenly.
+    """
+
+    def __init__(self, moves: tuple[CameraMove, ...], duration_s: float = USUAL_S) -> None:
+        self.moves = moves
+        self._duration_s = duration_s
+        self._phases = 1 + max((move.phase for move in moves if not move.is_timed), default=0)
+
+    def centred(self, kind: str, time_s: float) -> float:
+        """Sum of the moves of a kind, in usual amounts, about the middle of its range."""
+        low, high = self._ranges.get(kind, (0.0, 0.0))
+        return self._sum(kind, time_s) - 0.5 * (low + high)
+
+    def below_most(self, kind: str, time_s: float) -> float:
+        """The same, 0 where it is largest and negative elsewhere: zoom and dolly."""
+        return self._sum(kind, time_s) - self._ranges.get(kind, (0.0, 0.0))[1]
+
+    def _span_s(self, move: CameraMove) -> tuple[float, float]:
+        """When a move starts and stops, s."""
+        if not move.is_timed:
+            share = self._duration_s / self._phases
+            return move.phase * share, (move.phase + 1) * share
+        start = move.start_s or 0.0
+        stop = self._duration_s if move.stop_s is None else move.stop_s
+        return start, max(stop, start + 1e-3)
+
+    def _sum(self, kind: str, time_s: float) -> float:
+        return sum(self._reach(move, time_s) for move in self.moves if move.kind == kind)
+
+    def _reach(self, move: CameraMove, time_s: float) -> float:
+        """How far one move has gone, in usual amounts."""
+        start, stop = self._span_s(move)
+        rise = EASE if start > 0.0 else 0.0
+        fall = EASE if stop < (1.0 - 1e-9) * self._duration_s else 0.0
+        amount = min(max(math.sqrt((stop - start) / USUAL_S), 0.5), 1.3) * move.pace
+        amount *= -1.0 if move.direction in _NEGATIVE else 1.0
+        return amount * _eased((time_s - start) / (stop - start), rise, fall)
+
+    @cached_property
+    def _ranges(self) -> dict[str, tuple[float, float]]:
+        """Kind → least and most of its sum over the clip."""
+        times = {self._duration_s * step / _STEPS for step in range(_STEPS + 1)}
+        for move in self.moves:
+            times.update(min(time, self._duration_s) for time in self._span_s(move))
+        sums = {move.kind: [self._sum(move.kind, time) for time in times] for move in self.moves}
+        return {kind: (min(values), max(values)) for kind, values in sums.items()}
+
+
+def _eased(u: float, rise: float, fall: float) -> float:
+    """Progress 0..1 over 0 <= u <= 1; it eases over such shares of it, else goes on evenly."""
+    rate = 1.0 / (1.0 - 0.5 * (rise + fall))
+    if rise and u < rise:
+        return rate * rise * _area(max(u, 0.0) / rise)
+    if fall and u > 1.0 - fall:
+        return 1.0 - rate * fall * _area(max(1.0 - u, 0.0) / fall)
+    return rate * (u - 0.5 * rise)
+
+
+def _area(v: float) -> float:
+    """Integral of 3v² - 2v³ from 0."""
+    return v * v * v - 0.5 * v**4
 
 
 @dataclass(frozen=True)
@@ -50,13 +121,55 @@ class Journey:
     """A camera that travels: ego-motion along a route."""
 
     route: SteeredPath
-    """Where it is and heads, at the height of the ground."""
+    """Where it is and heads, on the ground."""
     height_m: float
-    """Of the camera."""
     pitch_rad: float
     """Below the horizon."""
     step_m: float = 0.0
     """Length of a step, m; 0 = it rolls or flies."""
+
+
+@dataclass(frozen=True)
+class Tie:
+    """The motion that a camera which follows or orbits its subject shares with it."""
+
+    trajectory: Trajectory
+    """Of the subject."""
+    share: float = 1.0
+    """Of the subject's way that the camera goes along."""
+    rises: bool = True
+    """Whether it also rises and falls with it."""
+    turns: bool = False
+    """Whether it goes round with it, behind or in front of it."""
+
+    @classmethod
+    def of(cls, moves: Sequence[CameraMove], subject: Actor) -> Tie | None:
+        """The tie that moves make; None where the camera or its subject stays."""
+        tying = [move for move in moves if move.kind in ("follow", "orbit")]
+        if not tying or not subject.is_mover:
+            return None
+        share = next((one.pace for one in tying if one.direction == "slower"), 1.0)
+        turns = any(one.direction in ("behind", "front") for one in tying)
+        return cls(subject.trajectory, share, subject.noun.habitat != "ground", turns)
+
+    def way(self, time_s: float) -> Float64Array:
+        """[3] by which the camera has gone along since the start, m."""
+        now, start = self.trajectory.at(time_s).position, self.trajectory.at(0.0).position
+        return self.share * np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
+
+    def turn(self, time_s: float) -> float:
+        """Angle by which it has gone round since the start, rad."""
+        if not self.turns:
+            return 0.0
+        return self.trajectory.at(time_s).yaw - self.trajectory.at(0.0).yaw
+
+    def relative(self, points: Float64Array, time_s: float) -> Float64Array:
+        """Points [n, 3], m, as the camera sees them, at the place of the start."""
+        start = np.array(self.trajectory.at(0.0).position)
+        angle = -self.turn(time_s)
+        cosine, sine = math.cos(angle), math.sin(angle)
+        turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+        return np.asarray((points - self.way(time_s) - start) @ turn.T + start)
 
 
 @dataclass(frozen=True)
@@ -66,112 +179,68 @@ class CameraPath:
     framing: Framing
     moves: tuple[CameraMove, ...]
     duration_s: float
-    followed: Trajectory | None = None
-    """What a "follow" or "orbit" keeps in place in the image."""
-    follows_height: bool = True
-    """Whether it also rises and falls with what it follows."""
+    tie: Tie | None = None
+    """To what a "follow" or "orbit" keeps in place in the image."""
     has_floor: bool = True
     """Whether there is ground to stay above."""
     room_m: float = math.inf
     """Half the side of the room it must stay in, m."""
     journey: Journey | None = None
     """The route of what travels."""
-    subject_corners: Callable[[float], Float64Array] | None = None
-    """[8, 3] box of the subject, m, whose size a dolly zoom keeps."""
 
     @cached_property
     def _channels(self) -> MoveChannels:
         return MoveChannels(self.moves, self.duration_s)
-
-    def at(self, time_s: float) -> Camera:
-        """The camera at that instant."""
-        if self.journey is not None:
-            camera = self._travel(self.journey, time_s)
-        else:
-            camera = self._watch(time_s)
-        slant = DUTCH_RAD if any(move.kind == "dutch" for move in self.moves) else 0.0
-        slant += ROAM_SHARE * SHAKE_RAD * self._roam * 3.0 * math.sin(5.5 * time_s + 0.5)
-        return _rolled(camera, slant + ROLL_RAD * self._channels.centred("roll", time_s))
 
     @cached_property
     def _roam(self) -> float:
         """Pace of a camera that moves in all six degrees of freedom; 0 = it does not."""
         return sum(move.pace for move in self.moves if move.direction == ALL_AXES)
 
-    def _watch(self, time_s: float) -> Camera:
-        """A camera that looks at its subject."""
+    def at(self, time_s: float) -> Camera:
+        """The camera at that instant."""
+        if self.journey is not None:
+            start, target, roll = _ride(self.journey, time_s)
+            slide = self._slide(time_s, _HIGH_WIDTHS * self.journey.height_m)
+            position = self._keep_inside(start + slide)
+            ahead = target - start
+        else:
+            (start, target), roll = self._stand(time_s), 0.0
+            slide = self._slide(time_s, self.framing.distance_m / self.framing.focal)
+            position = self._keep_inside(start + slide)
+            ahead = target + slide - position
+        near = self._channels.below_most
+        focal = self.framing.focal * ZOOM ** near("zoom", time_s)
+        focal *= DOLLY_ZOOM ** -near("dolly zoom", time_s)
+        camera = look_at(position, position + _turned(ahead, *self._turn(time_s)), focal)
+        return _rolled(camera, roll + self._roll(time_s))
+
+    def _stand(self, time_s: float) -> tuple[Float64Array, Float64Array]:
+        """Position and target of a camera that looks at its subject, m."""
         framing, moved, near = self.framing, self._channels.centred, self._channels.below_most
         azimuth = framing.azimuth + ORBIT_RAD * moved("orbit", time_s)
-        azimuth += self._turn_with_subject(time_s)
         elevation = framing.elevation + CRANE_RAD * moved("crane", time_s)
         elevation = min(max(elevation, -MOST_PITCH_RAD), MOST_PITCH_RAD)
         distance = framing.distance_m * DOLLY ** -near("dolly", time_s)
         distance *= DOLLY_ZOOM ** -near("dolly zoom", time_s)
-        focal = framing.focal * ZOOM ** near("zoom", time_s)
-        slide = self._slide(time_s)
-        target = framing.target + slide
-        position = self._keep_inside(target + distance * direction(azimuth, elevation))
-        focal *= self._hold_size(target, position, time_s)
-        target = position + _turned(target - position, *self._turn(time_s))
-        return look_at(position, target, focal)
+        target = framing.target
+        if self.tie is not None:
+            azimuth += self.tie.turn(time_s)
+            target = target + self.tie.way(time_s)
+        return target + distance * direction(azimuth, elevation), target
 
-    def _travel(self, journey: Journey, time_s: float) -> Camera:
-        """A camera that moves along its route and looks where it heads."""
-        moved, near = self._channels.centred, self._channels.below_most
-        state = journey.route.at(time_s)
-        x, y, z = state.position
-        bob = 0.0
-        if journey.step_m > 0.0:
-            bob = STEP_M * math.sin(2.0 * math.pi * state.distance_m / journey.step_m)
-        height = z + journey.height_m + bob
-        width = 0.4 * journey.height_m
-        height += width * (moved("pedestal", time_s) + moved("crane", time_s))
-        position = self._keep_inside(np.array([x, y, height]))
-        flat = math.cos(journey.pitch_rad)
-        forward = np.array(
-            [flat * math.cos(state.yaw), flat * math.sin(state.yaw), -math.sin(journey.pitch_rad)]
-        )
-        target = position + _turned(forward, *self._turn(time_s))
-        focal = self.framing.focal * ZOOM ** near("zoom", time_s)
-        return _rolled(look_at(position, target, focal), -state.roll)
-
-    def _turn_with_subject(self, time_s: float) -> float:
-        """How far a camera behind or in front of its subject has gone round with it."""
-        is_tied = any(
-            move.kind == "follow" and move.direction in ("behind", "front") for move in self.moves
-        )
-        if not is_tied or self.followed is None:
-            return 0.0
-        return self.followed.at(time_s).yaw - self.followed.at(0.0).yaw
-
-    def _slide(self, time_s: float) -> Float64Array:
-        """Metres by which camera and target move together."""
-        slide, moved = np.zeros(3), self._channels.centred
-        if self.followed is not None and any(m.kind in ("follow", "orbit") for m in self.moves):
-            now, start = self.followed.at(time_s).position, self.followed.at(0.0).position
-            rises = 1.0 if self.follows_height else 0.0
-            share_of_way = share_followed(self.moves)
-            slide += share_of_way * np.subtract(now, start) * np.array([1.0, 1.0, rises])
-        width = self.framing.distance_m / self.framing.focal
-        azimuth = self.framing.azimuth
+    def _slide(self, time_s: float, width_m: float) -> Float64Array:
+        """Metres by which camera and target move together; `width_m` of the picture."""
+        moved, azimuth = self._channels.centred, self.framing.azimuth
         right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
-        slide += 0.4 * width * moved("truck", time_s) * right
-        slide[2] += 0.3 * width * moved("pedestal", time_s)
-        roam = ROAM_WIDTHS * width * self._roam
-        slide += roam * math.sin(4.9 * time_s) * right
-        slide += roam * math.sin(3.7 * time_s + 1.0) * np.array([-right[1], right[0], 0.0])
-        slide[2] += 0.7 * roam * math.sin(6.1 * time_s + 2.0)
-        return slide
-
-    def _hold_size(self, target: Float64Array, position: Float64Array, time_s: float) -> float:
-        """Factor on the focal length that keeps the subject's size in a dolly zoom."""
-        if not self._channels.has("dolly zoom") or self.subject_corners is None:
-            return 1.0
-        corners = self.subject_corners(time_s)
-        offset = position - target
-        distance = float(np.linalg.norm(offset))
-        near = target + offset * (self.framing.distance_m / max(distance, 1e-9))
-        return _extent(corners, near, target) / _extent(corners, position, target)
+        ahead = np.array([-right[1], right[0], 0.0])
+        roam = ROAM_WIDTHS * self._roam * np.sin(_ROAM_RAD_S * time_s + [0.0, 1.0, 2.0])
+        rise = PEDESTAL_WIDTHS * moved("pedestal", time_s)
+        if self.journey is not None:
+            rise += PEDESTAL_WIDTHS * moved("crane", time_s)
+        said = np.array([TRUCK_WIDTHS * moved("truck", time_s), 0.0, rise])
+        aside, along, up = roam + said
+        return np.asarray(width_m * (aside * right + along * ahead + [0.0, 0.0, up]))
 
     def _turn(self, time_s: float) -> tuple[float, float]:
         """Angles to the right and up, radians."""
@@ -185,6 +254,12 @@ class CameraPath:
                 right += shake * (math.sin(1.1 * wave) + 0.6 * math.sin(2.7 * wave + 1.0))
                 up += shake * (math.sin(1.4 * wave + 2.0) + 0.5 * math.sin(3.3 * wave))
         return right, up
+
+    def _roll(self, time_s: float) -> float:
+        """Turn about the optical axis, radians."""
+        slant = DUTCH_RAD if any(move.kind == "dutch" for move in self.moves) else 0.0
+        slant += ROAM_SHARE * SHAKE_RAD * self._roam * 3.0 * math.sin(5.5 * time_s + 0.5)
+        return slant + ROLL_RAD * self._channels.centred("roll", time_s)
 
     def in_room(self, points: Float64Array, times: Float64Array) -> CameraPath:
         """The path in a room that holds the camera at all times, s, and points [n, 3], m."""
@@ -206,17 +281,15 @@ class CameraPath:
         return position
 
 
-def share_followed(moves: Sequence[CameraMove]) -> float:
-    """Share of the subject's way that a camera which follows it goes along."""
-    return next((m.pace for m in moves if m.kind == "follow" and m.direction == "slower"), 1.0)
-
-
-def _extent(corners: Float64Array, position: Float64Array, target: Float64Array) -> float:
-    """Largest extent of a box in the image at focal length 1, image widths."""
-    camera = look_at(position, target, 1.0)
-    seen = (corners - position) @ camera.rotation.T
-    image = seen[:, :2] / np.maximum(seen[:, 2:], 0.1)
-    return float(np.ptp(image, axis=0).max())
+def _ride(journey: Journey, time_s: float) -> tuple[Float64Array, Float64Array, float]:
+    """Position and target of a camera that looks where it heads, m, and how it rolls, rad."""
+    state = journey.route.at(time_s)
+    x, y, z = state.position
+    bob = 0.0
+    if journey.step_m > 0.0:
+        bob = STEP_M * math.sin(2.0 * math.pi * state.distance_m / journey.step_m)
+    position = np.array([x, y, z + journey.height_m + bob])
+    return position, position - direction(state.yaw - 0.5 * math.pi, journey.pitch_rad), -state.roll
 
 
 def _rolled(camera: Camera, angle: float) -> Camera:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,30 +12,34 @@ from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.actors import Actor, corners_over
-from texvent.scenes.staging.camera.camera_path import CameraPath
-from texvent.scenes.staging.camera.framed_points import INSTANTS, list_views
-from texvent.scenes.staging.camera.framing import Framing, fit, pose, seen_through
+from texvent.scenes.staging.camera.camera_path import CameraPath, Tie
+from texvent.scenes.staging.camera.framing import (
+    Framing,
+    come_near,
+    fit,
+    image_of,
+    measure_prominence,
+    pose,
+    seen_through,
+)
 from texvent.scenes.staging.camera.journey import TravelPlan
-from texvent.scenes.staging.camera.prominence import come_near, measure
 from texvent.scenes.staging.camera.subject import (
+    ELEVATIONS,
+    INSTANTS,
+    KEPT_TOGETHER,
+    choose_angles,
     choose_main,
     goes_in_depth,
-    has_landmark,
-    share_to_follow,
+    list_views,
 )
-from texvent.scenes.staging.camera.view_angles import ELEVATIONS, choose_angles
 
 _SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
-_TRACKING_LENGTHS, _NEAR_LENGTHS = 4.5, 0.3
+_TRACKING_LENGTHS, _NEAR_LENGTHS = 3.0, 0.3
 """An object that covers more of its own lengths in the clip is followed from the side: usually, and
 in a close or medium shot."""
-_WORTH = 1.15
-"""How much larger the subject must become for the camera to follow it."""
-_OUTSIDE_SHARES = (0.3, 0.38, 0.46, 0.54, 0.62, 0.7)
+_OUTSIDE_SHARES = (0.3, 0.5, 0.7)
 """Shares of the clip at whose beginning or end what enters or leaves may be out of the picture."""
-_WITH_FOLLOWING = frozenset({"pan", "tilt", "zoom", "handheld", "roll"})
-"""Moves that are said of a camera which may go along with its subject besides."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -76,14 +80,8 @@ def place_camera(
 ) -> CameraPath:
     """The camera over the clip: near enough to recognise the objects and far enough to show them.
 
-    Args:
-        description: what the scene says of the camera.
-        actors: the objects of the scene on their trajectories.
-        place: key of `models.places.PLACES`.
-        seed: decides the angle where nothing is said.
-        aspect: image height over width.
-        duration_s: length of the clip, s.
-        travel: the route of a camera that travels.
+    `place` is a key of `PLACES`, `aspect` the image's height over its width; the seed decides the
+    angle where nothing is said.
     """
     shooting = _Shooting(description, actors, place, seed, aspect, duration_s)
     is_fixed = travel is not None or description.shot.position_m is not None or not actors
@@ -105,84 +103,52 @@ def place_camera(
 
 
 def _watch(shooting: _Shooting) -> CameraPath:
-    """The camera that shows the objects; it goes along where the subject is larger for it."""
-    description, actors, duration_s = shooting.description, shooting.actors, shooting.duration_s
-    main = choose_main(description, actors)
-    moves = _plan_moves(description, main, duration_s)
-    path = _fit_path(shooting, main, moves)
-    is_said = description.shot.framing is not None or goes_in_depth(description, main)
-    is_said |= any(move.kind not in _WITH_FOLLOWING for move in description.shot.moves)
-    share = share_to_follow(actors, main, duration_s)
-    if is_said or share == 0.0:
-        return path
-    slower = (*moves, CameraMove("follow", "slower", pace=share))
-    followed = _fit_path(shooting, main, slower)
-    prominence = _prominence_of(main, actors, shooting.times, shooting.aspect)
-    return followed if prominence(followed) > _WORTH * prominence(path) else path
-
-
-def _fit_path(shooting: _Shooting, main: Actor, moves: tuple[CameraMove, ...]) -> CameraPath:
-    """The widest camera with a large subject, for moves."""
-    description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
-    azimuth, elevation = choose_angles(description, main, moves, shooting.place, shooting.seed)
-    is_open = shooting.has_floor and not is_room(shooting.place)
-    lift = _SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
-
-    def path_of(framing: Framing) -> CameraPath:
-        return CameraPath(
-            framing, moves, shooting.duration_s, main.trajectory, main.noun.habitat != "ground",
-            shooting.has_floor, subject_corners=main.corners,
-        )  # fmt: skip
-
-    def come(times: Float64Array) -> CameraPath:
-        views = list_views(description, actors, main, moves, times)
-        framings = [
-            fit(view.points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=view.fill,
-                lift=lift)
-            for view in views
-        ]  # fmt: skip
-        prominence = _prominence_of(main, actors, times, aspect)
-        return come_near(framings, path_of, prominence, [view.goal for view in views[1:]])
-
-    if not (main.enters or main.leaves):
-        return come(shooting.times)
-    for share in _OUTSIDE_SHARES:
-        first = share * shooting.duration_s if main.enters else 0.0
-        last = (1.0 - share) * shooting.duration_s if main.leaves else shooting.duration_s
-        path = come(np.linspace(min(first, last), max(first, last), INSTANTS))
-        if _begins_and_ends_outside(path, main, aspect):
+    """The camera that shows the objects, without what enters at first or what leaves at last."""
+    main = choose_main(shooting.description, shooting.actors)
+    moves = _plan_moves(shooting.description, main, shooting.duration_s)
+    for share in _OUTSIDE_SHARES if main.enters or main.leaves else (0.0,):
+        first, last = sorted((share * main.enters, 1.0 - share * main.leaves))
+        times = shooting.duration_s * np.linspace(first, last, INSTANTS)
+        path = _frame(shooting, main, moves, times)
+        if _begins_and_ends_outside(path, main, shooting.aspect):
             break
     return path
 
 
-def _prominence_of(
-    main: Actor, actors: Sequence[Actor], times: Float64Array, aspect: float
-) -> Callable[[CameraPath], float]:
-    """How large the copies of the subject are in the image of a path, as a mean over times."""
+def _frame(
+    shooting: _Shooting, main: Actor, moves: tuple[CameraMove, ...], times: Float64Array
+) -> CameraPath:
+    """The widest camera with a large subject at these instants, s."""
+    description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
+    place = shooting.place
+    azimuth, elevation = choose_angles(description, main, moves, place, shooting.seed)
+    is_open = shooting.has_floor and not is_room(place)
+    lift = _SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     copies = [actor for actor in actors if actor.object_index == main.object_index]
     boxes = [np.array([one.corners(float(time)) for one in copies]) for time in times]
+    tie = Tie.of(moves, main)
 
-    def prominence(path: CameraPath) -> float:
-        views = zip(times, boxes, strict=True)
-        return float(np.mean([measure(path.at(float(t)), box, aspect) for t, box in views]))
+    def path_of(framing: Framing) -> CameraPath:
+        return CameraPath(framing, moves, shooting.duration_s, tie, shooting.has_floor)
 
-    return prominence
+    def prominence(framing: Framing) -> float:
+        path, views = path_of(framing), zip(times, boxes, strict=True)
+        return float(np.mean([measure_prominence(path.at(float(t)), b, aspect) for t, b in views]))
 
-
-def _project(path: CameraPath, points: Float64Array, time_s: float) -> Float64Array:
-    """[n, 3]: x and y in image widths from the middle, y down; and depth, m."""
-    camera = path.at(time_s)
-    seen = (points - camera.position) @ camera.rotation.T
-    depth = np.maximum(seen[:, 2:], 1e-3)
-    return np.hstack([camera.focal * seen[:, :2] / depth, seen[:, 2:]])
+    views = list_views(description, actors, main, moves, times)
+    framings = [
+        fit(one.points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=one.fill,
+            lift=lift)
+        for one in views
+    ]  # fmt: skip
+    return path_of(come_near(framings, prominence, [view.goal for view in views[1:]]))
 
 
 def _begins_and_ends_outside(path: CameraPath, main: Actor, aspect: float) -> bool:
     """Whether what enters begins out of the picture, and what leaves ends there."""
-    half = np.array([0.5, 0.5 * aspect])
     for time in [0.0] * main.enters + [path.duration_s] * main.leaves:
-        seen = _project(path, main.corners(time), time)[:, :2]
-        if not (np.any(seen.min(axis=0) > half) or np.any(seen.max(axis=0) < -half)):
+        seen = image_of(path.at(time), main.corners(time))[:, :2] / [0.5, 0.5 * aspect]
+        if not (np.any(seen.min(axis=0) > 1.0) or np.any(seen.max(axis=0) < -1.0)):
             return False
     return True
 
@@ -194,9 +160,7 @@ def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraP
             framing = replace(path.framing, distance_m=1.2 * path.framing.distance_m)
             path = replace(path, framing=framing)
             continue
-        if main.enters or main.leaves:
-            break
-        if _visible_share(path, main, shooting.aspect) >= _VISIBLE_SHARE:
+        if main.enters or main.leaves or _is_visible(path, main, shooting.aspect):
             break
         damped = tuple(
             replace(move, pace=0.75 * move.pace) if move.kind in _LEAVING else move
@@ -206,12 +170,13 @@ def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraP
     return path
 
 
-def _visible_share(path: CameraPath, main: Actor, aspect: float) -> float:
-    """Share of the clip in which the middle of the subject is in the picture."""
+def _is_visible(path: CameraPath, main: Actor, aspect: float) -> bool:
+    """Whether the middle of the subject is in the picture for nearly all of the clip."""
     half = np.array([0.49, 0.49 * aspect])
     times = np.linspace(0.0, path.duration_s, _CHECKS)
-    seen = [_project(path, main.middle(float(t))[None], float(t))[0] for t in times]
-    return float(np.mean([bool(np.all(np.abs(p[:2]) < half) and p[2] > 0.0) for p in seen]))
+    seen = np.array([image_of(path.at(float(t)), main.middle(float(t))) for t in times])
+    is_inside = np.all(np.abs(seen[:, :2]) < half, axis=1) & (seen[:, 2] > 0.0)
+    return bool(is_inside.mean() >= _VISIBLE_SHARE)
 
 
 def _runs_into(path: CameraPath, shooting: _Shooting) -> bool:
@@ -240,15 +205,11 @@ def _look_around(shooting: _Shooting) -> CameraPath:
 
 def _stand_at(shooting: _Shooting) -> CameraPath:
     """The camera where metres say; its moves go through that pose at mid clip."""
-    description = shooting.description
-    shot = description.shot
-    main = choose_main(description, shooting.actors) if shooting.actors else None
-    return CameraPath(
-        pose(shot.position_m or (), shot.look_at_m or ()),
-        _plan_moves(description, None, shooting.duration_s), shooting.duration_s,
-        None if main is None else main.trajectory, has_floor=False,
-        subject_corners=None if main is None else main.corners,
-    )  # fmt: skip
+    description, actors = shooting.description, shooting.actors
+    framing = pose(description.shot.position_m or (), description.shot.look_at_m or ())
+    moves = _plan_moves(description, None, shooting.duration_s)
+    tie = Tie.of(moves, choose_main(description, actors)) if actors else None
+    return CameraPath(framing, moves, shooting.duration_s, tie, has_floor=False)
 
 
 def _travel(shooting: _Shooting, travel: TravelPlan) -> CameraPath:
@@ -273,7 +234,11 @@ def _plan_moves(
     said = {(one.kind, one.phase, one.start_s): one for one in description.shot.moves}
     if main is None or said or not main.is_mover:
         return tuple(said.values())
-    if has_landmark(description, main) or goes_in_depth(description, main):
+    has_landmark = any(
+        relation.kind in KEPT_TOGETHER and relation.subject == main.object_index
+        for relation in description.relations
+    )
+    if has_landmark or goes_in_depth(description, main):
         return ()
     span = max(main.model.length, main.model.height)
     way = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))

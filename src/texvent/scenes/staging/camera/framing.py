@@ -1,9 +1,9 @@
-"""Framing: the camera position from which everything that matters fits the image."""
+"""Framing: the camera position from which everything that matters fits the image, large enough."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +14,12 @@ USUAL_FOCAL = 1.1
 """Focal length over image width."""
 NEAREST_M = 0.04
 """Least distance from the camera to what it looks at, m."""
+_LARGE = 0.3
+"""Geometric mean of the shares of the image's width and height that a subject should extend over:
+a person two thirds as high as the image, a car four tenths as wide. What is thin comes nearer."""
+_LARGE_GROUP, _LARGE_COPY = 0.65, 0.13
+"""Share of the image's width or height that a group should extend over together, and each of it."""
+_HALVINGS, _FIT_STEPS = 6, 4
 
 
 @dataclass(frozen=True)
@@ -49,12 +55,9 @@ def pose(position: Sequence[float], target: Sequence[float]) -> Framing:
 
 
 def seen_through(framing: Framing, field_of_view_deg: float | None, *, is_fixed: bool) -> Framing:
-    """The framing with another horizontal field of view; None leaves it as it is.
+    """The framing with another horizontal field of view, 1 to 150°; None leaves it as it is.
 
-    Args:
-        framing: the camera's position and lens.
-        field_of_view_deg: 1 to 150.
-        is_fixed: whether the camera stays; else what it looks at keeps its size in the image.
+    Unless the camera is fixed, what it looks at keeps its size in the image.
     """
     if field_of_view_deg is None:
         return framing
@@ -84,44 +87,76 @@ def fit(
     points: Float64Array, *, azimuth: float, elevation: float, aspect: float, fill: float,
     lift: float = 0.0, focal: float = USUAL_FOCAL,
 ) -> Framing:  # fmt: skip
-    """The nearest station from which all points appear.
+    """The nearest station from which points [n, 3], m, fill that share of the image at most.
 
     A point (r right, u up, f further than the target) is inside when |r| is at most
     fill · (distance + f) / (2 · focal), and likewise for u with the image's height: each point
-    needs a distance; the largest is taken.
-
-    Args:
-        points: [n, 3] what must be seen, m.
-        azimuth: where the camera stands around them.
-        elevation: how high it stands, radians.
-        aspect: image height over width.
-        fill: share of the image that they may fill, 0..1.
-        lift: how far above their middle the camera looks, in half image heights, as far as
-            they still fit: puts them into the lower part of the image, under the sky.
-        focal: focal length over image width.
+    needs a distance; the largest is taken. The camera looks above their middle by `lift` half image
+    heights, as far as they still fit: the sky comes into the upper part of the image.
     """
     back = direction(azimuth, elevation)
     right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
     up = np.cross(back, right)
     target = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    distance = 1.0
-    for _ in range(3):
+    for step in range(_FIT_STEPS):
         local = points - target
-        sideways, upwards, further = local @ right, local @ up, -(local @ back)
-        wide = 2.0 * focal / fill
-        distance = float(
-            np.max(np.maximum(np.abs(sideways), np.abs(upwards) / aspect) * wide - further)
-        )
-        distance = max(distance, NEAREST_M)
-        depth = np.maximum(distance + further, 1e-3)
-        shift_right = 0.5 * ((sideways / depth).min() + (sideways / depth).max()) * distance
-        shift_up = 0.5 * ((upwards / depth).min() + (upwards / depth).max()) * distance
-        target = target + shift_right * right + shift_up * up
-    local = points - target
-    asked = np.maximum(np.abs(local @ right), np.abs(local @ up) / aspect) * 2.0 * focal / fill
-    distance = max(float(np.max(asked + local @ back)), NEAREST_M)
+        sideways, upwards, nearer = local @ right, local @ up, local @ back
+        asked = np.maximum(np.abs(sideways), np.abs(upwards) / aspect) * 2.0 * focal / fill
+        distance = max(float(np.max(asked + nearer)), NEAREST_M)
+        depth = np.maximum(distance - nearer, 1e-3)
+        x, y = sideways / depth, upwards / depth
+        if step < _FIT_STEPS - 1:
+            middle = (x.min() + x.max()) * right + (y.min() + y.max()) * up
+            target = target + 0.5 * distance * middle
     half_height = 0.5 * aspect / focal
-    lowest = float(np.min((local @ up) / (distance - local @ back))) / half_height
-    raised = min(lift, max(fill + lowest, 0.0))
+    raised = min(lift, max(fill + float(y.min()) / half_height, 0.0))
     target = target + raised * half_height * distance * up
     return Framing(target, azimuth, elevation, distance, focal)
+
+
+def image_of(camera: Camera, points: Float64Array) -> Float64Array:
+    """[..., 3] of points: x and y in image widths from the middle, y down; and depth, m."""
+    seen = (points - camera.position) @ camera.rotation.T
+    seen[..., :2] *= camera.focal / np.maximum(seen[..., 2:], 1e-3)
+    return np.asarray(seen)
+
+
+def measure_prominence(camera: Camera, boxes: Float64Array, aspect: float) -> float:
+    """How prominent boxes [copies, 8, 3] of an object are; 1 = as large as a subject should be."""
+    image = image_of(camera, boxes)[..., :2] / [1.0, aspect]
+    copy = float(np.sqrt(np.prod(np.ptp(image, axis=1), axis=1)).max())
+    if len(image) == 1:
+        return copy / _LARGE
+    group = float(np.ptp(image, axis=(0, 1)).max())
+    return max(copy / _LARGE, min(copy / _LARGE_COPY, group / _LARGE_GROUP))
+
+
+def come_near(
+    framings: Sequence[Framing], prominence: Callable[[Framing], float], goals: Sequence[float]
+) -> Framing:
+    """The framing that shows as much as it can with a subject that is large enough.
+
+    Framings go from the one that shows all to the one that shows the subject alone; they look the
+    same way, so that what is in the image from two places is so from those between them. The camera
+    goes on to the next one until the subject is as prominent as the next goal.
+    """
+    found, reached = framings[0], prominence(framings[0])
+    for near, goal in zip(framings[1:], goals, strict=True):
+        most = prominence(near)
+        if reached >= goal or most <= reached:
+            continue
+        wide, low, high = found, 0.0, 1.0
+        for _ in range(_HALVINGS if most >= goal else 0):
+            middle = 0.5 * (low + high)
+            is_enough = prominence(_between(wide, near, middle)) >= goal
+            low, high = (low, middle) if is_enough else (middle, high)
+        found = _between(wide, near, high)
+        reached = prominence(found)
+    return found
+
+
+def _between(one: Framing, other: Framing, share: float) -> Framing:
+    """The framing at a share of the way from one to another."""
+    target = one.target + share * (other.target - one.target)
+    distance = one.distance_m + share * (other.distance_m - one.distance_m)
+    return replace(one, target=target, distance_m=distance)

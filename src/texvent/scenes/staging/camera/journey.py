@@ -85,24 +85,7 @@ class TravelPlan:
         speed = max(abs(route.initial_speed_m_s), 1e-3)
         back = self.length_m if route.initial_speed_m_s < 0.0 else 0.0
         state = route.at((along_m - back) / math.copysign(speed, route.initial_speed_m_s))
-        x, y, _ = state.position
-        return (
-            x + right_m * math.sin(state.yaw),
-            y - right_m * math.cos(state.yaw),
-            state.yaw,
-        )
-
-    def branches(self) -> list[tuple[float, float, float]]:
-        """x, y and heading of roads that leave the route at corners."""
-        found = []
-        for x, y, heading in self.road.crossings:
-            back = self.journey.route.yaw
-            # The main road goes on beyond the crossing; the crossing goes on behind the route.
-            offset_x, offset_y = self.road.offset
-            along = (x - offset_x) * math.cos(back) + (y - offset_y) * math.sin(back)
-            corner = (offset_x + along * math.cos(back), offset_y + along * math.sin(back))
-            found += [(*corner, back), (*corner, heading + math.pi)]
-        return found
+        return (*_left_of(state.position, state.yaw, -right_m), state.yaw)
 
     def places(self, step_m: float = 1.0) -> Float64Array:
         """[n, 2] the route, and on for as far as one sees, m."""
@@ -112,13 +95,7 @@ class TravelPlan:
 
 
 def plan_travel(description: SceneDescription, place: str, duration_s: float) -> TravelPlan | None:
-    """The route of a camera that travels; None where it does not.
-
-    Args:
-        description: what the prompt says of the camera.
-        place: key of `environment.PLACES`.
-        duration_s: length of the clip, s.
-    """
+    """The route of a camera that travels, with the road below it; None where it does not."""
     moves = [move for move in description.shot.moves if move.kind == "travel"]
     if not moves:
         return None
@@ -135,7 +112,7 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     speed = moves[0].speed_m_s or means.speed_m_s * moves[0].pace
     has_road, kind = PLACES[place].has_road, description.surroundings.road
     tightest = _ROAD_RADIUS_M if has_road else _FREE_RADIUS_M
-    route, bends, corner = _steer(phases, speed, duration_s, tightest, kind == "curved")
+    route, curvature = _steer(phases, speed, duration_s, tightest, kind == "curved")
     road_half = PLACES[place].road_m if has_road else 0.0
     is_on_pavement = ground is Ground.CITY and not is_aerial and means.speed_m_s < _ON_FOOT_M_S
     lane = 0.5 * road_half if means.is_on_road else road_half + 1.0 if is_on_pavement else 0.0
@@ -146,8 +123,9 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     ways = [route.distance_at(float(time)) for time in times]
     length = max(ways) - min(ways)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
-    road = _road_beside(route, lane, bends, corner)
-    if kind == "crossing" and not road.crossings and not bends:
+    bend = 1.0 / (1.0 / curvature - lane) if curvature else 0.0
+    road = RoadLine(route.yaw, _left_of(route.start, route.yaw, lane), bend)
+    if kind == "crossing" and not curvature:
         x, y, angle = road.at(0.6 * length + 4.0)
         road = replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
     return TravelPlan(Journey(route, height, pitch, means.step_m), length, clear, road)
@@ -159,52 +137,24 @@ def _steer(
     duration_s: float,
     tightest_m: float,
     is_curved: bool,
-) -> tuple[SteeredPath, float, float | None]:
-    """The route from the origin northwards, its steady rate of turning, and where a corner ends.
-
-    The rate is in rad/s, 0 where it does not bend all along; the end of the corner in s.
-    """
+) -> tuple[SteeredPath, float]:
+    """The route from the origin northwards, and its curvature, 1/m: one for all phases."""
+    words = {move.direction for moves in phases for move in moves}
+    side = 1.0 if "left" in words else -1.0 if "right" in words else float(is_curved)
+    curvature = side * min(0.5 * math.pi / (_BEND_S * max(speed, 1e-3)), 1.0 / tightest_m)
     span = duration_s / len(phases)
-    pieces: list[Piece] = []
-    bend, corner, initial = 0.0, None, 0.0
-    for number, moves in enumerate(phases):
-        words = [move.direction for move in moves]
-        way = -speed if "backward" in words else speed if moves else 0.0
-        side = 1.0 if "left" in words else -1.0 if "right" in words else 0.0
-        if is_curved and len(phases) == 1 and side == 0.0:
-            side = 1.0
-        ramp = min(0.5, 0.4 * span)
-        if number == 0:
-            initial = way
-        if side and len(phases) == 1:
-            bend = side * min(0.5 * math.pi / _BEND_S, abs(way) / tightest_m)
-            pieces.append(Piece(span, way, bend, ramp_s=0.0))
-        elif side:
-            rate = side * min(0.5 * math.pi / (span - ramp), abs(way) / 2.0)
-            pieces += [Piece(span - ramp, way, rate, ramp_s=ramp), Piece(ramp, way, ramp_s=ramp)]
-            corner = span * (number + 1)
-        else:
-            pieces.append(Piece(span, way, ramp_s=ramp))
-    route = SteeredPath((0.0, 0.0, 0.0), 0.5 * math.pi, tuple(pieces), initial, bend)
-    return route, bend, corner
+    ramp = min(0.5, 0.4 * span)
+    pieces = []
+    for moves in phases:
+        is_back = any(move.direction == "backward" for move in moves)
+        way = -speed if is_back else speed if moves else 0.0
+        pieces.append(Piece(span, way, curvature * way, ramp_s=ramp))
+    first = pieces[0].speed_m_s
+    route = SteeredPath(
+        (0.0, 0.0, 0.0), 0.5 * math.pi, tuple(pieces), first, curvature * first
+    )  # fmt: skip
+    return route, curvature
 
 
-def _road_beside(
-    route: SteeredPath, lane_m: float, bend_rad_s: float, corner_s: float | None
-) -> RoadLine:
-    """The road whose right lane the route is."""
-    x, y, _ = route.start
-    angle = route.yaw
-    offset = (x - lane_m * math.sin(angle), y + lane_m * math.cos(angle))
-    crossings = []
-    if corner_s is not None:
-        state = route.at(corner_s)
-        cx, cy, _ = state.position
-        crossings.append(
-            (cx - lane_m * math.sin(state.yaw), cy + lane_m * math.cos(state.yaw), state.yaw)
-        )
-    curvature = 0.0
-    if bend_rad_s:
-        curvature = bend_rad_s / route.initial_speed_m_s
-        curvature = 1.0 / (1.0 / curvature - lane_m)
-    return RoadLine(angle, offset, curvature, tuple(crossings))
+def _left_of(place: tuple[float, float, float], yaw: float, metres: float) -> tuple[float, float]:
+    return place[0] - metres * math.sin(yaw), place[1] + metres * math.cos(yaw)

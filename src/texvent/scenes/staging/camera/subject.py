@@ -1,29 +1,49 @@
-"""The subject: which object the camera is about, and how it and others move."""
+"""The subject: what the camera is about, from where it looks, and what the image must hold."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Collection, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.anchors import has_places
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, corners_over, seeded
+from texvent.scenes.staging.camera.camera_path import Tie
 from texvent.scenes.staging.trajectories.trajectory import Stationary
 
+INSTANTS = 13
+"""Instants of the clip at which everything must fit."""
+_FILL, _WIDE_FILL, _FOLLOWED_FILL, _NEAR_FILL = 0.88, 0.7, 0.75, 0.95
+"""Share of the image that what matters may fill: usually, in a wide shot, where the camera goes
+along with it, and in a close shot."""
+_FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
+                 "crane": 0.7, "handheld": 0.84, "roll": 0.7, "dolly zoom": 0.6}  # fmt: skip
+_APPROACHES = frozenset({"zoom", "dolly", "dolly zoom"})
+_AIM_FILLS, _LARGE_AIM = (1.3, 0.55), 1.3
+"""Fill at the far and the near end of a move in, and prominence of the aim at the near one."""
+_WHOLE = 3.5
+"""Other objects must fit as a whole if they are at most this many times as large as the movers."""
+_PIECE = 0.7
+"""Reach of the piece of a larger one that must fit, in sizes of the largest mover."""
+_GOALS = (1.0, 1.0, 0.9, 0.4)
+"""Prominence of the subject for which the image may hold no more than each of the views."""
+_LARGE_IN_WIDE = 0.75
+"""How much less prominent the subject is in a wide shot."""
 KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
      "left of", "right of", "look at"}
 )  # fmt: skip
 """Relations of which both things must be in the picture."""
-_CROSSED = 0.7
-"""How far, in its lengths or heights, a subject goes in the image of a camera that goes along."""
-_ALONG = 0.7
-"""What goes along with the subject strays by so many of its sizes at most."""
-_STIRS = 0.25
-"""How far, in its own sizes, a thing that works in its place may stir."""
+_UPPER = {"close": 0.62, "medium": 0.42}
+"""Framing → share of a person's height below which the image may end."""
+_FOREARM = 0.28
+"""Share of a hand with its forearm below which the image may end: it comes from outside."""
 _RESTS = 0.05
 """How far, in its heights, the lower body of a person on the spot may move."""
 _BELOW = ("left foot", "right foot", "seat")
@@ -31,72 +51,44 @@ _OF_WHOLE_BODY = frozenset(
     {"sit", "kneel", "crouch", "squat", "lie", "push-up", "dribble", "sweep", "row", "surf"}
 )
 """Activities of which the legs, or what is at the feet, tell."""
+ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05, "level": 0.03,
+              "shoulder": 0.16, "high": 0.5}  # fmt: skip
+"""View → elevation of the camera, rad."""
+_BEARINGS = {"side": 0.0, "front": 0.5 * math.pi, "back": -0.5 * math.pi, "shoulder": -1.25}
+"""View → azimuth of the camera from the side of what it looks at, to its right; radians."""
+_FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
+_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
+_ROOM_ELEVATION = 0.24
+_FLAT, _FLAT_MOST_M, _FLAT_ELEVATION = 0.3, 3.0, 0.85
+"""What stays in place, is flatter than this share of its length and not longer than that, is looked
+down upon."""
+_LEVEL_ELEVATION, _BETWEEN_WALLS = 0.38, 0.06
+"""Greatest elevation of a view from the front, the side or behind; and azimuth of a camera between
+two walls, which looks along them."""
+_ELONGATED, _ALONG_IT = 4.5, 0.75
+"""What is so many times as long as high is seen at an angle to its side, from nearer its front."""
+_HERD, _HERD_ELEVATION = 6, 0.3
+"""From so many copies on, and in a traffic jam, the camera stands higher, so that those behind are
+seen too."""
 
 
 def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
     """The object the camera is about: as said, or the first that moves or could."""
     target = description.shot.target
-    for actor in actors:
-        if target is not None and actor.object_index == target:
-            return actor
-    for actor in actors:
-        if actor.enters or actor.leaves:
-            return actor
-    able = (one for one in actors if one.is_mover or _is_able(one))
-    return next(able, actors[0])
+    asked = [one for one in actors if target is not None and one.object_index == target]
+    coming = [one for one in actors if one.enters or one.leaves]
+    able = [one for one in actors if one.is_mover or _is_able(one)]
+    return [*asked[:1], *coming[:1], *able[:1], actors[0]][0]
 
 
 def _is_able(actor: Actor) -> bool:
     return actor.noun.speed_m_s > 0.0 and actor.noun.habitat != "fixed"
 
 
-def list_related(description: SceneDescription, main: Actor) -> set[int]:
-    """The objects that a relation ties to the subject."""
-    related = {
-        index
-        for relation in description.relations
-        if main.object_index in (relation.subject, *relation.targets)
-        for index in (relation.subject, *relation.targets)
-    }
-    return related - {main.object_index}
-
-
-def has_landmark(description: SceneDescription, main: Actor) -> bool:
-    """Whether the subject is placed by something that must stay in the picture."""
-    return any(
-        relation.kind in KEPT_TOGETHER and relation.subject == main.object_index
-        for relation in description.relations
-    )
-
-
 def goes_in_depth(description: SceneDescription, main: Actor) -> bool:
     """Whether the scene says that it comes towards the camera or goes away from it."""
     motion = description.objects[main.object_index].motion
     return motion is not None and motion.direction in ("towards", "away")
-
-
-def share_to_follow(actors: Sequence[Actor], main: Actor, duration_s: float) -> float:
-    """Share of the subject's way that the camera should go along, so that it can be large.
-
-    It still crosses the image. 0 where it hardly goes, or where other things do not go with it.
-    """
-    way = main.middle(duration_s) - main.middle(0.0)
-    span = max(main.model.length, main.model.height)
-    apart = [
-        float(np.linalg.norm(actor.middle(duration_s) - actor.middle(0.0) - way))
-        for actor in actors
-    ]
-    if max(apart) > _ALONG * span or main.enters or main.leaves:
-        return 0.0
-    return max(0.0, 1.0 - _CROSSED * span / max(float(np.linalg.norm(way)), 1e-6))
-
-
-def goes(actor: Actor, times: Float64Array) -> bool:
-    """Whether it moves from where it is; a lighthouse and a swing only work there."""
-    if not actor.is_mover or actor.noun.habitat != "fixed":
-        return actor.is_mover
-    places = [actor.middle(float(time)) for time in times]
-    return float(np.ptp(places, axis=0).max()) > _STIRS * actor.size_m
 
 
 def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
@@ -109,3 +101,197 @@ def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
         return False
     places = np.array([[actor.anchor(one, float(t))[:, 3] for one in _BELOW] for t in times])
     return float(np.ptp(places, axis=0).max()) < _RESTS * actor.model.height
+
+
+def choose_angles(
+    description: SceneDescription,
+    main: Actor,
+    moves: Sequence[CameraMove],
+    place: str,
+    seed: int,
+) -> tuple[float, float]:
+    """Azimuth and elevation of the camera, radians."""
+    wander = float(seeded(seed, "camera").uniform(-0.14, 0.14))
+    yaw = main.trajectory.at(0.0).yaw
+    step = np.subtract(main.trajectory.at(0.5).position, main.trajectory.at(0.0).position)
+    is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+    said, view = description.objects[main.object_index], description.shot.view
+    is_jammed = said.motion is not None and said.motion.is_stuck
+    follow = next((move.direction or "" for move in moves if move.kind == "follow"), None)
+    if follow in ("behind", "front"):
+        azimuth = yaw + 0.1 * wander + (0.5 if follow == "front" else -0.5) * math.pi
+    elif any(rule.where == "both sides" for rule in PLACES[place].scenery):
+        azimuth = math.copysign(_BETWEEN_WALLS, wander)
+    elif is_in_depth:
+        azimuth = math.copysign(0.42, wander)
+        azimuth = azimuth if follow is None else yaw + math.copysign(0.5, wander)
+    elif _is_elongated(main) or is_jammed:
+        azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
+    else:
+        azimuth = wander
+    if view in _BEARINGS:
+        azimuth = yaw + _BEARINGS[view]
+        if view == "side" and math.cos(azimuth) < 0.0:
+            azimuth += math.pi  # its other side, which faces the default viewer
+    elevation = ELEVATIONS.get(view or "")
+    if elevation is None:
+        elevation = _choose_elevation(main, follow, place, is_in_depth)
+        if (said.count >= _HERD or is_jammed) and elevation > 0.0:
+            elevation = max(elevation, _HERD_ELEVATION)
+    return azimuth, min(elevation, _LEVEL_ELEVATION) if view in _BEARINGS else elevation
+
+
+def _choose_elevation(main: Actor, follow: str | None, place: str, is_in_depth: bool) -> float:
+    """Height of the camera above what it looks at, radians."""
+    if follow in _FOLLOW_ELEVATIONS:
+        return _FOLLOW_ELEVATIONS[follow]
+    model = main.model
+    widest = max(model.length, model.width)
+    is_flat = widest < _FLAT_MOST_M and model.height < _FLAT * widest
+    if is_flat and not main.is_mover and main.noun.habitat in ("fixed", "ground"):
+        return _FLAT_ELEVATION
+    if place in _PLACE_ELEVATIONS:
+        return _PLACE_ELEVATIONS[place]
+    if is_room(place):
+        return _ROOM_ELEVATION
+    if main.noun.habitat == "air":
+        return -0.03
+    if not main.is_mover and model.height > 5.0:
+        return 0.03
+    if model.height < 0.7:
+        return 0.24
+    return 0.2 if is_in_depth else 0.12
+
+
+def _is_elongated(main: Actor) -> bool:
+    """Whether it is a train or a ship: all of it from the side would be a thin line."""
+    model = main.model
+    is_large = model.length > _FLAT_MOST_M and main.noun.motion in ("drive", "sail")
+    return is_large and model.length > _ELONGATED * model.height
+
+
+class View(NamedTuple):
+    """What the image is to hold."""
+
+    points: Float64Array
+    """[n, 3] m."""
+    fill: float
+    """Share of the image that they may fill."""
+    goal: float = 1.0
+    """Prominence of the subject for which the image may hold no more than this."""
+
+
+class _Scope(NamedTuple):
+    """What decides how much of each object must be seen."""
+
+    main: Actor
+    times: Float64Array
+    tie: Tie | None
+    passed: Collection[int]
+    """Objects that something goes past."""
+    cut: Collection[int]
+    """Objects of which the lower part may be out of the image: people who act with their arms."""
+
+
+def list_views(
+    description: SceneDescription, actors: Sequence[Actor], main: Actor,
+    moves: Sequence[CameraMove], times: Float64Array,
+) -> list[View]:  # fmt: skip
+    """What the image may hold, from all there is to the subject alone, at instants, s."""
+    shot, tie = description.shot, Tie.of(moves, main)
+    relations = description.relations
+    passed = {n for r in relations if r.kind in ("past", "among", "overtake") for n in r.targets}
+    first = {one.object_index: one for one in reversed(actors)}
+    cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
+    scope = _Scope(main, times, tie, passed, cut)
+    near = [one for one in actors if description.objects[one.object_index].side != "far"]
+    if any(move.kind in _APPROACHES for move in moves) and main.object_index == shot.target:
+        return _approach(near, scope._replace(tie=None))
+    framing = shot.framing
+    if shot.view == "shoulder" and framing != "close":
+        framing = "medium"
+    if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
+        boxes = corners_over([main], times if tie is None else times[:1])
+        return [View(_upper_part(main, boxes, framing), _NEAR_FILL)]
+    fill = min([_FILL, *(_FILL_BY_MOVE.get(move.kind, _FILL) for move in moves)])
+    fill = fill if tie is None or tie.share < 1.0 else min(fill, _FOLLOWED_FILL)
+    if shot.framing == "wide":
+        fill = _WIDE_FILL
+    goal = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
+    tied = [
+        {r.subject, *r.targets} for r in relations if main.object_index in (r.subject, *r.targets)
+    ]
+    related = set().union(*tied) - {main.object_index}
+    landmarks = {n for r in relations if r.kind in KEPT_TOGETHER for n in r.targets}
+    partners = [one for one in near if one.object_index in related - {main.object_index}]
+    others = [one for one in near if not main.is_mover or _goes(one)]
+    kept = [one for one in partners if one.object_index in landmarks]
+    copies = [one for one in actors if one.object_index == main.object_index]
+    choices = (near, [*others, *partners], partners, kept)
+    return [
+        View(_points_of([*copies, *some], scope), fill, goal * least)
+        for some, least in zip(choices, _GOALS, strict=True)
+    ]
+
+
+def _goes(actor: Actor) -> bool:
+    """Whether it moves from where it is; a lighthouse and a swing only work there."""
+    return actor.is_mover and actor.noun.habitat != "fixed"
+
+
+def _approach(actors: Sequence[Actor], scope: _Scope) -> list[View]:
+    """Views for a move in: at its far end the image shows what else there is, about the subject."""
+    near = corners_over([scope.main], scope.times)
+    rest = _points_of(actors, scope)
+    aim = 0.5 * (near.min(axis=0) + near.max(axis=0))
+    far_fill, near_fill = _AIM_FILLS
+    return [
+        View(np.vstack([rest, 2.0 * aim - rest]), far_fill), View(near, near_fill, _LARGE_AIM)
+    ]  # fmt: skip
+
+
+def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
+    """[n, 3] what must fit, m: movers whole, of much larger things the piece near the subject.
+
+    Where the camera goes along with the subject, places are those relative to it.
+    """
+    main, times = scope.main, scope.times
+    movers = [actor for actor in actors if actor.is_mover or actor is main]
+    largest = max(actor.size_m for actor in movers)
+    points = []
+    for actor in actors:
+        is_mover = actor.is_mover or actor is main
+        if scope.tie is not None and not is_mover:
+            continue
+        is_large = actor.size_m > _WHOLE * largest or actor.object_index in scope.passed
+        if is_large and not is_mover:
+            points.append(_near_piece(actor, main, times, _PIECE * largest))
+            continue
+        for time in map(float, times):
+            box = actor.corners(time)
+            if actor.object_index in scope.cut:
+                box = _upper_part(actor, box, "medium")
+            points.append(box if scope.tie is None else scope.tie.relative(box, time))
+    return np.vstack(points)
+
+
+def _upper_part(actor: Actor, points: Float64Array, framing: str) -> Float64Array:
+    """[n, 3] corners of boxes, m, of a person or a hand without what is below the image."""
+    if actor.noun.name not in PERSON_NOUNS | HAND_NOUNS:
+        return points
+    share = _FOREARM if actor.noun.name in HAND_NOUNS else _UPPER[framing]
+    low, high = float(points[:, 2].min()), float(points[:, 2].max())
+    cut = points.copy()
+    cut[:, 2] = np.maximum(cut[:, 2], low + share * (high - low))
+    return cut
+
+
+def _near_piece(actor: Actor, main: Actor, times: Float64Array, reach_m: float) -> Float64Array:
+    """[8, 3] the piece of an object's box that is nearest to the subject's way, m."""
+    box = actor.corners(float(times[0]))
+    low, high = box.min(axis=0), box.max(axis=0)
+    ways = np.array([main.middle(float(time)) for time in times])
+    nearest = np.clip(ways, low, high)
+    point = nearest[int(np.argmin(np.linalg.norm(nearest - ways, axis=1)))]
+    ends = np.stack([np.maximum(low, point - reach_m), np.minimum(high, point + reach_m)])
+    return np.array([[x, y, z] for x in ends[:, 0] for y in ends[:, 1] for z in ends[:, 2]])

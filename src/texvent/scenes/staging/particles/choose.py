@@ -1,4 +1,4 @@
-"""Effects of a scene → particle systems at their places."""
+"""Effects of a scene → particle systems and lights at their places."""
 
 from __future__ import annotations
 
@@ -10,17 +10,15 @@ import numpy as np
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.anchors import locate
-from texvent.scenes.models.effects import EFFECTS, EmitterStyle, LightStyle
+from texvent.scenes.models.effects import EFFECTS, EmitterStyle
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.framing import Framing
-from texvent.scenes.staging.particles.body_lights import BodyLights
-from texvent.scenes.staging.particles.bolts import Lightning
-from texvent.scenes.staging.particles.emitter import Emitter
-from texvent.scenes.staging.particles.motion import Source
+from texvent.scenes.staging.particles.emitter import Emitter, Source
+from texvent.scenes.staging.particles.lights import BodyLights, Lightning
 from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.surroundings.weather import WEATHERS
 
@@ -29,8 +27,8 @@ ONCE_AT = 0.4
 _FALL_STEPS = 240
 _NO_GROUND = ("sky", "space", "underwater")
 _BLUE: Colour = (0.06, 0.2, 1.0)
-_SPOUT = "spout"
-"""Trait of nouns that water leaves at a point, in a direction."""
+_BREATH = (1.0, 0.0, 0.3)
+"""Direction of what comes from a mouth."""
 
 
 @dataclass(frozen=True)
@@ -42,11 +40,6 @@ class Setting:
     place: str
     duration_s: float
     seed: int
-
-    @property
-    def floor_m(self) -> float:
-        """Height of the ground, m; -inf where there is none."""
-        return -np.inf if self.place in _NO_GROUND else 0.0
 
     @property
     def base(self) -> Float64Array:
@@ -83,10 +76,8 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
     effects = _weather(description, setting)
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
-        actors: Sequence[Actor | None] = [None]
-        if effect.source is not None:
-            actors = [one for one in setting.actors if one.object_index == effect.source] or [None]
-        for copy, actor in enumerate(actors):
+        copies = [one for one in setting.actors if one.object_index == effect.source]
+        for copy, actor in enumerate(copies or [None]):
             rng = seeded(setting.seed, "effect", effect.kind, number, copy)
             effects += _make(effect, actor, setting, rng)
             if actor is not None and EFFECTS[effect.kind].ends_source:
@@ -104,29 +95,20 @@ def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEf
     for actor in setting.actors if said.has_dust else ():
         if actor.is_mover and actor.noun.habitat == "ground":
             rng = seeded(setting.seed, "dust", actor.instance)
-            made += _emit(Effect("dust"), actor, setting, rng)
+            made += _make(Effect("dust"), actor, setting, rng)
     return made
 
 
 def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:
     """The objects, with room in the image for what rises from them."""
-    room: dict[int, float] = {}
-    for effect in description.effects:
-        words = EFFECTS[effect.kind]
-        if effect.source is not None and words.headroom:
-            needed = words.headroom * words.size
-            room[effect.source] = max(needed, room.get(effect.source, 0.0))
-    return [
-        replace(actor, headroom_m=room[actor.object_index] * _bulk(actor))
-        if actor.object_index in room
-        else actor
-        for actor in actors
-    ]
 
+    def with_room(actor: Actor) -> Actor:
+        effects = [EFFECTS[one.kind] for one in description.effects
+                   if one.source == actor.object_index]  # fmt: skip
+        room = max((one.headroom * one.size for one in effects), default=0.0)
+        return replace(actor, headroom_m=room * _bulk(actor)) if room else actor
 
-def lowest_m(actor: Actor) -> float:
-    """Height of a body's lowest point above its origin, m."""
-    return -0.5 * actor.model.height if actor.is_centred else 0.0
+    return [with_room(actor) for actor in actors]
 
 
 def gone(to_world: Float64Array) -> Float64Array:
@@ -140,60 +122,42 @@ def _make(
     """What shows an effect at an object, or by itself."""
     if effect.kind == "lightning":
         return [Lightning.of(setting.base, setting.away, setting.framing.distance_m, rng)]
-    lights = EFFECTS[effect.kind].lights
-    if lights is not None:
-        return [_light_up(effect, lights, actor, setting)]
-    return _emit(effect, actor, setting, rng)
-
-
-def _light_up(
-    effect: Effect, lights: LightStyle, actor: Actor | None, setting: Setting
-) -> BodyLights:
-    """Lights on an object, or in the air."""
-    noun = "" if actor is None else actor.noun.name
-    source = _source(effect.kind, None, setting)
-    if actor is not None:
-        source = Source(_bulk(actor), np.array([0.0, 0.0, lowest_m(actor)]), actor)
-    colour = rgb_of(effect.colour, "effect")
-    if colour is None and effect.kind == "beacon" and noun in nouns_with("blue beacon"):
-        colour = _BLUE
-    return BodyLights.of(lights, source, colour, tapers=noun in nouns_with("tapers upwards"))
-
-
-def _emit(
-    effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
-) -> list[ParticleEffect]:
-    """The emitters of an effect."""
     words = EFFECTS[effect.kind]
-    start_s = _start(effect, actor, setting) if words.happens_once else effect.start_s
+    colour = rgb_of(effect.colour, "effect")
     source = _source(effect.kind, actor, setting)
-    if effect.kind == "splash":
+    if words.lights is not None:
+        noun = "" if actor is None else actor.noun.name
+        if effect.kind == "beacon" and noun in nouns_with("blue beacon"):
+            colour = colour or _BLUE
+        tapers = noun in nouns_with("tapers upwards")
+        return [BodyLights.of(words.lights, source, colour, tapers=tapers)]
+    start_s = _start(effect, actor, setting) if words.happens_once else effect.start_s
+    if effect.kind == "splash":  # stays where it began, on the water
         middle = source.at(np.array([start_s or 0.0]))[0]
         source = Source(source.size_m, middle * [1.0, 1.0, 0.0])
-    colour = rgb_of(effect.colour, "effect")
     return [
         Emitter.of(
             _fitted(style, effect.kind, actor), source, rng, colour=colour, start_s=start_s,
-            is_once=words.happens_once, floor_m=setting.floor_m,
+            is_once=words.happens_once, floor_m=-np.inf if setting.place in _NO_GROUND else 0.0,
+            volley=volley,
         )
         for style in words.emitters
         if style.colours or actor is not None
+        for volley in range(max(style.salvos, 1))
     ]  # fmt: skip
 
 
 def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle:
-    """The style for an object: from its spout, or without light where it has a lamp."""
+    """The style for an object: from its spout or mouth, without light where it has a lamp."""
     if actor is None:
         return style
-    aim = trait_value("spout direction", actor.noun.name)
-    if aim is not None and _SPOUT in EFFECTS[kind].anchor_traits and style.body == "drop":
+    noun, words = actor.noun.name, EFFECTS[kind]
+    aim = trait_value("spout direction", noun) if "spout" in words.anchor_traits else None
+    if aim is not None and style.body == "drop":
         style = replace(style, aim=tuple(aim))
-    if kind in _BLOWN and actor.noun.name in PERSON_NOUNS:
-        style = replace(style, aim=(1.0, 0.0, 0.3))
-    return replace(style, light=0.0) if actor.noun.name in LAMPS else style
-
-
-_BLOWN = frozenset(kind for kind, words in EFFECTS.items() if words.breathed)
+    if words.breathed and noun in PERSON_NOUNS:
+        style = replace(style, aim=_BREATH)
+    return replace(style, light=0.0) if noun in LAMPS else style
 
 
 def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
@@ -202,7 +166,7 @@ def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
         return effect.start_s
     if actor is not None and effect.kind in ("splash", "break"):
         times = np.linspace(0.0, setting.duration_s, _FALL_STEPS)
-        low = lowest_m(actor)
+        low = _lowest_m(actor)
         heights = np.array([actor.trajectory.at(float(t)).position[2] + low for t in times])
         down = np.flatnonzero((heights[1:] <= 0.01) & (heights[:-1] > 0.01))
         if len(down):
@@ -216,20 +180,27 @@ def _bulk(actor: Actor) -> float:
     return float(np.cbrt(model.length * model.width * model.height))
 
 
+def _lowest_m(actor: Actor) -> float:
+    """Height of a body's lowest point above its origin, m."""
+    return -0.5 * actor.model.height if actor.is_centred else 0.0
+
+
 def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     """Where an effect comes from."""
     words = EFFECTS[kind]
     if actor is None:
-        reach = setting.framing.distance_m
+        size, height, behind = setting.framing.distance_m * np.array(words.alone)
         target = np.array(setting.framing.target, dtype=np.float64)
-        target[2] = target[2] + words.alone_height * reach if words.alone_height else 0.0
-        target += words.alone_behind * reach * setting.away
-        return Source(words.alone * reach, target)
-    size, model, noun = words.size * _bulk(actor), actor.model, actor.noun.name
+        target[2] = target[2] + height if height else 0.0
+        return Source(float(size), target + behind * setting.away)
+    bulk, model, noun = _bulk(actor), actor.model, actor.noun.name
+    if words.lights is not None:
+        return Source(bulk, np.array([0.0, 0.0, _lowest_m(actor)]), actor)
     if words.breathed and noun in PERSON_NOUNS:
         mouth = locate(model, "mouth", actor.pose(0.0))
-        return Source(size, np.asarray(mouth @ [0.12 * _bulk(actor), 0.0, 0.0, 1.0]), actor)
+        return Source(words.size * bulk, mouth @ [0.12 * bulk, 0.0, 0.0, 1.0], actor)
     known = (trait_value(trait, noun) for trait in words.anchor_traits)
     x, y, z = next((one for one in known if one is not None), words.anchor)
-    height = lowest_m(actor) + z * model.height
-    return Source(size, np.array([0.5 * x * model.length, 0.5 * y * model.width, height]), actor)
+    height = _lowest_m(actor) + z * model.height
+    point = np.array([0.5 * x * model.length, 0.5 * y * model.width, height])
+    return Source(words.size * bulk, point, actor)

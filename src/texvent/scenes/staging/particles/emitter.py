@@ -11,36 +11,102 @@ from numpy.typing import NDArray
 
 from texvent.scenes.models.effects import EmitterStyle
 from texvent.scenes.models.lamps import Lamp
-from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
-from texvent.scenes.staging.particles.motion import (
-    GRAVITY,
-    Lives,
-    Source,
-    aimed,
-    directions,
-    flight,
-    flight_velocity,
-    turbulence,
+from texvent.scenes.scene import (
+    LAMP_COLUMNS,
+    PUFF_COLUMNS,
+    Colour,
+    Float64Array,
+    Primitives,
+    Shape,
 )
+from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.particles.shapes import (
     TINY_M,
     ParticleEffect,
     along,
     many_shapes,
-    puff_rows,
     tumbling,
 )
 from texvent.scenes.staging.surroundings.light.lamps import wave_at
 
+GRAVITY = 9.81
+GENERATIONS = 16
+"""Lives of a particle that differ; then they repeat."""
 _FLAME = Lamp(1.0, wave="flame")
 _FLAME_HZ = 6.0
 _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])
 _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
-_INHERITED = 0.6
-"""Share of the object's velocity that its pieces keep."""
 _LONG_S = 1e4
 """Life of what has no end."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """The point that particles come from: on an object, or fixed."""
+
+    size_m: float
+    """What lengths of the effect are multiples of."""
+    fixed: Float64Array
+    """[3] the point, m, where there is no object; else in the object's body coordinates."""
+    actor: Actor | None = None
+
+    @property
+    def extents_m(self) -> Float64Array:
+        """[3] length, width and height of the object, m; where there is none, a cube's."""
+        if self.actor is None:
+            return np.full(3, self.size_m)
+        model = self.actor.model
+        return np.array([model.length, model.width, model.height])
+
+    def at(self, times_s: Float64Array) -> Float64Array:
+        """[n, 3] where the point is at [n] times, m."""
+        if self.actor is None:
+            return np.tile(self.fixed, (len(times_s), 1))
+        maps = [self.actor.trajectory.at(float(time)).to_world() for time in times_s]
+        return np.array([one[:, :3] @ self.fixed + one[:, 3] for one in maps]).reshape(-1, 3)
+
+    def turn(self, time_s: float) -> Float64Array:
+        """[3, 3] axes of the object; of the world where there is none."""
+        if self.actor is None:
+            return np.eye(3)
+        return np.asarray(self.actor.trajectory.at(time_s).to_world()[:, :3])
+
+
+@dataclass(frozen=True)
+class Lives:
+    """Particles that are born one after the other, live, and are born again; or live once."""
+
+    draws: Float64Array
+    """[n, GENERATIONS, 8] in 0..1; the last one is never a new draw: when it is first born."""
+    life_s: float
+    once_at_s: float | None = None
+    """When all are born, once; None = they are born at even steps of time."""
+
+    @classmethod
+    def of(
+        cls, count: int, life_s: float, rng: np.random.Generator, once_at_s: float | None = None,
+        salvo: float | None = None,
+    ) -> Lives:  # fmt: skip
+        """`count` particles; those of a `salvo` have one place, and that age at time 0."""
+        draws = rng.uniform(size=(count, GENERATIONS, 8))
+        draws[:, :, 7] = ((np.arange(count) + 0.5) / count)[:, None]
+        if salvo is not None:
+            draws[:, :, 3:7], draws[:, :, 7] = draws[:1, :, 3:7], salvo
+        return cls(draws, life_s, once_at_s)
+
+    def at(self, time_s: float) -> tuple[Float64Array, Float64Array]:
+        """Age of each particle, [n] in 0..1 of its life, and its draws in this life, [n, 8].
+
+        Of those that live once, it is below 0 before and above 1 after.
+        """
+        if self.once_at_s is not None:
+            age = (time_s - self.once_at_s) / self.life_s
+            return np.full(len(self.draws), age), self.draws[:, 0]
+        cycles = time_s / self.life_s + self.draws[:, 0, 7]
+        number = np.floor(cycles)
+        rows = np.arange(len(cycles))
+        return cycles - number, self.draws[rows, number.astype(np.int64) % GENERATIONS]
 
 
 class _Flown(NamedTuple):
@@ -85,24 +151,19 @@ class Emitter(ParticleEffect):
         start_s: float | None = None,
         is_once: bool = False,
         floor_m: float = -math.inf,
+        volley: int = 0,
     ) -> Emitter:
-        """An emitter.
+        """An emitter; `volley` is the number of the salvo that it is, where its style has some.
 
-        Args:
-            style: how its particles look and fly.
-            source: where they come from.
-            rng: tells one from the other.
-            colour: of all, where the scene says one.
-            start_s: when it begins, s; None = long ago.
-            is_once: whether all of them leave at that instant.
-            floor_m: height of the ground, m.
+        It begins at `start_s`, None = long ago; `is_once` lets all particles leave at that instant.
         """
         life_s = style.life * math.sqrt(source.size_m / GRAVITY) or _LONG_S
-        if style.until_ground:
+        if style.body == "drop" and style.life == 0.0:
             height = float(source.at(np.zeros(1))[0, 2])
             height = max(height, 0.02) if math.isfinite(floor_m) else 3.0 * source.size_m
             life_s = 1.1 * math.sqrt(2.0 * height / GRAVITY)
-        lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, style.salvo)
+        salvo = volley / style.salvos if style.salvos else None
+        lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, salvo)
         colours = np.array(style.colours)
         if colour is not None and not style.keeps_colour:
             colours = np.array([colour])
@@ -119,9 +180,8 @@ class Emitter(ParticleEffect):
         flown = self._fly(time_s)
         grown = _between(style.radius, flown.age) * (0.7 + 0.6 * flown.draws[:, 5])
         if style.body == "drop":
-            grown *= np.clip(12.0 * flown.age, 0.0, 1.0) * np.clip(
-                6.0 * (1.0 - flown.age), 0.0, 1.0
-            )
+            grown *= np.clip(12.0 * flown.age, 0.0, 1.0)
+            grown *= np.clip(6.0 * (1.0 - flown.age), 0.0, 1.0)
         half = np.where(flown.is_there, self.source.size_m * grown, TINY_M)[:, None]
         half = np.maximum(half * style.proportions, TINY_M)
         which = (flown.draws[:, 6] * len(self.colours)).astype(np.int64)
@@ -130,9 +190,8 @@ class Emitter(ParticleEffect):
             maps = along(flown.places, flown.heading, half)
             return many_shapes(maps, Shape.ELLIPSOID, self.colours[which], glow)
         rate = style.turns * math.sqrt(GRAVITY / max(self.source.size_m, 0.02))
-        angles = flown.draws[:, :3] * 6.0 + 6.6 * (flown.draws[:, :3] - 0.5) * (
-            rate * flown.age_s[:, None]
-        )
+        starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
+        angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
 
     def puffs(self, time_s: float) -> Float64Array:
@@ -144,13 +203,15 @@ class Emitter(ParticleEffect):
         age, draws = flown.age, flown.draws
         radius = self.source.size_m * _between(style.radius, age) * (0.75 + 0.5 * draws[:, 5])
         first, last = self.colours[0], self.colours[-1]
-        colours = (first + (last - first) * age[:, None]) * (0.72 + 0.56 * draws[:, 6:7])
         thick = _between(style.thickness, age) * (0.4 + 1.2 * draws[:, 5])
-        return puff_rows(
-            flown.places, radius[:, None] * style.proportions, colours,
-            thick * _fade(age) * flown.is_there, emission=_between(style.emission, age),
-            detail=style.detail, seeds=50.0 * draws[:, 6],
-        )  # fmt: skip
+        rows = np.zeros((len(age), PUFF_COLUMNS))
+        half = np.maximum(radius[:, None] * style.proportions, TINY_M)
+        rows[:, [0, 5, 10]], rows[:, [3, 7, 11]] = half, flown.places
+        rows[:, 12:15] = (first + (last - first) * age[:, None]) * (0.72 + 0.56 * draws[:, 6:7])
+        rows[:, 15] = thick * _fade(age) * flown.is_there
+        rows[:, 16] = _between(style.emission, age)
+        rows[:, 17], rows[:, 18] = style.detail, 50.0 * draws[:, 6]
+        return rows
 
     def lamps(self, time_s: float) -> Float64Array:
         """[m, 15] the light of its flames, or of its flash."""
@@ -160,11 +221,11 @@ class Emitter(ParticleEffect):
         row = np.zeros((1, LAMP_COLUMNS))
         row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
         level, hue = wave_at(_FLAME, _FLAME_HZ, time_s, 0.37, 0), _FLAME_LIGHT
-        if self.lives.once_at_s is not None or style.salvo is not None:
+        if self.lives.once_at_s is not None or style.salvos > 0:
             age, draws = self.lives.at(time_s)
             age_s = max(float(age[0]), 0.0) * self.lives.life_s
             level = min(age_s / 0.02, 1.0) * math.exp(-age_s / (0.35 * math.sqrt(size / GRAVITY)))
-            if style.salvo is not None:
+            if style.salvos:
                 row[0, :3] += self._offsets(draws)[0]
                 hue = self.colours[int(draws[0, 6] * len(self.colours))]
         row[0, 3:6] = level * style.light * size * size * hue
@@ -187,22 +248,20 @@ class Emitter(ParticleEffect):
         velocity = self._headings(draws, offset, turn)
         velocity *= style.speed * unit_m_s * (0.8 + 0.4 * draws[:, 2:3])
         velocity[:, 2] += style.lift * style.speed * unit_m_s
-        if once_at_s is not None:
-            velocity += _INHERITED * self.source.velocity(once_at_s)
         pull = GRAVITY * np.array([style.wind, 0.0, -style.gravity])
         drag_s = math.inf if style.drag is None else style.drag * unit_s
         start = self.source.at(born_s) + offset
         flown_s = age_s
         if style.body == "chip":
             flown_s = np.minimum(age_s, self._landing_s(start[:, 2], velocity[:, 2]))
-        places = start + flight(flown_s, velocity, drag_s, pull)
+        way, heading = flight(flown_s, velocity, drag_s, pull)
+        places = start + way
         if style.curl:
             apart = 9.0 * size * draws[:, 4:5] * (style.body != "puff")
             eddies = turbulence(places + apart, time_s, _EDDY * size, _EDDY_HZ / unit_s)
             places += style.curl * size * age[:, None] * eddies
         if style.body == "drop":
             is_there &= places[:, 2] > self.floor_m - style.radius[1] * size
-        heading = flight_velocity(flown_s, velocity, drag_s, pull)
         return _Flown(places, heading, age, flown_s, draws, is_there)
 
     def _offsets(self, draws: Float64Array) -> Float64Array:
@@ -228,10 +287,8 @@ class Emitter(ParticleEffect):
     def _landing_s(self, above: Float64Array, upward: Float64Array) -> Float64Array:
         """[n] when chips come to rest on the ground, s after their birth."""
         fall = np.maximum(above - self.floor_m - 0.03 * self.source.size_m, 0.0)
-        pull = GRAVITY * self.style.gravity
-        if pull > 0.0:
-            return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
-        return np.asarray(fall / np.maximum(-upward, 1e-6))
+        pull = max(GRAVITY * self.style.gravity, 1e-6)
+        return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
 
 
 def _between(ends: tuple[float, float], age: Float64Array) -> Float64Array:
@@ -260,3 +317,53 @@ def _colours_of(source: Source, count: int, rng: np.random.Generator) -> Float64
     share = np.cbrt(volume[largest]) ** 2
     palette = np.array([parts[number].colour for number in largest])
     return np.asarray(palette[rng.choice(len(largest), size=count, p=share / share.sum())])
+
+
+def flight(
+    age_s: Float64Array, velocity: Float64Array, drag_s: float, pull: Float64Array
+) -> tuple[Float64Array, Float64Array]:
+    """Ways [n, 3], m, and velocities [n, 3], m/s, of bodies with linear drag at ages [n], s.
+
+    Solution of dv/dt = pull - v / drag; `drag_s` may be inf, `pull` is in m/s².
+    """
+    age = age_s[:, None]
+    if math.isinf(drag_s):
+        return velocity * age + 0.5 * pull * age * age, velocity + pull * age
+    left, final = np.exp(-age / drag_s), pull * drag_s
+    way = final * age + (velocity - final) * drag_s * (1.0 - left)
+    return way, final + (velocity - final) * left
+
+
+def turbulence(place: Float64Array, time_s: float, scale_m: float, rate_hz: float) -> Float64Array:
+    """[n, 3] displacement in eddies of that size, in multiples of it, about -1..1: sums of sines.
+
+    Neighbours move alike, so that a plume bends and curls as a whole.
+    """
+    x, y, z = (place / scale_m).T
+    turn = 2.0 * math.pi * rate_hz * time_s
+    return np.stack(
+        [
+            0.6 * np.sin(0.9 * z - turn + 1.3) + 0.4 * np.sin(1.7 * z + 1.1 * y - 1.6 * turn),
+            0.6 * np.sin(0.8 * z - 1.1 * turn + 4.0) + 0.4 * np.sin(1.9 * z - x - 1.7 * turn),
+            0.5 * np.sin(1.1 * z + 0.7 * x - 0.9 * turn),
+        ],
+        axis=1,
+    )
+
+
+def directions(draws: Float64Array, angles: tuple[float, float]) -> Float64Array:
+    """[n, 3] unit vectors between two angles (radians) to straight up, evenly over the sphere."""
+    inner, outer = (math.cos(angle) for angle in angles)
+    height = inner - draws[:, 0] * (inner - outer)
+    around = 2.0 * math.pi * draws[:, 1]
+    flat = np.sqrt(np.maximum(1.0 - height * height, 0.0))
+    return np.stack([flat * np.cos(around), flat * np.sin(around), height], axis=1)
+
+
+def aimed(upward: Float64Array, aim: tuple[float, float, float]) -> Float64Array:
+    """[n, 3] directions around straight up, turned to be around `aim`."""
+    z = np.array(aim) / np.linalg.norm(aim)
+    helper = np.array([0.0, 1.0, 0.0]) if abs(z[1]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    x = np.cross(helper, z)
+    x /= np.linalg.norm(x)
+    return np.asarray(upward @ np.stack([x, np.cross(z, x), z]))

@@ -43,14 +43,7 @@ def many_shapes(
     colours: Float64Array | Colour,
     emission: Float64Array | float = 0.0,
 ) -> Primitives:
-    """Shapes of one kind, scenery without an id.
-
-    Args:
-        maps: [n, 3, 4] unit shape → world.
-        shape: the kind.
-        colours: [n, 3], or one for all.
-        emission: [n], or one for all.
-    """
+    """Shapes of one kind, scenery without an id, from maps [n, 3, 4] unit shape → world."""
     count = len(maps)
     return Primitives(
         shape=np.full(count, shape, dtype=np.int8),
@@ -65,13 +58,7 @@ def many_shapes(
 
 
 def along(places: Float64Array, heading: Float64Array, half: Float64Array) -> Float64Array:
-    """[n, 3, 4] maps of shapes whose local z points along a heading.
-
-    Args:
-        places: [n, 3] m.
-        heading: [n, 3], any length.
-        half: [n, 3] half extents along local x, y, z, m.
-    """
+    """[n, 3, 4] maps of shapes at places, local z along a heading; half extents in m."""
     length = np.linalg.norm(heading, axis=1, keepdims=True)
     z = np.where(length > 1e-9, heading / np.maximum(length, 1e-9), [0.0, 0.0, 1.0])
     helper = np.where(np.abs(z[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
@@ -82,47 +69,8 @@ def along(places: Float64Array, heading: Float64Array, half: Float64Array) -> Fl
 
 
 def tumbling(places: Float64Array, angles: Float64Array, half: Float64Array) -> Float64Array:
-    """[n, 3, 4] maps of shapes turned by [n, 3] angles about x, then z; half extents [n, 3], m."""
-    cx, sx = np.cos(angles[:, 0]), np.sin(angles[:, 0])
-    cz, sz = np.cos(angles[:, 2]), np.sin(angles[:, 2])
-    zero = np.zeros_like(cx)
-    turn = np.stack(
-        [
-            np.stack([cz, -sz * cx, sz * sx], axis=1),
-            np.stack([sz, cz * cx, -cz * sx], axis=1),
-            np.stack([zero, sx, cx], axis=1),
-        ],
-        axis=1,
-    )
+    """[n, 3, 4] maps of shapes turned by [n, 2] angles about x, then z; half extents [n, 3], m."""
+    (cx, cz), (sx, sz), zero = np.cos(angles).T, np.sin(angles).T, np.zeros(len(angles))
+    rows = [[cz, -sz * cx, sz * sx], [sz, cz * cx, -cz * sx], [zero, sx, cx]]
+    turn = np.array(rows).transpose(2, 0, 1)
     return np.concatenate([turn * half[:, None, :], places[:, :, None]], axis=2)
-
-
-def puff_rows(
-    places: Float64Array,
-    radius: Float64Array,
-    colours: Float64Array | Colour,
-    thickness: Float64Array,
-    *,
-    emission: Float64Array | float = 0.0,
-    detail: float = 0.0,
-    seeds: Float64Array | float = 0.0,
-) -> Float64Array:
-    """[n, 19] puffs with axes along x, y, z.
-
-    Args:
-        places: [n, 3] m.
-        radius: [n, 3] half extents, m.
-        colours: [n, 3], or one for all.
-        thickness: [n] optical depth through the middle.
-        emission: light given off as a multiple of the colour; 0 = it reflects light.
-        detail: how much detail modulates it, 0..1.
-        seeds: [n] tell the detail of one from that of others.
-    """
-    rows = np.zeros((len(places), PUFF_COLUMNS))
-    maps = np.zeros((len(places), 3, 4))
-    maps[:, [0, 1, 2], [0, 1, 2]] = np.maximum(radius, TINY_M)
-    maps[:, :, 3] = places
-    rows[:, :12] = maps.reshape(-1, 12)
-    rows[:, 12:15], rows[:, 15], rows[:, 16] = colours, thickness, emission
-    rows[:, 17], rows[:, 18] = detail, seeds
-    return rows

@@ -6,7 +6,6 @@ import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -27,8 +26,6 @@ _USUAL_SPACING_M = 12.0
 """From one to the next on a side of the route."""
 _USUAL_ASIDE_M = (0.8, 9.0)
 """Least and most from the free strip to its edge."""
-_BRANCH_M = 45.0
-"""How far scenery goes along a road that leaves the route."""
 _BEFORE_M = 4.0
 """How far before its beginning it starts."""
 _MOST_ITEMS = 90
@@ -69,9 +66,7 @@ def line_route(
         rng: decides places, sizes and turns.
     """
     known = [rule for rule in rules if rule.noun in nouns and not is_placed_by_view(rule)]
-    half = view.road_half_width or 0.0
     strips = [_Strip(travel.point, travel.length_m + VIEW_M, travel.clear_m)]
-    strips += [_Strip(partial(_on_line, one), _BRANCH_M, (half, half)) for one in travel.branches()]
     reach = sum(strip.length_m + _BEFORE_M for strip in strips)
     stretch = max(1.0, sum(2.0 * reach / _spacing_of(rule.noun) for rule in known) / _MOST_ITEMS)
     bodies, line = list_bodies(actors), travel.places(0.5)
@@ -93,15 +88,6 @@ def line_route(
 
 def _spacing_of(noun: str) -> float:
     return float(trait_value("spacing along a road", noun) or _USUAL_SPACING_M)
-
-
-def _on_line(
-    start: tuple[float, float, float], along_m: float, right_m: float
-) -> tuple[float, float, float]:
-    x, y, heading = start
-    x += along_m * math.cos(heading) + right_m * math.sin(heading)
-    y += along_m * math.sin(heading) - right_m * math.cos(heading)
-    return x, y, heading
 
 
 def _place(
