@@ -136,8 +136,6 @@ def _list_verbs() -> Iterator[tuple[str, Sense]]:
         written = read_table("words")["irregular"].get(base, "")
         for word, form in list_verb_forms(base, written):
             yield f"{word} {rest}".strip(), Sense("verb", sense, form)
-            if form == "ing" and sense.who == "source" and not rest:  # "a burning house"
-                yield word, Sense("field", ("effect", sense.kind))
 
 
 def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
