@@ -139,6 +139,8 @@ class _Parser:
         if word != "and":
             return None
         self._take()
+        if self._token().has("conjunctions"):  # "and then"
+            return self._end(clause)
         if clause.verb is not None and self._is_verb(Clause(about="same")):
             return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera")
