@@ -29,7 +29,7 @@ def draw_noun(name: str, seed: int = 0) -> Image:
     description = SceneDescription(
         name,
         objects=(SceneObject(name, motion=STANDING),),
-        surroundings=Surroundings(place="plain"),
+        surroundings=Surroundings("plain"),
     )
     scene = compose_scene(description, seed=seed, size=SIZE, duration_s=1.0)
     image = np.rint(render(scene, 0.3, SIZE)).astype(np.uint8)

@@ -16,6 +16,7 @@ import os
 import statistics
 import time
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.runtime.threads import THREADS_VARIABLE
@@ -77,7 +78,11 @@ def make_scene(prompt: str, size: SensorSize) -> Scene:
 
 
 def _described(
-    noun: str, *effects: Effect, light: str = "night", place: str = "road", moves: bool = False
+    noun: str,
+    *effects: Effect,
+    light: Literal["night", "day"] = "night",
+    place: str = "road",
+    moves: bool = False,
 ) -> SceneDescription:
     motion = ObjectMotion("drive", "left") if moves else None
     return SceneDescription(

@@ -129,7 +129,7 @@ def make_scene(place: str, noun: str, *, pans: bool) -> Scene:
     description = SceneDescription(
         place,
         objects=(SceneObject(noun, motion=ObjectMotion("stand")),),
-        surroundings=Surroundings(place=place),
+        surroundings=Surroundings(place),
         shot=Shot(moves=moves),
     )
     return compose_scene(description, seed=1, size=SIZE, duration_s=1.0)

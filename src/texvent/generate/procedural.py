@@ -25,6 +25,7 @@ from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
 from texvent.scenes.report import REPORT_KEY
+from texvent.scenes.wording import report_of
 from texvent.sensor import SENSORS, SensorSize
 from texvent.transfer import Transfer, encode_srgb, linear_levels
 from texvent.video import (
@@ -320,7 +321,7 @@ class ProceduralGenerator:
         """
         if is_staged:
             return self._stage(prompt)[1]
-        return self._accepted(understand(prompt, nouns_of(prompt, self._nouns)).report())
+        return self._accepted(report_of(understand(prompt, nouns_of(prompt, self._nouns))))
 
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
@@ -330,7 +331,7 @@ class ProceduralGenerator:
 
         named = nouns_of(prompt, self._nouns)
         description = understand(prompt, named)
-        self._accepted(description.report())  # before the scene is built
+        said = self._accepted(report_of(description))  # before the scene is built
         duration_s = self.config.duration
         scene = compose_scene(
             description,
@@ -341,7 +342,7 @@ class ProceduralGenerator:
         )
         unseen = find_unseen(scene, description, scene.object_of, self.size, duration_s)
         report = replace(
-            description.report(),
+            said,
             not_shown=scene.not_shown,
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,

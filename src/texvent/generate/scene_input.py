@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from texvent.errors import MOST_WORDS, ConfigError, InputError, few, shown
+from texvent.scenes.report import PromptReport
 from texvent.scenes.spec.data import checked_scene, scene_from_data, scene_to_data
 from texvent.scenes.spec.limits import Vocabulary
 from texvent.scenes.spec.scene import Scene
@@ -55,7 +56,7 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
             "the prompt is empty; describe a scene, such as 'a red car drives left past two trees'"
         )
     reading = reader.read(prompt, nouns)
-    if reading.is_empty:
+    if reading.scene == Scene(prompt=prompt):
         raise InputError(
             f"nothing in the prompt was understood: {few(reading.not_understood, MOST_WORDS)}; "
             "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
@@ -152,12 +153,12 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         return describe_scene(subject, nouns)
     reading = _read(subject, nouns)
     description = describe_scene(reading.scene, nouns)
-    return replace(
-        description,
+    words = PromptReport(
         shown=reading.shown,
         substituted=reading.substituted,
         not_understood=reading.not_understood,
     )
+    return replace(description, words=words)
 
 
 def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -168,7 +169,7 @@ def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
         InputError: a picture cannot be shown.
     """
     from texvent.scenes.defaults import complete
-    from texvent.scenes.spec.description import to_description
+    from texvent.scenes.description import to_description
 
     scene = checked_scene(scene, list_words(nouns))
     _check_pictures(scene)
@@ -177,9 +178,8 @@ def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
 
 def _check_pictures(scene: Scene) -> None:
     from texvent.scenes.pictures import can_show, check_picture
-    from texvent.scenes.spec.description import to_description
 
-    for n, one in enumerate(to_description(scene).objects):
+    for n, one in enumerate(scene.objects):
         if one.picture is None:
             continue
         if not can_show(one.noun):

@@ -120,3 +120,8 @@ def find_colour(name: str, colours: Mapping[str, Colour], where: str = "colour")
         near = suggest(name, tuple(colours))
         raise ConfigError(f"{where} is {shown(name)}; {near}; or a code such as '#ff8000'")
     return colours[name]
+
+
+def rgb_of(name: str | None, palette: str = "surface") -> Colour | None:
+    """Linear-light RGB of a checked name of one of `PALETTES`; None: no colour is given."""
+    return None if name is None else find_colour(name, PALETTES[palette])

@@ -36,7 +36,6 @@ _PACES = {"walk": 0.7, "run": 1.0}
 """Pace of running in place that looks as walking and running do."""
 _AFLOAT = ("sail", "paddle")
 _IN_WATER = ("swim", "surf", *_AFLOAT)
-_ALOFT = frozenset({"fly", "hover", "float", "fall", "rise", "sink", "throw", "blow", "orbit"})
 _DARK_EFFECTS = frozenset({"lightning", "fireworks", "blinking lights"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 _NO_GROUND = ("sky", "space", "underwater")
@@ -51,17 +50,15 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     first object that can move does what it usually does; when none can, the camera sways.
     """
     description = _rest(_set_far(description), nouns)
-    objects = description.objects
-    decided = [_decide_motion(one.motion, nouns[one.noun]) for one in objects]
-    description = _change(
-        description, {n: replace(objects[n], motion=motion) for n, motion in enumerate(decided)}
+    objects = tuple(
+        replace(one, motion=_decide_motion(one.motion, nouns[one.noun]))
+        for one in description.objects
     )
-    description = _move_others(description, nouns)
-    description = _darken(description)
+    description = _darken(_move_others(replace(description, objects=objects), nouns))
     place = _choose_place(description, nouns)
-    if description.surroundings.place is None:
+    if description.surroundings.name is None:
         description = _note(description, f"no place is said: {place} is chosen")
-    surroundings = replace(description.surroundings, place=place)
+    surroundings = replace(description.surroundings, name=place)
     description = replace(description, surroundings=surroundings)
     if not _has_motion(description):
         description = _set_in_motion(description, nouns)
@@ -81,9 +78,9 @@ def _change(description: SceneDescription, new: Mapping[int, SceneObject]) -> Sc
 
 def _move(description: SceneDescription, motions: Mapping[int, ObjectMotion]) -> SceneDescription:
     """The description with motions of objects that have none."""
-    objects = description.objects
-    open_ones = {n: motion for n, motion in motions.items() if objects[n].motion is None}
-    return _change(description, {n: replace(objects[n], motion=m) for n, m in open_ones.items()})
+    both = enumerate(description.objects)
+    new = {n: replace(one, motion=motions.get(n)) for n, one in both if one.motion is None}
+    return _change(description, new)
 
 
 def _set_far(description: SceneDescription) -> SceneDescription:
@@ -144,7 +141,7 @@ def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
     motions: dict[int, ObjectMotion] = {}
     for one in description.relations:
         motions.update(_rest_of(one, description.objects, nouns))
-    is_plain = description.surroundings.place is None and not description.shot.is_moving
+    is_plain = description.surroundings.name is None and not description.shot.is_moving
     resting = nouns_with("lies still") | (
         nouns_with("parked unless ridden") if is_plain else frozenset()
     )
@@ -242,7 +239,7 @@ def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) ->
 
 def _usual_motion(description: SceneDescription, noun: Noun) -> str:
     """What it does if nothing else moves: people stay in a close shot, cars in a room."""
-    place, is_person = description.surroundings.place, noun.name in PERSON_NOUNS
+    place, is_person = description.surroundings.name, noun.name in PERSON_NOUNS
     if is_person and (place == "space" or description.shot.framing in ("close", "medium")):
         return "hover" if place == "space" else "stand"
     is_parked = place is None or place == "parking lot" or is_room(place)
@@ -287,18 +284,15 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
     said, usual = description.surroundings, _usual_place(members, description, kinds)
     dives = all(noun.habitat == "water" and noun.motion not in _AFLOAT for noun in members)
     dives = dives and bool(members) and "jump" not in kinds
-    if dives and said.place in (None, "sea", "lake", "river"):
+    if dives and said.name in (None, "sea", "lake", "river"):
         return "underwater"
-    stands = any(noun.habitat in ("ground", "fixed") for noun in members) and not kinds & _ALOFT
-    if said.place == "sky" and stands:
-        return "grass" if usual in _NO_GROUND or is_room(usual) else usual
-    if said.place == "sea" and any(noun.habitat == "ground" for noun in members):
+    if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
         return "sea" if kinds.intersection(_IN_WATER) else "beach"
     travel = (one.means or "" for one in description.shot.moves if one.kind == "travel")
     of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
-    if said.place is None and not of_travel and (said.has_snow or said.weather == "snow"):
+    if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):
         return "snow"
-    return said.place or (of_travel[0] if of_travel else usual)
+    return said.name or (of_travel[0] if of_travel else usual)
 
 
 def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: set[str]) -> str:

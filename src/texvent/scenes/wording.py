@@ -1,195 +1,98 @@
-"""A scene's description in words, line by line, for a person to check."""
+"""A scene in words, line by line, for a person to check."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import dataclasses
+from typing import Any
 
+from texvent.scenes.description import Effect, ObjectMotion, SceneDescription, SceneObject
 from texvent.scenes.inflection import list_finite_forms, pluralise
+from texvent.scenes.report import PromptReport
 
-if TYPE_CHECKING:
-    from texvent.scenes.description import (
-        CameraMove,
-        Effect,
-        Illumination,
-        ObjectMotion,
-        SceneDescription,
-        SceneObject,
-        Shot,
-        Surroundings,
-    )
+_UNITS = {"_m_s": "m/s", "_hz": "Hz", "_m": "m", "_s": "s", "_deg": "degrees"}
+"""End of a field's name → its unit."""
+_SIDES = {"left": "on the left", "right": "on the right", "centre": "in the middle",
+          "far": "far away", "lane": "on the road", "near": "in the foreground",
+          "row": "in a row", "together": "side by side", "ring": "in a circle"}  # fmt: skip
+_RELATIONS = {"front": "in front of", "surround": "surrounded by", "collide": "meets"}
+_VERBS = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
 
 
-def describe(description: SceneDescription) -> tuple[str, ...]:
-    """What will be shown: a line for each object and effect, place, light and camera."""
-    lines = [_describe_object(description, index) for index in range(len(description.objects))]
-    lines.extend(_describe_effect(description, effect) for effect in description.effects)
-    lines.append(f"place: {_describe_surroundings(description.surroundings)}")
-    lines.append(f"light: {_describe_light(description.light)}")
-    lines.append(f"camera: {_describe_shot(description.shot)}")
+def report_of(description: SceneDescription) -> PromptReport:
+    """What becomes of a scene and of the words of its prompt, before it is staged.
+
+    Example:
+        >>> car = SceneObject("car", motion=ObjectMotion("drive", "left", speed_m_s=5.0))
+        >>> report_of(SceneDescription("", objects=(car,))).lines()
+        ['1 car, drives left, speed 5 m/s', 'place: open', 'light: day', 'camera: static']
+    """
+    shot, place, light = description.shot, description.surroundings, description.light
+    moves = [_join(f"{move.kind} {move.direction or ''}".strip(), *_fields(move, "kind",
+             "direction", "phase")) for move in shot.moves]  # fmt: skip
+    lines = [
+        *(_object(description, index) for index in range(len(description.objects))),
+        *(_effect(description, one) for one in description.effects),
+        f"place: {_join(place.name or 'open', *_fields(place, 'name'))}",
+        f"light: {_join(light.kind or 'day', *_fields(light, 'kind', 'lamps'))}",
+        f"camera: {_join(*(moves or ['static']), *_fields(shot, 'moves', 'target'))}",
+    ]
     if description.absent:
         lines.append(f"left out as asked: {', '.join(description.absent)}")
-    return tuple(lines)
+    return dataclasses.replace(description.words, scene=tuple(lines), notes=description.notes)
 
 
-def _describe_object(description: SceneDescription, index: int) -> str:
-    scene_object = description.objects[index]
-    words = [_describe_count(scene_object)]
-    if scene_object.colour is not None:
-        words.append(scene_object.colour.name)
-    if scene_object.scale != 1.0:
-        words.append(f"{scene_object.scale:g} times its usual size")
-    is_plural = scene_object.count > 1
-    if scene_object.motion is not None:
-        words.append(_describe_motion(scene_object.motion, is_plural=is_plural))
-    words += [f"then {_describe_motion(one, is_plural=is_plural)}" for one in scene_object.then]
-    if scene_object.side is not None:
-        words.append(_SIDES[scene_object.side])
-    if scene_object.is_lit is not None:
-        words.append("lit" if scene_object.is_lit else "not lit")
-    if scene_object.blink_hz is not None:
-        words.append(f"blinking at {scene_object.blink_hz:g} Hz")
-    for relation in description.relations:
-        if relation.subject == index:
-            others = (_describe_count(description.objects[target]) for target in relation.targets)
-            targets = "each other" if relation.targets == (index,) else " and ".join(others)
-            words.append(f"{_RELATIONS.get(relation.kind, relation.kind)} {targets}")
-    return ", ".join(words)
+def _object(description: SceneDescription, index: int) -> str:
+    thing = description.objects[index]
+    motions = [one for one in (thing.motion, *thing.then) if one is not None]
+    relations = [one for one in description.relations if one.subject == index]
+    words = [_count(thing), thing.colour or ""]
+    for n, motion in enumerate(motions):
+        words += [f"{'then ' if n else ''}{_verb(motion, thing.count)}"]
+        words += _fields(motion, "kind", "direction")
+    words.append(_SIDES.get(thing.side or "", ""))
+    for one in relations:
+        others = " and ".join(_count(description.objects[target]) for target in one.targets)
+        others = "each other" if one.targets == (index,) else others
+        words.append(f"{_RELATIONS.get(one.kind, one.kind)} {others}")
+    return _join(*words, *_fields(thing, "noun", "count", "colour", "motion", "then", "side"))
 
 
-def _describe_effect(description: SceneDescription, effect: Effect) -> str:
-    words = effect.kind if effect.colour is None else f"{effect.colour.name} {effect.kind}"
-    if effect.source is not None:
-        words += f", from {description.objects[effect.source].noun}"
-    return words if effect.start_s is None else f"{words}, after {effect.start_s:g} s"
+def _effect(description: SceneDescription, effect: Effect) -> str:
+    source = "" if effect.source is None else f"from {description.objects[effect.source].noun}"
+    return _join(effect.kind, source, *_fields(effect, "kind", "source"))
 
 
-_SIDES = {
-    "left": "on the left",
-    "right": "on the right",
-    "centre": "in the middle",
-    "far": "far away",
-    "lane": "on the road",
-    "near": "in the foreground",
-    "row": "in a row",
-    "together": "side by side",
-    "ring": "in a circle",
-}
-_RELATIONS = {
-    "front": "in front of",
-    "surround": "surrounded by",
-    "follow": "following",
-    "overtake": "overtaking",
-    "look at": "looking at",
-    "hold": "holding",
-    "carry": "carrying",
-    "wear": "wearing",
-    "ride": "riding",
-    "ride along": "riding along on",
-    "push": "pushing",
-    "pull": "pulling",
-    "kick": "kicking",
-    "hit": "hitting",
-    "throw": "throwing",
-    "catch": "catching",
-    "collide": "meeting",
-}
-"""Relation → words for it, where they differ from its name."""
-_BACKDROPS = {
-    "mountain": "mountains around (the ground itself stays flat)",
-    "forest": "forest around",
-    "city": "buildings around",
-}
-_DIRECTIONS = {
-    "towards": "towards the camera",
-    "circle": "in a circle",
-    "across": "across the picture",
-}
+def _count(thing: SceneObject) -> str:
+    return f"{thing.count} {thing.noun if thing.count == 1 else pluralise(thing.noun)}"
 
 
-def _describe_count(scene_object: SceneObject) -> str:
-    name = scene_object.noun
-    return f"{scene_object.count} {name if scene_object.count == 1 else pluralise(name)}"
+def _verb(motion: ObjectMotion, count: int) -> str:
+    """As "runs towards"; activities of two words are quoted."""
+    verb, _, rest = _VERBS.get(motion.kind, motion.kind).partition(" ")
+    if rest and motion.kind not in _VERBS:
+        verb, rest = "do", f"'{motion.kind}'"
+    verb = verb if count > 1 else list_finite_forms(verb)[1]
+    return " ".join(filter(None, (verb, rest, motion.direction)))
 
 
-def _describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
-    """A motion in words, such as "runs towards the camera"."""
-    if motion.kind in _NAMED or (" " in motion.kind and motion.kind not in _PHRASES):
-        words = [f"{'do' if is_plural else 'does'} '{motion.kind}'"]
-    else:
-        verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
-        words = [verb if is_plural else list_finite_forms(verb)[1], *rest]
-    if motion.direction is not None:
-        words.append(_DIRECTIONS.get(motion.direction, motion.direction))
-    if motion.speed_m_s is not None:
-        words.append(f"at {motion.speed_m_s:.3g} m/s")
-    elif motion.pace != 1.0:
-        words.append(f"at {motion.pace:.2g} times its usual speed")
-    return " ".join(words)
+def _fields(value: Any, *skipped: str) -> list[str]:
+    """Fields of a dataclass that are not at their defaults: "flicker 50 Hz", "low", "sky red"."""
+    found = []
+    for one in dataclasses.fields(value):
+        now = getattr(value, one.name)
+        if one.name in skipped or now in (None, (), one.default):
+            continue
+        end = next((end for end in _UNITS if one.name.endswith(end)), "")
+        name = one.name.removesuffix(end).removeprefix("is_").removeprefix("has_")
+        if isinstance(now, bool):
+            words = ["" if now else "no", name]
+        else:
+            each = now if isinstance(now, tuple) else (now,)
+            numbers = (f"{one:g}" if isinstance(one, float) else str(one) for one in each)
+            words = [name, " ".join(numbers), _UNITS.get(end, "")]
+        found.append(" ".join(filter(None, words)).replace("_", " "))
+    return found
 
 
-_NAMED = ("push-up", "sit-up", "phone", "fist", "victory", "ok")
-"""Activities named by a noun."""
-_PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "stand still",
-            "change lane": "change lanes", "flip": "turn over in the air"}  # fmt: skip
-
-
-def _describe_surroundings(surroundings: Surroundings) -> str:
-    words = [surroundings.place or "what suits the things"]
-    if surroundings.road is not None:
-        words.append(f"{surroundings.road} road")
-    if surroundings.colour is not None:
-        words.append(surroundings.colour.name)
-    if surroundings.sky is not None:
-        words.append(f"{surroundings.sky.name} sky")
-    if surroundings.weather is not None:
-        words.append(surroundings.weather)
-    if surroundings.clouds is not None:
-        words.append("clouds" if surroundings.clouds > 0 else "no clouds")
-    words.extend(_BACKDROPS[backdrop] for backdrop in surroundings.backdrops)
-    if surroundings.has_snow and surroundings.place != "snow":
-        words.append("snow on the ground")
-    if surroundings.has_dust:
-        words.append("dust")
-    if surroundings.wave_height > 1.0:
-        words.append("waves")
-    return ", ".join(words)
-
-
-_LIT_FROM = {
-    "left": "from the left", "right": "from the right", "back": "from behind",
-    "front": "from the front", "above": "from above",
-}  # fmt: skip
-"""Direction of light → its words."""
-
-
-def _describe_light(light: Illumination) -> str:
-    words = [light.kind or "day"]
-    said = (light.tint.name if light.tint else None, light.hardness, light.brightness)
-    words.extend(one for one in said if one is not None)
-    if light.direction is not None:
-        words.append(_LIT_FROM[light.direction])
-    if light.is_low:
-        words.append("low")
-    if light.flicker_hz is not None:
-        words.append(f"flickering at {light.flicker_hz:g} Hz")
-    if light.shadows is not None:
-        words.append("with shadows" if light.shadows else "without shadows")
-    return ", ".join(words)
-
-
-def _describe_shot(shot: Shot) -> str:
-    words = [
-        " ".join(filter(None, (move.kind, move.direction, _describe_times(move))))
-        for move in shot.moves
-    ] or ["static"]
-    if shot.view is not None:
-        words.append(f"{shot.view} view")
-    if shot.framing is not None:
-        words.append(f"{shot.framing} shot")
-    return ", ".join(words)
-
-
-def _describe_times(move: CameraMove) -> str:
-    start = "" if move.start_s is None else f"from {move.start_s:g} s"
-    stop = "" if move.stop_s is None else f"to {move.stop_s:g} s"
-    return f"{start} {stop}".strip()
+def _join(*words: str) -> str:
+    return ", ".join(filter(None, words))

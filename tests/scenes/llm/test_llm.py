@@ -18,9 +18,7 @@ import pytest
 from texvent.cli.app import main
 from texvent.errors import InputError, TexventError
 from texvent.scenes.llm.endpoint import Endpoint
-from texvent.scenes.llm.schema import model_schema
-from texvent.scenes.llm.words import resolve
-from texvent.scenes.llm.writer import ground, write_scene
+from texvent.scenes.llm.writer import ground, model_schema, resolve, write_scene
 from texvent.scenes.spec.files import load_scene
 from texvent.scenes.spec.scene import Motion, Relation, SceneObject
 

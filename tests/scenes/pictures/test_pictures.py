@@ -117,9 +117,7 @@ def test_a_picture_takes_the_place_of_what_is_usually_printed(noun: str) -> None
 
 def test_a_scene_shows_the_picture() -> None:
     board = SceneObject("whiteboard", picture=Picture("checkerboard", "9x6"))
-    description = SceneDescription(
-        "a board", objects=(board,), surroundings=Surroundings(place="grass")
-    )
+    description = SceneDescription("a board", objects=(board,), surroundings=Surroundings("grass"))
     scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=1.0)
     primitives = scene.primitives(0.0)
     assert primitives.image is not None

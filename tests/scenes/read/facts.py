@@ -15,9 +15,9 @@ FACTS = Path(__file__).parent / "facts.toml"
 PROMPTS: list[dict[str, Any]] = tomllib.loads(FACTS.read_text(encoding="utf-8"))["prompt"]
 
 _VALUES: Mapping[str, Callable[[SceneDescription], set[str]]] = {
-    "place": lambda scene: {scene.surroundings.place or ""},
+    "place": lambda scene: {scene.surroundings.name or ""},
     "relation": lambda scene: {one.kind for one in scene.relations},
-    "colour": lambda scene: {one.colour.name for one in scene.objects if one.colour},
+    "colour": lambda scene: {one.colour for one in scene.objects if one.colour},
     "count": lambda scene: {str(one.count) for one in scene.objects},
     "light": lambda scene: {scene.light.kind or "", scene.light.brightness or ""},
     "weather": lambda scene: {scene.surroundings.weather or ""},
@@ -62,4 +62,4 @@ def grade(prompt: Mapping[str, Any]) -> tuple[list[str], bool]:
     except InputError:
         return list(prompt["facts"]), True
     wrong = [fact for fact in prompt["facts"] if not has_fact(scene, fact)]
-    return wrong, bool(scene.not_understood or scene.substituted)
+    return wrong, bool(scene.words.not_understood or scene.words.substituted)

@@ -14,7 +14,6 @@ from texvent.errors import InputError
 from texvent.generate.scene_input import list_words, read
 from texvent.scenes import read as reader
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.read import find_noun
 from texvent.scenes.read.draft import is_grammar
 from texvent.scenes.read.lexicon import lexicon_of
 from texvent.scenes.read.tokens import split_prompt
@@ -24,7 +23,7 @@ MOST_WRONG, MOST_SILENT = 0.07, 0.03
 """Share of facts that are wrong, and of prompts that are wrong without a word in the report."""
 MOST_SECONDS = 0.001
 """Mean time to read a prompt."""
-WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None).senses)
+WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None))
 VOCABULARY = list_words(NOUNS)
 SIGNS = [
     ",",
@@ -97,11 +96,6 @@ def test_long_texts_are_read_too(text):
 def test_a_prompt_without_a_known_word_is_refused(prompt):
     with pytest.raises(InputError, match="prompt"):
         read(prompt)
-
-
-def test_nouns_are_found_by_their_names():
-    found = [find_noun(one, NOUNS) for one in ("Automobiles", "terrier", "wug")]
-    assert found == ["car", "dog", None]
 
 
 def test_ambiguous_words_are_in_no_scene():

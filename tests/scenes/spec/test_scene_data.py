@@ -21,6 +21,7 @@ from texvent.errors import ConfigError
 from texvent.generate.scene_input import describe_scene, list_nouns, list_words
 from texvent.scenes.colours import PALETTES
 from texvent.scenes.defaults import complete
+from texvent.scenes.description import to_description
 from texvent.scenes.spec.data import (
     checked_scene,
     field_types,
@@ -28,7 +29,6 @@ from texvent.scenes.spec.data import (
     scene_from_data,
     scene_to_data,
 )
-from texvent.scenes.spec.description import to_description
 from texvent.scenes.spec.files import load_scene, save_scene, scene_text
 from texvent.scenes.spec.limits import Between, Colour, Word
 from texvent.scenes.spec.scene import Camera, Lamp, Motion, Relation, Scene, SceneObject
@@ -134,7 +134,7 @@ def test_a_file_by_hand_gives_every_field():
     SCHEMA.validate(tomllib.loads(EVERY_FIELD.read_text()))
     described = describe_scene(scene, list_nouns())
     assert described.objects[0].motion == to_description(scene).objects[0].motion
-    assert described.surroundings.place == "road"
+    assert described.surroundings.name == "road"
 
 
 def default(part: Any, name: str) -> Any:

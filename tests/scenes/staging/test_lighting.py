@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from texvent.scenes.description import Illumination, NamedColour
+from texvent.scenes.description import Illumination
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.staging.surroundings.lighting import (
     choose_lighting,
@@ -38,16 +38,16 @@ def test_light_comes_from_where_it_is_said_to(direction: str, axis: int, sign: i
 
 
 def test_a_tint_has_its_colour() -> None:
-    def tint(name: str, rgb: tuple[float, float, float]) -> tuple[float, float, float]:
-        found = tint_of(Illumination(tint=NamedColour(name, rgb)))
+    def tint(name: str) -> tuple[float, float, float]:
+        found = tint_of(Illumination(tint=name))
         assert found is not None
         return found
 
-    red, _, blue = tint("warm", (1.0, 0.8, 0.5))
+    red, _, blue = tint("warm")
     assert red > blue
-    red, _, blue = tint("cold", (0.6, 0.8, 1.0))
+    red, _, blue = tint("cold")
     assert red < blue
-    assert tint("blue", (0.0, 0.1, 0.5)) == pytest.approx((0.15, 0.32, 1.0))
+    assert tint("#0000ff") == pytest.approx((0.15, 0.15, 1.0))
 
 
 def test_soft_light_casts_no_shadow_and_hard_light_darkens_them() -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from texvent.scenes.colours import COLOURS
 from texvent.scenes.description import (
     Effect,
-    NamedColour,
     ObjectMotion,
     SceneDescription,
     SceneObject,
@@ -120,10 +120,10 @@ def test_what_falls_breaks_when_it_meets_the_ground():
 
 
 def test_an_effect_takes_the_colour_it_is_said_to_have():
-    red = NamedColour("red", (0.8, 0.02, 0.02))
-    puffs = staged(Effect("smoke", 0, red)).environment(0.3).puffs
+    red = np.array(COLOURS["red"])
+    puffs = staged(Effect("smoke", 0, "red")).environment(0.3).puffs
     hue = puffs[:, 12:15] / puffs[:, 12:13]
-    np.testing.assert_allclose(hue, np.tile(np.array(red.rgb) / red.rgb[0], (len(puffs), 1)))
+    np.testing.assert_allclose(hue, np.tile(red / red[0], (len(puffs), 1)))
 
 
 def test_ground_truth_belongs_to_the_surface_behind_the_smoke():

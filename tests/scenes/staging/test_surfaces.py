@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from texvent.errors import InputError
-from texvent.scenes.description import NamedColour, SceneDescription, SceneObject, Surroundings
+from texvent.scenes.description import SceneDescription, SceneObject, Surroundings
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
@@ -28,8 +28,7 @@ def test_an_object_is_made_of_what_is_said() -> None:
 
 
 def test_a_material_reaches_the_scene() -> None:
-    red = NamedColour("red", (0.5, 0.03, 0.02))
-    objects = (SceneObject("cube", material="brick", colour=red),)
+    objects = (SceneObject("cube", material="brick", colour="red"),)
     description = SceneDescription("", objects, surroundings=Surroundings("plain"))
     scene = compose_scene(description, seed=1, size=SensorSize(48, 36), duration_s=1.0)
     assert set(scene.primitives(0.0).texture[:1]) == {Texture.BRICK}

@@ -143,14 +143,14 @@ def _show(options: ShowOptions) -> int:
 
 def _find(said: str, nouns: Mapping[str, Noun]) -> Noun:
     """The noun of a name or synonym, or the one that shows a kind."""
-    from texvent.scenes.read import find_noun
+    from texvent.scenes.read import read
 
     wanted = said.lower().strip()
     if wanted in nouns:
         return nouns[wanted]
-    found = find_noun(wanted, nouns)
-    if found is not None:
-        return nouns[found]
+    found = read(wanted, nouns).scene.objects
+    if found:
+        return nouns[found[0].noun]
     raise InputError(f"{shown(said)} is no noun; {suggest(wanted, tuple(nouns), longest=220)}")
 
 
@@ -170,7 +170,7 @@ def _draw(noun: Noun, nouns: Mapping[str, Noun], options: ShowOptions) -> bytes:
     description = SceneDescription(
         noun.name,
         objects=(SceneObject(noun.name, motion=motion),),
-        surroundings=Surroundings(place="plain"),
+        surroundings=Surroundings("plain"),
     )
     scene = compose_scene(
         description, seed=options.seed, size=SIZE, duration_s=_TURN_S, nouns=nouns

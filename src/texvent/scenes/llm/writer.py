@@ -1,19 +1,25 @@
-"""A prompt → the scene that a language model writes, without what no word of the prompt names."""
+"""Scenes by a language model: a schema that it fills, and its answer without inventions."""
 
 from __future__ import annotations
 
+import dataclasses
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal, get_args, get_origin
 
 from texvent.errors import InputError, TexventError, shown
+from texvent.options.fields import option_help
 from texvent.scenes.llm.endpoint import Endpoint, ask
-from texvent.scenes.llm.schema import MOST_COUNT, MOST_ITEMS, model_schema
-from texvent.scenes.llm.words import is_plain, list_meanings, resolve
+from texvent.scenes.read.lexicon import Sense, lexicon_of
 from texvent.scenes.report import PromptReport
-from texvent.scenes.spec.data import scene_from_data
-from texvent.scenes.spec.scene import Scene
+from texvent.scenes.spec import scene as spec
+from texvent.scenes.spec.data import (
+    field_types,
+    inner_type,
+    plain_type,
+    required_fields,
+    scene_from_data,
+)
 
 INSTRUCTION = """You turn a description of a video into a scene, as JSON.
 Say only what the description says; null and empty lists stand for what it leaves open.
@@ -22,13 +28,33 @@ A relation names the noun of another object of the scene.
 Example: "two white dogs run right past a tree in the park" gives
 {"place":{"name":"park","weather":null},"light":{"kind":null},"camera":{"view":null,"moves":[]},
 "objects":[{"noun":"dog","count":2,"colour":"white","material":null,
-"motions":[{"kind":"run","direction":"right"}],"relations":[{"kind":"past","to":["tree"]}]},
+"motions":[{"kind":"run","direction":"right"}],"relations":[{"to":["tree"],"kind":"past"}]},
 {"noun":"tree","count":1,"colour":null,"material":null,"motions":[],"relations":[]}],
 "effects":[]}"""
+FIELDS: dict[type, dict[str, str]] = {
+    spec.Scene: dict.fromkeys(("place", "light", "camera", "objects", "effects"), ""),
+    spec.SceneObject: {"noun": "noun", "count": "count", "colour": "colour",
+                       "material": "material", "motions": "", "relations": ""},
+    spec.Motion: {"kind": "motion", "direction": "direction"},
+    spec.Relation: {"to": "object", "kind": "relation"},
+    spec.Effect: {"kind": "effect", "source": "object"},
+    spec.Camera: {"view": "view", "moves": ""},
+    spec.CameraMove: {"kind": "move", "direction": "direction"},
+    spec.Light: {"kind": "light"},
+    spec.Place: {"name": "place", "weather": "weather"},
+}  # fmt: skip
+"""Class of `spec.scene` → its fields that a model fills, each with the kind of its words. An object
+is called by its noun."""
+MOST_ITEMS = {"objects": 8, "motions": 2, "relations": 2, "to": 3, "moves": 2, "effects": 2}
+LONGEST_WORD = 40
+"""Characters of a free text."""
 LONGEST_PHRASE = 4
+MOST_COUNT = 20
+_PLAIN = ("articles", "pronouns", "conjunctions", "small")
+"""Kinds of words without a meaning of their own."""
 
 
-def write_scene(prompt: str, endpoint: Endpoint) -> tuple[Scene, PromptReport]:
+def write_scene(prompt: str, endpoint: Endpoint) -> tuple[spec.Scene, PromptReport]:
     """The scene that a model writes, and what became of the prompt's words.
 
     Notes of the report name what the model added and what was left out for it.
@@ -45,151 +71,181 @@ def write_scene(prompt: str, endpoint: Endpoint) -> tuple[Scene, PromptReport]:
     return ground(prompt, answer)
 
 
-def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[Scene, PromptReport]:
+def model_schema(hint: Any = spec.Scene, name: str = "") -> dict[str, Any]:
+    """The schema of an answer, or of a field of that type and name.
+
+    Every field is required, so that none is forgotten, and null says that the prompt leaves it
+    open. Nouns, places, colours and motions are free texts: a closed list would force a word that
+    it lacks to the one that begins alike.
+    """
+    is_open = inner_type(hint) is not hint
+    plain: Any = plain_type(hint)
+    if plain in FIELDS:
+        types, texts, names = field_types(plain), option_help(plain), FIELDS[plain]
+        return {
+            "type": "object",
+            "properties": {
+                one: {**model_schema(types[one], one), "description": texts[one]} for one in names
+            },
+            "required": list(names),
+            "additionalProperties": False,
+        }
+    if get_origin(plain) is Literal:
+        return {"enum": [*get_args(plain), *([None] if is_open else [])]}
+    if get_origin(plain) is tuple:
+        items = model_schema(get_args(plain)[0])
+        return {"type": "array", "items": items, "maxItems": MOST_ITEMS[name]}
+    if plain is int:
+        return {"type": "integer", "minimum": 1, "maximum": MOST_COUNT}
+    return {"type": ["string", "null"] if is_open else "string", "maxLength": LONGEST_WORD}
+
+
+def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptReport]:
     """The scene of an answer without inventions; errors as `write_scene`."""
     prompt = " ".join(prompt.split())
-    check = _Check(_said(prompt))
-    objects = _objects(check, _tables(answer.get("objects"), "objects"))
-    camera, light, place = (_table(answer.get(name)) for name in ("camera", "light", "place"))
-    moves = [_motion(check, one, "move") for one in _tables(camera.get("moves"), "moves")]
-    effects = [
-        {"kind": kind, **_source(one, objects)}
-        for one in _tables(answer.get("effects"), "effects")
-        if (kind := check.keep(one.get("kind"), "effect"))
-    ]
-    data = {
-        "prompt": prompt,
-        "objects": list(objects.values()),
-        "effects": effects,
-        "camera": {
-            "view": check.keep(camera.get("view"), "view"),
-            "moves": [one for one in moves if one],
-        },
-        "light": {"kind": check.keep(light.get("kind"), "light")},
-        "place": {
-            "name": check.keep(place.get("name"), "place"),
-            "weather": check.keep(place.get("weather"), "weather"),
-        },
-    }
+    check = _Grounding(prompt, answer)
+    data = check.table(spec.Scene, answer) or {}
+    objects = {one["noun"]: one for one in reversed(data["objects"])}
+    data["objects"] = list(reversed(objects.values()))
+    for noun, one in objects.items():
+        one["relations"] = [each for each in one["relations"] if noun not in each["to"]]
     if not check.used:
         raise InputError(f"nothing of {shown(prompt)} is in the scene that the model wrote")
     added = ", ".join(dict.fromkeys(check.invented))
     notes = (f"words do not say, so it is left out: {added}",) if added else ()
-    shown_words, lost = check.account(prompt)
-    report = PromptReport(shown=shown_words, not_understood=lost, notes=notes)
-    return scene_from_data(data), report
+    shows = {word for key in check.used for word in check.said[key]}
+    words = [one for one in dict.fromkeys(_split(prompt)) if not _is_plain(one)]
+    report = PromptReport(
+        shown=tuple(one for one in words if one in shows),
+        not_understood=tuple(one for one in words if one not in shows),
+        notes=notes,
+    )
+    return scene_from_data({"prompt": prompt, **data}), report
 
 
-@dataclass
-class _Check:
+class _Grounding:
     """What the words of a prompt stand for, and what an answer uses of it."""
 
-    said: Mapping[tuple[str, str], frozenset[str]]
-    """Kind and meaning → the words of the phrases that have it."""
-    used: set[tuple[str, str]] = field(default_factory=set)
-    invented: list[str] = field(default_factory=list)
+    def __init__(self, prompt: str, answer: Mapping[str, Any]) -> None:
+        self.said: dict[tuple[str, str], frozenset[str]] = {}
+        """Kind and meaning → the words of the phrases that have it."""
+        self.used: set[tuple[str, str]] = set()
+        self.invented: list[str] = []
+        words = _split(prompt)
+        for length in range(1, LONGEST_PHRASE + 1):
+            for first in range(len(words) - length + 1):
+                phrase = words[first : first + length]
+                for key in list_meanings(" ".join(phrase)):
+                    self.said[key] = self.said.get(key, frozenset()) | frozenset(phrase)
+        nouns = (self._meaning(one.get("noun"), "noun") for one in _tables(answer, "objects"))
+        self._objects = {noun for noun in nouns if noun}
 
-    def keep(self, text: Any, kind: str) -> str | None:
-        """What a word of the answer stands for, if the prompt says it."""
-        if not isinstance(text, str) or not text.strip():
-            return None
-        words = text.split()
-        for first in range(len(words)):
-            meaning = resolve(" ".join(words[first:]), kind)
-            if meaning is not None and (kind, meaning) in self.said:
-                self.used.add((kind, meaning))
-                return meaning
-        self.invented.append(f"{kind} {shown(text)}")
-        return None
+    def table(self, owner: Any, answer: Mapping[str, Any]) -> dict[str, Any] | None:
+        """Fields of a class that the prompt says; None without one that must be there."""
+        types, found = field_types(owner), dict[str, Any]()
+        for name, kind in FIELDS[owner].items():
+            plain, value = plain_type(types[name]), answer.get(name)
+            if kind == "count":
+                found[name] = self._count(str(found["noun"]), value)
+            elif kind:
+                found[name] = self._keep(value, kind, name)
+            elif dataclasses.is_dataclass(plain):
+                found[name] = self.table(plain, value if isinstance(value, Mapping) else {})
+            else:
+                item = get_args(plain)[0]
+                items = (self.table(item, one) for one in _tables(answer, name))
+                found[name] = [one for one in items if one is not None]
+            if name in required_fields(owner) and not found[name]:
+                return None
+        return found
 
-    def account(self, prompt: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Words that the scene shows, and words that nothing stands for, each once."""
-        shows = {word for key in self.used for word in self.said[key]}
-        words = [one for one in dict.fromkeys(_split(prompt)) if not is_plain(one)]
-        lost = (one for one in words if one not in shows)
-        return tuple(one for one in words if one in shows), tuple(lost)
+    def _keep(self, value: Any, kind: str, name: str) -> Any:
+        """What a word of the answer stands for, if the prompt says it, or a list of such words."""
+        if name in MOST_ITEMS:
+            items = value[: MOST_ITEMS[name]] if isinstance(value, list) else ()
+            return [one for each in items if (one := self._keep(each, kind, ""))]
+        if kind == "object":
+            noun = resolve(str(value), "noun")
+            return noun if noun in self._objects else None
+        meaning = self._meaning(value, kind)
+        if meaning is not None:
+            self.used.add((kind, meaning))
+        elif isinstance(value, str) and value.strip():
+            self.invented.append(f"{kind} {shown(value)}")
+        return meaning
 
+    def _meaning(self, value: Any, kind: str) -> str | None:
+        """What the longest end of a text stands for that the prompt says too: "big automobile"."""
+        words = value.split() if isinstance(value, str) else []
+        ends = (resolve(" ".join(words[first:]), kind) for first in range(len(words)))
+        return next((one for one in ends if one and (kind, one) in self.said), None)
 
-def _objects(check: _Check, answers: Iterable[Mapping[str, Any]]) -> dict[str, dict[str, Any]]:
-    """Noun → its object, in the order of the answer; the first of a noun counts."""
-    kept: dict[str, tuple[dict[str, Any], Mapping[str, Any]]] = {}
-    for one in answers:
-        noun = check.keep(one.get("noun"), "noun")
-        if noun is None or noun in kept:
-            continue
-        motions = (
-            _motion(check, each, "motion") for each in _tables(one.get("motions"), "motions")
-        )
-        made = {
-            "noun": noun,
-            "count": _count(check, noun, one.get("count")),
-            "colour": check.keep(one.get("colour"), "colour"),
-            "material": check.keep(one.get("material"), "material"),
-            "motions": [each for each in motions if each],
-        }
-        kept[noun] = (made, one)
-    for noun, (made, one) in kept.items():
-        relations = []
-        for each in _tables(one.get("relations"), "relations"):
-            to = [resolve(str(name), "noun") for name in _list(each.get("to"), "to")]
-            found = [name for name in to if name in kept and name != noun]
-            kind = check.keep(each.get("kind"), "relation") if found else None
-            if kind is not None:
-                relations.append({"kind": kind, "to": found})
-        made["relations"] = relations
-    return {noun: made for noun, (made, _) in kept.items()}
-
-
-def _count(check: _Check, noun: str, value: Any) -> int:
-    """Copies of an object: more than one only where its word is a plural or a number is said."""
-    if not isinstance(value, int) or isinstance(value, bool) or not 1 < value <= MOST_COUNT:
-        return 1
-    number = ("count", str(float(value)))
-    if number in check.said:
-        check.used.add(number)
+    def _count(self, noun: str, value: Any) -> int:
+        """Copies of an object: several only where its word is a plural or a number is said."""
+        if not isinstance(value, int) or isinstance(value, bool) or not 1 < value <= MOST_COUNT:
+            return 1
+        number = ("count", str(float(value)))
+        is_plural = any(one.endswith("s") and one != noun for one in self.said["noun", noun])
+        self.used |= {number} & self.said.keys()
+        if number not in self.said and not is_plural:
+            self.invented.append(f"count {value}")
+            return 1
         return value
-    if any(one.endswith("s") and one != noun for one in check.said["noun", noun]):
-        return value
-    check.invented.append(f"count {value}")
-    return 1
 
 
-def _motion(check: _Check, one: Mapping[str, Any], word: str) -> dict[str, Any] | None:
-    """A motion, or a move of the camera as `word` says."""
-    kind = check.keep(one.get("kind"), word)
-    if kind is None:
-        return None
-    return {"kind": kind, "direction": check.keep(one.get("direction"), "direction")}
+def resolve(word: str, kind: str) -> str | None:
+    """What a word or phrase stands for; None where scenes have nothing for it.
+
+    Args:
+        word: as a model or a prompt has it.
+        kind: as of `FIELDS`.
+
+    Example:
+        >>> resolve("Automobiles", "noun"), resolve("driving", "motion"), resolve("wug", "noun")
+        ('car', 'drive', None)
+    """
+    return next((meaning for one, meaning in list_meanings(word) if one == kind), None)
 
 
-def _source(one: Mapping[str, Any], objects: Mapping[str, Any]) -> dict[str, str]:
-    source = resolve(str(one.get("source")), "noun")
-    return {"source": source} if source is not None and source in objects else {}
+def list_meanings(word: str) -> Iterator[tuple[str, str]]:
+    """Kinds of a word or phrase, and what it stands for as each."""
+    if word.isdigit():
+        yield "count", str(float(word))
+    words = word.casefold().replace("_", " ").replace("-", " ").split()
+    phrase = tuple(one for one in words if one not in ("a", "an", "the"))
+    senses = lexicon_of(None).get(phrase, ())
+    for sense in sorted(senses, key=lambda one: one.kind == "verb" and one.value.who == "hand"):
+        yield from ((kind, str(one)) for kind, one in _meanings(sense) if one)
 
 
-def _said(prompt: str) -> dict[tuple[str, str], frozenset[str]]:
-    """What each phrase of a prompt stands for, of each kind."""
-    words = _split(prompt)
-    found: dict[tuple[str, str], frozenset[str]] = {}
-    for length in range(1, LONGEST_PHRASE + 1):
-        for first in range(len(words) - length + 1):
-            phrase = words[first : first + length]
-            for key in list_meanings(" ".join(phrase)):
-                found[key] = found.get(key, frozenset()) | frozenset(phrase)
-    return found
+def _meanings(sense: Sense) -> Iterator[tuple[str, object]]:
+    value = sense.value
+    match sense.kind:
+        case "noun":
+            yield "noun", value.noun
+        case "place" | "effect" | "relation":
+            yield sense.kind, value
+        case "pose":
+            yield "motion", value[1]
+        case "field" | "adverb":
+            yield value
+        case "verb":
+            yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
+            yield from (("direction", value.direction), ("relation", value.relation))
+        case "scene":  # such as ("light", "kind", "dusk"), ("place", "weather", "fog")
+            part, field, each = value
+            yield part if field in ("kind", "name") else field, each
+
+
+def _is_plain(word: str) -> bool:
+    return any(sense.kind in _PLAIN for sense in lexicon_of(None).get((word,), ()))
 
 
 def _split(text: str) -> list[str]:
     return re.findall(r"[a-z0-9]+(?:[-'][a-z0-9]+)*", text.casefold())
 
 
-def _table(value: Any) -> Mapping[str, Any]:
-    return value if isinstance(value, Mapping) else {}
-
-
-def _list(value: Any, name: str) -> list[Any]:
-    return value[: MOST_ITEMS[name]] if isinstance(value, list) else []
-
-
-def _tables(value: Any, name: str) -> Iterator[Mapping[str, Any]]:
-    return (one for one in _list(value, name) if isinstance(one, Mapping))
+def _tables(answer: Mapping[str, Any], name: str) -> Iterator[Mapping[str, Any]]:
+    items = answer.get(name)
+    items = items[: MOST_ITEMS[name]] if isinstance(items, list) else ()
+    return (one for one in items if isinstance(one, Mapping))

@@ -102,8 +102,6 @@ class EffectWords:
     """Singular or mass nouns that name it, such as "smoke": "smoke rises from a chimney"."""
     verbs: tuple[str, ...] = ()
     """Base forms said of the object it comes from, such as "smoke": "a chimney smokes"."""
-    adjectives: tuple[str, ...] = ()
-    """Said of the object it comes from, such as "ablaze"; besides the verbs in -ing."""
     happens_once: bool = False
     """Whether it begins at one instant (a burst) rather than going on."""
     ends_source: bool = False

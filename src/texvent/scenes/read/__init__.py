@@ -5,8 +5,8 @@ Words become tokens (`tokens`) by the phrases that are known (`lexicon`), tokens
 understood changes nothing and is reported.
 """
 
-from texvent.scenes.read.lexicon import find_noun
+from texvent.scenes.read.draft import Reading
 from texvent.scenes.read.literals import find_literals
-from texvent.scenes.read.scenes import Reading, read
+from texvent.scenes.read.scenes import read
 
-__all__ = ["Reading", "find_literals", "find_noun", "read"]
+__all__ = ["Reading", "find_literals", "read"]

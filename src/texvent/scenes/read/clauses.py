@@ -1,11 +1,8 @@
-"""Clauses of a prompt: noun groups, one verb, and what is said of both.
-
-Nothing is decided here about what can be shown: a token keeps all its senses.
-"""
+"""Clauses of a prompt: noun groups, one verb, and what is said of both, in all senses."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from texvent.scenes.read.tokens import NO_TOKEN, Token
@@ -18,10 +15,6 @@ _STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
 """Senses of words that no noun group holds."""
 _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
-_LONGEST_LIST = 12
-"""Groups after a comma that are looked through for "and"."""
-_PARTICLES = ("up", "down", "off", "out", "over", "in", "on")
-"""Prepositions that go with a verb right before them: "picks up"."""
 
 
 @dataclass(frozen=True)
@@ -36,11 +29,6 @@ class Group:
     article: str = ""
     of: Group | None = None
     """Group after "of"."""
-
-    @property
-    def is_definite(self) -> bool:
-        """Whether "the" or an owner stands before it."""
-        return self.article in ("the", "its", "his", "her", "their")
 
     @property
     def is_plural(self) -> bool:
@@ -64,7 +52,7 @@ class Phrase:
     """Preposition with its groups; without any, a pronoun follows: "behind them"."""
 
     preposition: Token
-    groups: tuple[Group, ...] = ()
+    groups: tuple[Group, ...]
 
 
 @dataclass(frozen=True)
@@ -79,37 +67,27 @@ class Clause:
     after: tuple[Phrase | Token, ...] = ()
     """Phrases, adverbs and words of the scene, and words that are not known."""
     absent: tuple[Group, ...] = ()
-    is_camera: bool = False
-    """Whether the camera is the subject."""
-    is_joined: bool = False
-    """Whether it goes on about the subjects of the clause before."""
-    is_nearest: bool = False
-    """Whether it is about the last group of the clause before: "that", "jumping"."""
+    about: str = ""
+    """Subject that is not named here: "camera"; "same", those of the clause before; or "nearest",
+    the last group of it."""
     is_next: bool = False
     """Whether it happens after the clause before: "then"."""
-    is_back: bool = False
-    """Whether a pronoun is the object: "follows it"."""
 
     @property
     def has_subject(self) -> bool:
         """Whether a verb may follow."""
-        return bool(self.subjects) or self.is_joined or self.is_nearest or self.is_camera
+        return bool(self.subjects or self.about)
 
     @property
     def is_plural(self) -> bool:
         """Whether a verb in its base form agrees with the subject."""
-        is_open = self.is_joined or self.is_nearest or self.is_camera
-        return is_open or len(self.subjects) > 1 or any(one.is_plural for one in self.subjects)
+        is_open = bool(self.about) or len(self.subjects) > 1
+        return is_open or any(one.is_plural for one in self.subjects)
 
 
 def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
     """Clauses of the tokens, in order."""
-    parser, found, before = _Parser(tokens), [], Clause()
-    while not parser.is_done:
-        clause, before = parser.clause(before)
-        if clause != Clause():
-            found.append(clause)
-    return tuple(found)
+    return tuple(one for one in _Parser(tokens).clauses() if one != Clause())
 
 
 class _Parser:
@@ -119,10 +97,20 @@ class _Parser:
         self._tokens = tokens
         self._at = 0
 
-    @property
-    def is_done(self) -> bool:
-        """Whether all tokens are read."""
-        return self._at >= len(self._tokens)
+    def clauses(self) -> Iterator[Clause]:
+        """All clauses; each is begun as the one before says."""
+        steps = (self._read_camera, self._read_absence, self._read_setting, self._read_verb,
+                 self._read_phrase, self._read_adverb, self._read_group)  # fmt: skip
+        clause = Clause()
+        while self._token() is not NO_TOKEN:
+            following = self._end(clause)
+            if following is not None:
+                yield clause
+                clause = following
+            elif self._token() is not NO_TOKEN:
+                done = next((one for step in steps if (one := step(clause)) is not None), None)
+                clause = self._read_rest(clause) if done is None else done
+        yield clause
 
     def _token(self, ahead: int = 0) -> Token:
         at = self._at + ahead
@@ -132,73 +120,31 @@ class _Parser:
         self._at += 1
         return self._token(-1)
 
-    def clause(self, clause: Clause) -> tuple[Clause, Clause]:
-        """The next clause, begun as the one before says, and how the one after it begins."""
-        steps = (self._read_camera, self._read_absence, self._read_setting, self._read_verb,
-                 self._read_phrase, self._read_adverb, self._read_group)  # fmt: skip
-        while not self.is_done:
-            following = self._end(clause)
-            if following is not None:
-                return clause, following
-            done = next((one for step in steps if (one := step(clause)) is not None), None)
-            clause = self._read_rest(clause) if done is None else done
-        return clause, Clause()
-
     # Where a clause ends
 
     def _end(self, clause: Clause) -> Clause | None:
         """How the next clause begins, where this one ends here."""
         token, word = self._token(), self._token().text
-        is_begun = clause != Clause()
         if token.is_sign:
             self._take()
-            return None if word == "," and self._continues_list(clause) else Clause()
+            is_list = clause.subjects and not (clause.verb or clause.before or clause.after)
+            goes_on = self._starts_group() and not self._token().has("scene", "shot")
+            return None if word == "," and is_list and goes_on else Clause()
         if token.has("conjunctions"):
             self._take()
-            return Clause(is_next=word == "then", is_joined=word == "then")
-        if token.has("relatives") and is_begun and self._follows_relative():
+            return Clause(about="same", is_next=True) if word == "then" else Clause()
+        if token.has("relatives") and clause != Clause() and not self._starts_group(1):
             self._take()
-            return Clause(is_nearest=True)
-        if word == "and":
-            return self._end_at_and(clause)
-        if token.has("camera") and is_begun and self._token(1).has("verb", "shot", "small"):
-            return Clause()
-        if clause.verb is not None and self._is_verb(clause, is_second=True):
-            is_nearest = bool(token.verbs("ing"))
-            return Clause(is_nearest=is_nearest, is_joined=not is_nearest)
-        return None
-
-    def _follows_relative(self) -> bool:
-        after = self._token(1)
-        return after.has("picture") or not self._starts_group(1)
-
-    def _end_at_and(self, clause: Clause) -> Clause | None:
+            return Clause(about="nearest")
+        if word != "and":
+            return None
         self._take()
-        if self._token().text == "then":
-            self._take()
-            return Clause(is_next=True, is_joined=True)
+        if self._token().has("conjunctions"):  # "and then"
+            return self._end(clause)
+        if clause.verb is not None and self._is_verb(Clause(about="same")):
+            return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera")
-        if clause.verb is None:
-            return Clause() if self._token().has("camera") else None
-        joined = Clause(is_joined=True)
-        if self._is_verb(joined):
-            return joined
-        return Clause() if starts else None
-
-    def _continues_list(self, clause: Clause) -> bool:
-        """Whether a comma stands between subjects: "a car, a bus and a van drive"."""
-        if not clause.subjects or clause != Clause(clause.subjects):
-            return False
-        start, is_list = self._at, False
-        for _ in range(_LONGEST_LIST):
-            if is_list or not self._starts_group():
-                break
-            self._group()
-            is_list = self._take().text == "and"
-            if not is_list and self._token(-1).text != ",":
-                break
-        self._at = start
-        return is_list
+        return Clause() if clause.verb is not None and starts else None
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 
@@ -207,10 +153,10 @@ class _Parser:
         ahead = 1 if self._token().has("articles") else 0
         if not clause.has_subject and clause.verb is None and self._token(ahead).has("camera"):
             self._at += ahead + 1
-            return replace(clause, is_camera=True)
+            return replace(clause, about="camera")
         is_command = any(one.value.who == "camera" for one in self._token().verbs("base"))
         if clause == Clause() and is_command and not self._token().has("noun"):
-            return Clause(is_camera=True, verb=self._take())
+            return Clause(about="camera", verb=self._take())
         return None
 
     def _read_absence(self, clause: Clause) -> Clause | None:
@@ -220,70 +166,50 @@ class _Parser:
         if self._token(1).verbs("base", "ing", "ed"):
             self._at += 2
             return clause
-        if not self._starts_group(1):
-            return None
         self._take()
         return replace(clause, absent=(*clause.absent, self._group()))
 
     def _read_setting(self, clause: Clause) -> Clause | None:
         """A word of the scene or of the camera, in any place."""
-        is_after_article = self._token().has("articles") and self._token(1).has("shot", "scene")
-        token = self._token(1) if is_after_article and _is_alone(self._token(1)) else self._token()
-        is_verb = token.has("verb") and clause.verb is None and self._is_verb(clause)
+        token = self._token()
+        is_verb = clause.verb is None and self._is_verb(clause)
         if not token.has("scene", "shot") or token.has("noun") or is_verb:
             return None
-        ahead = token.at - self._token().at
-        after = self._token(ahead + 1)
-        is_before = token.has(*_MODIFIERS) and not _is_alone(token)
-        if is_before and after.has(*_HEADS, "field") and not self._is_verb(clause, ahead + 1):
-            return None
-        self._at += ahead + 1
-        return replace(clause, after=(*clause.after, token))
+        return replace(clause, after=(*clause.after, self._take()))
 
     def _read_verb(self, clause: Clause) -> Clause | None:
         if clause.verb is not None or not self._is_verb(clause):
             return None
         verb = self._take()
-        if self._token().has("pronouns"):
-            self._take()
-            return replace(clause, verb=verb, is_back=True)
         is_object = self._starts_group() and not self._token().has("adverb")
         return replace(clause, verb=verb, objects=self._groups() if is_object else ())
 
-    def _is_verb(self, clause: Clause, ahead: int = 0, *, is_second: bool = False) -> bool:
+    def _is_verb(self, clause: Clause) -> bool:
         """Whether the token is a verb of the clause.
 
         A bare form needs several subjects, and a word that is a noun too needs one right before.
         """
-        token, last = self._token(ahead), self._token(ahead - 1)
+        token = self._token()
         forms = {one.form for one in token.all("verb")}
-        if last.has("articles") and not last.has("relatives") and ahead == 0:
-            return False
         if not forms or (forms == {"base"} and not clause.is_plural):
             return False
-        if is_second:
-            return not token.has("noun", "relation") and bool(forms & {"ing", "s"})
         if token.has("noun", "effect", "place", "scene", "field"):
-            agrees = "s" not in forms or not any(one.is_plural for one in clause.subjects)
-            return clause.has_subject and (not clause.after or clause.is_joined) and agrees
-        is_ego = "ing" in forms and not self._token(ahead + 1).has("noun")
+            return clause.has_subject
+        is_ego = "ing" in forms and not self._token(1).has("noun")
         return clause.has_subject or is_ego
 
     def _read_phrase(self, clause: Clause) -> Clause | None:
         token = self._token()
         if not token.has("relation", "small") or token.text in ("and", "or"):
             return None
-        if self._token(1).has("pronouns") and token.has("relation"):
-            self._at += 2
-            phrase = Phrase(token)
-        elif self._starts_group(1) and not self._token(1).has("adverb"):
-            self._take()
-            phrase = Phrase(token, self._groups(is_phrase=True))
-        elif token.has("adverb") or not token.has("relation"):
-            return None
-        else:
+        is_back = token.has("relation") and self._token(1).has("pronouns")
+        if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
+            if token.has("adverb") or not token.has("relation"):
+                return None
             self._take()
             return clause
+        self._at += 1 + is_back
+        phrase = Phrase(token, () if is_back else self._groups(is_phrase=True))
         if clause.verb is None and clause.subjects:
             return replace(clause, before=(*clause.before, phrase))
         return replace(clause, after=(*clause.after, phrase))
@@ -293,9 +219,8 @@ class _Parser:
         if token.has("pronouns"):
             self._take()
             is_subject = not clause.has_subject and clause.verb is None
-            return replace(clause, is_joined=True) if is_subject else clause
-        is_before_noun = not clause.has_subject and self._starts_group(1)
-        if not token.has("adverb") or is_before_noun:
+            return replace(clause, about="same") if is_subject else clause
+        if not token.has("adverb"):
             return None
         return replace(clause, after=(*clause.after, self._take()))
 
@@ -303,9 +228,9 @@ class _Parser:
         is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
         if (self._token().is_unknown and is_said) or not self._starts_group():
             return None
-        if clause.verb is None and self._follows_head(clause):
-            return None  # "a woman ties her shoes": a noun that stands where a verb does
         if clause.verb is None:
+            if self._follows_head(clause):
+                return None  # "a woman ties her shoes": a noun that stands where a verb does
             return replace(clause, subjects=(*clause.subjects, self._group()))
         return replace(clause, objects=(*clause.objects, self._group()))
 
@@ -317,11 +242,8 @@ class _Parser:
         is_noun = self._follows_head(clause) and self._token().has("noun")
         token = self._take()
         is_verb = clause.subjects and not clause.verb and (is_noun or token.is_unknown)
-        if not is_verb or token.is_manner:
-            is_grammar = token.has("small", "style", "articles") and not token.is_unknown
-            return clause if is_grammar else replace(clause, after=(*clause.after, token))
-        if self._token().text in _PARTICLES:
-            self._take()
+        if not is_verb or token.text.endswith("ly"):
+            return replace(clause, after=(*clause.after, token))
         groups = self._groups() if self._starts_group() else ()
         return replace(clause, verb=token, objects=groups)
 
@@ -335,12 +257,10 @@ class _Parser:
             return False
         if token.has("noun", "place", "effect", "pose", "field"):
             return True
-        if token.has("picture"):
-            return after.has("noun")
         is_before = token.has(*_MODIFIERS) or bool(token.verbs("ing", "ed"))
         if is_before and after.has("noun", "place", *_MODIFIERS) and not after.has("relation"):
             return True
-        return token.has("scene") or (token.is_unknown and not token.is_manner)
+        return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
     def _groups(self, *, is_phrase: bool = False) -> tuple[Group, ...]:
         """Groups with "and" between them, but for one that begins a clause."""
@@ -348,9 +268,8 @@ class _Parser:
         while self._token().text == "and" and self._starts_group(1):
             start = self._at
             self._take()
-            group, token = self._group(is_phrase=is_phrase), self._token()
-            is_unknown = token.is_unknown and not token.is_manner
-            if is_unknown or self._is_verb(Clause((group,))):
+            group = self._group(is_phrase=is_phrase)
+            if self._is_verb(Clause((group,))):
                 self._at = start
                 break
             found.append(group)
@@ -365,9 +284,7 @@ class _Parser:
         first = self._at
         while head is None and not self._ends_group(first):
             token = self._take()
-            if token.text == "and":  # a second colour: "black and white"
-                unknown.append(self._take())
-            elif token.is_unknown or _is_bare_verb(token):
+            if token.is_unknown:
                 unknown.append(token)
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
@@ -375,11 +292,8 @@ class _Parser:
                 unknown.append(token)
             else:
                 head = token
-        if self._at == first and not self.is_done:
+        if self._at == first and self._token() is not NO_TOKEN:
             unknown.append(self._take())
-        is_shown = self._token().has("picture") and not self._token(1).has("noun")
-        if head is not None and is_shown:  # "the digit 7"
-            modifiers.append(self._take())
         of = None
         if self._token().text == "of" and self._starts_group(1):
             self._take()
@@ -387,36 +301,26 @@ class _Parser:
         return Group(head, tuple(modifiers), tuple(unknown), article, of)
 
     def _ends_group(self, first: int) -> bool:
-        token, after = self._token(), self._token(1)
-        if token is NO_TOKEN or token.is_sign or token.has(*_STANDPOINTS):
+        token = self._token()
+        if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
-        if token.text == "and":
-            return not (_is_colour(self._token(-1)) and _is_colour(after))
-        if token.has("picture") or token.is_unknown:
-            return False
         if token.has(*_HEADS, *_MODIFIERS):
             return token.has("relation") and self._at > first
-        if _is_bare_verb(token) and self._token(-1).has("articles", *_MODIFIERS):
-            return not after.has(*_HEADS)  # "an open field"
-        is_attribute = after.has(*_HEADS, *_MODIFIERS) or after.is_unknown
-        return not (is_attribute and token.verbs("ing", "ed"))
+        return not (token.is_unknown or token.has("picture") or token.verbs("ing", "ed"))
 
     def _stands_before(self, token: Token) -> bool:
         """Whether a word that may be a head, just read, is a modifier: "orange ball"."""
         after = self._token()
-        if not token.has(*_MODIFIERS):
-            return token.has("place") and after.has("place") and not after.has("noun")
-        return after.has(*_HEADS, "field") and not after.has("relation")
+        is_before = token.has(*_MODIFIERS) and not after.has("relation")
+        return is_before and after.has(*_HEADS, "field")
 
     def _is_compound(self, *, is_phrase: bool) -> bool:
         """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
         after, third = self._token(), self._token(1)
         if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
-            return not (after.text.endswith(("s", "ing")) and third.has("articles"))
-        follows = third.verbs("s") or (third.verbs("ing") and not after.text.endswith("s"))
-        is_verb = bool(follows) or third.text == "is"
+            return not (after.text.endswith("s") and third.has("articles"))
         is_end = is_phrase and third.is_sign
-        return after.is_unknown and not after.is_manner and (is_verb or is_end)
+        return is_end and after.is_unknown and not after.text.endswith("ly")
 
 
 def _is_alone(token: Token) -> bool:
@@ -424,12 +328,3 @@ def _is_alone(token: Token) -> bool:
     return token.text.startswith(_PREPOSITIONS) or (
         token.has("shot") and not token.has("noun", "place")
     )
-
-
-def _is_bare_verb(token: Token) -> bool:
-    """Whether a token is nothing but the base form of a verb."""
-    return bool(token.senses) and all(one.form == "base" for one in token.senses)
-
-
-def _is_colour(token: Token) -> bool:
-    return any(one.value[0] == "colour" for one in token.all("field"))

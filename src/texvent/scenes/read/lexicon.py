@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 from texvent.scenes.colours import SURFACES
 from texvent.scenes.inflection import list_plurals, list_verb_forms
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.nouns import DRESSING, NOUNS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
 from texvent.scenes.models.places import place_names
 from texvent.scenes.models.protocol import Noun
@@ -43,8 +44,6 @@ class NounSense:
     is_plural: bool = False
     is_kind: bool = False
     """Whether the word means a kind that is shown as this noun: "terrier", a dog."""
-    usual: str = ""
-    """What who is named so does if nothing else is said: "dancer"."""
 
 
 @dataclass(frozen=True)
@@ -52,8 +51,8 @@ class VerbSense:
     """Verb, and what it asks for of its subject and its object."""
 
     who: str = "plain"
-    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "mover" (a person whose
-    object moves), "source" (of an effect) or "plain" (anything)."""
+    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect)
+    or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0
@@ -61,7 +60,7 @@ class VerbSense:
     direction: str | None = None
     relation: str | None = None
     """Relation to its object."""
-    object: str | None = None
+    object: str = ""
     """Motion of its object."""
     is_near: bool = False
     """Whether it is reported as shown by another one."""
@@ -78,29 +77,22 @@ class Sense:
     [grammar]."""
     value: Any
     form: str = ""
-    """Of a verb "base", "s", "ing" or "ed"; of a relation its way."""
+    """Of a verb: "base", "s", "ing" or "ed"."""
 
 
-@dataclass(frozen=True)
-class Lexicon:
-    """Phrases, as words in lower case without articles, and their senses."""
-
-    senses: Mapping[tuple[str, ...], tuple[Sense, ...]]
-    longest: Mapping[str, int]
-    """First word of phrases → most words of one."""
+Lexicon: TypeAlias = Mapping[tuple[str, ...], tuple[Sense, ...]]
+"""Phrases, as words in lower case without articles, and their senses."""
+LONGEST_PHRASE = 8
+"""Most words of a phrase that is read."""
 
 
 def lexicon_of(nouns: Mapping[str, Noun] | None) -> Lexicon:
-    """Lexicon of nouns; None: the embedded ones."""
-    from texvent.scenes.models.nouns import NOUNS
-
+    """Lexicon of nouns; None: the embedded ones, of which it is made once."""
     return _embedded() if nouns is None or nouns is NOUNS else _make(nouns)
 
 
 @cache
 def _embedded() -> Lexicon:
-    from texvent.scenes.models.nouns import NOUNS
-
     return _make(NOUNS)
 
 
@@ -114,79 +106,46 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
     for word in word_set("ambiguous", "words"):
         for form in (word, *list_plurals(word)):
             found.pop((form,), None)
-    senses = {phrase: tuple(one) for phrase, one in found.items()}
-    longest: dict[str, int] = {}
-    for phrase in senses:
-        longest[phrase[0]] = max(len(phrase), longest.get(phrase[0], 0))
-    return Lexicon(MappingProxyType(senses), MappingProxyType(longest))
-
-
-def find_noun(word: str, nouns: Mapping[str, Noun]) -> str | None:
-    """The noun that a word names, or shows as a kind; None: none.
-
-    Example:
-        >>> from texvent.scenes.models.nouns import NOUNS
-        >>> find_noun("fire truck", NOUNS), find_noun("wug", NOUNS)
-        ('fire engine', None)
-    """
-    phrase = tuple(word.casefold().replace("-", " ").split())
-    senses = lexicon_of(nouns).senses.get(phrase, ())
-    return next((one.value.noun for one in senses if one.kind == "noun"), None)
+    return MappingProxyType({phrase: tuple(one) for phrase, one in found.items()})
 
 
 def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
-    from texvent.scenes.models.nouns import DRESSING
-
     said = [
         one for one in nouns.values()
         if one.name not in DRESSING and not one.name.startswith(_UNSAID)
     ]  # fmt: skip
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
-    doers = {
-        doer: activity
-        for activity, phrases in read_table("words")["doers"].items()
-        for doer in phrases
-    }
     for noun, kinds in read_table("kinds").items():
         for kind in kinds if noun in nouns else ():
-            if kind not in names and kind not in plurals:
-                is_mass = kind in word_set("things", "plurals")
-                names[kind] = NounSense(noun, is_mass, is_kind=True, usual=doers.get(kind, ""))
-    for name, sense in names.items():
-        yield name, Sense("noun", sense)
+            if kind not in plurals:
+                names.setdefault(kind, NounSense(noun, is_kind=True))
+    for name, one in names.items():
+        yield name, Sense("noun", one)
     for name, one in names.items():
         for plural in set(list_plurals(name)) - {name}:
-            yield plural, Sense("noun", NounSense(one.noun, True, one.is_kind, one.usual))
+            yield plural, Sense("noun", replace(one, is_plural=True))
     for name, sense in plurals.items():
         yield name, Sense("noun", sense)
 
 
 def _list_verbs() -> Iterator[tuple[str, Sense]]:
-    for phrase, sense in (*_list_plain_verbs(), *_list_activities()):
+    """Verbs; what only persons, hands or animals can do goes before what anything can."""
+    for phrase, sense in (*_list_activities(), *_list_plain_verbs()):
         base, _, rest = phrase.replace("-", " ").partition(" ")
         written = read_table("words")["irregular"].get(base, "")
         for word, form in list_verb_forms(base, written):
             yield f"{word} {rest}".strip(), Sense("verb", sense, form)
-            if form == "ing" and sense.who == "source" and not rest:  # "a burning house"
-                yield word, Sense("field", ("effect", sense.kind))
 
 
 def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
     words = read_table("words")
-    for table in ("motions", "near"):
-        for kind, verbs in words[table].items():
-            for verb in verbs:
-                base, _, pace = verb.partition("*")
-                yield base, VerbSense("plain", kind, float(pace or 1), is_near=table == "near")
+    for who, kinds in words["doing"].items():
+        for verb, kind in ((verb, kind) for kind, verbs in kinds.items() for verb in verbs):
+            base, _, pace = verb.partition("*")
+            yield base, VerbSense(who, kind, float(pace or 1))
     for base, fields in words["verbs"].items():
         yield base, VerbSense(**fields)
-    for motion, verbs in words["moved"].items():
-        yield from ((base, VerbSense("mover", object=motion)) for base in verbs)
-    for move, verbs in words["camera_verbs"].items():
-        yield from ((base, VerbSense("camera", move)) for base in verbs)
-    for who, verbs in words["more_verbs"].items():
-        yield from ((base, VerbSense(who)) for base in verbs)
 
 
 _SHOWING = ("show", "make", "do", "give")
@@ -211,7 +170,6 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
     for name, effect in EFFECTS.items():
         for phrase in effect.nouns:
             yield from _with_plurals(phrase, Sense("effect", name))
-        yield from ((phrase, Sense("field", ("effect", name))) for phrase in effect.adjectives)
     for who, table in _PERFORMERS:
         for name, activity in table.items():
             yield from ((phrase, Sense("pose", (who, name))) for phrase in activity.named)
@@ -228,7 +186,7 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
     for field, units in words["units"].items():
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
     for path, phrases in _walk(words["senses"]):
-        yield from ((phrase, _sense_of(path)) for phrase in phrases)
+        yield from ((phrase, _sense_of(*path)) for phrase in phrases)
 
 
 def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tuple[Any, list[str]]]:
@@ -240,15 +198,12 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
             yield from _walk(value, (*path, key))
 
 
-def _sense_of(path: tuple[str, ...]) -> Sense:
-    """As ("scene", "light", "kind", "dusk"), ("field", "size", "1.4"), ("way", "on", "across")."""
-    kind, *rest = path
-    if kind in ("field", "adverb"):
-        return Sense(kind, (rest[0], _plain(rest[1])))
-    if kind == "scene":
-        value = (rest[2],) if rest[1] == "backdrops" else _plain(rest[2])
-        return Sense(kind, (rest[0], rest[1], value))
-    return Sense("relation", *rest) if kind == "way" else Sense(kind, rest[0] if rest else kind)
+def _sense_of(kind: str, *rest: str) -> Sense:
+    """As "scene", "light", "kind", "dusk"; "field", "size", "1.4"; or "relation", "on"."""
+    if kind in ("field", "adverb", "scene"):
+        value = (rest[-1],) if "backdrops" in rest else _plain(rest[-1])
+        return Sense(kind, (*rest[:-1], value))
+    return Sense(kind, rest[0] if rest else kind)
 
 
 def _with_plurals(phrase: str, sense: Sense) -> Iterator[tuple[str, Sense]]:

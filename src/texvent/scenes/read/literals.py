@@ -1,7 +1,4 @@
-"""Names of picture files, numbers of squares and quoted text in a prompt.
-
-a poster of photo.png · a 9x6 checkerboard · a sign that says "STOP" · the digit 7
-"""
+"""Pictures in a prompt: "photo.png", "9x6 checkerboard", "says STOP", "the digit 7"."""
 
 from __future__ import annotations
 

@@ -1,79 +1,33 @@
-"""Scenes of clauses: which objects there are, what they do and where.
-
-A word that changes the scene is counted as shown; every other one is not understood.
-"""
+"""Scenes of clauses: which objects there are, what they do and where."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.traits import trait_value
-from texvent.scenes.read.camera import add_move, aims_at, find_move, split_move
+from texvent.scenes.read.camera import find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
-from texvent.scenes.read.draft import SceneDraft, Thing
+from texvent.scenes.read.draft import Reading, SceneDraft
 from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
-from texvent.scenes.report import Substitution
-from texvent.scenes.spec.scene import MAX_BODIES, Scene
+from texvent.scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
-_BACKDROPS = ("mountain", "forest", "city")
-_POSITIONS = frozenset({"behind", "front", "beside", "left of", "right of", "between", "around",
-                        "towards", "away from", "surround", "among", "past", "under", "from",
-                        "with"})  # fmt: skip
-"""Relations to a thing, where a word is both thing and place: "behind a mountain"."""
-_OF_PEOPLE = frozenset({"hold", "wear", "ride", "kick", "hit", "throw", "catch"})
-"""Relations that need hands, or legs."""
-_SENDING = frozenset({"kick", "hit", "throw"})
-_ROUTES = frozenset({"above", "past", "through", "under", "around", "between", "in", "on"})
-"""Relations that are about what is sent: "kicks a ball over a wall"."""
-_ACTS = frozenset({"kick", "throw", "catch", "push", "pull", "walk"})
-"""Activities that are a relation where something is done to a thing: "kicks a ball"."""
-_DOERS = ("person", "hand", "animal", "mover", "source", "lamp", "plain")
-"""Kinds of subjects of verbs; what only they can do goes before what anything can."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Reading:
-    """The scene that a sentence describes, and what became of its words."""
-
-    scene: Scene
-    shown: tuple[str, ...]
-    """Words that the scene shows."""
-    substituted: tuple[Substitution, ...]
-    """Words that are shown as something else."""
-    not_understood: tuple[str, ...]
-    """Words without effect on the scene."""
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing is understood."""
-        return self.scene == Scene(prompt=self.scene.prompt)
 
 
 def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
-    """The scene that any text describes; what it leaves open stays open.
-
-    Args:
-        prompt: the text.
-        nouns: the objects that can be shown.
-    """
+    """The scene that any text describes, of these nouns; what it leaves open stays open."""
     tokens = split_prompt(prompt, lexicon_of(nouns))
     draft = SceneDraft(tokens)
     reader = _Reader(draft, nouns)
     for clause in read_clauses(tokens):
         reader.apply(clause)
-    draft.limit_bodies()
-    shown, substituted, lost = draft.report()
-    scene = draft.build(prompt)
-    return Reading(scene=scene, shown=shown, substituted=substituted, not_understood=lost)
+    return draft.reading(prompt)
 
 
 class _Reader:
@@ -96,53 +50,49 @@ class _Reader:
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head)
-        goes_on = not clause.subjects and not clause.is_nearest
-        is_camera = clause.is_camera or (self._was_camera and goes_on and clause.is_joined)
+        is_camera = clause.about == "camera" or (self._was_camera and clause.about == "same")
         is_ego = not is_camera and self._is_ego(clause)
         self._was_camera = is_camera
         if is_camera or is_ego:
             self._apply_to_camera(clause, is_ego=is_ego)
         else:
-            self._apply_to_things(clause, goes_on=goes_on)
+            self._apply_to_things(clause)
 
-    def _apply_to_things(self, clause: Clause, *, goes_on: bool) -> None:
-        subjects, is_lost = self._nearest, False
-        if goes_on:
-            subjects = self._subjects
-        elif not clause.is_nearest:
+    def _apply_to_things(self, clause: Clause) -> None:
+        subjects = self._nearest if clause.about == "nearest" else self._subjects
+        if clause.subjects:
             subjects = [index for group in clause.subjects for index in self._name(group)]
-            is_lost = not subjects and any(group.head is None for group in clause.subjects)
         for phrase in clause.before:
-            self._relate(phrase, subjects, subjects, is_lost=is_lost)
-        if clause.before and self._goes_nearest(clause):
-            subjects = self._nearest
+            self._relate(phrase, subjects, subjects)
         objects = [index for group in clause.objects for index in self._name(group)]
-        moved = subjects
+        self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
-            found = None if is_lost else self._act(clause, clause.verb, subjects, objects)
-            is_lost, moved = found is None, found or subjects
-            for index in subjects if is_lost else ():  # what it does is not made up
-                self._draft.things[index].usual = "stand"
+            is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
+            found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
+            kinds = {one.value.kind for one in clause.verb.all("verb")}
+            of_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
+            if not subjects and of_effect and kinds & word_set("effects", "motions"):
+                found = []  # "smoke rises from a chimney", as it does by itself
+                self._draft.show(clause.verb)
+            for index in subjects if found is None else ():  # what it does is not made up
+                self._draft.things[index]["is_lost"] = True
+            subjects, moved = ([], []) if found is None else (subjects, found or subjects)
         for one in clause.after:
             if isinstance(one, Phrase):
-                self._relate(one, subjects, moved, is_lost=is_lost, is_of_verb=bool(objects))
-            elif not self._set_scene(one) and not is_lost:
+                self._relate(one, subjects, moved, is_of_verb=bool(objects))
+            elif not self._set_scene(one):
                 self._say(one, moved)
-        self._subjects = list(subjects)
-
-    def _goes_nearest(self, clause: Clause) -> bool:
-        """Whether the last group before the verb does it: "a boat with dolphins jumping"."""
-        is_ing = clause.verb is not None and bool(clause.verb.verbs("ing"))
-        nouns = [self._nouns[self._draft.things[one].noun] for one in self._nearest]
-        return is_ing and bool(nouns) and all(noun.habitat != "fixed" for noun in nouns)
 
     # Noun groups
 
-    def _name(self, group: Group, relation: str = "") -> list[int]:
-        """Add what a group names; the indices of its objects, at most one."""
+    def _name(self, group: Group, relation: str = "", owners: Sequence[int] = ()) -> list[int]:
+        """Add what a group names; the indices of its objects, at most one.
+
+        An effect comes from the first of the owners.
+        """
         head = group.head
-        words = {one.text.removesuffix("s") for one in (*group.unknown, *([head] if head else []))}
-        of = None if words & word_set("things", "likenesses") else group.of
+        words = [one.text.removesuffix("s") for one in (*group.unknown, head) if one is not None]
+        of = None if word_set("things", "likenesses").intersection(words) else group.of
         found: list[int] = []
         if head is not None and self._is_place(head, relation):
             self._set_place(group, head, relation)
@@ -150,22 +100,17 @@ class _Reader:
             found = self._name_thing(group, head)
         else:  # an effect, light, weather, or nothing that is known
             for token in (*group.modifiers, *([head] if head else [])):
-                if not self._set_scene(token):
-                    self._add_effect(token, None)
+                effect = token.first("effect")
+                if not self._set_scene(token) and effect is not None:
+                    self._add_effect(token, effect.value, owners)
         if of is not None and of.head is not None and not _is_liquid(of.head):
             inside = self._name(of)
-            if (
-                found
-                and inside
-                and self._draft.things[found[0]].noun in word_set("things", "vessels")
-            ):
-                self._draft.relate(inside[0], "in", found)  # "a bowl of apples"
             self._nearest = found or inside
         return found
 
     def _is_place(self, head: Token, relation: str) -> bool:
         is_thing = head.has("noun", "pose") or _is_liquid(head)
-        is_where = bool(relation) and relation not in _POSITIONS
+        is_where = bool(relation) and relation not in word_set("things", "positions")
         return head.has("place") and (is_where or not is_thing)
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
@@ -173,30 +118,33 @@ class _Reader:
         if len(draft.things) == MAX_BODIES:
             return []
         draft.show(head)
-        known = [n for n, one in enumerate(draft.things) if noun and one.noun == noun.value.noun]
-        if known and group.is_definite and not group.modifiers and not group.unknown:
+        known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
+        if (
+            known
+            and group.article in ("the", "its", "his", "her", "their")
+            and not group.modifiers
+            and not group.unknown
+        ):
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
-            thing = Thing(noun.value.noun, noun.value.usual)
+            thing = {"noun": noun.value.noun, "motions": []}
             if noun.value.is_kind:
-                draft.substitute(head, thing.noun)
+                draft.mark(head, noun.value.noun)
         else:
             who, activity = head.all("pose")[0].value
-            thing = Thing("hand" if who == "hand" else "person", motions=[{"kind": activity}])
-        draft.things.append(thing)
+            thing = {"noun": who, "motions": [{"kind": activity}]}
+        count = PLURAL_COUNT if group.is_plural else 1
+        draft.things.append({**thing, "count": count, "relations": []})
         index = len(draft.things) - 1
-        thing.values["count"] = PLURAL_COUNT if group.is_plural else 1
         for token in group.modifiers:
             self._say(token, [index])
         self._nearest = [index]
         return [index]
 
-    def _add_effect(self, token: Token, source: int | None) -> None:
-        effect = token.first("effect")
-        if effect is not None:
-            self._draft.add_effect(effect.value, source)
-            self._draft.show(token)
+    def _add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
+        self._draft.effects.append({"kind": kind, "source": owners[0] if owners else None})
+        self._draft.show(token)
 
     # What is said of things
 
@@ -209,168 +157,130 @@ class _Reader:
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
-            (things or draft.things)[-1].values["picture"] = value
-        elif field == "effect" and subjects:
-            draft.add_effect(value, subjects[0])
-        elif said is None or not things:
-            verbs = token.verbs("ing", "ed") if things else ()
-            if not self._set_scene(token) and verbs:
-                self._apply_act(token, verbs, subjects, [])
+            (things or draft.things)[-1]["picture"] = vars(value)
+        elif said is not None and things:
+            for thing in things:
+                _set_field(thing, said.kind, field, value)
+        else:
+            if not self._set_scene(token) and things and token.verbs("ing", "ed"):
+                self._act(token, subjects, [], forms=("ing", "ed"))
             return
-        elif field == "colour" and any("colour" in one.values for one in things):
-            return
-        for thing in things if field not in ("picture", "effect") else ():
-            _set_field(thing, said.kind if said else "", field, value)
         draft.show(token)
 
     # Verbs
 
     def _act(
-        self, clause: Clause, verb: Token, subjects: Sequence[int], objects: Sequence[int]
-    ) -> list[int] | None:
-        """Apply a verb with its objects; who moves, or None where it is not known."""
-        if not subjects:  # "smoke rises from a chimney"
-            kinds = {one.value.kind for one in verb.all("verb")}
-            is_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
-            if not is_effect or not kinds & word_set("effects", "motions"):
-                return None
-            self._draft.show(verb)
-            return []
-        others = [one for one in self._nearest if one not in subjects] if clause.is_back else []
-        is_unknown = clause.is_back or any(
-            group.head is None or _is_liquid(group.head) for group in clause.objects
-        )
-        return self._apply_act(
-            verb, verb.all("verb"), subjects, [*objects, *others], has_object=is_unknown
-        )
-
-    def _apply_act(
-        self, verb: Token, senses: Iterable[Sense], subjects: Sequence[int],
-        objects: Sequence[int], *, has_object: bool = False,
+        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *,
+        has_object: bool = False, forms: tuple[str, ...] = ("base", "s", "ing", "ed"),
     ) -> list[int] | None:  # fmt: skip
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
-        able = [one.value for one in senses if self._fits(one.value, subjects, has_object)]
-        act = min(able, key=lambda one: _DOERS.index(one.who), default=None)
-        if act is None or (has_object and not objects and act.who in ("mover", "plain")):
+        acts = (one.value for one in verb.verbs(*forms) if subjects)
+        act = next((one for one in acts if self._fits(one, subjects, has_object)), None)
+        if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
-        if act.kind in word_set("things", "pair_acts") and objects:
-            if any(draft.things[one].noun not in PERSON_NOUNS for one in objects):
-                return None
-            subjects = [*subjects, *objects]
         draft.show(verb)
         if act.is_near:
-            draft.substitute(verb, act.kind)
+            draft.mark(verb, act.kind)
         for index in subjects:
-            thing = draft.things[index]
-            if act.who == "source" and index == subjects[0]:
-                if act.kind != "fire" or not _is_flame(thing):
-                    draft.add_effect(act.kind, index)
-            elif act.who == "lamp" and not _is_flame(thing):
-                thing.values["blink_hz"] = BLINK_HZ
-            elif act.kind and act.who != "source":
-                _add_motion(thing, act)
-        return self._apply_to_objects(act, subjects, objects)
-
-    def _fits(self, verb: VerbSense, subjects: Sequence[int], has_object: bool) -> bool:
-        things = [self._draft.things[one] for one in subjects]
-        names = {one.noun for one in things}
-        is_acting = names <= PERSON_NOUNS | HAND_NOUNS
-        if verb.who == "person":
-            return names <= PERSON_NOUNS and not (has_object and verb.kind in _ACTS)
-        if verb.who == "hand":
-            return names <= HAND_NOUNS and not has_object
-        if verb.who == "animal":
-            return all(verb.kind in self._nouns[one].acts for one in names)
-        if verb.who == "mover":
-            return has_object and is_acting
-        if verb.who in ("source", "lamp"):
-            return not has_object and not is_acting
-        if verb.kind == "drive" and names & PERSON_NOUNS:
-            return False
-        if verb.who != "plain" or has_object != bool(verb.relation):
-            meets = verb.relation == "collide" and sum(one.count for one in things) > 1
-            is_alone = meets or (bool(verb.kind) and not verb.object)
-            return verb.who == "plain" and not has_object and is_alone
-        return is_acting or verb.relation not in _OF_PEOPLE
-
-    def _apply_to_objects(
-        self, act: VerbSense, subjects: Sequence[int], objects: Sequence[int]
-    ) -> list[int]:
-        """Relate subjects to objects; who the adverbs are about."""
-        draft = self._draft
-        are_people = {draft.things[one].noun for one in subjects} <= PERSON_NOUNS | HAND_NOUNS
-        for index in objects if act.object is not None else ():
-            _add_motion(draft.things[index], VerbSense(kind=act.object or ""))
-        is_meal = act.who == "person" and act.kind in ("eat", "drink")
+            self._do(act, verb, index)
+        for index in objects:
+            _add_motion(draft.things[index], VerbSense(kind=act.object))
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
-        elif act.relation == "carry" and not are_people:  # "a conveyor belt carries boxes"
-            for index in objects:
-                draft.relate(index, "on", subjects)
-        elif objects and (act.relation is not None or is_meal):
-            for index in subjects:
-                draft.relate(index, act.relation or "hold", objects)
-        return list(objects if act.object is not None and objects else subjects)
+        for index in subjects if act.relation is not None else ():
+            draft.relate(index, act.relation or "", objects)
+        return list(objects if act.object and objects else subjects)
+
+    def _do(self, act: VerbSense, verb: Token, index: int) -> None:
+        """Let an object do it; a flame burns and flickers by itself."""
+        thing = self._draft.things[index]
+        if act.who not in ("source", "lamp"):
+            _add_motion(thing, act)
+        elif thing["noun"] not in word_set("things", "flames"):
+            if act.who == "lamp":
+                thing["blink_hz"] = BLINK_HZ
+            else:
+                self._add_effect(verb, act.kind, [index])
+
+    def _fits(self, verb: VerbSense, subjects: Sequence[int], has_object: bool) -> bool:
+        """Whether the subjects can do it, with an object or without one."""
+        things = [self._draft.things[one] for one in subjects]
+        names = {one["noun"] for one in things}
+        is_acting = names <= PERSON_NOUNS | HAND_NOUNS
+        acts = word_set("things", "acts") if has_object else ()
+        match verb.who:
+            case "person":
+                return names <= PERSON_NOUNS and verb.kind not in acts
+            case "hand":
+                return names <= HAND_NOUNS and not has_object
+            case "animal":
+                return all(verb.kind in self._nouns[one].acts for one in names)
+            case "source" | "lamp":
+                return not has_object and not is_acting
+        if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
+            return False
+        if has_object:
+            needs_hands = verb.relation in word_set("things", "of_people")
+            return bool(verb.relation) and (is_acting or not needs_hands)
+        meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
+        return meets or not verb.relation or (bool(verb.kind) and not verb.object)
 
     # Prepositions
 
     def _relate(
         self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int], *,
-        is_lost: bool, is_of_verb: bool = False,
+        is_of_verb: bool = False,
     ) -> None:  # fmt: skip
         """Apply a preposition with its groups; `moved` are those that the verb moves."""
         draft, token = self._draft, phrase.preposition
         sense = token.first("relation")
-        kind, way = (sense.value, sense.form) if sense is not None else ("", "")
-        if not phrase.groups:  # "behind them"
-            others = [one for one in self._nearest if one not in subjects]
-            placed = [draft.relate(index, kind, subjects, way) for index in others]
-            (draft.show if any(placed) else draft.lose)(token)
-            return
-        place, targets = draft.parts["place"].get("name"), []
+        kind = sense.value if sense is not None else ""
+        if not phrase.groups:
+            draft.mark(token, "lost")
+        place, targets = draft.parts["place"].get("name"), list[int]()
+        owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
-            head = group.head
-            if head is not None and head.has("effect") and not head.has("noun", "place", "scene"):
-                if kind in ("with", "in", "on"):  # "a car in flames"
-                    self._add_effect(head, subjects[0] if subjects else None)
-            else:
-                targets += self._name(group, kind or token.text)
-        done = [one["kind"] for index in subjects for one in draft.things[index].relations]
-        is_sent = is_of_verb and kind in _ROUTES and bool(_SENDING.intersection(done))
+            targets += self._name(group, kind or token.text, owners)
+        done = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
+        is_route = is_of_verb and kind in word_set("things", "routes")
         if not targets:
-            if draft.parts["place"].get("name") != place and not is_lost:
+            if draft.parts["place"].get("name") != place:
                 self._go_to_place(token, subjects, moved)
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
-        elif kind and subjects:
-            able = () if is_lost or is_sent else subjects
-            placed = [self._relate_one(kind, way, index, targets) for index in able]
-            (draft.show if any(placed) else draft.lose)(token)
+        elif kind and (subjects or kind != "with"):  # "an office with a desk"
+            able = () if is_route and done & word_set("things", "sending") else subjects
+            placed = [self._relate_one(kind, index, targets) for index in able]
+            draft.show(token)
+            if not any(placed):
+                draft.mark(token, "lost")
 
     def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
         """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
         draft = self._draft
         for index in moved if token.text == "across" else ():
-            for motion in draft.things[index].motions[-1:]:
+            for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
         for thing in (draft.things[index] for index in subjects if token.text == "on"):
-            if draft.parts["place"]["name"] == "road" and self._nouns[thing.noun].motion != "drive":
-                thing.values.setdefault("placement", "lane")
+            if (
+                draft.parts["place"]["name"] == "road"
+                and self._nouns[thing["noun"]].motion != "drive"
+            ):
+                thing.setdefault("placement", "lane")
 
-    def _relate_one(self, kind: str, way: str, index: int, targets: Sequence[int]) -> bool:
+    def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
-        if target.noun in word_set("things", "worn") and kind in ("in", "with"):
-            others = {draft.things[one].noun for one in targets} - word_set("things", "worn")
-            if others or (kind == "in" and thing.noun not in PERSON_NOUNS):
+        if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
+            if thing["noun"] not in PERSON_NOUNS:
                 return False
-            kind, way = ("wear", "") if thing.noun in PERSON_NOUNS else (kind, way)
-        elif kind == "at" and target.noun not in word_set("things", "tables"):
-            kind, way = "beside", "at"
+            kind = "wear"
+        elif kind == "at" and target["noun"] not in word_set("things", "tables"):
+            kind = "beside"
         for one in (draft.things[each] for each in targets if kind == "surround"):
-            one.values["count"] = SURROUND_COUNT if one.count == PLURAL_COUNT else one.count
-        return draft.relate(index, kind, targets, way)
+            one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
+        return draft.relate(index, kind, targets)
 
     # The scene
 
@@ -378,7 +288,7 @@ class _Reader:
         """Apply a word of light, weather, place or camera, wherever it stands."""
         draft = self._draft
         for sense in token.all("shot"):
-            add_move(draft, split_move(sense.value), self._phase)
+            self._add_move(split_move(sense.value))
         for part, field, value in (sense.value for sense in token.all("scene")):
             draft.parts[part][field] = value
         draft.show(*([token] if token.has("shot", "scene") else []))
@@ -389,38 +299,28 @@ class _Reader:
         draft, place = self._draft, self._draft.parts["place"]
         name = head.all("place")[0].value
         for token in group.modifiers:
-            colours = [one.value[1] for one in token.all("field") if one.value[0] == "colour"]
+            field, value = (token.first("field") or Sense("", ("", ""))).value
             if token.text == "dark":
                 draft.parts["light"].setdefault("kind", "night")
-            elif colours:
-                place["sky" if name == "sky" else "colour"] = colours[0]
-            elif token.has("place"):
-                self._add_backdrop(token, token.all("place")[0].value)
-            draft.show(*([token] if token.text == "dark" or colours else []))
-            self._set_scene(token)
+            elif field == "colour":
+                place["sky" if name == "sky" else "colour"] = value
+            elif not self._set_scene(token):
+                continue
+            draft.show(token)
         self._set_scene(head)
         is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
         if (name == "sky" and is_said) or place.setdefault("name", name) == name:
             draft.show(head)
-        else:
-            self._add_backdrop(head, name)
-
-    def _add_backdrop(self, token: Token, name: str) -> None:
-        """A second place is seen behind the first one, if it can be."""
-        place = self._draft.parts["place"]
-        if name in _BACKDROPS:
-            place["backdrops"] = tuple(dict.fromkeys((*place.get("backdrops", ()), name)))
-            self._draft.show(token)
 
     # The camera
 
     def _is_ego(self, clause: Clause) -> bool:
         """Whether a camera goes that is not named: "driving through a city"."""
+        verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
+        travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
         heads = [group.head for group in clause.subjects]
         is_place = all(one is not None and self._is_place(one, "") for one in heads)
-        verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
-        travels = any(one.value == VerbSense("camera", "travel") for one in verbs)
-        return travels and is_place and not self._draft.things and not clause.is_nearest
+        return travels and is_place and not self._draft.things and clause.about != "nearest"
 
     def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
         draft, targets = self._draft, list[int]()
@@ -429,35 +329,33 @@ class _Reader:
             self._name(group, "in")
         for group in clause.objects if not is_ego else ():
             targets += self._name(group)
-        targets += self._subjects if clause.is_back else ()
         for one in (*clause.before, *clause.after):
-            if isinstance(one, Phrase):
-                targets += self._aim(one, targets)
-            else:
+            if not isinstance(one, Phrase):
                 self._set_scene(one)
-        senses = clause.verb.all("verb") if clause.verb is not None else ()
-        looks = bool(targets) and any(one.value.relation == "look at" for one in senses)
+            elif targets:  # as "orbits a car in front of a house"
+                self._relate(one, targets, targets)
+            else:
+                targets += self._aim(one)
         if move is not None:
-            add_move(draft, move, self._phase)
-        if clause.verb is not None and looks:
-            draft.show(clause.verb)
-        if targets and (move or looks):
-            draft.parts["camera"].setdefault("target", targets[0])
+            self._add_move(move)
+            if targets:
+                draft.parts["camera"].setdefault("target", targets[0])
 
-    def _aim(self, phrase: Phrase, targets: Sequence[int]) -> list[int]:
+    def _add_move(self, move: dict[str, Any]) -> None:
+        """Add a move; what flies is seen from the air."""
+        self._draft.moves.append({**move, **({"phase": self._phase} if self._phase else {})})
+        if move.get("means") == "fly":
+            self._draft.parts["camera"].setdefault("view", "aerial")
+
+    def _aim(self, phrase: Phrase) -> list[int]:
         """Add what a phrase of a camera's clause names; the objects that it looks at."""
         sense = phrase.preposition.first("relation")
         kind, place = sense.value if sense else "", dict(self._draft.parts["place"])
-        if targets:  # as "orbits a car in front of a house"
-            self._relate(phrase, targets, targets, is_lost=False)
-            return []
-        if not phrase.groups:
-            return list(self._subjects)
         found = [one for group in phrase.groups for one in self._name(group, kind or "with")]
         if not found and self._draft.parts["place"] != place:
             self._go_to_place(phrase.preposition, self._nearest, [])
         self._draft.show(phrase.preposition)
-        return found if aims_at(kind) else []
+        return found if kind in word_set("things", "aims") else []
 
 
 def _is_liquid(head: Token) -> bool:
@@ -465,34 +363,27 @@ def _is_liquid(head: Token) -> bool:
     return head.text in word_set("things", "liquids")
 
 
-def _is_flame(thing: Thing) -> bool:
-    """Whether it burns and flickers by itself."""
-    lamps = trait_value("lamps", thing.noun) or ()
-    return any((trait_value("lamp kind", one) or {}).get("wave") == "flame" for one in lamps)
-
-
-def _set_field(thing: Thing, kind: str, field: str, value: Any) -> None:
+def _set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
     """Set a field of an object, or an adverb of its last motion."""
-    if field == "rate_hz" and "blink_hz" in thing.values:
+    if field == "rate_hz" and "blink_hz" in thing:
         field, kind = "blink_hz", "field"
     if kind == "field" or field == "placement":
-        thing.values[field] = int(value) if field == "count" else value
+        thing[field] = int(value) if field == "count" else value
         return
-    if not thing.motions:
-        thing.motions.append({"kind": "move"})
-    motion = thing.motions[-1]
+    if not thing["motions"]:
+        thing["motions"].append({"kind": "move"})
+    motion = thing["motions"][-1]
     motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
 
 
-def _add_motion(thing: Thing, act: VerbSense) -> None:
-    """Add a motion; it takes the place of a posture, and of one of which only the pace is said."""
-    motions, pace = thing.motions, act.pace
+def _add_motion(thing: dict[str, Any], act: VerbSense) -> None:
+    """Add a motion; it takes the place of one of which only the pace is said."""
+    motions, pace = thing["motions"], act.pace
+    if not act.kind:
+        return
     said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
     motion = {name: value for name, value in said.items() if value is not None}
     if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
         pace *= motions.pop().get("pace", 1.0)
-    elif motions and motions[-1]["kind"] in ("stand", "sit") and act.who == "person":
-        motions.pop()
     motion |= {"pace": pace} if pace != 1.0 else {}
-    if motion not in motions[-1:]:
-        motions.append(motion)
+    motions.append(motion)

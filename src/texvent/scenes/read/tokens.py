@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from texvent.scenes.read.lexicon import Lexicon, Sense, word_set
+from texvent.scenes.read.lexicon import LONGEST_PHRASE, Lexicon, Sense, word_set
 from texvent.scenes.read.literals import find_literals
 
 MOST_WORDS = 1000
@@ -16,8 +16,8 @@ MAX_COUNT = 24
 """Most copies of one object."""
 _RANGES = {"speed_m_s": (0.0, 1000.0), "rate_hz": (0.001, 100_000.0)}
 """Least and most of a quantity of scenes."""
-_WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|\S")
-_IS = re.compile(r"(?i)(it|that|there|he|she|camera)['’]s$")
+_WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
+_IS = re.compile(r"(?i)\b(it|that|there|he|she|camera)['’]s\b")
 _OWNER = re.compile(r"['’]s?$")
 
 
@@ -41,11 +41,6 @@ class Token:
         """Whether it is a word that the reader does not know."""
         return not self.is_sign and (not self.senses or self.has("other"))
 
-    @property
-    def is_manner(self) -> bool:
-        """Whether it looks like an adverb of manner: "happily"."""
-        return self.text.endswith("ly")
-
     def all(self, kind: str) -> tuple[Sense, ...]:
         """Senses of a kind."""
         return tuple(one for one in self.senses if one.kind == kind)
@@ -68,80 +63,47 @@ NO_TOKEN = Token(".", -1)
 
 
 def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
-    """Tokens of a prompt, in order.
-
-    Example:
-        >>> from texvent.scenes.read.lexicon import lexicon_of
-        >>> [token.text for token in split_prompt("Two fire engines, 5 m/s", lexicon_of(None))]
-        ['two', 'fire engines', ',', '5 m / s']
-    """
+    """Tokens of a prompt, in order."""
     text = unicodedata.normalize("NFKC", prompt)
     found: list[Token] = []
     start = 0
-    for begin, end, picture in find_literals(text):
-        _read_words(_list_words(text[start:begin]), lexicon, found)
-        sense = Sense("picture", ("picture", picture))
-        found.append(Token(picture.value, len(found), (sense,)))
+    for begin, end, picture in (*find_literals(text), (len(text), len(text), None)):
+        words, at = _WORD.findall(_IS.sub(r"\1 is", text[start:begin])), 0
+        while at < len(words):
+            length, senses = _read_phrase(words, at, lexicon, found)
+            text_of = " ".join(words[at : at + length]).casefold()
+            found.append(Token(text_of, len(found), senses))
+            at += length
+        if picture is not None:
+            sense = Sense("picture", ("picture", picture))
+            found.append(Token(picture.value, len(found), (sense,)))
         start = end
-    _read_words(_list_words(text[start:]), lexicon, found)
     if len(found) > MOST_WORDS:
         found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
     return tuple(found)
-
-
-def _list_words(text: str) -> list[str]:
-    words: list[str] = []
-    for word in _WORD.findall(text):
-        short = _IS.match(word)
-        if short:
-            words.extend((short[1], "is"))
-        elif word[0].isalnum() or word in ".,;:!?/()":
-            words.append(word)
-    return words
-
-
-def _read_words(words: Sequence[str], lexicon: Lexicon, found: list[Token]) -> None:
-    at = 0
-    while at < len(words):
-        length, senses = _read_phrase(words, at, lexicon, found)
-        if length == 1 and words[at][0].isdecimal():
-            length, senses = _read_quantity(words, at, lexicon)
-        text = " ".join(words[at : at + length]).casefold()
-        found.append(Token(text, len(found), senses))
-        at += length
 
 
 def _read_phrase(
     words: Sequence[str], at: int, lexicon: Lexicon, before: Sequence[Token]
 ) -> tuple[int, tuple[Sense, ...]]:
     """Number of words of the longest phrase at a word, and its senses."""
-    length = 1
-    senses: tuple[Sense, ...] = ()
-    phrase: list[str] = []
-    skipped: set[str] = set()
+    length, senses, phrase = 1, tuple[Sense, ...](), list[str]()
     for end in range(at, len(words)):
         word = words[end].casefold()
         if end > at and word in word_set("senses", "articles"):
-            skipped.add(word)
             continue
         phrase.append(_OWNER.sub("", word))
-        if len(phrase) > max(1, lexicon.longest.get(phrase[0], 0)):
+        if len(phrase) > LONGEST_PHRASE:
             break
-        found = lexicon.senses.get(tuple(phrase), ())
+        found = lexicon.get(tuple(phrase), ())
         if end == at and _OWNER.search(word):
             found = ()  # "the cat's" alone: whose, not what
-        if skipped:
-            not_cut = _UNCUT if skipped & {"a", "an"} else _UNCUT[:2]
-            found = tuple(one for one in found if one.kind not in not_cut)
-        if len(phrase) > 1:
+        if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
         if found:
             length, senses = end + 1 - at, found
-    return length, senses
-
-
-_UNCUT = ("noun", "place", "scene")
-"""Senses of phrases that no article stands in; "in the dark", but not "in a dark"."""
+    is_number = length == 1 and words[at][0].isdecimal()
+    return _read_quantity(words, at, lexicon) if is_number else (length, senses)
 
 
 def _without_chance(
@@ -155,23 +117,12 @@ def _without_chance(
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     is_verb = words[end].endswith("ing") and after in word_set("senses", "articles")
     is_single = bool(before) and before[-1].text in ("a", "an")
-
-    def stands(one: Sense) -> bool:
-        if one.kind == "verb" and one.value.who == "camera":
-            return _is_of_camera(before)
-        return one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural))
-
-    return tuple(filter(stands, senses))
-
-
-def _is_of_camera(before: Sequence[Token]) -> bool:
-    """Whether the camera was named since the last sign, or nothing was."""
-    for token in reversed(before):
-        if token.has("camera"):
-            return True
-        if token.is_sign:
-            break
-    return not before or before[-1].is_sign
+    is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
+    return tuple(
+        one for one in senses
+        if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
+        and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
+    )  # fmt: skip
 
 
 def _read_quantity(
@@ -181,7 +132,7 @@ def _read_quantity(
     number = float(words[at].replace(",", ""))
     for length in (3, 2, 1):
         unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
-        for sense in lexicon.senses.get(unit, ()):
+        for sense in lexicon.get(unit, ()):
             if sense.kind == "unit":
                 field, factor = sense.value
                 least, most = _RANGES[field]

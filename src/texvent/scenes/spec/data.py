@@ -70,6 +70,12 @@ def inner_type(hint: Any) -> Any:
     return hint
 
 
+def plain_type(hint: Any) -> Any:
+    """The type of a field when it is given, without its limits."""
+    inner = inner_type(hint)
+    return get_args(inner)[0] if get_origin(inner) is Annotated else inner
+
+
 def required_fields(owner: type) -> list[str]:
     """Fields without a default."""
     return [
@@ -226,7 +232,7 @@ _TIMED = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", 
 def _check_moves(scene: Scene) -> None:
     """Refuse times of camera moves that would have no effect."""
     for n, one in enumerate(scene.camera.moves):
-        if one.start_s is None and one.stop_s is None:
+        if not one.is_timed:
             continue
         if one.kind not in _TIMED:
             raise ConfigError(

@@ -71,7 +71,7 @@ View: TypeAlias = Literal[
 ]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Motion:
     """A motion or an activity of an object."""
 
@@ -95,8 +95,13 @@ class Motion:
     is_stuck: bool = False
     """Whether the object creeps along in traffic."""
 
+    @property
+    def is_moving(self) -> bool:
+        """Whether the object leaves its place or turns."""
+        return self.kind not in ("stand", "hang")
 
-@dataclass(frozen=True, kw_only=True)
+
+@dataclass(frozen=True)
 class Relation:
     """A position or an action of an object with respect to others."""
 
@@ -111,7 +116,7 @@ class Relation:
     and "beside"."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Picture:
     """A texture image on a flat object: a poster, a page, a screen."""
 
@@ -122,7 +127,7 @@ class Picture:
     and rows of squares, such as "9x6"; or the text."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class SceneObject:
     """A body of the scene, or several copies of it."""
 
@@ -165,7 +170,7 @@ class SceneObject:
     place of a motion's direction."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Effect:
     """A particle effect or a light show: smoke, sparks, rain of leaves, lasers."""
 
@@ -179,7 +184,7 @@ class Effect:
     """Start time, s; left out: time 0, or the first half for what happens once."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class CameraMove:
     """A camera move."""
 
@@ -200,8 +205,13 @@ class CameraMove:
     stop_s: Seconds | None = None
     """Stop time, s; left out: with its phase, or the end if `start_s` is given."""
 
+    @property
+    def is_timed(self) -> bool:
+        """Whether it has times of its own instead of a phase."""
+        return self.start_s is not None or self.stop_s is not None
 
-@dataclass(frozen=True, kw_only=True)
+
+@dataclass(frozen=True)
 class Camera:
     """The camera: its moves, viewpoint and framing."""
 
@@ -223,7 +233,7 @@ class Camera:
     """Horizontal field of view of the lens, degrees."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Lamp:
     """A point light at a fixed position, itself out of sight."""
 
@@ -242,7 +252,7 @@ class Lamp:
     """Whether objects cast shadows in its light; four lamps of a scene can at most."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Light:
     """Illumination of the scene."""
 
@@ -270,7 +280,7 @@ class Light:
     """Lamps beside those of the objects; at most 16."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Place:
     """Ground, sky and weather around the objects."""
 
@@ -299,7 +309,7 @@ class Place:
     """Height of water waves, as a multiple of those in a light breeze."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Scene:
     """A scene of the embedded generator."""
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, Place, Scenery
@@ -148,7 +149,7 @@ def compose_scene(
         InputError: the duration is not a positive number.
     """
     description, missing = prepare(description, nouns, duration_s)
-    place = description.surroundings.place or "grass"
+    place = description.surroundings.name or "grass"
     levels = choose_levels(PLACES[place], description, nouns)
     travel = plan_travel(description, place, duration_s)
     placer = ObjectPlacer(
@@ -231,14 +232,14 @@ def _scatter_all(
     for relation in description.relations:
         for target in relation.targets if relation.kind in AMID else ():
             one = description.objects[target]
-            colour = one.colour.rgb if one.colour is not None else None
+            colour = rgb_of(one.colour)
             sizes = (0.8 * one.scale, 1.2 * one.scale)
             rule = Scenery(one.noun, one.count, "around", (-0.2, 3.5), sizes, (colour,))
             rng, taken = seeded(seed, "surround", target), [item for _, item in around]
             found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
             around.extend((target, item) for item in found)
     surroundings = description.surroundings
-    place = surroundings.place or "grass"
+    place = surroundings.name or "grass"
     rules = [
         rule for rule in PLACES[place].scenery if rule.is_structure or not surroundings.is_empty
     ]

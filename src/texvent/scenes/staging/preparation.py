@@ -25,6 +25,7 @@ from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.scene import Ground
+from texvent.scenes.spec.scene import Direction
 from texvent.scenes.staging.actors import seeded
 from texvent.scenes.staging.acts.acts import ACTS, SINGLE, hides_riders
 from texvent.scenes.staging.trajectories.phases import left_out
@@ -150,7 +151,7 @@ def settle_motions(
 
 
 def _settle(
-    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], way: str
+    kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], way: Direction
 ) -> tuple[SceneObject, SceneObject]:
     """Who acts and on what, with the motions that the act leaves them."""
     motion, still = subject.motion or STANDING, replace(target, motion=None, then=())
@@ -239,9 +240,9 @@ def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, No
     return replace(ridden, motion=replace(said, kind=kind), then=ridden.then or rider.then)
 
 
-def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int) -> str:
+def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int) -> Direction:
     """Where a single act goes in the picture."""
     for motion in (objects[index].motion for index in pair):
         if motion is not None and motion.direction in ("left", "right", "towards", "away"):
-            return str(motion.direction)
+            return motion.direction
     return "left" if seeded(seed, "act", pair[0]).random() < 0.5 else "right"

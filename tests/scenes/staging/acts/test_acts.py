@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from texvent.scenes.colours import COLOURS
 from texvent.scenes.description import (
     ObjectMotion,
     Relation,
@@ -32,9 +33,7 @@ CONTACT_M = 0.02
 def stage(
     *objects: SceneObject, acts: tuple[Relation, ...], place: str | None = None, seed: int = 0
 ) -> ComposedScene:
-    description = SceneDescription(
-        "hand-built", objects, acts, surroundings=Surroundings(place=place)
-    )
+    description = SceneDescription("hand-built", objects, acts, surroundings=Surroundings(place))
     return compose_scene(description, seed=seed, size=SensorSize(96, 72), duration_s=DURATION_S)
 
 
@@ -173,6 +172,14 @@ def test_what_is_worn_goes_with_the_body(what: str, place: str) -> None:
     gaps = [np.linalg.norm(middle(worn, t) - man.anchor(place, t)[:, 3]) for t in (0.0, 0.6, 1.5)]
     assert max(gaps) < 0.45
     np.testing.assert_allclose(gaps, gaps[0], atol=1e-9)
+
+
+def test_a_worn_shirt_is_the_colour_of_the_body_s_own() -> None:
+    scene = stage(SceneObject("man"), SceneObject("shirt", colour="red"),
+                  acts=(Relation("wear", 0, (1,)),))  # fmt: skip
+    (man,) = scene.actors
+    colours = {part.colour for part in man.place(0.0).parts}
+    assert COLOURS["red"] in colours
 
 
 def test_who_plays_a_guitar_that_the_prompt_names_holds_that_one() -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.effects import EFFECTS, EmitterStyle
@@ -122,7 +123,7 @@ def _make(
     if effect.kind == "lightning":
         return [Lightning.of(setting.base, setting.away, setting.framing.distance_m, rng)]
     words = EFFECTS[effect.kind]
-    colour = None if effect.colour is None else effect.colour.rgb
+    colour = rgb_of(effect.colour, "effect")
     source = _source(effect.kind, actor, setting)
     if words.lights is not None:
         noun = "" if actor is None else actor.noun.name

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import STANDING, SceneDescription, SceneObject
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import NOUNS
@@ -301,11 +302,10 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
     objects = description.objects
     noun = nouns[objects[index].noun]
     worn = [
-        (objects[target].noun, colour.rgb if colour is not None else None)
+        (objects[target].noun, rgb_of(objects[target].colour))
         for one in description.relations
         if one.kind == "wear" and one.subject == index
         for target in one.targets
-        for colour in (objects[target].colour,)
         if objects[target].noun in CLOTHES
     ]
     return dress(noun, worn) if worn and noun.name in PERSON_NOUNS else noun

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import AMID, STANDING, Relation, SceneDescription
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.protocol import Model, Noun
@@ -102,7 +103,7 @@ class ObjectPlacer:
         scene_object = self._description.objects[index]
         noun = dressed(self._description, index, self._nouns)
         rng = seeded(self._seed, "thing", index, scene_object.noun)
-        colour = scene_object.colour.rgb if scene_object.colour is not None else None
+        colour = rgb_of(scene_object.colour)
         models: list[Model] = [
             in_material(
                 noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))),

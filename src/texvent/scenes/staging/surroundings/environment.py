@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
 from texvent.scenes.models.places import Place
@@ -164,8 +165,9 @@ def _ground_under(description: SceneDescription, place: Place) -> Ground:
 
 def _sky_colours(place: Place, lighting: Lighting, said: Surroundings) -> tuple[Colour, Colour]:
     """Colours of the zenith and of the horizon: of a backdrop the same all around."""
-    if said.sky is not None:
-        return said.sky.rgb, mix(said.sky.rgb, lighting.sky_horizon, 0.5)
+    sky = rgb_of(said.sky)
+    if sky is not None:
+        return sky, mix(sky, lighting.sky_horizon, 0.5)
     average = mix(*_ground_colours(place, said), 0.5)
     return (average, average) if place.is_backdrop else (lighting.sky_top, lighting.sky_horizon)
 
@@ -190,11 +192,12 @@ def _ground_colours(place: Place, said: Surroundings) -> tuple[Colour, Colour]:
     if said.has_snow and place.ground in _SNOWED_OVER:
         colour = SNOW
         second = SNOW if place.ground is Ground.GRASS else second
-    if said.colour is not None:
+    paint = rgb_of(said.colour)
+    if paint is not None:
         # Grass is darker than paint: blades shade one another.
         depth = 0.45 if place.ground is Ground.GRASS else 0.8
-        colour = mix(_BLACK, said.colour.rgb, depth)
-        second = mix(_BLACK, said.colour.rgb, min(1.5 * depth, 1.0))
+        colour = mix(_BLACK, paint, depth)
+        second = mix(_BLACK, paint, min(1.5 * depth, 1.0))
     return colour, second
 
 

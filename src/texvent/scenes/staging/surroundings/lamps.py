@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import SceneDescription, SceneLamp
 from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.places import Place
@@ -167,7 +168,7 @@ def lamp_row(
 def scene_lamp_row(lamp: SceneLamp, time_s: float) -> Float64Array:
     """A lamp at a position that the scene gives: its period is exactly 1 / frequency_hz."""
     row = np.zeros(LAMP_COLUMNS)
-    light = lamp.strength * np.array((1.0, 1.0, 1.0) if lamp.colour is None else lamp.colour.rgb)
+    light = lamp.strength * np.array(rgb_of(lamp.colour or "#ffffff", "light"))
     row[:3] = lamp.position_m
     row[3:6] = light * wave_level(lamp.wave, (lamp.frequency_hz or 0.0) * time_s)
     row[6] = math.sqrt(max(light.max(), 1e-9) / _FAINTEST)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.scenes.colours import TINTS, find_colour
 from texvent.scenes.description import Illumination
 from texvent.scenes.models.materials import mix
 from texvent.scenes.models.places import Place
@@ -136,7 +137,7 @@ def choose_lighting(place: Place, light: Illumination) -> Lighting:
     tint = tint_of(light)
     if tint is None:
         return lighting
-    is_white = light.tint is not None and light.tint.name in _TINTS
+    is_white = light.tint in _TINTS
     return replace(
         lighting,
         sun=_times(lighting.sun, tint),
@@ -151,9 +152,9 @@ def tint_of(light: Illumination) -> Colour | None:
     """Factors on red, green and blue that give light the colour that is said; None = none is."""
     if light.tint is None:
         return None
-    if light.tint.name in _TINTS:
-        return _TINTS[light.tint.name]
-    red, green, blue = light.tint.rgb
+    if light.tint in _TINTS:
+        return _TINTS[light.tint]
+    red, green, blue = find_colour(light.tint, TINTS)
     most = max(red, green, blue, 1e-9)
     return mix(_WHITE, (red / most, green / most, blue / most), _PURE)
 
