@@ -80,7 +80,7 @@ def make_scene(prompt: str, size: SensorSize) -> Scene:
 def _described(
     noun: str,
     *effects: Effect,
-    light: Literal["night", "day"] = "night",
+    light: Literal["night", "day", "lamp"] = "night",
     place: str = "road",
     moves: bool = False,
 ) -> SceneDescription:

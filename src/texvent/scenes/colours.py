@@ -8,8 +8,7 @@ from collections.abc import Mapping
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
 from texvent.scenes.models.effects import LIQUID_COLOURS
-from texvent.scenes.models.materials import decode_hex
-from texvent.scenes.scene import Colour
+from texvent.scenes.scene import Colour, decode_hex
 
 COLOURS: dict[str, Colour] = {
     name: decode_hex(code)

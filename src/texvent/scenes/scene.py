@@ -257,3 +257,18 @@ class Scene(Protocol):
     def class_names(self) -> dict[int, str]:
         """Instance id → noun, such as {1: "car", 2: "tree"}."""
         ...
+
+
+def decode_hex(code: str) -> Colour:
+    """Linear-light RGB of an sRGB code such as "ff8000" (IEC 61966-2-1).
+
+    Example:
+        >>> decode_hex("ffffff")
+        (1.0, 1.0, 1.0)
+    """
+    red, green, blue = (_linearise(int(code[i : i + 2], 16) / 255.0) for i in (0, 2, 4))
+    return (red, green, blue)
+
+
+def _linearise(value: float) -> float:
+    return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)

@@ -117,21 +117,6 @@ def striped(colour: Colour, second_colour: Colour, scale: float) -> Material:
     return Material(colour, second_colour, Texture.STRIPES, scale)
 
 
-def decode_hex(code: str) -> Colour:
-    """Linear-light RGB of an sRGB code such as "ff8000" (IEC 61966-2-1).
-
-    Example:
-        >>> decode_hex("ffffff")
-        (1.0, 1.0, 1.0)
-    """
-    red, green, blue = (_linearise(int(code[i : i + 2], 16) / 255.0) for i in (0, 2, 4))
-    return (red, green, blue)
-
-
-def _linearise(value: float) -> float:
-    return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)
-
-
 def shade(colour: Colour, factor: float) -> Colour:
     """A darker (factor < 1) or lighter (factor > 1) colour, kept inside 0..1."""
     r, g, b = (min(1.0, max(0.0, factor * channel)) for channel in colour)

@@ -9,13 +9,13 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
-from texvent.scenes.models.materials import BLACK, WHITE, Material, decode_hex, made_of, shade
+from texvent.scenes.models.materials import BLACK, WHITE, Material, made_of, shade
 from texvent.scenes.models.part_lines import Placed, read_parts
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import part
 from texvent.scenes.models.tables import read_table
 from texvent.scenes.models.variation import choose
-from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture
+from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture, decode_hex
 
 PAINT = "paint"
 """Name of the colour that a prompt may say."""
