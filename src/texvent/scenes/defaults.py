@@ -22,7 +22,7 @@ from texvent.scenes.description import (
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import is_room
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.tables import nouns_with, trait_value
 
 SWAY = CameraMove("handheld", pace=0.4)
 """Move of the camera where nothing else moves: a still image has no events."""

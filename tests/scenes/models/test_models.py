@@ -15,7 +15,7 @@ from texvent.scenes.models.limbs import Gait
 from texvent.scenes.models.materials import DARK, RED
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Shape
 
 from ..every_row import for_every

@@ -15,7 +15,7 @@ from texvent.errors import FileFormatError, InputError
 from texvent.scenes.description import Picture, SceneDescription, SceneObject, Surroundings
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.pictures import PicturedModel, check_picture, load_picture
 from texvent.scenes.pictures.source import draw_text
 from texvent.scenes.pictures.video import PlayedVideo

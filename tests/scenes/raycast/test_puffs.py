@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.scenes.projection import camera_rays
-from texvent.scenes.raycast.puffs.bins import WIDENED_PX
-from texvent.scenes.raycast.puffs.compositing import density_integral, optical_depth
+from texvent.scenes.raycast.puffs import WIDENED_PX, density_integral, optical_depth
 from texvent.scenes.raycast.render import render_light, world_at
 from texvent.scenes.scene import PUFF_COLUMNS, Environment, Float64Array, Ground, Shape
 from texvent.sensor import SensorSize

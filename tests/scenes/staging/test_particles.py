@@ -18,8 +18,7 @@ from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.particles.emitter import flight
-from texvent.scenes.staging.particles.shapes import TINY_M
+from texvent.scenes.staging.particles.emitter import TINY_M, flight
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(64, 48)

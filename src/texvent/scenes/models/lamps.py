@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, Literal
 
-from texvent.scenes.models.traits import trait_values
+from texvent.scenes.models.tables import trait_values
 
 Wave = Literal["square", "sine", "flame", "rotating"]
 """How a lamp's light goes up and down: on and off; as mains light does; as a flame does; as a beam

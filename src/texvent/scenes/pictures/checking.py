@@ -9,7 +9,7 @@ import cv2
 
 from texvent.errors import InputError, shown
 from texvent.scenes.description import Picture
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 
 VIDEO_ENDINGS = frozenset({".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm", ".gif", ".mpg", ".ts"})
 """Endings of files that play; any other file is read as an image."""

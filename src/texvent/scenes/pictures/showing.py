@@ -11,7 +11,7 @@ import numpy as np
 from texvent.scenes.description import Picture
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.pictures.source import PAPER, load_picture
 from texvent.scenes.scene import Colour, Shape, Texture
 

@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
-from texvent.scenes.raycast.lamps.lit_by import ALL_LIGHTS, lit_by
-from texvent.scenes.raycast.lamps.shadows import LIT_BITS
-from texvent.scenes.raycast.puffs.compositing import through_puffs
+from texvent.scenes.raycast.lamps.shadows import ALL_LIGHTS, LIT_BITS, lit_by
+from texvent.scenes.raycast.puffs import through_puffs
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.shading.lighting import shade_hit
 from texvent.scenes.raycast.trace import (

@@ -7,7 +7,6 @@ import math
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import NEAR_M, SUN_CELLS, TILE
 from texvent.scenes.raycast.intersect import hit_shape, local_normal
-from texvent.scenes.raycast.lens_kernel import plane_point
 from texvent.scenes.raycast.meshes.hit import hit_mesh, mesh_normals, smooth_point
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.uncounted import has_meshes, triangle_at
@@ -17,6 +16,7 @@ from texvent.scenes.raycast.vectors import (
     dot,
     mapped,
     on_axis,
+    plane_point,
     scaled,
     times,
     triple,

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.lens_kernel import plane_point
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.trace import (
     SKY,
@@ -19,6 +18,7 @@ from texvent.scenes.raycast.trace import (
     tile_at,
 )
 from texvent.scenes.raycast.uncounted import uncounted_world
+from texvent.scenes.raycast.vectors import plane_point
 from texvent.scenes.scene import Float64Array
 
 

@@ -23,7 +23,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.scene import Ground
 from texvent.scenes.spec.scene import Direction
 from texvent.scenes.staging.actors import seeded

@@ -14,11 +14,18 @@ import numpy as np
 from texvent.scenes.models.animals.acts import STANDING, act_stance, lowered
 from texvent.scenes.models.animals.anatomy import (
     NOSE,
+    bob,
     draw_head,
     draw_leg,
     draw_neck_and_head,
     draw_tail,
     draw_torso,
+    droop,
+    lying_drop,
+    offset,
+    sit_drop,
+    tail_lift,
+    tip,
 )
 from texvent.scenes.models.animals.build import (
     Build,
@@ -26,15 +33,6 @@ from texvent.scenes.models.animals.build import (
     paint_coat,
     placed_marks,
     read_build,
-)
-from texvent.scenes.models.animals.posture import (
-    bob,
-    droop,
-    lying_drop,
-    offset,
-    sit_drop,
-    tail_lift,
-    tip,
 )
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limbs import Gait, foot_path, step_amount

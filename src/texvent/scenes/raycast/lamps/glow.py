@@ -15,12 +15,11 @@ from texvent.runtime.jit import jit
 from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.acceleration import NEAR_M
 from texvent.scenes.raycast.lamps.light import BEAM, DARK, FULL, GLOWS, LIGHT, RADIUS
-from texvent.scenes.raycast.lens_kernel import plane_point
-from texvent.scenes.raycast.puffs.compositing import optical_depth
+from texvent.scenes.raycast.puffs import optical_depth
 from texvent.scenes.raycast.records import GLOW_RECORD, OwnedWorld, Record, World
 from texvent.scenes.raycast.trace import background_hit, is_between, plane_direction, tile_at
 from texvent.scenes.raycast.uncounted import glow_at, uncounted_world
-from texvent.scenes.raycast.vectors import triple, turned
+from texvent.scenes.raycast.vectors import plane_point, triple, turned
 from texvent.scenes.scene import Colour, Float64Array
 
 BLUR_PX = 0.55

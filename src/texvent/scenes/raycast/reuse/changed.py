@@ -13,24 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.raycast.acceleration import SUN_CELLS
-from texvent.scenes.raycast.lens_kernel import NO_DISTORTION
 from texvent.scenes.raycast.records import INSTANT_RECORD, OwnedWorld, World
 from texvent.scenes.raycast.reuse.regions import (
+    Balls,
+    Mask,
+    background_balls,
     lit_by_lamp,
     receiving_balls,
+    room_planes,
     shaded_from_lamp,
     shape_balls,
     sun_shadow_windows,
     sunlit_behind,
-)
-from texvent.scenes.raycast.reuse.tiles import (
-    Balls,
-    Mask,
-    background_balls,
-    room_planes,
     tile_directions,
     touched_tiles,
 )
+from texvent.scenes.raycast.vectors import NO_DISTORTION
 from texvent.scenes.scene import Float64Array, Ground, Primitives
 
 _WALL_M = 0.1

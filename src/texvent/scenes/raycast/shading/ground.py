@@ -6,8 +6,13 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.shading.land import Look, land_look, painted
-from texvent.scenes.raycast.shading.material import patch_axes, sample_material
+from texvent.scenes.raycast.shading.material import (
+    Look,
+    land_look,
+    painted,
+    patch_axes,
+    sample_material,
+)
 from texvent.scenes.raycast.shading.road import strip_look
 from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.shading.value_noise import box_coverage, lattice

@@ -9,14 +9,58 @@ a ground seen at a low angle keeps its detail (after McCormack et al., "Feline",
 from __future__ import annotations
 
 import math
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.memory import blend_four
-from texvent.scenes.raycast.records import Record
+from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.surfaces.catalogue import CHANNELS, LEVELS
 from texvent.scenes.raycast.surfaces.fields import SIDE
 from texvent.scenes.raycast.uncounted import texel_at
-from texvent.scenes.scene import FIRST_SURFACE
+from texvent.scenes.raycast.vectors import along, scaled, triple
+from texvent.scenes.scene import FIRST_SURFACE, Colour
+
+_pack: Any = cgutils.pack_array
+_tuple_of: Any = types.UniTuple
+_PLACES, _FOUR = _tuple_of(types.int64, 4), _tuple_of(types.float64, 4)
+_FLOATS = ir.VectorType(ir.FloatType(), 4)
+_DOUBLES = ir.VectorType(ir.DoubleType(), 4)
+
+
+def _build_blend(typing_context: Any, *arguments: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+        address, places, weights = values
+        pointer = builder.inttoptr(address, ir.FloatType().as_pointer())
+        total = ir.Constant(_DOUBLES, [0.0] * 4)
+        for number in range(4):
+            place = builder.extract_value(places, number)
+            here = builder.bitcast(builder.gep(pointer, [place]), _FLOATS.as_pointer())
+            four = builder.fpext(builder.load(here, align=4), _DOUBLES)
+            weight = ir.Constant(_DOUBLES, ir.Undefined)
+            for lane in range(4):
+                weight = builder.insert_element(
+                    weight, builder.extract_value(weights, number), ir.IntType(32)(lane)
+                )
+            total = builder.fadd(total, builder.fmul(four, weight))
+        lanes = [builder.extract_element(total, ir.IntType(32)(lane)) for lane in range(4)]
+        return _pack(builder, lanes)
+
+    return _FOUR(types.int64, _PLACES, _FOUR), build
+
+
+def _typed_blend(typing_context: Any, address: Any, places: Any, weights: Any) -> Any:
+    return _build_blend(typing_context, address, places, weights)
+
+
+blend_four: Any = intrinsic(_typed_blend)
+"""`blend_four(address, places, weights)`: the weighted sum of four rows of four float32 numbers
+that begin `places` (four integers) numbers after the address; four float64."""
+
 
 Sample = tuple[float, float, float, float]
 """What the first and second colour are multiplied by, and slopes along u and v."""
@@ -212,3 +256,44 @@ def _large_factor(instant: Record, number: int, place: tuple[float, float], axes
     )
     factor = _tile_factor(instant.surface_tiles[number, 1], u, v, turned)
     return 1.0 + float(instant.surface_sizes[number, 1]) * (factor - 1.0)
+
+
+_PAVEMENT = (0.34, 0.33, 0.32)
+_DRY = (0.05, 0.035, 0.008)
+_CITY = 5
+_SNOW = 25
+
+Look = tuple[Colour, float, float]
+"""Reflectance, and slopes along x and y."""
+
+
+@jit(error_model="numpy", inner=True)
+def painted(sample: Sample, first: Colour, second: Colour, factor: float) -> Look:
+    """A material in two colours."""
+    colour = along(scaled(first, factor * sample[0]), second, factor * sample[1])
+    return colour, sample[2], sample[3]
+
+
+@jit(error_model="numpy", inner=True)
+def mixed(first: Look, second: Look, share: float) -> Look:
+    """`first` at share 0, `second` at share 1."""
+    return (
+        mix(first[0], second[0], share),
+        first[1] + share * (second[1] - first[1]),
+        first[2] + share * (second[2] - first[2]),
+    )
+
+
+@jit(error_model="numpy", inner=True)
+def land_look(world: World, x: float, y: float, axes: Patch) -> Look:
+    """The ground's material at (x, y), metres; `axes` of the patch from `patch_axes`."""
+    instant = world.instant[0]
+    sample = sample_material(instant, instant.ground_surface, x, y, axes, 1.0)
+    first, second = triple(instant.colour), triple(instant.second_colour)
+    if instant.ground == _CITY:
+        first, second = _PAVEMENT, scaled(_PAVEMENT, 1.25)
+    elif instant.ground in (2, 3, 11, 12):  # the second colour is that of the road or the water
+        second = along(scaled(first, 1.35), _DRY, 1.0)
+        if instant.ground_surface == _SNOW:
+            second = scaled(first, 0.85)
+    return painted(sample, first, second, 1.0)

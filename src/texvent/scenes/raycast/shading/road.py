@@ -6,8 +6,14 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.shading.land import Look, land_look, mixed, painted
-from texvent.scenes.raycast.shading.material import Patch, sample_material
+from texvent.scenes.raycast.shading.material import (
+    Look,
+    Patch,
+    land_look,
+    mixed,
+    painted,
+    sample_material,
+)
 from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.shading.value_noise import (
     box_coverage,

@@ -10,7 +10,7 @@ from texvent.scenes.description import RIDES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.models.shapes import Affine, compose
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.trajectories.trajectory import (

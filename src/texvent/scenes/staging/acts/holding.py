@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.scenes.models.people.outfit import CLOTHES
 from texvent.scenes.models.shapes import Affine, shift
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.acts import (
     HeldAt,

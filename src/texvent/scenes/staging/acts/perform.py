@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.scenes.description import RIDES, Relation, SceneDescription
 from texvent.scenes.models.people.activities import PAIR_GAPS
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts import holding, striking
 from texvent.scenes.staging.acts.acts import ACTS, Cast, is_person, size_of

@@ -11,7 +11,7 @@ from texvent.scenes.description import RIDES, Relation
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.support_surface import find_support, top_heights
-from texvent.scenes.models.traits import trait_value
+from texvent.scenes.models.tables import trait_value
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import (
     Cast,

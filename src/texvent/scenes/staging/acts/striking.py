@@ -14,7 +14,7 @@ import numpy as np
 from texvent.scenes.models.people.activities import ACTIVITIES
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.shapes import Affine, bounds, moved, shift
-from texvent.scenes.models.traits import trait_value
+from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import (

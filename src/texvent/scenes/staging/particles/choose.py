@@ -13,13 +13,12 @@ from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.effects import EFFECTS, EmitterStyle
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.framing import Framing
-from texvent.scenes.staging.particles.emitter import Emitter, Source
+from texvent.scenes.staging.particles.emitter import Emitter, ParticleEffect, Source
 from texvent.scenes.staging.particles.lights import BodyLights, Lightning
-from texvent.scenes.staging.particles.shapes import ParticleEffect
 from texvent.scenes.staging.surroundings.environment import FALLS, let_fall
 
 ONCE_AT = 0.4

@@ -9,8 +9,13 @@ import numpy as np
 
 from texvent.scenes.models.effects import LightStyle
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
-from texvent.scenes.staging.particles.emitter import Source
-from texvent.scenes.staging.particles.shapes import TINY_M, ParticleEffect, along, many_shapes
+from texvent.scenes.staging.particles.emitter import (
+    TINY_M,
+    ParticleEffect,
+    Source,
+    along,
+    many_shapes,
+)
 from texvent.scenes.staging.surroundings.lighting import flash_number, lightning_level
 
 _BULBS, _WINDINGS = 48, 5.5

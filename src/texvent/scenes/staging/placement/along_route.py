@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.camera.journey import TravelPlan

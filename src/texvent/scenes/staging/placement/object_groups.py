@@ -20,7 +20,7 @@ from texvent.scenes.models.people.props import HOLDS, Prop, list_props
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import bounds, moved, post
 from texvent.scenes.models.support_surface import find_support
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.trajectories.action_trajectories import Swing

@@ -17,7 +17,7 @@ from texvent.scenes.models.people.activities import (
 from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.support_surface import Support, find_support, top_heights
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.object_groups import ObjectGroup, list_around

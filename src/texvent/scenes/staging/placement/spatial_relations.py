@@ -15,7 +15,7 @@ import numpy as np
 from texvent.scenes.description import Relation
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.object_groups import GAP_M, ObjectGroup, stand_in_ring

@@ -11,7 +11,7 @@ from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
 from texvent.scenes.models.places import Place
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
     Colour,
@@ -23,7 +23,7 @@ from texvent.scenes.scene import (
     Shape,
     Texture,
 )
-from texvent.scenes.staging.particles.shapes import ParticleEffect, many_shapes
+from texvent.scenes.staging.particles.emitter import ParticleEffect, many_shapes
 from texvent.scenes.staging.surroundings.lighting import (
     DEPTHS,
     STROKE_HZ,

@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.places import Place
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import HeldAt

@@ -15,7 +15,7 @@ import numpy as np
 
 from texvent.scenes.models.places import Scenery
 from texvent.scenes.models.protocol import Model, Noun, Pose
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel

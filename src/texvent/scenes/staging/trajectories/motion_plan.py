@@ -17,7 +17,7 @@ from texvent.scenes.models.people.activities import (
     PERSON_NOUNS,
 )
 from texvent.scenes.models.protocol import Model, Noun
-from texvent.scenes.models.traits import nouns_with, trait_value
+from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.staging.trajectories.action_trajectories import Axis
 from texvent.scenes.staging.trajectories.phases import (
     GOING,

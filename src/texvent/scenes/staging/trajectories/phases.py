@@ -11,7 +11,7 @@ import numpy as np
 from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
-from texvent.scenes.models.traits import nouns_with
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.staging.trajectories.steered_path import (
     HOP_PAUSE_S,
     Piece,

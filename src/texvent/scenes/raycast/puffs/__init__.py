@@ -1,1 +1,0 @@
-"""Translucent puffs of smoke, steam, mist and flame."""
