@@ -34,8 +34,6 @@ POSES = [
 ]
 
 
-MOUNDS = {"dune mound"}
-"""Scenery whose lower half is in the ground."""
 HUNG = {"ceiling fan"}
 """What hangs from above or on a wall."""
 LINES = {"runway markings", "tennis court lines", "basketball court lines", "pitch lines",
