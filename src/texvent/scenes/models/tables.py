@@ -1,4 +1,4 @@
-"""The TOML files of `models/data` as tables."""
+"""The TOML files of `models/data` as tables, and traits: which nouns can be sat on, have headlights."""
 
 from __future__ import annotations
 

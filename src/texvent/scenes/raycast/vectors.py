@@ -1,4 +1,4 @@
-"""Arithmetic of three numbers, for kernels (compiled by Numba)."""
+"""Arithmetic of three numbers, and the lens, for kernels (compiled by Numba)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Anatomy of four-legged animals: the parts of trunk, neck, mane, tail, legs and head."""
+"""Anatomy of four-legged animals: their parts, and how these stand in gaits and acts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which lamps a surface sees: shadow rays to the lamps that cast shadows (compiled by Numba)."""
+"""What light reaches a surface: shadow rays to the sun and to lamps (compiled by Numba)."""
 
 from __future__ import annotations
 
