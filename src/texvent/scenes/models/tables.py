@@ -1,4 +1,4 @@
-"""The TOML files of `models/data` as tables, and traits: which nouns can be sat on, have headlights."""
+"""The TOML files of `models/data` as tables, and the traits of nouns that are in them."""
 
 from __future__ import annotations
 
