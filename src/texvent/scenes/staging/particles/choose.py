@@ -63,7 +63,7 @@ class Staged:
 
 
 def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
-    """All effects of a scene, those that some nouns always have, weather and dust.
+    """All effects of a scene, those that some nouns always have, and weather.
 
     An effect whose object has several copies is at each of them.
     """
@@ -86,17 +86,12 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
 
 
 def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEffect]:
-    """Rain and snow, and the dust behind what drives."""
-    said = description.surroundings
-    made: list[ParticleEffect] = []
-    if said.weather is not None and said.weather in FALLS:
-        rng = seeded(setting.seed, said.weather)
-        made.append(let_fall(said.weather, setting.base, 1.4 * setting.framing.distance_m, rng))
-    for actor in setting.actors if said.has_dust else ():
-        if actor.is_mover and actor.noun.habitat == "ground":
-            rng = seeded(setting.seed, "dust", actor.instance)
-            made += _make(Effect("dust"), actor, setting, rng)
-    return made
+    """Rain and snow."""
+    kind = description.surroundings.weather
+    if kind not in FALLS:
+        return []
+    rng = seeded(setting.seed, kind)
+    return [let_fall(kind, setting.base, 1.4 * setting.framing.distance_m, rng)]
 
 
 def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:
