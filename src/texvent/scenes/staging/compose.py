@@ -182,7 +182,7 @@ def compose_scene(
         strength=choose_lighting(PLACES[place], description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
-    setting = Setting(actors, camera_path.framing, place, duration_s, seed)
+    setting = Setting(actors, camera_path, place, duration_s, seed)
     particles = stage_effects(description, setting)
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,

@@ -16,6 +16,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.emitter import Emitter, Source
 from texvent.scenes.staging.particles.lights import BodyLights, Lightning
@@ -36,10 +37,15 @@ class Setting:
     """What effects need to know about the scene."""
 
     actors: Sequence[Actor]
-    framing: Framing
+    camera: CameraPath
     place: str
     duration_s: float
     seed: int
+
+    @property
+    def framing(self) -> Framing:
+        """What the camera looks at, and from where."""
+        return self.camera.framing
 
     @property
     def base(self) -> Float64Array:
@@ -132,9 +138,9 @@ def _make(
         source = Source(source.size_m, middle * [1.0, 1.0, 0.0])
     return [
         Emitter.of(
-            _fitted(style, effect.kind, actor), source, rng, colour=colour, start_s=start_s,
-            is_once=words.happens_once, floor_m=-np.inf if setting.place in _NO_GROUND else 0.0,
-            volley=volley,
+            _fitted(style, effect.kind, actor), source, setting.camera, rng, colour=colour,
+            start_s=start_s, is_once=words.happens_once, volley=volley,
+            floor_m=-np.inf if setting.place in _NO_GROUND else 0.0,
         )
         for style in words.emitters
         if style.colours or actor is not None

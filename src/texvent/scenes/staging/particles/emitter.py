@@ -19,6 +19,7 @@ from texvent.scenes.scene import (
     Shape,
 )
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.particles.shapes import (
     TINY_M,
     ParticleEffect,
@@ -35,6 +36,8 @@ _FLAME_HZ = 6.0
 _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])
 _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
+_NEAREST = 0.3
+"""Least distance of a solid particle to the camera, as a share of that to what it looks at."""
 _LONG_S = 1e4
 """Life of what has no end."""
 
@@ -133,6 +136,7 @@ class Emitter(ParticleEffect):
     lives: Lives
     colours: Float64Array
     """[k, 3] linear RGB."""
+    camera: CameraPath
     start_s: float = -math.inf
     """When the first one is born, s."""
     floor_m: float = -math.inf
@@ -143,6 +147,7 @@ class Emitter(ParticleEffect):
         cls,
         style: EmitterStyle,
         source: Source,
+        camera: CameraPath,
         rng: np.random.Generator,
         *,
         colour: Colour | None = None,
@@ -168,7 +173,7 @@ class Emitter(ParticleEffect):
         elif not len(colours):
             colours = _colours_of(source, style.count, rng)
         start = -math.inf if start_s is None else start_s
-        return cls(source, style, lives, colours, start, floor_m)
+        return cls(source, style, lives, colours, camera, start, floor_m)
 
     def at(self, time_s: float) -> Primitives:
         """Its drops or chips at that instant."""
@@ -181,7 +186,7 @@ class Emitter(ParticleEffect):
             grown *= np.clip(12.0 * flown.age, 0.0, 1.0)
             grown *= np.clip(6.0 * (1.0 - flown.age), 0.0, 1.0)
         half = np.where(flown.is_there, self.source.size_m * grown, TINY_M)[:, None]
-        half = np.maximum(half * style.proportions, TINY_M)
+        half = np.maximum(half * style.proportions * self._clear(flown.places, time_s), TINY_M)
         which = (flown.draws[:, 6] * len(self.colours)).astype(np.int64)
         glow = _between(style.emission, flown.age)
         if style.body == "drop":
@@ -191,6 +196,11 @@ class Emitter(ParticleEffect):
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
+
+    def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
+        """[n, 1] share of its size that each is shown with: 0 right before the camera."""
+        away = np.linalg.norm(places - self.camera.at(time_s).position, axis=1, keepdims=True)
+        return np.clip(away / (_NEAREST * self.camera.framing.distance_m) - 1.0, 0.0, 1.0)
 
     def puffs(self, time_s: float) -> Float64Array:
         """[k, 19] its puffs at that instant; those just born or about to go are thin."""
