@@ -26,12 +26,12 @@ from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.particles.choose import (
-    Setting,
     Staged,
     gone,
     stage_effects,
     with_headroom,
 )
+from texvent.scenes.staging.particles.shapes import Setting
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.preparation import choose_levels, prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
@@ -98,21 +98,11 @@ class ComposedScene:
     def environment(self, time_s: float) -> Environment:
         """Surroundings and light at that instant."""
         effects = self.particles.effects
-        lamps = np.concatenate(
-            [
-                self.lamps.rows(time_s),
-                *(effect.lamps(time_s) for effect in effects),
-            ]
-        )
+        lamps = np.vstack([self.lamps.rows(time_s), *(one.lamps(time_s) for one in effects)])
         lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
-        puffs = [np.zeros((0, PUFF_COLUMNS)), *(effect.puffs(time_s) for effect in effects)]
+        puffs = np.vstack([np.zeros((0, PUFF_COLUMNS)), *(one.puffs(time_s) for one in effects)])
         surroundings = self.animated_environment.at(time_s)
-        return replace(
-            surroundings,
-            lamps=lamps,
-            puffs=np.concatenate(puffs),
-            has_highlights=self.has_highlights,
-        )
+        return replace(surroundings, lamps=lamps, puffs=puffs, has_highlights=self.has_highlights)
 
     @property
     def flicker_hz(self) -> float | None:

@@ -16,47 +16,17 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.camera.camera_path import CameraPath
-from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.emitter import Emitter, Source
 from texvent.scenes.staging.particles.lights import BodyLights, Lightning
-from texvent.scenes.staging.particles.shapes import ParticleEffect
+from texvent.scenes.staging.particles.shapes import ParticleEffect, Setting
 from texvent.scenes.staging.surroundings.environment import FALLS, let_fall
 
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
-_NO_GROUND = ("sky", "space", "underwater")
 _BLUE: Colour = (0.06, 0.2, 1.0)
 _BREATH = (1.0, 0.0, 0.3)
 """Direction of what comes from a mouth."""
-
-
-@dataclass(frozen=True)
-class Setting:
-    """What effects need to know about the scene."""
-
-    actors: Sequence[Actor]
-    camera: CameraPath
-    place: str
-    duration_s: float
-    seed: int
-
-    @property
-    def framing(self) -> Framing:
-        """What the camera looks at, and from where."""
-        return self.camera.framing
-
-    @property
-    def base(self) -> Float64Array:
-        """[3] the point on the ground below what the camera looks at, m."""
-        return np.array([self.framing.target[0], self.framing.target[1], 0.0])
-
-    @property
-    def away(self) -> Float64Array:
-        """[3] horizontal unit vector away from the camera."""
-        flat = -self.framing.offset * [1.0, 1.0, 0.0]
-        return np.asarray(flat / max(float(np.linalg.norm(flat)), 1e-9))
 
 
 @dataclass(frozen=True)
@@ -138,9 +108,8 @@ def _make(
         source = Source(source.size_m, middle * [1.0, 1.0, 0.0])
     return [
         Emitter.of(
-            _fitted(style, effect.kind, actor), source, setting.camera, rng, colour=colour,
+            _fitted(style, effect.kind, actor), source, setting, rng, colour=colour,
             start_s=start_s, is_once=words.happens_once, volley=volley,
-            floor_m=-np.inf if setting.place in _NO_GROUND else 0.0,
         )
         for style in words.emitters
         if style.colours or actor is not None
@@ -167,8 +136,8 @@ def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
         return effect.start_s
     if actor is not None and effect.kind in ("splash", "break"):
         times = np.linspace(0.0, setting.duration_s, _FALL_STEPS)
-        low = _lowest_m(actor)
-        heights = np.array([actor.trajectory.at(float(t)).position[2] + low for t in times])
+        places = np.array([actor.trajectory.at(float(t)).position for t in times])
+        heights = places[:, 2] - actor.foot_m
         down = np.flatnonzero((heights[1:] <= 0.01) & (heights[:-1] > 0.01))
         if len(down):
             return float(times[down[0] + 1])
@@ -181,11 +150,6 @@ def _bulk(actor: Actor) -> float:
     return float(np.cbrt(model.length * model.width * model.height))
 
 
-def _lowest_m(actor: Actor) -> float:
-    """Height of a body's lowest point above its origin, m."""
-    return -0.5 * actor.model.height if actor.is_centred else 0.0
-
-
 def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     """Where an effect comes from."""
     words = EFFECTS[kind]
@@ -196,12 +160,12 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
         return Source(float(size), target + behind * setting.away)
     bulk, model, noun = _bulk(actor), actor.model, actor.noun.name
     if words.lights is not None:
-        return Source(bulk, np.array([0.0, 0.0, _lowest_m(actor)]), actor)
+        return Source(bulk, np.array([0.0, 0.0, -actor.foot_m]), actor)
     if words.breathed and noun in PERSON_NOUNS:
         mouth = locate(model, "mouth", actor.pose(0.0))
         return Source(words.size * bulk, mouth @ [0.12 * bulk, 0.0, 0.0, 1.0], actor)
     known = (trait_value(trait, noun) for trait in words.anchor_traits)
     x, y, z = next((one for one in known if one is not None), words.anchor)
-    height = _lowest_m(actor) + z * model.height
+    height = z * model.height - actor.foot_m
     point = np.array([0.5 * x * model.length, 0.5 * y * model.width, height])
     return Source(words.size * bulk, point, actor)
