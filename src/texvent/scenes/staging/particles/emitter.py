@@ -197,10 +197,10 @@ class Emitter(ParticleEffect):
 
     def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
         """[n, 1] share of its size that each chip is shown with: 0 right before the camera."""
-        away = np.linalg.norm(
-            places - self.setting.camera.at(time_s).position, axis=1, keepdims=True
-        )
-        return np.clip(away / (_NEAREST * self.setting.framing.distance_m) - 1.0, 0.0, 1.0)
+        camera = self.setting.camera
+        away = np.linalg.norm(places - camera.at(time_s).position, axis=1)[:, None]
+        nearest_m = _NEAREST * camera.framing.distance_m
+        return np.asarray(np.clip(away / nearest_m - 1.0, 0.0, 1.0))
 
     def puffs(self, time_s: float) -> Float64Array:
         """[k, 19] its puffs at that instant; those just born or about to go are thin."""
