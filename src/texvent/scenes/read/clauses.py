@@ -27,8 +27,8 @@ class Group:
     unknown: tuple[Token, ...] = ()
     """Tokens without effect: words that are not known, or that another word stands before."""
     article: str = ""
-    of: Group | None = None
-    """Group after "of"."""
+    of: Phrase | None = None
+    """What follows: "of apples"."""
 
     @property
     def is_plural(self) -> bool:
@@ -68,8 +68,8 @@ class Clause:
     """Phrases, adverbs and words of the scene, and words that are not known."""
     absent: tuple[Group, ...] = ()
     about: str = ""
-    """Subject that is not named here: "camera"; "same", those of the clause before; or "nearest",
-    the last group of it."""
+    """Subject that is not named here: "camera"; "same", those of the clause before; "nearest",
+    the last group of it; or "company", one of both: "a boat with dolphins jumping"."""
     is_next: bool = False
     """Whether it happens after the clause before: "then"."""
 
@@ -133,6 +133,10 @@ class _Parser:
         if token.has("conjunctions"):
             self._take()
             return Clause(about="same", is_next=True) if word == "then" else Clause()
+        phrase = clause.after[-1] if clause.after else (clause.before or (None,))[-1]
+        if isinstance(phrase, Phrase) and phrase.preposition.text == "with" and token.verbs("ing"):
+            is_next = bool(phrase.groups) and phrase.groups[-1].head is self._token(-1)
+            return Clause(phrase.groups, about="company") if is_next else None
         if token.has("relatives") and clause != Clause() and not self._starts_group(1):
             self._take()
             return Clause(about="nearest")
@@ -144,7 +148,8 @@ class _Parser:
         if clause.verb is not None and self._is_verb(Clause(about="same")):
             return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera")
-        return Clause() if clause.verb is not None and starts else None
+        is_said = clause.verb is not None or any(is_placement(one) for one in clause.after)
+        return Clause() if is_said and starts else None
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 
@@ -209,7 +214,7 @@ class _Parser:
             self._take()
             return clause
         self._at += 1 + is_back
-        phrase = Phrase(token, () if is_back else self._groups(is_phrase=True))
+        phrase = Phrase(token, () if is_back else self._groups(token.text))
         if clause.verb is None and clause.subjects:
             return replace(clause, before=(*clause.before, phrase))
         return replace(clause, after=(*clause.after, phrase))
@@ -262,14 +267,18 @@ class _Parser:
             return True
         return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
-    def _groups(self, *, is_phrase: bool = False) -> tuple[Group, ...]:
-        """Groups with "and" between them, but for one that begins a clause."""
+    def _groups(self, preposition: str = "") -> tuple[Group, ...]:
+        """Groups with "and" between them, but for one that begins a clause.
+
+        So does one with the same preposition: "a girl with a hat and a boy with a ball".
+        """
+        is_phrase = bool(preposition)
         found = [self._group(is_phrase=is_phrase)]
         while self._token().text == "and" and self._starts_group(1):
             start = self._at
             self._take()
             group = self._group(is_phrase=is_phrase)
-            if self._is_verb(Clause((group,))):
+            if self._is_verb(Clause((group,))) or (self._token().text == preposition):
                 self._at = start
                 break
             found.append(group)
@@ -296,8 +305,7 @@ class _Parser:
             unknown.append(self._take())
         of = None
         if self._token().text == "of" and self._starts_group(1):
-            self._take()
-            of = self._group()
+            of = Phrase(self._take(), (self._group(),))
         return Group(head, tuple(modifiers), tuple(unknown), article, of)
 
     def _ends_group(self, first: int) -> bool:
@@ -321,6 +329,12 @@ class _Parser:
             return not (after.text.endswith("s") and third.has("articles"))
         is_end = is_phrase and third.is_sign
         return is_end and after.is_unknown and not after.text.endswith("ly")
+
+
+def is_placement(one: Phrase | Token) -> bool:
+    """Whether it says where in the picture: "on the left"."""
+    adverb = None if isinstance(one, Phrase) else one.first("adverb")
+    return adverb is not None and adverb.value[0] == "placement"
 
 
 def _is_alone(token: Token) -> bool:

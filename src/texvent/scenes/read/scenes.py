@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.camera import find_move, split_move
-from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
+from texvent.scenes.read.clauses import Clause, Group, Phrase, is_placement, read_clauses
 from texvent.scenes.read.draft import Reading, SceneDraft
 from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
@@ -60,28 +61,38 @@ class _Reader:
 
     def _apply_to_things(self, clause: Clause) -> None:
         subjects = self._nearest if clause.about == "nearest" else self._subjects
-        if clause.subjects:
+        of_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
+        if clause.about == "company":
+            going = [n for n in self._nearest if self._nouns[self._draft.things[n]["noun"]].speed_m_s > 0.0]
+            subjects = [] if of_effect else going or subjects
+        elif clause.subjects:
             subjects = [index for group in clause.subjects for index in self._name(group)]
+        told = subjects
         for phrase in clause.before:
-            self._relate(phrase, subjects, subjects)
+            told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
+        agents = clause.after[0] if clause.after and not objects else None
+        if _is_passive(clause.verb, agents) and isinstance(agents, Phrase):
+            objects = list(subjects)
+            subjects = [index for group in agents.groups for index in self._name(group)]
+            clause = replace(clause, after=clause.after[1:])
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
             found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
             kinds = {one.value.kind for one in clause.verb.all("verb")}
-            of_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
             if not subjects and of_effect and kinds & word_set("effects", "motions"):
                 found = []  # "smoke rises from a chimney", as it does by itself
                 self._draft.show(clause.verb)
             for index in subjects if found is None else ():  # what it does is not made up
                 self._draft.things[index]["is_lost"] = True
             subjects, moved = ([], []) if found is None else (subjects, found or subjects)
+            told = moved
         for one in clause.after:
             if isinstance(one, Phrase):
-                self._relate(one, subjects, moved, is_of_verb=bool(objects))
+                told = self._relate(one, subjects, moved, is_of_verb=bool(objects)) or moved
             elif not self._set_scene(one):
-                self._say(one, moved)
+                self._say(one, told if is_placement(one) else moved)
 
     # Noun groups
 
@@ -92,7 +103,7 @@ class _Reader:
         """
         head = group.head
         words = [one.text.removesuffix("s") for one in (*group.unknown, head) if one is not None]
-        of = None if word_set("things", "likenesses").intersection(words) else group.of
+        is_likeness = word_set("things", "likenesses").intersection(words)
         found: list[int] = []
         if head is not None and self._is_place(head, relation):
             self._set_place(group, head, relation)
@@ -103,10 +114,21 @@ class _Reader:
                 effect = token.first("effect")
                 if not self._set_scene(token) and effect is not None:
                     self._add_effect(token, effect.value, owners)
-        if of is not None and of.head is not None and not _is_liquid(of.head):
-            inside = self._name(of)
-            self._nearest = found or inside
+        if group.of is not None and not is_likeness:
+            self._fill(found, group.of)
         return found
+
+    def _fill(self, vessels: Sequence[int], of: Phrase) -> None:
+        """Add what is in something, as "of apples"."""
+        draft, head = self._draft, of.groups[0].head
+        if head is None or _is_liquid(head):
+            return
+        inside = self._name(of.groups[0])
+        if inside and vessels:
+            self._nearest = list(vessels)
+            is_vessel = draft.things[vessels[0]]["noun"] in word_set("things", "vessels")
+            if not is_vessel or not draft.relate(inside[0], "in", vessels):
+                draft.mark(of.preposition, "lost")
 
     def _is_place(self, head: Token, relation: str) -> bool:
         is_thing = head.has("noun", "pose") or _is_liquid(head)
@@ -129,6 +151,7 @@ class _Reader:
             return known[-1:]
         if noun is not None:
             thing = {"noun": noun.value.noun, "motions": []}
+            thing |= {"act": noun.value.act} if noun.value.act else {}
             if noun.value.is_kind:
                 draft.mark(head, noun.value.noun)
         else:
@@ -216,6 +239,9 @@ class _Reader:
                 return names <= HAND_NOUNS and not has_object
             case "animal":
                 return all(verb.kind in self._nouns[one].acts for one in names)
+            case "plain" if verb.kind == "work":
+                return all(self._nouns[one].is_working or self._nouns[one].motion == "fly"
+                           for one in names) and not has_object  # fmt: skip
             case "source" | "lamp":
                 return not has_object and not is_acting
         if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
@@ -231,13 +257,19 @@ class _Reader:
     def _relate(
         self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int], *,
         is_of_verb: bool = False,
-    ) -> None:  # fmt: skip
-        """Apply a preposition with its groups; `moved` are those that the verb moves."""
+    ) -> list[int]:  # fmt: skip
+        """Apply a preposition with its groups, and give what they name.
+
+        `moved` are those that the verb moves; "behind them" is said of the nearest group.
+        """
         draft, token = self._draft, phrase.preposition
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         if not phrase.groups:
-            draft.mark(token, "lost")
+            others = [] if set(self._nearest) & set(subjects) or not kind else self._nearest
+            if not any([self._relate_one(kind, one, subjects) for one in others if subjects]):
+                draft.mark(token, "lost")
+            return []
         place, targets = draft.parts["place"].get("name"), list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
@@ -255,6 +287,7 @@ class _Reader:
             draft.show(token)
             if not any(placed):
                 draft.mark(token, "lost")
+        return targets
 
     def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
         """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
@@ -320,7 +353,7 @@ class _Reader:
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
         heads = [group.head for group in clause.subjects]
         is_place = all(one is not None and self._is_place(one, "") for one in heads)
-        return travels and is_place and not self._draft.things and clause.about != "nearest"
+        return travels and is_place and not self._draft.things and clause.about not in ("nearest", "company")
 
     def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
         draft, targets = self._draft, list[int]()
@@ -356,6 +389,15 @@ class _Reader:
             self._go_to_place(phrase.preposition, self._nearest, [])
         self._draft.show(phrase.preposition)
         return found if kind in word_set("things", "aims") else []
+
+
+def _is_passive(verb: Token | None, by: Phrase | Token | None) -> bool:
+    """Whether a verb says what is done to its subject: "chased by a dog"."""
+    return (
+        verb is not None and bool(verb.verbs("ed"))
+        and isinstance(by, Phrase) and by.preposition.text == "by"
+        and any(one.value.relation and one.value.relation != "past" for one in verb.verbs("ed"))
+    )  # fmt: skip
 
 
 def _is_liquid(head: Token) -> bool:
