@@ -43,7 +43,7 @@ class Group:
         is_name = any(one.noun == self.head.text for one in senses)  # "fish", "sheep"
         is_open = is_name and self.article not in ("a", "an")
         return bool(senses) and (
-            senses[0].is_plural or (is_open and any(one.is_plural for one in senses))
+            senses[0].is_plural or (is_open and any(one.is_plural for one in senses if one.noun == senses[0].noun))
         )
 
 
@@ -148,7 +148,7 @@ class _Parser:
         if clause.verb is not None and self._is_verb(Clause(about="same")):
             return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera")
-        is_said = clause.verb is not None or any(is_placement(one) for one in clause.after)
+        is_said = clause.verb or clause.before or any(is_placement(one) for one in clause.after)
         return Clause() if is_said and starts else None
 
     # Parts of a clause: each step gives the clause with what it has read, or None
@@ -234,19 +234,13 @@ class _Parser:
         if (self._token().is_unknown and is_said) or not self._starts_group():
             return None
         if clause.verb is None:
-            if self._follows_head(clause):
-                return None  # "a woman ties her shoes": a noun that stands where a verb does
             return replace(clause, subjects=(*clause.subjects, self._group()))
         return replace(clause, objects=(*clause.objects, self._group()))
 
-    def _follows_head(self, clause: Clause) -> bool:
-        return bool(clause.subjects) and clause.subjects[-1].head is self._token(-1)
-
     def _read_rest(self, clause: Clause) -> Clause:
         """A word that is not known right after the subject is taken to be its verb."""
-        is_noun = self._follows_head(clause) and self._token().has("noun")
         token = self._take()
-        is_verb = clause.subjects and not clause.verb and (is_noun or token.is_unknown)
+        is_verb = clause.subjects and not clause.verb and token.is_unknown
         if not is_verb or token.text.endswith("ly"):
             return replace(clause, after=(*clause.after, token))
         groups = self._groups() if self._starts_group() else ()

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from texvent.scenes.read.lexicon import word_set
 from texvent.scenes.read.tokens import Token
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec.data import PLACING, scene_from_data
@@ -102,8 +103,9 @@ class SceneDraft:
         ids = number_nouns([one["noun"] for one in self.things])
         for one in self.things:
             act = "stand" if one.pop("is_lost", False) else ""
-            act = one.pop("act", "") or (act if not one["relations"] else "")
-            if act and not one["motions"]:
+            act = one.pop("act", act)
+            done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
+            if act and not done and not one["motions"]:
                 one["motions"].append({"kind": act})
             for relation in one["relations"]:
                 relation["to"] = [ids[target] for target in relation["to"]]

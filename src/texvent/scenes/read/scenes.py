@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.camera import find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, is_placement, read_clauses
-from texvent.scenes.read.draft import Reading, SceneDraft
+from texvent.scenes.read.draft import Reading, SceneDraft, is_grammar
 from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.spec.scene import MAX_BODIES
@@ -71,11 +70,12 @@ class _Reader:
         for phrase in clause.before:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
-        agents = clause.after[0] if clause.after and not objects else None
-        if _is_passive(clause.verb, agents) and isinstance(agents, Phrase):
-            objects = list(subjects)
-            subjects = [index for group in agents.groups for index in self._name(group)]
-            clause = replace(clause, after=clause.after[1:])
+        after = [
+            one for one in clause.after
+            if isinstance(one, Phrase) or one.has("adverb") or not is_grammar(one)
+        ]  # fmt: skip
+        if clause.verb is not None and not objects and after and _is_passive(clause.verb, after[0]):
+            objects, subjects = list(subjects), self._introduce(after.pop(0))
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
@@ -88,7 +88,7 @@ class _Reader:
                 self._draft.things[index]["is_lost"] = True
             subjects, moved = ([], []) if found is None else (subjects, found or subjects)
             told = moved
-        for one in clause.after:
+        for one in after:
             if isinstance(one, Phrase):
                 told = self._relate(one, subjects, moved, is_of_verb=bool(objects)) or moved
             elif not self._set_scene(one):
@@ -141,12 +141,8 @@ class _Reader:
             return []
         draft.show(head)
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
-        if (
-            known
-            and group.article in ("the", "its", "his", "her", "their")
-            and not group.modifiers
-            and not group.unknown
-        ):
+        is_plain = not group.modifiers and not group.unknown
+        if known and is_plain and group.article in ("the", "its", "his", "her", "their"):
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
@@ -278,7 +274,7 @@ class _Reader:
         is_route = is_of_verb and kind in word_set("things", "routes")
         if not targets:
             if draft.parts["place"].get("name") != place:
-                self._go_to_place(token, subjects, moved)
+                self._go_to_place(token, subjects or self._nearest, moved)
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
@@ -288,6 +284,12 @@ class _Reader:
             if not any(placed):
                 draft.mark(token, "lost")
         return targets
+
+    def _introduce(self, phrase: Phrase) -> list[int]:
+        """Add what a phrase names whose preposition relates nothing: "chased by a dog"."""
+        found = self._relate(phrase, [], [])
+        self._draft.mark(phrase.preposition, "shown")
+        return found
 
     def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
         """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
@@ -368,7 +370,8 @@ class _Reader:
             elif targets:  # as "orbits a car in front of a house"
                 self._relate(one, targets, targets)
             else:
-                targets += self._aim(one)
+                found, sense = self._introduce(one), one.preposition.first("relation")
+                targets += found if sense and sense.value in word_set("things", "aims") else []
         if move is not None:
             self._add_move(move)
             if targets:
@@ -380,24 +383,11 @@ class _Reader:
         if move.get("means") == "fly":
             self._draft.parts["camera"].setdefault("view", "aerial")
 
-    def _aim(self, phrase: Phrase) -> list[int]:
-        """Add what a phrase of a camera's clause names; the objects that it looks at."""
-        sense = phrase.preposition.first("relation")
-        kind, place = sense.value if sense else "", dict(self._draft.parts["place"])
-        found = [one for group in phrase.groups for one in self._name(group, kind or "with")]
-        if not found and self._draft.parts["place"] != place:
-            self._go_to_place(phrase.preposition, self._nearest, [])
-        self._draft.show(phrase.preposition)
-        return found if kind in word_set("things", "aims") else []
 
-
-def _is_passive(verb: Token | None, by: Phrase | Token | None) -> bool:
+def _is_passive(verb: Token, by: Phrase | Token) -> bool:
     """Whether a verb says what is done to its subject: "chased by a dog"."""
-    return (
-        verb is not None and bool(verb.verbs("ed"))
-        and isinstance(by, Phrase) and by.preposition.text == "by"
-        and any(one.value.relation and one.value.relation != "past" for one in verb.verbs("ed"))
-    )  # fmt: skip
+    done = {one.value.relation for one in verb.verbs("ed")} & word_set("things", "doing")
+    return bool(done) and isinstance(by, Phrase) and by.preposition.text == "by"
 
 
 def _is_liquid(head: Token) -> bool:

@@ -112,16 +112,18 @@ def _without_chance(
     """Senses of several words that do not stand together by chance.
 
     As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
-    (no things).
+    (no things), "steps out from behind a car" (no view).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
-    is_verb = words[end].endswith("ing") and after in word_set("senses", "articles")
+    articles = word_set("senses", "articles")
+    is_verb = words[end].endswith("ing") and after in articles
     is_single = bool(before) and before[-1].text in ("a", "an")
     is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
     return tuple(
         one for one in senses
         if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
+        and (one.kind != "scene" or one.value[1] != "view" or after not in articles)
     )  # fmt: skip
 
 
