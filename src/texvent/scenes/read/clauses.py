@@ -42,9 +42,8 @@ class Group:
         senses = [one.value for one in self.head.all("noun")]
         is_name = any(one.noun == self.head.text for one in senses)  # "fish", "sheep"
         is_open = is_name and self.article not in ("a", "an")
-        return bool(senses) and (
-            senses[0].is_plural or (is_open and any(one.is_plural for one in senses if one.noun == senses[0].noun))
-        )
+        same = [one for one in senses if one.noun == senses[0].noun] if is_open else senses[:1]
+        return any(one.is_plural for one in same)
 
 
 @dataclass(frozen=True)
@@ -72,6 +71,11 @@ class Clause:
     the last group of it; or "company", one of both: "a boat with dolphins jumping"."""
     is_next: bool = False
     """Whether it happens after the clause before: "then"."""
+
+    @property
+    def is_of_effect(self) -> bool:
+        """Whether it is about an effect: "smoke rises"."""
+        return any(one.head is not None and one.head.has("effect") for one in self.subjects)
 
     @property
     def has_subject(self) -> bool:
@@ -266,19 +270,18 @@ class _Parser:
 
         So does one with the same preposition: "a girl with a hat and a boy with a ball".
         """
-        is_phrase = bool(preposition)
-        found = [self._group(is_phrase=is_phrase)]
+        found = [self._group()]
         while self._token().text == "and" and self._starts_group(1):
             start = self._at
             self._take()
-            group = self._group(is_phrase=is_phrase)
+            group = self._group()
             if self._is_verb(Clause((group,))) or (self._token().text == preposition):
                 self._at = start
                 break
             found.append(group)
         return tuple(found)
 
-    def _group(self, *, is_phrase: bool = False) -> Group:
+    def _group(self) -> Group:
         modifiers: list[Token] = []
         unknown: list[Token] = []
         head, article = None, self._token().text
@@ -291,7 +294,7 @@ class _Parser:
                 unknown.append(token)
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
-            elif self._is_compound(is_phrase=is_phrase):
+            elif self._is_compound():
                 unknown.append(token)
             else:
                 head = token
@@ -316,13 +319,12 @@ class _Parser:
         is_before = token.has(*_MODIFIERS) and not after.has("relation")
         return is_before and after.has(*_HEADS, "field")
 
-    def _is_compound(self, *, is_phrase: bool) -> bool:
-        """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
+    def _is_compound(self) -> bool:
+        """Whether the word that follows is the head: "dog house"."""
         after, third = self._token(), self._token(1)
-        if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
-            return not (after.text.endswith("s") and third.has("articles"))
-        is_end = is_phrase and third.is_sign
-        return is_end and after.is_unknown and not after.text.endswith("ly")
+        is_verb = after.text.endswith("s") and third.has("articles")
+        is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
+        return is_head and not is_verb
 
 
 def is_placement(one: Phrase | Token) -> bool:

@@ -9,7 +9,7 @@ from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.camera import find_move, split_move
 from texvent.scenes.read.clauses import Clause, Group, Phrase, is_placement, read_clauses
-from texvent.scenes.read.draft import Reading, SceneDraft, is_grammar
+from texvent.scenes.read.draft import Reading, SceneDraft
 from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.spec.scene import MAX_BODIES
@@ -59,29 +59,21 @@ class _Reader:
             self._apply_to_things(clause)
 
     def _apply_to_things(self, clause: Clause) -> None:
-        subjects = self._nearest if clause.about == "nearest" else self._subjects
-        of_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
-        if clause.about == "company":
-            going = [n for n in self._nearest if self._nouns[self._draft.things[n]["noun"]].speed_m_s > 0.0]
-            subjects = [] if of_effect else going or subjects
-        elif clause.subjects:
-            subjects = [index for group in clause.subjects for index in self._name(group)]
-        told = subjects
+        told = subjects = self._find_subjects(clause)
         for phrase in clause.before:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
-        after = [
-            one for one in clause.after
-            if isinstance(one, Phrase) or one.has("adverb") or not is_grammar(one)
-        ]  # fmt: skip
-        if clause.verb is not None and not objects and after and _is_passive(clause.verb, after[0]):
-            objects, subjects = list(subjects), self._introduce(after.pop(0))
+        after = list(clause.after)
+        by = next((one for one in after if isinstance(one, Phrase)), None)
+        if clause.verb and by and not objects and _is_passive(clause.verb, by):
+            objects, subjects = list(subjects), self._introduce(by)
+            after = [one for one in after if one is not by]
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
             found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
             kinds = {one.value.kind for one in clause.verb.all("verb")}
-            if not subjects and of_effect and kinds & word_set("effects", "motions"):
+            if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
                 found = []  # "smoke rises from a chimney", as it does by itself
                 self._draft.show(clause.verb)
             for index in subjects if found is None else ():  # what it does is not made up
@@ -93,6 +85,16 @@ class _Reader:
                 told = self._relate(one, subjects, moved, is_of_verb=bool(objects)) or moved
             elif not self._set_scene(one):
                 self._say(one, told if is_placement(one) else moved)
+
+    def _find_subjects(self, clause: Clause) -> list[int]:
+        """Objects that a clause is about; in company, those that go by themselves."""
+        if clause.about == "company":
+            nouns = {one: self._nouns[self._draft.things[one]["noun"]] for one in self._nearest}
+            going = [one for one, noun in nouns.items() if noun.speed_m_s > 0.0]
+            return [] if clause.is_of_effect else going or self._subjects
+        if clause.subjects:
+            return [index for group in clause.subjects for index in self._name(group)]
+        return self._nearest if clause.about == "nearest" else self._subjects
 
     # Noun groups
 
@@ -355,7 +357,8 @@ class _Reader:
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
         heads = [group.head for group in clause.subjects]
         is_place = all(one is not None and self._is_place(one, "") for one in heads)
-        return travels and is_place and not self._draft.things and clause.about not in ("nearest", "company")
+        is_new = not self._draft.things and clause.about not in ("nearest", "company")
+        return travels and is_place and is_new
 
     def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
         draft, targets = self._draft, list[int]()
@@ -384,10 +387,10 @@ class _Reader:
             self._draft.parts["camera"].setdefault("view", "aerial")
 
 
-def _is_passive(verb: Token, by: Phrase | Token) -> bool:
+def _is_passive(verb: Token, by: Phrase) -> bool:
     """Whether a verb says what is done to its subject: "chased by a dog"."""
     done = {one.value.relation for one in verb.verbs("ed")} & word_set("things", "doing")
-    return bool(done) and isinstance(by, Phrase) and by.preposition.text == "by"
+    return bool(done) and by.preposition.text == "by"
 
 
 def _is_liquid(head: Token) -> bool:
