@@ -67,10 +67,8 @@ class Clause:
     """Phrases, adverbs and words of the scene, and words that are not known."""
     absent: tuple[Group, ...] = ()
     about: str = ""
-    """Subject that is not named here: "camera"; "same", those of the clause before; "nearest",
-    the last group of it; or "company", one of both: "a boat with dolphins jumping"."""
-    is_next: bool = False
-    """Whether it happens after the clause before: "then"."""
+    """Subject that is not named here: "camera"; "same", those of the clause before, or "then", after
+    it; "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
 
     @property
     def is_of_effect(self) -> bool:
@@ -94,12 +92,12 @@ def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
     return tuple(one for one in _Parser(tokens).clauses() if one != Clause())
 
 
+@dataclass
 class _Parser:
     """Position in the tokens; each method reads on from there."""
 
-    def __init__(self, tokens: Sequence[Token]) -> None:
-        self._tokens = tokens
-        self._at = 0
+    _tokens: Sequence[Token]
+    _at: int = 0
 
     def clauses(self) -> Iterator[Clause]:
         """All clauses; each is begun as the one before says."""
@@ -136,7 +134,7 @@ class _Parser:
             return None if word == "," and is_list and goes_on else Clause()
         if token.has("conjunctions"):
             self._take()
-            return Clause(about="same", is_next=True) if word == "then" else Clause()
+            return Clause(about="then") if word == "then" else Clause()
         phrase = clause.after[-1] if clause.after else (clause.before or (None,))[-1]
         if isinstance(phrase, Phrase) and phrase.preposition.text == "with" and token.verbs("ing"):
             is_next = bool(phrase.groups) and phrase.groups[-1].head is self._token(-1)

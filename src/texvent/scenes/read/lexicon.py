@@ -53,8 +53,8 @@ class VerbSense:
     """Verb, and what it asks for of its subject and its object."""
 
     who: str = "plain"
-    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect)
-    or "plain" (anything)."""
+    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect),
+    "machine" or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0

@@ -45,12 +45,14 @@ class _Reader:
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
-        self._phase += clause.is_next and bool(self._draft.moves)
+        self._phase += clause.about == "then" and bool(self._draft.moves)
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head)
-        is_camera = clause.about == "camera" or (self._was_camera and clause.about == "same")
+        is_camera = clause.about == "camera" or (
+            self._was_camera and clause.about in ("same", "then")
+        )
         is_ego = not is_camera and self._is_ego(clause)
         self._was_camera = is_camera
         if is_camera or is_ego:
@@ -82,7 +84,7 @@ class _Reader:
             told = moved
         for one in after:
             if isinstance(one, Phrase):
-                told = self._relate(one, subjects, moved, is_of_verb=bool(objects)) or moved
+                told = self._relate(one, subjects, moved) or moved
             elif not self._set_scene(one):
                 self._say(one, told if is_placement(one) else moved)
 
@@ -184,19 +186,18 @@ class _Reader:
                 _set_field(thing, said.kind, field, value)
         else:
             if not self._set_scene(token) and things and token.verbs("ing", "ed"):
-                self._act(token, subjects, [], forms=("ing", "ed"))
+                self._act(token, subjects, [], has_object=False)
             return
         draft.show(token)
 
     # Verbs
 
     def _act(
-        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *,
-        has_object: bool = False, forms: tuple[str, ...] = ("base", "s", "ing", "ed"),
-    ) -> list[int] | None:  # fmt: skip
+        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *, has_object: bool
+    ) -> list[int] | None:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
-        acts = (one.value for one in verb.verbs(*forms) if subjects)
+        acts = (one.value for one in verb.all("verb") if subjects)
         act = next((one for one in acts if self._fits(one, subjects, has_object)), None)
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
@@ -237,9 +238,8 @@ class _Reader:
                 return names <= HAND_NOUNS and not has_object
             case "animal":
                 return all(verb.kind in self._nouns[one].acts for one in names)
-            case "plain" if verb.kind == "work":
-                return all(self._nouns[one].is_working or self._nouns[one].motion == "fly"
-                           for one in names) and not has_object  # fmt: skip
+            case "machine":
+                return not has_object and all(self._nouns[one].is_working for one in names)
             case "source" | "lamp":
                 return not has_object and not is_acting
         if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
@@ -252,10 +252,7 @@ class _Reader:
 
     # Prepositions
 
-    def _relate(
-        self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int], *,
-        is_of_verb: bool = False,
-    ) -> list[int]:  # fmt: skip
+    def _relate(self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int]) -> list[int]:
         """Apply a preposition with its groups, and give what they name.
 
         `moved` are those that the verb moves; "behind them" is said of the nearest group.
@@ -273,18 +270,16 @@ class _Reader:
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
         done = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
-        is_route = is_of_verb and kind in word_set("things", "routes")
         if not targets:
             if draft.parts["place"].get("name") != place:
                 self._go_to_place(token, subjects or self._nearest, moved)
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
-            able = () if is_route and done & word_set("things", "sending") else subjects
+            is_sent = kind in word_set("things", "routes") and done & word_set("things", "sending")
+            able = () if is_sent else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
-            draft.show(token)
-            if not any(placed):
-                draft.mark(token, "lost")
+            draft.mark(token, "shown" if any(placed) else "lost")
         return targets
 
     def _introduce(self, phrase: Phrase) -> list[int]:
@@ -299,11 +294,9 @@ class _Reader:
         for index in moved if token.text == "across" else ():
             for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
-        for thing in (draft.things[index] for index in subjects if token.text == "on"):
-            if (
-                draft.parts["place"]["name"] == "road"
-                and self._nouns[thing["noun"]].motion != "drive"
-            ):
+        is_road = token.text == "on" and draft.parts["place"]["name"] == "road"
+        for thing in (draft.things[index] for index in subjects if is_road):
+            if self._nouns[thing["noun"]].motion != "drive":
                 thing.setdefault("placement", "lane")
 
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
