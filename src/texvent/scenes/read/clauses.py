@@ -61,14 +61,12 @@ class Clause:
     subjects: tuple[Group, ...] = ()
     verb: Token | None = None
     objects: tuple[Group, ...] = ()
-    before: tuple[Phrase, ...] = ()
-    """Phrases between the subject and the verb."""
     after: tuple[Phrase | Token, ...] = ()
-    """Phrases, adverbs and words of the scene, and words that are not known."""
+    """Phrases, adverbs and words of the scene after the subject, and words that are not known."""
     absent: tuple[Group, ...] = ()
     about: str = ""
-    """Subject that is not named here: "camera"; "same", those of the clause before, or "then", after
-    it; "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
+    """Subject that is not named here: "camera"; "same", those of the clause before, or "then",
+    after it; "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
 
     @property
     def is_of_effect(self) -> bool:
@@ -129,13 +127,13 @@ class _Parser:
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
-            is_list = clause.subjects and not (clause.verb or clause.before or clause.after)
+            is_list = clause.subjects and not (clause.verb or clause.after)
             goes_on = self._starts_group() and not self._token().has("scene", "shot")
             return None if word == "," and is_list and goes_on else Clause()
         if token.has("conjunctions"):
             self._take()
             return Clause(about="then") if word == "then" else Clause()
-        phrase = clause.after[-1] if clause.after else (clause.before or (None,))[-1]
+        phrase = clause.after[-1] if clause.after else None
         if isinstance(phrase, Phrase) and phrase.preposition.text == "with" and token.verbs("ing"):
             is_next = bool(phrase.groups) and phrase.groups[-1].head is self._token(-1)
             return Clause(phrase.groups, about="company") if is_next else None
@@ -150,8 +148,7 @@ class _Parser:
         if clause.verb is not None and self._is_verb(Clause(about="same")):
             return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera")
-        is_said = clause.verb or clause.before or any(is_placement(one) for one in clause.after)
-        return Clause() if is_said and starts else None
+        return Clause() if starts and (clause.verb or clause.after) else None
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 
@@ -217,8 +214,6 @@ class _Parser:
             return clause
         self._at += 1 + is_back
         phrase = Phrase(token, () if is_back else self._groups(token.text))
-        if clause.verb is None and clause.subjects:
-            return replace(clause, before=(*clause.before, phrase))
         return replace(clause, after=(*clause.after, phrase))
 
     def _read_adverb(self, clause: Clause) -> Clause | None:
@@ -323,12 +318,6 @@ class _Parser:
         is_verb = after.text.endswith("s") and third.has("articles")
         is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
         return is_head and not is_verb
-
-
-def is_placement(one: Phrase | Token) -> bool:
-    """Whether it says where in the picture: "on the left"."""
-    adverb = None if isinstance(one, Phrase) else one.first("adverb")
-    return adverb is not None and adverb.value[0] == "placement"
 
 
 def _is_alone(token: Token) -> bool:

@@ -8,7 +8,7 @@ from typing import Any
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.camera import find_move, split_move
-from texvent.scenes.read.clauses import Clause, Group, Phrase, is_placement, read_clauses
+from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import Reading, SceneDraft
 from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
@@ -62,14 +62,15 @@ class _Reader:
 
     def _apply_to_things(self, clause: Clause) -> None:
         told = subjects = self._find_subjects(clause)
-        for phrase in clause.before:
+        phrases = [one for one in clause.after if isinstance(one, Phrase)]
+        first = clause.verb.at if clause.verb is not None else 0
+        before = [one for one in phrases if one.preposition.at < first]
+        for phrase in before:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
-        after = list(clause.after)
-        by = next((one for one in after if isinstance(one, Phrase)), None)
-        if clause.verb and by and not objects and _is_passive(clause.verb, by):
-            objects, subjects = list(subjects), self._introduce(by)
-            after = [one for one in after if one is not by]
+        if clause.verb and not objects and _is_passive(clause.verb, phrases[len(before) :]):
+            objects, subjects = list(subjects), self._introduce(phrases[len(before)])
+            before.append(phrases[len(before)])
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
@@ -82,11 +83,12 @@ class _Reader:
                 self._draft.things[index]["is_lost"] = True
             subjects, moved = ([], []) if found is None else (subjects, found or subjects)
             told = moved
-        for one in after:
+        for one in (each for each in clause.after if each not in before):
             if isinstance(one, Phrase):
                 told = self._relate(one, subjects, moved) or moved
             elif not self._set_scene(one):
-                self._say(one, told if is_placement(one) else moved)
+                adverb = one.first("adverb")
+                self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
 
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""
@@ -360,7 +362,7 @@ class _Reader:
             self._name(group, "in")
         for group in clause.objects if not is_ego else ():
             targets += self._name(group)
-        for one in (*clause.before, *clause.after):
+        for one in clause.after:
             if not isinstance(one, Phrase):
                 self._set_scene(one)
             elif targets:  # as "orbits a car in front of a house"
@@ -380,10 +382,10 @@ class _Reader:
             self._draft.parts["camera"].setdefault("view", "aerial")
 
 
-def _is_passive(verb: Token, by: Phrase) -> bool:
+def _is_passive(verb: Token, phrases: Sequence[Phrase]) -> bool:
     """Whether a verb says what is done to its subject: "chased by a dog"."""
     done = {one.value.relation for one in verb.verbs("ed")} & word_set("things", "doing")
-    return bool(done) and by.preposition.text == "by"
+    return bool(done) and bool(phrases) and phrases[0].preposition.text == "by"
 
 
 def _is_liquid(head: Token) -> bool:

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from texvent.scenes.read.lexicon import LONGEST_PHRASE, Lexicon, Sense, word_set
 from texvent.scenes.read.literals import find_literals
 
+MOST_WORDS = 1000
+"""Words of a prompt that are read; later ones are not understood, all together."""
 MAX_COUNT = 24
 """Most copies of one object."""
 _RANGES = {"speed_m_s": (0.0, 1000.0), "rate_hz": (0.001, 100_000.0)}
@@ -76,6 +78,8 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
             sense = Sense("picture", ("picture", picture))
             found.append(Token(picture.value, len(found), (sense,)))
         start = end
+    if len(found) > MOST_WORDS:
+        found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
     return tuple(found)
 
 
