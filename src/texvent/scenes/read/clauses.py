@@ -164,12 +164,9 @@ class _Parser:
         return None
 
     def _read_absence(self, clause: Clause) -> Clause | None:
-        """As "without cars"; a verb that is denied is in no clause, and so not understood."""
+        """As "without cars"; a verb that is denied is not understood."""
         if not self._token().has("negations"):
             return None
-        if self._token(1).verbs("base", "ing", "ed"):
-            self._at += 2
-            return clause
         self._take()
         return replace(clause, absent=(*clause.absent, self._group()))
 

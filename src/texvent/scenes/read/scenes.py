@@ -16,6 +16,8 @@ from texvent.scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
+SPOTS = ("left", "right", "centre", "far", "near")
+"""Places in the picture, which are said of the group before: "past a tree on the left"."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 
@@ -88,7 +90,8 @@ class _Reader:
                 told = self._relate(one, subjects, moved) or moved
             elif not self._set_scene(one):
                 adverb = one.first("adverb")
-                self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
+                is_spot = adverb and adverb.value in (("placement", spot) for spot in SPOTS)
+                self._say(one, told if is_spot else moved)
 
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""

@@ -7,8 +7,8 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from texvent.scenes.literals import find_literals
 from texvent.scenes.read.lexicon import LONGEST_PHRASE, Lexicon, Sense, word_set
-from texvent.scenes.read.literals import find_literals
 
 MOST_WORDS = 1000
 """Words of a prompt that are read; later ones are not understood, all together."""
