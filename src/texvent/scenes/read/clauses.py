@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from texvent.scenes.read.lexicon import word_set
 from texvent.scenes.read.tokens import NO_TOKEN, Token
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
@@ -210,7 +211,7 @@ class _Parser:
             self._take()
             return clause
         self._at += 1 + is_back
-        phrase = Phrase(token, () if is_back else self._groups(token.text))
+        phrase = Phrase(token, () if is_back else self._groups(token))
         return replace(clause, after=(*clause.after, phrase))
 
     def _read_adverb(self, clause: Clause) -> Clause | None:
@@ -255,21 +256,29 @@ class _Parser:
             return True
         return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
-    def _groups(self, preposition: str = "") -> tuple[Group, ...]:
+    def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
         """Groups with "and" between them, but for one that begins a clause.
 
-        So does one with the same preposition: "a girl with a hat and a boy with a ball".
+        So does one with a like preposition: "a girl with a hat and a boy with a ball".
         """
         found = [self._group()]
         while self._token().text == "and" and self._starts_group(1):
             start = self._at
             self._take()
             group = self._group()
-            if self._is_verb(Clause((group,))) or (self._token().text == preposition):
+            if self._is_verb(Clause((group,))) or self._is_like(preposition):
                 self._at = start
                 break
             found.append(group)
         return tuple(found)
+
+    def _is_like(self, preposition: Token) -> bool:
+        """Whether a preposition is here like the one before, or one with a pronoun."""
+        token, positions = self._token(), word_set("things", "positions") - {"between"}
+        kinds = {one.value for each in (preposition, token) for one in each.all("relation")}
+        is_back = preposition.text != "with" and self._token(1).has("pronouns")
+        is_both = token.has("relation") and preposition.has("relation")
+        return is_both and (token.text == preposition.text or is_back or kinds <= positions)
 
     def _group(self) -> Group:
         modifiers: list[Token] = []
