@@ -100,7 +100,7 @@ def distort(lens: Lens, points: Float64Array) -> Float64Array:
 def undistort(lens: Lens, points: Float64Array) -> Float64Array:
     """The inverse of `distort`, by Newton's method; NaN where it does not converge.
 
-    This is the definition that the kernel `raycast.lens_kernel.undistorted` is tested against.
+    This is the definition that the kernel `raycast.vectors.undistorted` is tested against.
     """
     target = np.asarray(points, dtype=np.float64)
     if lens.distortion == "none":

@@ -118,6 +118,17 @@ def test_what_falls_breaks_when_it_meets_the_ground():
     assert scene.actors[0].trajectory.at(end - 0.1).position[2] > 0.02
 
 
+def test_no_chip_is_seen_right_before_the_camera():
+    scene = staged(Effect("leaves"), objects=())
+    nearest_m, sizes = 0.3 * scene.camera_path.framing.distance_m, []
+    for time_s in np.linspace(0.0, 5.0, 21):
+        maps, camera = small(scene, float(time_s)), scene.camera(float(time_s)).position
+        is_near = np.linalg.norm(maps[:, :, 3] - camera, axis=1) < nearest_m
+        sizes += list(np.linalg.norm(maps[is_near, :, :3], axis=(1, 2)))
+    assert len(sizes) > 0
+    assert max(sizes) <= 2.0 * TINY_M
+
+
 def test_an_effect_takes_the_colour_it_is_said_to_have():
     red = np.array(COLOURS["red"])
     puffs = staged(Effect("smoke", 0, "red")).environment(0.3).puffs

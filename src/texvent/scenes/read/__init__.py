@@ -7,6 +7,5 @@ understood changes nothing and is reported.
 
 from texvent.scenes.read.draft import Reading
 from texvent.scenes.read.scenes import read
-from texvent.scenes.read.tokens import find_literals
 
-__all__ = ["Reading", "find_literals", "read"]
+__all__ = ["Reading", "read"]
