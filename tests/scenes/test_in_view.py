@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from texvent.scenes.description import Relation, SceneDescription, SceneObject, Shot, Surroundings
+from texvent.scenes.description import Relation, SceneDescription, SceneObject, Surroundings
 from texvent.scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.staging.camera.camera_path import CameraPath
@@ -64,16 +63,3 @@ def test_pixels_of_small_things_are_counted_one_by_one() -> None:
     for instance, count in count_pixels(scene, list(scene.object_of), SIZE, DURATION_S).items():
         assert count >= LEAST_PIXELS
         assert count == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
-
-
-def test_the_check_takes_less_than_a_tenth_of_a_second() -> None:
-    size = SensorSize(346, 260)
-    objects = (SceneObject("car", 3), SceneObject("tree", 5), SceneObject("bird", 8))
-    description = SceneDescription(
-        "", objects, shot=Shot(framing="wide"), surroundings=Surroundings("city")
-    )
-    scene = compose_scene(description, seed=0, size=size, duration_s=2.0)
-    find_unseen(scene, description, scene.object_of, size, 2.0)  # compiles
-    start = time.process_time()
-    find_unseen(scene, description, scene.object_of, size, 2.0)
-    assert time.process_time() - start < 0.3  # about 0.05 s; the machine may be busy

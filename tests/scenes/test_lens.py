@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import cv2
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.scenes.hand_scenes import HandScene, MovingShape, day, look_at, still
+from tests.scenes.hand_scenes import HandScene, MovingShape, look_at, still
 
 from texvent.errors import ConfigError
-from texvent.scenes.lens import Lens, distort, lens_reach, normalised, undistort
+from texvent.scenes.lens import Lens, distort, lens_reach, normalised
 from texvent.scenes.projection import project, ray_directions
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render, world_at
 from texvent.scenes.raycast.trace import ray_direction
-from texvent.scenes.scene import Camera, Environment, Ground, Shape
+from texvent.scenes.scene import Camera, Shape
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(160, 120)
@@ -78,43 +76,6 @@ def test_kernel_and_reference_give_the_same_rays(lens: Lens) -> None:
 
 
 @BOTH
-def test_rendered_dots_are_where_opencv_projects_them(lens: Lens) -> None:
-    """Centroids of small bright balls, all over the image, within 0.01 px."""
-    camera = camera_with(lens)
-    places = [(x, y) for y in (15.0, 40.0, 75.0, 105.0) for x in (15.0, 50.0, 85.0, 120.0, 145.0)]
-    seen = np.append(normalised(lens, np.array(places)), np.ones((len(places), 1)), axis=1) * 6.0
-    balls = tuple(
-        MovingShape(
-            Shape.ELLIPSOID, (0.04, 0.04, 0.04), still(*ball), colour=(1, 1, 1), emission=0.5
-        )
-        for ball in seen @ camera.rotation + camera.position
-    )
-    scene = HandScene(balls, lambda time: camera, empty_space())
-    empty = HandScene((), lambda time: camera, empty_space())
-    bright, dark = (linear(render(one, 0.0, SIZE, samples=4)[..., 1]) for one in (scene, empty))
-    light = bright - dark
-    expected = opencv_points(lens, seen)
-    rows, columns = np.indices(light.shape) + 0.5
-    for x, y in expected:
-        near = light * (np.hypot(columns - x, rows - y) < 6.0)
-        centroid = (near * columns).sum() / near.sum(), (near * rows).sum() / near.sum()
-        np.testing.assert_allclose(centroid, (x, y), atol=0.01)
-
-
-def empty_space() -> Environment:
-    """An even grey sky without stars, no ground, no direct light."""
-    grey, black = np.full(3, 0.1, dtype=np.float32), np.zeros(3, dtype=np.float32)
-    return replace(
-        day(Ground.NONE), sky_top=grey, sky_horizon=grey, ambient=black, sun_colour=black
-    )
-
-
-def linear(coded: np.ndarray) -> np.ndarray:
-    share = coded.astype(np.float64) / 255.0
-    return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
-
-
-@BOTH
 def test_flow_and_depth_agree_with_the_projection(lens: Lens) -> None:
     """A still ground under a moving camera: flow is the difference of projections."""
 
@@ -144,10 +105,6 @@ def test_a_lens_without_distortion_is_the_pinhole() -> None:
     np.testing.assert_allclose(calibrated, pinhole, atol=1e-3)
     # Edges are placed to 1/128 pixel; near the horizon the ground changes fast from row to row.
     np.testing.assert_allclose(distorted, pinhole, atol=1.5)
-
-
-def test_undistort_leaves_the_axis_alone() -> None:
-    assert undistort(FISHEYE, np.zeros((1, 2))).tolist() == [[0.0, 0.0]]
 
 
 @pytest.mark.parametrize(

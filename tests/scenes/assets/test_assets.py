@@ -230,28 +230,6 @@ def test_a_ply_brings_colours_and_stands_on_z(tmp_path: Path) -> None:
     assert part.mesh.colours.max(axis=(0, 1)) == pytest.approx([1.0, 1.0, 0.0])
 
 
-def test_damaged_obj_and_ply_files_are_one_clear_line(tmp_path: Path) -> None:
-    pytest.importorskip("trimesh")
-    for name, text in (("a.obj", "f 1 2 3\n"), ("b.ply", "ply\nnonsense\n"), ("c.obj", "")):
-        path = tmp_path / name
-        path.write_text(text)
-        with pytest.raises(InputError) as caught:
-            load_model(Asset(path, "thing"))
-        assert "\n" not in str(caught.value)
-        assert name in str(caught.value)
-
-
-def test_a_list_of_parts_is_an_asset_too(tmp_path: Path) -> None:
-    (tmp_path / "own.toml").write_text(
-        '[gizmo]\nnames = ["widget"]\nhabitat = "ground"\nspeed = 2\nmotion = "roll"\n'
-        'parts = "wheel 0 0 .3  .3 .1"\n[car]\nparts = "box red  0 0 1  1 1 2"\n'
-    )
-    nouns = merge_nouns(read_folder(tmp_path))
-    assert (nouns["gizmo"].synonyms, nouns["gizmo"].speed_m_s) == (("widget",), 2.0)
-    assert nouns["gizmo"].build(colour=None, scale=2.0, seed=0).height == pytest.approx(1.2)
-    assert len(nouns["car"].build(colour=None, scale=1.0, seed=0).parts(Pose(0, 0, 0))) == 1
-
-
 def test_the_pack_of_more_nouns_is_whole() -> None:
     pack = Path(__file__).parents[3] / "packs" / "more-nouns"
     assets = read_folder(pack)

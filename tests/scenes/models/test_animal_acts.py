@@ -7,7 +7,6 @@ from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
 from texvent.scenes.models.nouns import FAMILIES, NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
-from texvent.scenes.scene import Shape
 
 QUADRUPEDS = tuple(noun.name for noun in FAMILIES["quadrupeds"])
 
@@ -25,17 +24,6 @@ def test_a_grazing_mouth_is_low(noun: str) -> None:
     lowest = min(model.anchor(place, Pose(t, 0.0, 0.0, "graze"))[2, 3] for t in (0.2, 0.4, 0.6))
     assert lowest < 0.3 * model.height
     assert model.anchor("crown", pose)[2, 3] > model.anchor("mouth", pose)[2, 3]
-
-
-def test_a_bowing_bird_has_its_beak_at_the_ground() -> None:
-    model = NOUNS["chicken"].build(colour=None, scale=1.0, seed=0)
-    beaks = [
-        next(
-            part for part in model.parts(Pose(0.45, 0.0, 0.0, act)) if part.shape is Shape.CONE
-        ).to_body[2, 3]
-        for act in ("stand", "peck")
-    ]
-    assert beaks[1] < 0.4 * beaks[0]
 
 
 @pytest.mark.parametrize("noun", ["dog", "horse", "bird", "ostrich"])

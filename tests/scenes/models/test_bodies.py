@@ -1,16 +1,13 @@
 """Bodies given as data: their joints, legs and chains, and what an entry takes from another."""
 
-import math
 import tomllib
 
 import numpy as np
 import pytest
 
-from texvent.errors import FileFormatError
 from texvent.scenes.models.joints import read_cycle, read_joint, read_wave
 from texvent.scenes.models.materials import WHITE, Material
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.parts import PartsBuilder, _merged, mirrored
+from texvent.scenes.models.parts import PartsBuilder
 from texvent.scenes.models.protocol import Model, Pose
 from texvent.scenes.models.shapes import limb
 
@@ -49,15 +46,6 @@ def test_a_stretched_part_keeps_its_pivot(
     np.testing.assert_allclose(motion @ [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0])
 
 
-@pytest.mark.parametrize(
-    "text",
-    ["pulse yz 0 0 1 .2", "grow xyz 0 0 1 .1 5", "sway y .1 2hz begin now", "flap x 1hz", ""],
-)
-def test_a_joint_that_cannot_be_read_is_named(text: str) -> None:
-    with pytest.raises(ValueError, match="joint"):
-        read_joint(text)
-
-
 def test_a_wave_bends_the_tail_more_than_the_head_and_less_at_rest() -> None:
     wave = read_wave("y .1 1hz")
     parts = [limb(Material(WHITE), (x - 0.1, 0, 0), (x + 0.1, 0, 0), 0.05) for x in (0.4, -0.4)]
@@ -70,13 +58,6 @@ def test_a_wave_bends_the_tail_more_than_the_head_and_less_at_rest() -> None:
     }
     assert reach["swim"][1] > 4.0 * reach["swim"][0]
     assert reach["stand"][1] == pytest.approx(0.3 * reach["swim"][1])
-
-
-def test_a_mirrored_part_is_not_turned_inside_out() -> None:
-    part = limb(Material(WHITE), (0.1, 0.2, 0.3), (0.5, 0.6, 0.1), 0.1, side_radius=0.05)
-    (other,) = mirrored([part])
-    assert np.linalg.det(other.to_body[:, :3]) > 0.0
-    np.testing.assert_allclose(other.to_body[:, 3], part.to_body[:, 3] * [1.0, -1.0, 1.0])
 
 
 LEGS = """
@@ -108,56 +89,3 @@ def test_a_foot_on_the_ground_does_not_slide() -> None:
     assert np.abs(np.diff(in_world, axis=0)[stays]).max() < 1e-9
     np.testing.assert_allclose(feet[0, ::2, 1], -feet[0, 1::2, 1])
     np.testing.assert_allclose(middles(model, STILL)[3::3, 2], 0.0)
-
-
-def test_a_chain_hangs_together_and_its_wave_runs_along_it() -> None:
-    model = build("""
-    colours = { paint = ["(.3 .2 .1)"] }
-    [[chains]]
-    surface = "paint"
-    start = [0.0, 0.0, 2.0]
-    step = [0.0, 0.0, -0.2]
-    links = 6
-    radii = [0.02, 0.01]
-    wave = "y .2 1hz"
-    lag = 0.1
-    """)
-    ends = []
-    for time_s in (0.0, 0.1):
-        maps = [part.to_body for part in model.parts(Pose(time_s, 0.0, 0.0))]
-        axes = [one[:, 2] / np.linalg.norm(one[:, 2]) for one in maps]
-        halves = [np.linalg.norm(one[:, 2]) - 0.6 * np.linalg.norm(one[:, 0]) for one in maps]
-        tops = [one[:, 3] - h * a for one, h, a in zip(maps, halves, axes, strict=True)]
-        tips = [one[:, 3] + h * a for one, h, a in zip(maps, halves, axes, strict=True)]
-        np.testing.assert_allclose(tops[1:], tips[:-1], atol=1e-9)
-        ends.append([tip[1] / (k + 1) for k, tip in enumerate(tips)])
-    np.testing.assert_allclose(ends[1][1:], ends[0][:-1], atol=1e-9)
-
-
-def test_an_entry_has_the_keys_of_the_one_that_it_is_like() -> None:
-    merged = _merged({"size": 1, "colours": {"x": 1, "y": 2}}, {"colours": {"x": 3}})
-    assert merged == {"size": 1, "colours": {"x": 3, "y": 2}}
-    assert NOUNS["eagle"].acts == NOUNS["bird"].acts
-
-
-def test_a_new_quadruped_is_one_entry() -> None:
-    table = tomllib.loads("""
-    speed = 1.0
-    build = [0.4, [0.6, 0.2, 0.25], [0.1, 0.6], [0.2, 0.1], [0.3, 0.5], [0.1, "round"]]
-    coat = ["(.2 .1 .05)"]
-    surfaces = { stripe = "white fur" }
-    marks = "limb stripe   .4 0 .4   -.4 0 .4   .1"
-    """)
-    model = PartsBuilder("dodo", table)(colour=None, scale=2.0, seed=0)
-    assert model.height == pytest.approx(2.0 * 0.6, rel=0.3)
-    assert math.isclose(sum(p.colour[0] > 0.7 for p in model.parts(STILL)), 1)
-
-
-@pytest.mark.parametrize(
-    "change",
-    [{"parts": "bal paint 0 0 0 1 1 1"}, {"parts": "moving swing x\nball paint 0 0 0 1 1 1"}],
-)
-def test_a_damaged_entry_names_the_noun(change: dict[str, object]) -> None:
-    table = {"colours": {"paint": ["(.1 .1 .1)"]}, "parts": "ball paint 0 0 1 1 1 1", **change}
-    with pytest.raises(FileFormatError, match="'dodo'"):
-        PartsBuilder("x.toml, 'dodo'", table)(colour=None, scale=1.0, seed=0)

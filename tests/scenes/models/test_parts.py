@@ -94,14 +94,6 @@ def test_one_line_may_be_many_parts() -> None:
     assert len(places("frame red  0 0 1  2 1  .1 .1")) == 4
 
 
-def test_a_wheel_does_not_slip() -> None:
-    _, (wheel,) = read_parts("wheel 1 0 .4  .4 .2")
-    step = 1e-5
-    turn = wheel[1].motion(Pose(0.0, step, 1.0), 0)
-    foot = np.array([1.0, 0.0, 0.0, 1.0])
-    np.testing.assert_allclose(turn @ foot, [1.0 - step, 0.0, 0.0], atol=1e-9)
-
-
 @pytest.mark.parametrize(
     ("line", "message"),
     [

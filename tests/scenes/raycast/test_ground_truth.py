@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
-from texvent.scenes.projection import camera_rays, project
+from texvent.scenes.projection import camera_rays
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.scene import Camera, Ground, Shape
 from texvent.sensor import SensorSize
@@ -25,28 +25,6 @@ def level(time: float) -> Camera:
 
 def moving_camera(time: float) -> Camera:
     return look_at((0.4 * time, -8.0 + 0.5 * time, 1.7), (0.8 * time, 0.0, 1.0 + 0.2 * time))
-
-
-def test_projection_undoes_the_rays() -> None:
-    camera, points = moving_camera(0.4), np.array([[0.5, 0.5], [40.0, 30.0], [79.3, 2.25]])
-    rays = camera_rays(camera, SIZE)
-    depth = np.array([[2.0], [7.5], [100.0]])
-    world = rays.origin + depth * (
-        rays.corner + points[:, :1] * rays.right + points[:, 1:] * rays.down
-    )
-    np.testing.assert_allclose(
-        project(camera, SIZE, world), np.concatenate([points, depth], axis=1), rtol=1e-12
-    )
-
-
-def test_depth_of_the_ground_is_height_over_slope() -> None:
-    truth = ground_truth(HandScene(camera_at=level), 0.0, 0.0, SIZE)
-    rows = np.arange(31, 60)
-    expected = 1.5 * 80.0 / (rows + 0.5 - 30.0)
-    np.testing.assert_allclose(
-        truth.depth[31:], np.broadcast_to(expected[:, None], (29, 80)), rtol=1e-6
-    )
-    assert np.isinf(truth.depth[:30]).all()
 
 
 def test_tiles_miss_no_shape_and_the_nearest_wins() -> None:

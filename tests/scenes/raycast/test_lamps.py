@@ -113,29 +113,6 @@ def test_shadows_are_those_of_all_shapes_tested_one_by_one():
     assert wrong <= 2  # a ray that grazes a shape between two of the points
 
 
-def test_a_shape_casts_a_lamps_shadow_and_its_edge_moves_smoothly():
-    lamp = lamp_row((0.0, 0.0, 4.0), (8.0, 8.0, 8.0), casts=True)
-
-    def image(x: float) -> Float64Array:
-        ball = MovingShape(Shape.ELLIPSOID, (0.5, 0.5, 0.5), still(x, 0.0, 2.0))
-        return render_light(scene_of(dark(lamp), ball), 0.0, SMALL)
-
-    base = image(0.0)
-    bare = render_light(scene_of(dark(lamp)), 0.0, SMALL)
-    assert (bare - base)[45:60, 40:56].max() > 0.05
-    steps = [np.abs(image(0.004 * k) - image(0.004 * (k - 1))).max() for k in range(1, 6)]
-    assert max(steps) < 0.15 * bare.max()
-
-
-def test_without_shadows_lamps_shine_through():
-    lamp = lamp_row((0.0, 0.0, 4.0), (8.0, 8.0, 8.0), casts=True)
-    ball = MovingShape(Shape.ELLIPSOID, (0.5, 0.5, 0.5), still(0.0, 0.0, 2.0))
-    scene = scene_of(dark(lamp), ball)
-    ground = np.s_[50:60, 40:56]
-    lit = render_light(scene, 0.0, SMALL, shadows=False)[ground]
-    np.testing.assert_allclose(lit, render_light(scene_of(dark(lamp)), 0.0, SMALL)[ground])
-
-
 def test_no_more_lamps_cast_shadows_than_there_are_bits():
     lamps = np.concatenate([lamp_row((k, 0.0, 1.0), casts=k % 2 == 1) for k in range(12)])
     rows, count = order_lamps(lamps, shadows=True)

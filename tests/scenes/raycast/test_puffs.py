@@ -14,10 +14,10 @@ from texvent.scenes.projection import camera_rays
 from texvent.scenes.raycast.puffs.bins import WIDENED_PX
 from texvent.scenes.raycast.puffs.compositing import density_integral, optical_depth
 from texvent.scenes.raycast.render import render_light, world_at
-from texvent.scenes.scene import PUFF_COLUMNS, Environment, Float64Array, Ground, Shape
+from texvent.scenes.scene import PUFF_COLUMNS, Environment, Float64Array, Ground
 from texvent.sensor import SensorSize
 
-from ..hand_scenes import HandScene, MovingShape, day, look_at, still
+from ..hand_scenes import HandScene, MovingShape, day, look_at
 
 SMALL = SensorSize(96, 72)
 SKY = 0.3
@@ -85,16 +85,6 @@ def test_optical_depth_is_the_integral_of_the_density(point, stop):
     scene = scene_of(row)
     seen = optical_depth(world_at(scene, 0.0, SMALL), *point, stop)
     assert seen == pytest.approx(numeric_depth(row, scene, point, stop), abs=2e-4)
-
-
-def test_a_black_puff_dims_what_is_behind_it_and_hides_nothing_before_it():
-    row = puff((0.0, 0.0, 0.0), thickness=1.0)
-    wall = MovingShape(Shape.BOX, (3.0, 0.1, 3.0), still(0.0, -2.0, 0.0), emission=0.5)
-    behind = replace(wall, place=still(0.0, 3.0, 0.0))
-    for shape, share in ((wall, 1.0), (behind, np.exp(-1.0))):
-        bare = render_light(scene_of(shapes=(shape,)), 0.0, SMALL)[36, 48]
-        smoky = render_light(scene_of(row, shapes=(shape,)), 0.0, SMALL)[36, 48]
-        np.testing.assert_allclose(smoky, share * bare, rtol=0.03)
 
 
 def test_overlapping_puffs_of_one_colour_solve_the_equation_of_transfer():

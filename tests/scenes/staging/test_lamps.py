@@ -6,8 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from texvent.scenes.description import (
     Illumination,
@@ -16,10 +14,9 @@ from texvent.scenes.description import (
     SceneObject,
     Surroundings,
 )
-from texvent.scenes.models.lamps import LAMPS, hue_of, lamp_of
+from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.surroundings.lighting import wave_level
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(96, 72)
@@ -63,19 +60,6 @@ def test_lamps_can_be_switched_on_by_day_and_off_at_night():
     assert glow.emission[glow.instance == 1].max() == 0.0
 
 
-def test_what_is_not_said_leaves_the_day_as_it_is():
-    """Without lamps that are on, the shapes are those of the models."""
-    scene = staged(CAR)
-    parts = scene.actors[0].place(0.3).parts
-    shapes = scene.primitives(0.3)
-    own = shapes.instance == 1
-    np.testing.assert_array_equal(
-        shapes.emission[own], np.array([part.emission for part in parts], dtype=np.float32)
-    )
-    assert scene.flicker_hz is None
-    assert not scene.has_moving_light
-
-
 @pytest.mark.parametrize("time_s", [0.0, 0.05, 0.0999, 0.1, 0.15, 0.1999, 0.2, 0.71])
 def test_a_blinking_lamp_is_on_in_the_first_half_of_its_period_exactly(time_s):
     scene = staged(SceneObject("candle", blink_hz=5.0, is_lit=True), place="indoor")
@@ -88,31 +72,6 @@ def test_a_blinking_lamp_is_on_in_the_first_half_of_its_period_exactly(time_s):
     assert scene.flicker_hz > 5.0  # a flame has beats faster than its main one
 
 
-def test_mains_light_beats_as_a_sine():
-    scene = staged(SceneObject("lamp", blink_hz=100.0, is_lit=True), place="indoor")
-    times = np.arange(8) / 800.0
-    light = np.array([scene.environment(t).lamps[0, 3] for t in times])
-    light /= light[0]
-    np.testing.assert_allclose(light, 0.5 + 0.5 * np.cos(2 * np.pi * 100.0 * times), atol=1e-12)
-
-
-@given(
-    time_s=st.floats(0.0, 60.0), rate=st.floats(0.5, 200.0), number=st.integers(0, 5),
-    wave=st.sampled_from(["square", "sine", "flame", "rotating"]),
-)  # fmt: skip
-def test_no_lamp_gives_less_than_nothing_or_much_more_than_all(time_s, rate, number, wave):
-    level = wave_level(wave, rate * time_s, phase=0.3, number=number)
-    assert 0.0 <= level < 1.3
-    if wave == "flame":
-        assert level > 0.7
-
-
-def test_flames_of_two_candles_do_not_flicker_in_step():
-    scene = staged(SceneObject("candle", count=2), light="lamp", place="indoor")
-    light = np.array([scene.environment(t).lamps[:2, 3] for t in np.linspace(0.0, 1.0, 40)])
-    assert np.corrcoef(light.T)[0, 1] < 0.9
-
-
 @pytest.mark.parametrize("noun", sorted(set(LAMPS) & set(NOUNS)))
 def test_every_lamp_noun_sheds_light_when_it_is_lit(noun):
     scene = staged(SceneObject(noun, is_lit=True), light="night", place="plain")
@@ -121,11 +80,3 @@ def test_every_lamp_noun_sheds_light_when_it_is_lit(noun):
     rows = scene.environment(0.0).lamps
     assert (rows[:, 13] > 0.0).sum() <= 4
     assert np.isfinite(rows).all()
-
-
-def test_parts_take_the_lamp_of_their_colour():
-    assert lamp_of("car", (0.95, 0.92, 0.75)).direction[0] > 0.0
-    assert lamp_of("car", (0.70, 0.02, 0.02)).direction[0] < 0.0
-    assert lamp_of("horse", (1.0, 1.0, 1.0)) is None
-    assert hue_of((0.1, 0.2, 0.9)) == "blue"
-    assert hue_of((0.1, 0.9, 0.2)) == "green"

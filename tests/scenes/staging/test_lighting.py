@@ -18,12 +18,6 @@ AHEAD = np.array((0.0, 1.0, 0.0))
 USUAL = np.array((0.0, 0.6, 0.8))
 
 
-@pytest.mark.parametrize("place", ["road", "kitchen", "underwater"])
-def test_light_of_which_nothing_is_said_is_the_usual_one(place: str) -> None:
-    assert choose_lighting(PLACES[place], Illumination()) == usual_lighting(PLACES[place], "day")
-    assert towards_light(USUAL, AHEAD, Illumination()) is USUAL
-
-
 @pytest.mark.parametrize(
     ("direction", "axis", "sign"), [("left", 0, -1), ("right", 0, 1), ("back", 1, 1),
                                     ("front", 1, -1), ("above", 2, 1)]

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from texvent.scenes.description import ObjectMotion
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.staging.trajectories.phases import build_path, left_out, schedule
+from texvent.scenes.staging.trajectories.phases import build_path, schedule
 from texvent.scenes.staging.trajectories.steered_path import Lagging, Piece, SteeredPath
 
 KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
@@ -33,23 +33,12 @@ def path_of(
     return build_path(sequence, NOUNS[noun], model, yaw=0.0, usual_m_s=speed, duration_s=duration_s)
 
 
-def test_motions_share_the_clip_evenly() -> None:
-    phases = schedule([ObjectMotion("drive"), ObjectMotion("turn"), ObjectMotion("stand")], 3.0)
-    assert [(p.start_s, p.end_s) for p in phases] == [(0.0, 1.0), (1.0, 2.0), (2.0, 3.0)]
-
-
 def test_stated_times_are_kept() -> None:
     sequence = [ObjectMotion("walk"), ObjectMotion("jump", start_s=2.0), ObjectMotion("sit")]
     starts = [phase.start_s for phase in schedule(sequence, 6.0)]
     assert starts == [0.0, 2.0, 4.0]
     waiting = schedule([ObjectMotion("walk", start_s=1.5)], 2.0)
     assert [(p.motion.kind, p.start_s) for p in waiting] == [("stand", 0.0), ("walk", 1.5)]
-
-
-def test_what_begins_after_the_clip_is_named() -> None:
-    sequence = [ObjectMotion("walk"), ObjectMotion("jump", start_s=5.0)]
-    assert left_out(sequence, 2.0) == [sequence[1]]
-    assert [p.motion.kind for p in schedule(sequence, 2.0)] == ["walk"]
 
 
 @given(
@@ -80,13 +69,6 @@ def test_a_car_turns_a_quarter_circle_and_drives_on(direction: str, sign: float)
     assert path.at(4.0).speed_m_s == path.at(0.0).speed_m_s
 
 
-def test_a_car_that_reverses_moves_against_its_heading() -> None:
-    path = path_of(ObjectMotion("drive", "backward"))
-    assert path.at(4.0).position[0] < path.at(0.0).position[0] - 10.0
-    assert path.at(2.0).yaw == path.at(0.0).yaw == 0.0
-    assert path.at(4.0).distance_m < 0.0
-
-
 @given(st.floats(0.5, 20.0))
 def test_stated_speeds_are_exact(speed: float) -> None:
     path = path_of(
@@ -101,12 +83,6 @@ def test_accelerating_and_braking_end_at_the_end_pace() -> None:
     assert (faster.at(0.0).speed_m_s, faster.at(4.0).speed_m_s) == (4.0, 8.0)
     braking = path_of(ObjectMotion("drive", end_pace=0.0))
     assert braking.at(4.0).speed_m_s == 0.0
-
-
-def test_a_domino_topples_to_its_front_and_stays_down() -> None:
-    path = path_of(ObjectMotion("topple"), noun="domino")
-    assert path.at(0.1).pitch == 0.0
-    assert path.at(4.0).pitch == pytest.approx(0.5 * math.pi)
 
 
 @pytest.mark.parametrize(("noun", "rises"), [("balloon", 1.0), ("balloon", -1.0), ("boat", -1.0)])
@@ -168,18 +144,6 @@ def test_the_velocity_is_the_speed_along_the_heading(path: SteeredPath, time_s: 
     heading = np.array([math.cos(middle.yaw), math.sin(middle.yaw)])
     np.testing.assert_allclose(velocity, signed * heading, atol=2e-3)
     assert abs(signed) == pytest.approx(middle.speed_m_s, abs=1e-2)
-
-
-def test_the_quadrature_agrees_with_many_small_steps() -> None:
-    path = SteeredPath((0.0, 0.0, 0.0), 0.3, (Piece(3.0, 8.0, 4.0, ramp_s=3.0),), 1.0)
-    times = np.linspace(0.0, 3.0, 20001)
-    states = [path.at(float(t)) for t in times[::100]]
-    u = times / 3.0
-    speed = 1.0 + 7.0 * u * u * (3.0 - 2.0 * u)
-    heading = 0.3 + 4.0 * 3.0 * (u**3 - 0.5 * u**4)
-    x = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(times) * (
-        (speed * np.cos(heading))[1:] + (speed * np.cos(heading))[:-1]))])  # fmt: skip
-    np.testing.assert_allclose([s.position[0] for s in states], x[::100], atol=1e-6)
 
 
 def test_a_follower_stays_the_gap_behind_on_the_same_line() -> None:

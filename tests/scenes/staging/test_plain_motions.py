@@ -50,23 +50,9 @@ def test_a_flat_pattern_turns_clockwise_for_the_viewer() -> None:
     assert up[0] > 0.1  # its upper edge goes to the right
 
 
-def test_what_slows_down_turns_less_in_the_end() -> None:
-    path = actor("grating", ObjectMotion("spin", end_pace=0.0)).trajectory
-    angles = [path.at(time).roll for time in (0.0, 0.2, 0.8, 1.0)]
-    assert abs(angles[1] - angles[0]) > 2.0 * abs(angles[3] - angles[2]) > 0.0
-
-
 def test_what_moves_up_and_down_at_a_rate_stays_above_the_ground() -> None:
     ball = actor("ball", ObjectMotion("move", "up and down", rate_hz=2.0))
     heights = [ball.trajectory.at(time).position[2] for time in np.linspace(0.0, 1.0, 41)]
     assert min(heights) >= -1e-9
     turns = np.count_nonzero(np.diff(np.sign(np.diff(heights))))
     assert turns == 4
-
-
-def test_a_barrel_that_rolls_and_stops_turns_as_far_as_it_goes() -> None:
-    barrel = actor("barrel", ObjectMotion("roll", "right"), ObjectMotion("stand"))
-    first, last = (barrel.trajectory.at(time) for time in (0.0, DURATION_S))
-    way = last.distance_m - first.distance_m
-    assert way > 0.1
-    assert last.pitch - first.pitch == pytest.approx(2.0 * way / barrel.model.height)

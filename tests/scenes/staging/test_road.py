@@ -78,13 +78,3 @@ def test_what_rests_is_beside_the_road_unless_it_belongs_there(
     road, half = road_of(scene)
     spots = np.array([one.middle(0.0)[:2] for one in scene.actors])
     assert bool(road.distance(spots).min() < half) == is_on
-
-
-def test_a_crosswalk_lies_across_the_road_under_who_crosses() -> None:
-    man = SceneObject("man", motion=ObjectMotion("walk", "across"))
-    scene = stage(man, SceneObject("crosswalk"), place="city")
-    road, _ = road_of(scene)
-    walker, stripes = scene.actors
-    assert road.distance(stripes.middle(0.0)[None, :2])[0] < 1e-6
-    along = np.array([math.cos(road.angle), math.sin(road.angle)])
-    assert abs((walker.middle(1.0) - stripes.middle(1.0))[:2] @ along) < 0.1

@@ -35,12 +35,6 @@ def test_a_lamp_lights_the_scene_and_less_so_from_far_away():
     assert near > far + 5.0 > dark + 10.0
 
 
-def test_shadows_take_light_away():
-    lamp = Lamp(position_m=(-2.0, -1.0, 1.5), strength=20.0)
-    shadowed = Lamp(position_m=lamp.position_m, strength=20.0, has_shadows=True)
-    assert light_of(staged(shadowed)) < light_of(staged(lamp))
-
-
 @pytest.mark.parametrize(
     ("wave", "levels"),
     [("sine", (1.0, 0.5, 0.0)), ("switch", (1.0, 1.0, 0.0)), ("strobe", (1.0, 1.0, 0.0))],

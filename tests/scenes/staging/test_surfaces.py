@@ -5,13 +5,10 @@ from __future__ import annotations
 import pytest
 
 from texvent.errors import InputError
-from texvent.scenes.description import SceneDescription, SceneObject, Surroundings
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.scene import Texture
-from texvent.scenes.staging.compose import compose_scene
-from texvent.sensor import SensorSize
 
 
 def test_an_object_is_made_of_what_is_said() -> None:
@@ -25,10 +22,3 @@ def test_an_object_is_made_of_what_is_said() -> None:
     assert in_material(usual, None, None) is usual
     with pytest.raises(InputError, match="unknown material 'cheese'; known: wood"):
         in_material(usual, "cheese", None)
-
-
-def test_a_material_reaches_the_scene() -> None:
-    objects = (SceneObject("cube", material="brick", colour="red"),)
-    description = SceneDescription("", objects, surroundings=Surroundings("plain"))
-    scene = compose_scene(description, seed=1, size=SensorSize(48, 36), duration_s=1.0)
-    assert set(scene.primitives(0.0).texture[:1]) == {Texture.BRICK}

@@ -4,24 +4,19 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from texvent.scenes.models.people import person, posture
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
-    DVS_GESTURES,
     HAND_GESTURES,
     ON_GROUND,
     PAIR_GAPS,
-    SINGLE_ACTS,
     TRAVELLING,
 )
 from texvent.scenes.models.people.hand import build_hand
 from texvent.scenes.models.people.movements import find_posture
 from texvent.scenes.models.people.outfit import ADULT
 from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
-from texvent.scenes.models.people.track import follow_keys
 from texvent.scenes.models.protocol import Pose
 
 from ...every_row import for_every
@@ -57,11 +52,6 @@ def test_every_activity_has_a_posture_and_every_word_one_activity() -> None:
             assert owner.setdefault(word, name) == name, word
 
 
-def test_the_eleven_classes_of_dvs_gesture_are_there() -> None:
-    assert len(DVS_GESTURES) == 11
-    assert set(DVS_GESTURES.values()) <= set(ACTIVITIES)
-
-
 @for_every(MOVING)
 def test_a_millisecond_moves_no_joint_far(activity: str) -> None:
     for time_s in np.arange(0.0, 5.0, 0.113):
@@ -90,17 +80,6 @@ def test_nothing_reaches_into_the_ground(activity: str) -> None:
         low = -0.6 if activity == "swim" else -0.01
         assert points(body)[:, 2].min() > low
         assert len(ADULT_MODEL.parts(Pose(time_s, 0.0, 0.0, activity))) == PARTS
-
-
-@pytest.mark.parametrize(
-    ("activity", "period_s"),
-    [("clap", 1.0), ("wave", 1.25), ("jumping jack", 1.0), ("arm roll", 1 / 1.3), ("bow", 2.4),
-     ("right arm clockwise", 1 / 0.9), ("air drums", 2.0), ("push-up", 1 / 0.7), ("dance", 2.0)],
-)  # fmt: skip
-@given(time_s=st.floats(0.0, 3.0))
-def test_gestures_repeat(activity: str, period_s: float, time_s: float) -> None:
-    once, again = joints(activity, time_s), joints(activity, time_s + period_s)
-    np.testing.assert_allclose(points(once), points(again), atol=1e-9)
 
 
 def test_palms_meet_in_a_clap_twice_a_second() -> None:
@@ -136,35 +115,12 @@ def test_a_gesture_while_walking_leaves_the_legs_to_the_gait() -> None:
     assert walking.hands[1] != waving.hands[1]
 
 
-@pytest.mark.parametrize("act", sorted(SINGLE_ACTS))
-def test_a_single_act_begins_and_ends_at_rest(act: str) -> None:
-    for act_s in (-3.0, 3.0):
-        a, b = (pose_joints(Pose(0.0, 0.0, 0.0, act, act_s=s)) for s in (act_s, act_s + 0.1))
-        np.testing.assert_allclose(points(a), points(b), atol=1e-6)
-
-
-@pytest.mark.parametrize("act", sorted(SINGLE_ACTS))
-def test_a_repeated_act_has_its_contact_at_the_stated_time(act: str) -> None:
-    contact_s = ACTIVITIES[act].contact_s
-    assert contact_s is not None
-    once, repeated = Pose(0.0, 0.0, 0.0, act, act_s=0.0), Pose(contact_s, 0.0, 0.0, act)
-    np.testing.assert_allclose(points(pose_joints(once)), points(pose_joints(repeated)), atol=1e-9)
-
-
 @pytest.mark.parametrize(("activity", "time_s"), [("shake hands", 0.7), ("high five", 0.6)])
 def test_hands_of_two_who_stand_before_each_other_meet(activity: str, time_s: float) -> None:
     x, y, z = joints(activity, time_s).hands[1]
     # The other one's body is turned by half a circle about the middle.
     other = (PAIR_GAPS[activity] - x, -y, z)
     assert math.dist((x, y, z), other) < 0.05
-
-
-def test_grips_hold_hands_and_feet() -> None:
-    hand, foot = (0.35, -0.15, 1.0), (0.1, 0.12, 0.3)
-    grips = (("right hand", hand), ("left foot", foot))
-    body = pose_joints(Pose(0.4, 0.0, 0.0, "stand", grips=grips))
-    assert body.hands[1] == pytest.approx(hand)
-    assert body.ankles[0] == pytest.approx(foot)
 
 
 def test_places_of_a_body_have_upright_right_handed_axes() -> None:
@@ -189,16 +145,3 @@ def test_a_hand_moves_smoothly_and_keeps_its_parts(gesture: str) -> None:
         assert len(before) == count
         for a, b in zip(before, after, strict=True):
             assert np.abs(b.to_body[:, 3] - a.to_body[:, 3]).max() < 5e-3
-
-
-@given(time_s=st.floats(-2.0, 5.0))
-def test_keys_are_met_and_slopes_continuous(time_s: float) -> None:
-    keys = [(0.0, (0.0, 1.0)), (0.5, (2.0, 0.0)), (1.5, (-1.0, 3.0))]
-    for when, values in keys:
-        assert follow_keys(when, keys) == pytest.approx(values)
-        assert follow_keys(when + 4.0, keys, 2.0) == pytest.approx(values, abs=1e-9)
-    assert max(follow_keys(time_s, keys)) <= 3.0  # no overshoot at an extreme
-    h = 1e-5
-    left = np.subtract(follow_keys(time_s, keys, 2.0), follow_keys(time_s - h, keys, 2.0)) / h
-    right = np.subtract(follow_keys(time_s + h, keys, 2.0), follow_keys(time_s, keys, 2.0)) / h
-    np.testing.assert_allclose(left, right, atol=5e-3)

@@ -3,7 +3,6 @@
 import math
 from dataclasses import fields
 
-import numpy as np
 import pytest
 
 from texvent.scenes.models.people import person
@@ -19,7 +18,7 @@ from texvent.scenes.models.people.outfit import (
     put_on,
     read_table,
 )
-from texvent.scenes.models.people.props import HOLDS, PROPS, list_props
+from texvent.scenes.models.people.props import HOLDS, PROPS
 from texvent.scenes.models.people.track import read_track
 from texvent.scenes.models.protocol import Pose
 
@@ -94,21 +93,3 @@ def test_clothes_have_their_colour_or_their_usual_one() -> None:
         .parts(Pose(0.0, 0.0, 0.0, "stand"))
     )
     assert sum(part.colour == RED for part in parts) >= 10
-
-
-def test_what_one_stands_on_grows_with_the_body_and_what_a_hand_holds_does_not() -> None:
-    def width(activity: str, size: float) -> float:
-        (first, *_) = list_props(activity, size)[0].draw(0.0)
-        return float(np.linalg.norm(first.to_body[:, :3]))
-
-    assert width("skate", 0.5) == pytest.approx(0.5 * width("skate", 1.0))
-    assert width("drink", 0.5) == width("drink", 1.0)
-
-
-def test_balls_and_ropes_are_where_hands_are() -> None:
-    low = min(PROPS["dribble"][0].draw(t)[0].to_body[2, 3] for t in np.arange(0.0, 1.0, 0.01))
-    assert low == pytest.approx(0.12, abs=0.01)
-    shot = PROPS["shoot basket"][0]
-    at = [shot.draw(t)[0].to_body[:, 3] for t in (0.75 - 1e-6, 0.75 + 1e-6, 1.5 - 1e-6, 1.5 + 1e-6)]
-    np.testing.assert_allclose(at[0], at[1], atol=1e-4)
-    np.testing.assert_allclose(at[2], at[3], atol=1e-4)

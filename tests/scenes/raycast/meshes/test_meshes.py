@@ -13,7 +13,7 @@ from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball, ball_mesh
 
 from texvent.errors import InputError
 from texvent.runtime.jit import jit
-from texvent.scenes.mesh import deformed, make_mesh, recoloured, smooth_normals
+from texvent.scenes.mesh import deformed, make_mesh, smooth_normals
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.meshes.hit import hit_mesh
 from texvent.scenes.raycast.render import render, world_at
@@ -97,29 +97,6 @@ def test_meshes_that_are_none_are_refused_in_one_line() -> None:
         make_mesh(corners * np.nan, np.array([[0, 1, 2]]))
 
 
-def test_a_fine_ball_of_triangles_looks_like_the_sphere() -> None:
-    mesh, to_body = ball_mesh(96, 48)
-    scene = MeshScene(lambda time: (mesh, to_body))
-    primitives = scene.primitives(0.0)
-
-    class Sphere(MeshScene):
-        def primitives(self, time_s):
-            from dataclasses import replace
-
-            return replace(
-                primitives,
-                shape=np.zeros(1, dtype=np.int8),
-                mesh=None,
-                colour=np.full((1, 3), 0.5, dtype=np.float32),
-            )
-
-    drawn = render(scene, 0.0, SensorSize(96, 72))
-    smooth = render(Sphere(scene.mesh_at), 0.0, SensorSize(96, 72))
-    difference = np.abs(drawn - smooth).max(axis=2)
-    assert np.median(difference[difference > 0.0]) < 1.0
-    assert np.quantile(difference, 0.995) < 8.0
-
-
 def turning(time_s):
     c, s = math.cos(time_s), math.sin(time_s)
     return np.array([[c, -s, 0.0, 0.2 * time_s], [s, c, 0.0, 0.0], [0.0, 0.0, 1.0, -0.1 * time_s]])
@@ -186,12 +163,6 @@ def check_flow(scene) -> None:
         moved = project(scene.camera(times[1]), (weights @ stop[one])[None], size)[0]
         expected = moved - [column + 0.5, row + 0.5]
         np.testing.assert_allclose(truth.flow[row, column], expected, atol=1e-4)
-
-
-def test_a_recoloured_mesh_keeps_its_shading_and_takes_the_colour() -> None:
-    mesh, _ = ball_mesh()
-    red = recoloured(mesh, (0.6, 0.0, 0.0))
-    np.testing.assert_allclose(red.colours, np.broadcast_to([0.6, 0.0, 0.0], red.colours.shape))
 
 
 def test_shadow_of_a_mesh_falls_on_the_ground() -> None:
