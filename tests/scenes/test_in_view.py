@@ -34,13 +34,13 @@ def unseen_from(
     return find_unseen(scene, description, scene.object_of, SIZE, DURATION_S)
 
 
-def test_what_the_camera_frames_is_in_view_and_what_is_worn_is_part_of_who_wears_it() -> None:
+def test_what_the_camera_frames_is_in_view_and_what_is_worn_is_part_of_who_wears_it():
     assert unseen_from(CAR, SceneObject("tree", 2), SceneObject("dog")) == Unseen((), ())
     worn = (Relation("wear", 0, (1,)),)
     assert unseen_from(SceneObject("man"), SceneObject("hat"), relations=worn).out_of_view == ()
 
 
-def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted() -> None:
+def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted():
     behind = unseen_from(CAR, position=(0.0, -30.0, 1.5), target=(0.0, -60.0, 1.5))
     assert behind.out_of_view == ("car",)
     beside = unseen_from(SceneObject("car", 3), position=(0.0, -3.5, 1.0))
@@ -48,13 +48,13 @@ def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted() -> No
 
 
 @pytest.mark.parametrize(("distance_m", "is_small"), [(20.0, False), (1500.0, True)])
-def test_what_is_far_away_is_too_small(distance_m: float, is_small: bool) -> None:
+def test_what_is_far_away_is_too_small(distance_m, is_small):
     found = unseen_from(CAR, position=(0.0, -distance_m, 1.0))
     assert bool(found.too_small or found.out_of_view) == is_small
     assert all(one.startswith("car (") and "pixel" in one for one in found.too_small)
 
 
-def test_pixels_of_small_things_are_counted_one_by_one() -> None:
+def test_pixels_of_small_things_are_counted_one_by_one():
     objects = (SceneObject("ball"), SceneObject("house"))
     description = SceneDescription("", objects, surroundings=Surroundings("plain"))
     scene = compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)

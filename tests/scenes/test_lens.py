@@ -44,7 +44,7 @@ def camera_with(lens: Lens | None) -> Camera:
 
 
 @BOTH
-def test_projection_agrees_with_opencv(lens: Lens) -> None:
+def test_projection_agrees_with_opencv(lens):
     camera = camera_with(lens)
     seen = np.random.default_rng(1).uniform((-4, -3, 4), (4, 3, 9), (500, 3))
     ours = project(camera, SIZE, seen @ camera.rotation + camera.position)
@@ -58,7 +58,7 @@ def test_projection_agrees_with_opencv(lens: Lens) -> None:
 
 @BOTH
 @given(x=st.floats(0.0, 160.0), y=st.floats(0.0, 120.0))
-def test_the_ray_through_a_point_leads_back_to_it(lens: Lens, x: float, y: float) -> None:
+def test_the_ray_through_a_point_leads_back_to_it(lens, x, y):
     point = np.array([[x, y]])
     plane = normalised(lens, point)
     back = distort(lens, plane) * [lens.fx, lens.fy] + [lens.cx, lens.cy]
@@ -66,7 +66,7 @@ def test_the_ray_through_a_point_leads_back_to_it(lens: Lens, x: float, y: float
 
 
 @BOTH
-def test_kernel_and_reference_give_the_same_rays(lens: Lens) -> None:
+def test_kernel_and_reference_give_the_same_rays(lens):
     scene = HandScene(camera_at=lambda time: camera_with(lens))
     instant = world_at(scene, 0.0, SIZE).instant[0]
     points = np.random.default_rng(2).uniform((0, 0), SIZE, (300, 2))
@@ -76,7 +76,7 @@ def test_kernel_and_reference_give_the_same_rays(lens: Lens) -> None:
 
 
 @BOTH
-def test_flow_and_depth_agree_with_the_projection(lens: Lens) -> None:
+def test_flow_and_depth_agree_with_the_projection(lens):
     """A still ground under a moving camera: flow is the difference of projections."""
 
     def camera_at(time_s: float) -> Camera:
@@ -95,7 +95,7 @@ def test_flow_and_depth_agree_with_the_projection(lens: Lens) -> None:
     np.testing.assert_allclose(truth.flow[row, column], expected, atol=1e-5)
 
 
-def test_a_lens_without_distortion_is_the_pinhole() -> None:
+def test_a_lens_without_distortion_is_the_pinhole():
     plain = Lens(160.0, 160.0, 80.0, 60.0)
     weak = Lens(160.0, 160.0, 80.0, 60.0, "radtan", (1e-9, 0.0, 0.0, 0.0))
     scenes = [
@@ -116,12 +116,12 @@ def test_a_lens_without_distortion_is_the_pinhole() -> None:
         (Lens(0.0, 110.0, 80.0, 60.0), "focal lengths are 0 and 110"),
     ],
 )
-def test_a_lens_that_cannot_fill_the_image_is_refused(lens: Lens, words: str) -> None:
+def test_a_lens_that_cannot_fill_the_image_is_refused(lens, words):
     with pytest.raises(ConfigError, match=words):
         lens_reach(lens, SIZE)
 
 
-def test_a_fisheye_that_looks_behind_has_a_dark_rim() -> None:
+def test_a_fisheye_that_looks_behind_has_a_dark_rim():
     """40 px per radian: 85° is 59.3 px from the axis; what is further is black and not moving."""
     wide = Lens(40.0, 40.0, 80.0, 60.0, "equidistant")
     assert lens_reach(wide, SIZE).dark == pytest.approx(1.0 - np.pi * 59.3**2 / 19_200, abs=0.05)

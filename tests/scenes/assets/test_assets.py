@@ -38,11 +38,11 @@ def corners_at(asset: Asset, time_s: float, activity: str = "move") -> np.ndarra
         ("007.ply", "007"),
     ],
 )
-def test_names_come_from_file_names(name: str, noun: str) -> None:
+def test_names_come_from_file_names(name, noun):
     assert name_of(Path(name)) == noun
 
 
-def test_a_scene_brings_models_by_path(tmp_path: Path) -> None:
+def test_a_scene_brings_models_by_path(tmp_path):
     write_bar(tmp_path / "bar.glb")
     path = tmp_path / "scene.toml"
     path.write_text(
@@ -68,7 +68,7 @@ def test_a_scene_brings_models_by_path(tmp_path: Path) -> None:
         load_scene(path)
 
 
-def test_a_skin_bends_with_its_joint(tmp_path: Path) -> None:
+def test_a_skin_bends_with_its_joint(tmp_path):
     asset = Asset(write_bar(tmp_path / "bar.glb"), "bar")
     straight, bent = corners_at(asset, 0.0), corners_at(asset, 0.5)
     np.testing.assert_allclose(np.ptp(straight[:, 2]), 2.0, atol=1e-6)
@@ -82,7 +82,7 @@ def test_a_skin_bends_with_its_joint(tmp_path: Path) -> None:
     np.testing.assert_allclose(bent[lower], straight[lower], atol=1e-9)
 
 
-def test_nodes_move_by_their_rule_and_activities_choose_animations(tmp_path: Path) -> None:
+def test_nodes_move_by_their_rule_and_activities_choose_animations(tmp_path):
     asset = Asset(write_slider(tmp_path / "thing.glb"), "thing")
     start = corners_at(asset, 0.0).mean(axis=0)
     np.testing.assert_allclose(corners_at(asset, 0.25).mean(axis=0) - start, [0, 0.5, 0], atol=1e-6)
@@ -91,7 +91,7 @@ def test_nodes_move_by_their_rule_and_activities_choose_animations(tmp_path: Pat
     np.testing.assert_allclose(running, start, atol=1e-6)
 
 
-def test_a_generated_scene_shows_assets_and_says_which_files(tmp_path: Path) -> None:
+def test_a_generated_scene_shows_assets_and_says_which_files(tmp_path):
     write_bar(tmp_path / "wobbly_lamp.glb")
     config = ProceduralConfig(duration=0.5, assets=tmp_path)
     video = ProceduralGenerator(config, seed=1, size=SensorSize(48, 36)).generate("a wobbly lamp")
@@ -110,7 +110,7 @@ def test_a_generated_scene_shows_assets_and_says_which_files(tmp_path: Path) -> 
         check_files(video.metadata["files"])
 
 
-def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path: Path) -> None:
+def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path):
     write_bar(tmp_path / "car.glb")
     write_slider(tmp_path / "sports_van.glb")
     write_slider(tmp_path / "gizmo.glb")
@@ -124,7 +124,7 @@ def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path: 
     assert said.count("car") == 1
 
 
-def test_an_index_names_sizes_and_turns(tmp_path: Path) -> None:
+def test_an_index_names_sizes_and_turns(tmp_path):
     write_slider(tmp_path / "m_17.glb")
     (tmp_path / "assets.toml").write_text(
         '["m_17.glb"]\nnoun = "weathercock"\nsynonyms = ["vane"]\nheight = 3.0\n'
@@ -148,7 +148,7 @@ def test_an_index_names_sizes_and_turns(tmp_path: Path) -> None:
         ('["a.glb"]\nsynonyms = "one"\n', "list of words"),
     ],
 )
-def test_a_bad_index_is_one_clear_line(tmp_path: Path, text: str, message: str) -> None:
+def test_a_bad_index_is_one_clear_line(tmp_path, text, message):
     write_slider(tmp_path / "a.glb")
     (tmp_path / "assets.toml").write_text(text)
     with pytest.raises(FileFormatError, match=message) as caught:
@@ -156,7 +156,7 @@ def test_a_bad_index_is_one_clear_line(tmp_path: Path, text: str, message: str) 
     assert "\n" not in str(caught.value)
 
 
-def test_damaged_glb_files_are_one_clear_line(tmp_path: Path) -> None:
+def test_damaged_glb_files_are_one_clear_line(tmp_path):
     whole = write_bar(tmp_path / "whole.glb").read_bytes()
     cases = {
         "short.glb": whole[:40],
@@ -197,7 +197,7 @@ def write_obj(folder: Path) -> Path:
     return path
 
 
-def test_an_obj_brings_its_materials_and_image_upright(tmp_path: Path) -> None:
+def test_an_obj_brings_its_materials_and_image_upright(tmp_path):
     pytest.importorskip("trimesh")
     model = load_model(Asset(write_obj(tmp_path), "panel", height=1.0))
     (part,) = model.parts(Pose(0.0, 0.0, 0.0))
@@ -214,7 +214,7 @@ def test_an_obj_brings_its_materials_and_image_upright(tmp_path: Path) -> None:
     np.testing.assert_allclose(mesh.colours[~shown][0, 0], [0.0, 0.0, 1.0], atol=0.01)
 
 
-def test_a_ply_brings_colours_and_stands_on_z(tmp_path: Path) -> None:
+def test_a_ply_brings_colours_and_stands_on_z(tmp_path):
     pytest.importorskip("trimesh")
     path = tmp_path / "scan.ply"
     path.write_text(
@@ -230,7 +230,7 @@ def test_a_ply_brings_colours_and_stands_on_z(tmp_path: Path) -> None:
     assert part.mesh.colours.max(axis=(0, 1)) == pytest.approx([1.0, 1.0, 0.0])
 
 
-def test_the_pack_of_more_nouns_is_whole() -> None:
+def test_the_pack_of_more_nouns_is_whole():
     pack = Path(__file__).parents[3] / "packs" / "more-nouns"
     assets = read_folder(pack)
     assert len(assets) > 400

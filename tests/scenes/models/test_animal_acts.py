@@ -17,7 +17,7 @@ def parts_at(noun: str, act: str, time_s: float) -> list:
 
 
 @pytest.mark.parametrize("noun", ["dog", "cat", "horse", "cow", "zebra", "rabbit", "elephant"])
-def test_a_grazing_mouth_is_low(noun: str) -> None:
+def test_a_grazing_mouth_is_low(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     pose = Pose(0.2, 0.0, 0.0, "graze")
     place = "trunk" if noun == "elephant" else "mouth"
@@ -27,7 +27,7 @@ def test_a_grazing_mouth_is_low(noun: str) -> None:
 
 
 @pytest.mark.parametrize("noun", ["dog", "horse", "bird", "ostrich"])
-def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun: str) -> None:
+def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     size, ground = model.height, bounds(parts_at(noun, "stand", 0.0))[0][2]
     acts = NOUNS[noun].acts
@@ -47,7 +47,7 @@ def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun: str) -> None:
 
 
 @pytest.mark.parametrize("noun", QUADRUPEDS)
-def test_sitting_lowers_the_hips_and_lying_the_whole(noun: str) -> None:
+def test_sitting_lowers_the_hips_and_lying_the_whole(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     rump = [model.parts(Pose(0.0, 0.0, 0.0, act))[2].to_body[2, 3] for act in ("stand", "sit")]
     assert rump[1] < rump[0]

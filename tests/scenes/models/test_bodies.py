@@ -22,7 +22,7 @@ def middles(model: Model, pose: Pose) -> np.ndarray:
     return np.array([part.to_body[:, 3] for part in model.parts(pose)])
 
 
-def test_a_cycle_counts_seconds_or_metres() -> None:
+def test_a_cycle_counts_seconds_or_metres():
     pose = Pose(0.5, 3.0, 1.0)
     assert read_cycle(["2hz"])(pose, 0) == pytest.approx(1.0)
     assert read_cycle(["1.5/m", "from", ".25"])(pose, 0) == pytest.approx(4.75)
@@ -38,15 +38,13 @@ def test_a_cycle_counts_seconds_or_metres() -> None:
         ("grow xyz 0 0 1 .1 .5hz", 1.0, (0.55, 0.55, 0.55)),
     ],
 )
-def test_a_stretched_part_keeps_its_pivot(
-    text: str, time_s: float, size: tuple[float, float, float]
-) -> None:
+def test_a_stretched_part_keeps_its_pivot(text, time_s, size):
     motion = read_joint(text).motion(Pose(time_s, 0.0, 0.0), 0)
     np.testing.assert_allclose(np.diag(motion[:, :3]), size)
     np.testing.assert_allclose(motion @ [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0])
 
 
-def test_a_wave_bends_the_tail_more_than_the_head_and_less_at_rest() -> None:
+def test_a_wave_bends_the_tail_more_than_the_head_and_less_at_rest():
     wave = read_wave("y .1 1hz")
     parts = [limb(Material(WHITE), (x - 0.1, 0, 0), (x + 0.1, 0, 0), 0.05) for x in (0.4, -0.4)]
     reach = {
@@ -78,7 +76,7 @@ foot = "ball paint   0 0 0   .1 .1 .1"
 """
 
 
-def test_a_foot_on_the_ground_does_not_slide() -> None:
+def test_a_foot_on_the_ground_does_not_slide():
     model = build(LEGS)
     distances = np.linspace(0.0, 1.0, 101)
     feet = np.array([middles(model, Pose(0.0, d, 2.0))[3::3] for d in distances])

@@ -86,7 +86,7 @@ def all_points(model: Model, *poses: Pose) -> np.ndarray:
     return np.concatenate([surface_points(part) for part in parts.values()])
 
 
-def test_every_word_means_one_noun_and_is_lower_case() -> None:
+def test_every_word_means_one_noun_and_is_lower_case():
     owner: dict[str, str] = {}
     for key, noun in NOUNS.items():
         assert key == noun.name
@@ -96,7 +96,7 @@ def test_every_word_means_one_noun_and_is_lower_case() -> None:
 
 
 @for_every_noun
-def test_parts_keep_their_number_order_and_handedness(noun: Noun) -> None:
+def test_parts_keep_their_number_order_and_handedness(noun):
     for seed, colour, scale in ((0, None, 1.0), (7, RED, 0.3)):
         model = noun.build(colour=colour, scale=scale, seed=seed)
         posed = [model.parts(pose) for pose in (POSES if seed == 0 else POSES[::3])]
@@ -117,7 +117,7 @@ def test_parts_keep_their_number_order_and_handedness(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_size_holds_all_parts_and_is_not_loose(noun: Noun) -> None:
+def test_size_holds_all_parts_and_is_not_loose(noun):
     model = build(noun, seed=2)
     points = all_points(model, *(pose for pose in POSES if pose.activity != "sit"))
     reach = np.abs(points).max(axis=0)
@@ -131,7 +131,7 @@ def test_size_holds_all_parts_and_is_not_loose(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_scale_scales_everything(noun: Noun) -> None:
+def test_scale_scales_everything(noun):
     usual, double = usual_model(noun), build(noun, scale=2.0, seed=1)
     assert double.length == pytest.approx(2.0 * usual.length)
     assert double.height == pytest.approx(2.0 * usual.height)
@@ -142,7 +142,7 @@ def test_scale_scales_everything(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
+def test_things_on_the_ground_stand_on_it(noun):
     if noun.habitat not in ("ground", "fixed") or noun.name in MOUNDS | HUNG:
         return
     model = usual_model(noun)
@@ -154,7 +154,7 @@ def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
+def test_a_millisecond_moves_nothing_far(noun):
     model = usual_model(noun)
     speed = max(noun.speed_m_s, 1.0)
     extent = max(model.length, model.width, model.height)
@@ -182,7 +182,7 @@ def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_a_colour_word_shows(noun: Noun) -> None:
+def test_a_colour_word_shows(noun):
     if noun.name in LINES:
         return
     violet = (0.31, 0.02, 0.47)
@@ -194,7 +194,7 @@ def test_a_colour_word_shows(noun: Noun) -> None:
 
 
 @pytest.mark.parametrize("name", ["ball", "football", "sphere", "wheel", "car", "truck", "bicycle"])
-def test_rolling_nouns_turn_by_distance_over_radius(name: str) -> None:
+def test_rolling_nouns_turn_by_distance_over_radius(name):
     for scale in (1.0, 2.5):
         model = build(NOUNS[name], scale=scale)
         step = 1e-3
@@ -211,7 +211,7 @@ def test_rolling_nouns_turn_by_distance_over_radius(name: str) -> None:
         np.testing.assert_allclose(rates, 1.0, rtol=1e-4)
 
 
-def test_a_knee_bends_forward_by_hand() -> None:
+def test_a_knee_bends_forward_by_hand():
     # A 3-4-5 triangle: hip at height 8, ankle at 0, both bones 5 long.
     assert limbs.bend((0, 0, 8.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0)) == pytest.approx((3, 0, 4))
     straight = limbs.bend((0, 0, 12.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0))
@@ -219,13 +219,13 @@ def test_a_knee_bends_forward_by_hand() -> None:
 
 
 @pytest.mark.parametrize("scale", [0.0, -1.0, math.nan, math.inf])
-def test_a_figure_fails_on_an_impossible_scale(scale: float) -> None:
+def test_a_figure_fails_on_an_impossible_scale(scale):
     with pytest.raises(InputError, match="scale must be a positive number"):
         NOUNS["car"].build(colour=None, scale=scale, seed=0)
 
 
 @pytest.mark.parametrize("name", sorted(nouns_with("shows a picture")))
-def test_a_picture_is_shown_by_the_first_part_a_flat_box(name: str) -> None:
+def test_a_picture_is_shown_by_the_first_part_a_flat_box(name):
     face = build(NOUNS[name]).parts(POSES[0])[0]
     assert face.shape is Shape.BOX
     deep, wide, tall = np.linalg.norm(face.to_body[:, :3], axis=0)

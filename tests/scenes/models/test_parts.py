@@ -35,7 +35,7 @@ def listed() -> list[Noun]:
     return [noun for noun in NOUNS.values() if isinstance(noun.build, PartsBuilder)]
 
 
-def test_every_noun_of_the_files_is_as_it_was() -> None:
+def test_every_noun_of_the_files_is_as_it_was():
     entries = DIGEST.read_text("utf-8").replace("\n", ";").strip(";").split(";")
     stored = {name.strip(): line.split() for name, line in (one.split(":") for one in entries)}
     found = {noun.name: describe(noun) for noun in listed()}
@@ -46,7 +46,7 @@ def test_every_noun_of_the_files_is_as_it_was() -> None:
         np.testing.assert_allclose(numbers, wanted, rtol=0.02, atol=2e-3, err_msg=name)
 
 
-def test_every_noun_has_a_class_id() -> None:
+def test_every_noun_has_a_class_id():
     assert set(NOUNS) <= set(CLASS_IDS)
     assert (CLASS_IDS["airplane"], CLASS_IDS["zebra"], CLASS_IDS["hand"]) == (1, 117, 118)
     # Numbers from `FIRST_OTHER` on are of names that are no nouns.
@@ -59,7 +59,7 @@ def one(line: str) -> np.ndarray:
     return parts[0].to_body
 
 
-def test_lines_of_single_shapes_by_hand() -> None:
+def test_lines_of_single_shapes_by_hand():
     np.testing.assert_allclose(
         one("box red  1 2 3  2 4 6"), [[1, 0, 0, 1], [0, 2, 0, 2], [0, 0, 3, 3]]
     )
@@ -81,7 +81,7 @@ def places(text: str) -> list[tuple[float, ...]]:
     return [tuple(np.round(part.to_body[:, 3], 6) + 0.0) for part in parts]
 
 
-def test_one_line_may_be_many_parts() -> None:
+def test_one_line_may_be_many_parts():
     assert places("ball red  ±1 ±2 3  1 1 1") == [(1, 2, 3), (1, -2, 3), (-1, 2, 3), (-1, -2, 3)]
     assert places("ball red  0 0 0  1 1 1  times 3 0 .5 1") == [(0, 0, 0), (0, 0.5, 1), (0, 1, 2)]
     assert places("ball red  0 0 1  1 1 1  also 0 2 1  3 0 0") == [(0, 0, 1), (0, 2, 1), (3, 0, 0)]
@@ -106,7 +106,7 @@ def test_one_line_may_be_many_parts() -> None:
         ("box", "a line is a shape"),
     ],
 )
-def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
+def test_a_bad_line_is_named(tmp_path, line, message):
     file = tmp_path / "mine.toml"
     file.write_text(f'[thing]\nparts = "{line}"\n')
     (noun,) = read_nouns(file)
@@ -127,7 +127,7 @@ def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
         ("[a\n", "mine.toml"),
     ],
 )
-def test_a_bad_file_is_one_clear_line(tmp_path: Path, text: str, message: str) -> None:
+def test_a_bad_file_is_one_clear_line(tmp_path, text, message):
     file = tmp_path / "mine.toml"
     file.write_text(text)
     with pytest.raises(FileFormatError, match=message) as caught:
@@ -135,7 +135,7 @@ def test_a_bad_file_is_one_clear_line(tmp_path: Path, text: str, message: str) -
     assert "\n" not in str(caught.value)
 
 
-def test_surfaces_by_hand() -> None:
+def test_surfaces_by_hand():
     hues = {"paint": (0.2, 0.4, 0.6)}
     assert read_surface("paint", hues) == Material((0.2, 0.4, 0.6))
     assert read_surface("paint*.5", hues).colour == pytest.approx((0.1, 0.2, 0.3))
@@ -157,7 +157,7 @@ def turned(text: str, pose: Pose, point: tuple[float, ...], seed: int = 0) -> li
     return where
 
 
-def test_joints_by_hand() -> None:
+def test_joints_by_hand():
     quarter = Pose(0.25, 0.0, 0.0)
     assert turned("spin z 0 0 0 1hz", quarter, (1, 0, 0)) == [0, 1, 0]
     assert turned("swing z 1 0 0 90deg 1hz", quarter, (2, 0, 0)) == [1, 1, 0]
@@ -182,7 +182,7 @@ def _model(text: str, tmp_path: Path, *, colour: tuple[float, float, float] | No
     return read_nouns(file)[0].build(colour=colour, scale=1.0, seed=0)
 
 
-def test_a_file_of_ones_own(tmp_path: Path) -> None:
+def test_a_file_of_ones_own(tmp_path):
     text = """
 place = "indoor"
 [mobile]
@@ -204,7 +204,7 @@ ball paint*.5  0 1 .5  .2 .2 .2'''
     np.testing.assert_allclose(second[2].to_body[:, 3], [-1, 0, 0.5], atol=1e-9)
 
 
-def test_a_noun_may_be_like_another(tmp_path: Path) -> None:
+def test_a_noun_may_be_like_another(tmp_path):
     file = tmp_path / "mine.toml"
     file.write_text(
         '[stool]\nnames = ["seat"]\nplace = "indoor"\nparts = "box red 0 0 1 1 1 1"\n'

@@ -36,7 +36,7 @@ def write_video(path: Path, levels: list[int], pts: list[int]) -> Path:
     return path
 
 
-def test_a_video_is_shown_by_its_own_times_and_plays_again(tmp_path: Path) -> None:
+def test_a_video_is_shown_by_its_own_times_and_plays_again(tmp_path):
     path = write_video(tmp_path / "clip.mkv", [0, 255, 128, 64], [0, 10, 40, 50])
     source = load_picture(Picture("file", str(path)))
 
@@ -52,13 +52,13 @@ def test_a_video_is_shown_by_its_own_times_and_plays_again(tmp_path: Path) -> No
     assert source(0.11) is source(0.2)
 
 
-def test_a_played_video_travels_to_other_processes(tmp_path: Path) -> None:
+def test_a_played_video_travels_to_other_processes(tmp_path):
     video = PlayedVideo(write_video(tmp_path / "clip.mkv", [10, 200], [0, 10]))
     again = pickle.loads(pickle.dumps(video))
     np.testing.assert_array_equal(again.at(0.1).levels[0], video.at(0.1).levels[0])
 
 
-def test_an_image_file_is_read_in_linear_light(tmp_path: Path) -> None:
+def test_an_image_file_is_read_in_linear_light(tmp_path):
     path = tmp_path / "grey.png"
     cv2.imwrite(str(path), np.full((5, 7, 3), 188, dtype=np.uint8))
     image = load_picture(Picture("file", str(path)))(0.0)
@@ -66,7 +66,7 @@ def test_an_image_file_is_read_in_linear_light(tmp_path: Path) -> None:
     assert image.levels[0].mean() == pytest.approx(0.503, abs=1e-3)
 
 
-def test_text_is_dark_on_white_and_wraps() -> None:
+def test_text_is_dark_on_white_and_wraps():
     short, long = draw_text("7"), draw_text("a long text that needs more than a single line")
     assert long.shape[0] > short.shape[0]
     for image in (short, long):
@@ -87,13 +87,13 @@ def test_text_is_dark_on_white_and_wraps() -> None:
         (Picture("hologram", "x"), "hologram"),
     ],
 )
-def test_a_bad_picture_is_one_clear_line(picture: Picture, message: str) -> None:
+def test_a_bad_picture_is_one_clear_line(picture, message):
     with pytest.raises(InputError, match=message) as caught:
         check_picture(picture)
     assert "\n" not in str(caught.value)
 
 
-def test_damaged_files_are_one_clear_line(tmp_path: Path) -> None:
+def test_damaged_files_are_one_clear_line(tmp_path):
     image, video, other = (tmp_path / name for name in ("a.png", "b.mp4", "c.txt"))
     for path in (image, video, other):
         path.write_bytes(b"nothing of the kind")
@@ -105,7 +105,7 @@ def test_damaged_files_are_one_clear_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("noun", sorted(nouns_with("shows a picture")))
-def test_a_picture_takes_the_place_of_what_is_usually_printed(noun: str) -> None:
+def test_a_picture_takes_the_place_of_what_is_usually_printed(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     pictured = PicturedModel(model, noun, Picture("checkerboard", "9x6"))
     pose = Pose(0.0, 0.0, 0.0)
@@ -115,7 +115,7 @@ def test_a_picture_takes_the_place_of_what_is_usually_printed(noun: str) -> None
     assert len(parts) == len(pictured.parts(Pose(1.0, 0.0, 0.0)))
 
 
-def test_a_scene_shows_the_picture() -> None:
+def test_a_scene_shows_the_picture():
     board = SceneObject("whiteboard", picture=Picture("checkerboard", "9x6"))
     description = SceneDescription("a board", objects=(board,), surroundings=Surroundings("grass"))
     scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=1.0)

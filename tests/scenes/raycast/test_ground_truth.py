@@ -27,7 +27,7 @@ def moving_camera(time: float) -> Camera:
     return look_at((0.4 * time, -8.0 + 0.5 * time, 1.7), (0.8 * time, 0.0, 1.0 + 0.2 * time))
 
 
-def test_tiles_miss_no_shape_and_the_nearest_wins() -> None:
+def test_tiles_miss_no_shape_and_the_nearest_wins():
     scene = replace(showcase(Ground.NONE), class_names=NAMES, camera_at=moving_camera)
     truth = ground_truth(scene, 0.3, 0.3, SIZE)
     primitives, rays = scene.primitives(0.3), camera_rays(scene.camera(0.3), SIZE)
@@ -51,7 +51,7 @@ def test_tiles_miss_no_shape_and_the_nearest_wins() -> None:
     np.testing.assert_allclose(truth.depth[same], expected[same], rtol=1e-6)
 
 
-def test_flow_of_a_moving_ball_is_the_projection_of_its_surface_points() -> None:
+def test_flow_of_a_moving_ball_is_the_projection_of_its_surface_points():
     ball = MovingShape(
         Shape.ELLIPSOID, (1.0, 0.8, 1.2), moving((0.0, 0.0, 1.5), (1.0, 0.5, 0.2)), instance=1,
         spin=0.6,
@@ -74,7 +74,7 @@ def test_flow_of_a_moving_ball_is_the_projection_of_its_surface_points() -> None
     np.testing.assert_allclose(truth.flow[rows, columns], place - centres, atol=1e-4)
 
 
-def test_sky_moves_with_the_cameras_rotation_only() -> None:
+def test_sky_moves_with_the_cameras_rotation_only():
     def shifted(time: float) -> Camera:
         return look_at((time, -8.0, 1.5), (time, 0.0, 1.5))
 
@@ -90,7 +90,7 @@ def test_sky_moves_with_the_cameras_rotation_only() -> None:
     assert turning.flow[10, 40, 0] == pytest.approx(expected, abs=0.05)
 
 
-def test_what_a_shape_moves_in_front_of_is_occluded() -> None:
+def test_what_a_shape_moves_in_front_of_is_occluded():
     front = MovingShape(
         Shape.BOX, (0.5, 0.1, 3.0), moving((-2.0, -2.0, 1.5), (1.0, 0.0, 0.0)), instance=1
     )
@@ -104,7 +104,7 @@ def test_what_a_shape_moves_in_front_of_is_occluded() -> None:
     assert not truth.occluded[truth.instance == 1].any()
 
 
-def test_a_point_that_leaves_the_image_or_passes_the_camera_is_occluded() -> None:
+def test_a_point_that_leaves_the_image_or_passes_the_camera_is_occluded():
     def forward(time: float) -> Camera:
         return look_at((0.0, -8.0 + time, 1.5), (0.0, time, 1.5))
 
@@ -115,7 +115,7 @@ def test_a_point_that_leaves_the_image_or_passes_the_camera_is_occluded() -> Non
     assert truth.occluded[passed].all()
 
 
-def test_boxes_hold_the_visible_pixels_and_say_how_much_is_visible() -> None:
+def test_boxes_hold_the_visible_pixels_and_say_how_much_is_visible():
     front = MovingShape(Shape.BOX, (0.5, 0.1, 3.0), still(0.5, -2.0, 1.5), instance=7)
     back = MovingShape(Shape.BOX, (1.0, 0.1, 1.0), still(0.0, -0.1, 1.5), instance=3)
     gone = MovingShape(Shape.BOX, (0.2, 0.1, 0.2), still(0.5, 0.0, 1.5), instance=5)

@@ -15,7 +15,7 @@ UNIT_SHAPES = [shape for shape in Shape if shape is not Shape.MESH]
 
 
 @pytest.mark.parametrize("shape", UNIT_SHAPES)
-def test_a_ray_that_starts_inside_or_points_away_meets_nothing(shape: Shape) -> None:
+def test_a_ray_that_starts_inside_or_points_away_meets_nothing(shape):
     assert hit_shape(int(shape), (0.0, 0.0, -0.5), (0.3, 0.2, 0.1), 0.0)[0] == math.inf
     assert hit_shape(int(shape), (0.0, 0.0, -3.0), (0.1, 0.2, -1.0), 0.0)[0] == math.inf
 
@@ -29,7 +29,7 @@ def rays(seed: int, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.parametrize("shape", UNIT_SHAPES)
-def test_the_kernel_equals_the_reference_on_random_rays(shape: Shape) -> None:
+def test_the_kernel_equals_the_reference_on_random_rays(shape):
     origins, directions = rays(int(shape), 3000)
     expected = hit_shape_reference(shape, origins, directions)
     found = np.array(

@@ -21,7 +21,7 @@ FOOTPRINTS = st.floats(0.01, 5.0)
 
 @given(x=PLACES, footprint=FOOTPRINTS)
 @settings(max_examples=60)
-def test_a_square_wave_is_the_average_over_the_footprint(x: float, footprint: float) -> None:
+def test_a_square_wave_is_the_average_over_the_footprint(x, footprint):
     points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
     expected = np.mean(points - np.floor(points) < 0.5)
     assert square_wave(x, footprint) == pytest.approx(expected, abs=2e-3)
@@ -29,9 +29,7 @@ def test_a_square_wave_is_the_average_over_the_footprint(x: float, footprint: fl
 
 @given(x=PLACES, footprint=FOOTPRINTS, low=PLACES, width=st.floats(0.0, 10.0))
 @settings(max_examples=60)
-def test_a_band_is_the_share_of_the_footprint_inside(
-    x: float, footprint: float, low: float, width: float
-) -> None:
+def test_a_band_is_the_share_of_the_footprint_inside(x, footprint, low, width):
     points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
     expected = np.mean((points >= low) & (points <= low + width))
     assert box_coverage(x, low, low + width, footprint) == pytest.approx(expected, abs=2e-3)
@@ -39,7 +37,7 @@ def test_a_band_is_the_share_of_the_footprint_inside(
 
 @given(x=PLACES, y=PLACES, z=PLACES)
 @settings(max_examples=100)
-def test_noise_is_bounded_and_continuous(x: float, y: float, z: float) -> None:
+def test_noise_is_bounded_and_continuous(x, y, z):
     for value, near in (
         (noise_2d(x, y, 3), noise_2d(x + 1e-4, y - 1e-4, 3)),
         (noise_3d(x, y, z), noise_3d(x + 1e-4, y - 1e-4, z + 1e-4)),
@@ -54,9 +52,7 @@ def test_noise_is_bounded_and_continuous(x: float, y: float, z: float) -> None:
     )
 )
 @settings(max_examples=100)
-def test_every_cell_lists_the_rectangles_that_touch_it_in_order(
-    rectangles: list[tuple[int, int, int, int]],
-) -> None:
+def test_every_cell_lists_the_rectangles_that_touch_it_in_order(rectangles):
     table = np.array(
         [(min(a, b), max(a, b), min(c, d), max(c, d)) for a, b, c, d in rectangles], dtype=np.int64
     ).reshape(-1, 4)

@@ -72,7 +72,7 @@ def numeric_depth(row: Float64Array, scene: HandScene, point: tuple[float, float
 
 
 @given(half=st.floats(0.0, 1.0), start=st.floats(-1.5, 1.5), length=st.floats(0.0, 3.0))
-def test_the_density_along_a_chord_is_its_integral(half: float, start: float, length: float):
+def test_the_density_along_a_chord_is_its_integral(half, start, length):
     s = start + (np.arange(4000) + 0.5) / 4000 * length
     numeric = (np.maximum(half * half - s * s, 0.0) ** 2).mean() * length
     assert density_integral(half, start, start + length) == pytest.approx(numeric, abs=1e-4)

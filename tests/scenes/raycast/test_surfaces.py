@@ -27,7 +27,6 @@ from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.sensor import SensorSize
 
 Floats = np.ndarray
-PLACE = st.floats(0.0, 1.0)
 
 
 def finest(texture: Texture) -> Floats:
@@ -44,7 +43,7 @@ def plain_average(texels: Floats, centre: Floats, right: Floats, down: Floats) -
 
 
 @pytest.mark.parametrize("texture", SURFACES, ids=lambda texture: str(texture.name))
-def test_what_a_pixel_shows_is_the_mean_of_what_it_covers(texture: Texture) -> None:
+def test_what_a_pixel_shows_is_the_mean_of_what_it_covers(texture):
     texels, address = finest(texture), build_tile(texture).ctypes.data
     rng = np.random.default_rng(5)
     errors = []
@@ -62,7 +61,7 @@ def test_what_a_pixel_shows_is_the_mean_of_what_it_covers(texture: Texture) -> N
 
 
 @pytest.mark.parametrize("texture", SURFACES, ids=lambda texture: str(texture.name))
-def test_a_material_keeps_its_mean_at_every_size(texture: Texture) -> None:
+def test_a_material_keeps_its_mean_at_every_size(texture):
     tile = build_tile(texture).astype(np.float64)
     ends = list(itertools.accumulate(SIDE * SIDE >> (2 * level) for level in range(LEVELS)))
     assert tile.shape == (ends[-1], CHANNELS)
@@ -73,7 +72,7 @@ def test_a_material_keeps_its_mean_at_every_size(texture: Texture) -> None:
 
 
 @pytest.mark.parametrize("texture", SURFACES, ids=lambda texture: str(texture.name))
-def test_a_tile_repeats_without_a_seam(texture: Texture) -> None:
+def test_a_tile_repeats_without_a_seam(texture):
     brightness = finest(texture)[..., :2].sum(axis=-1)
     for axis in (0, 1):
         steps = np.abs(np.diff(brightness, axis=axis)).mean(axis=1 - axis)
@@ -81,7 +80,7 @@ def test_a_tile_repeats_without_a_seam(texture: Texture) -> None:
         assert ends <= 1.3 * steps.max()
 
 
-def test_a_material_is_as_large_on_a_big_box_as_on_a_small_one() -> None:
+def test_a_material_is_as_large_on_a_big_box_as_on_a_small_one():
     def image(half: float) -> Floats:
         box = MovingShape(Shape.BOX, (half, 0.1, half), still(0.0, 2.0, 0.0), texture=Texture.BRICK)
         flat = replace(day(Ground.NONE), shadows=False)
@@ -99,9 +98,7 @@ def test_a_material_is_as_large_on_a_big_box_as_on_a_small_one() -> None:
     bend=st.floats(-0.04, 0.04).filter(lambda bend: bend == 0.0 or abs(bend) > 1e-3),
 )
 @settings(max_examples=100)
-def test_the_drawn_road_lies_on_the_line_of_the_staging(
-    x: float, y: float, angle: float, bend: float
-) -> None:
+def test_the_drawn_road_lies_on_the_line_of_the_staging(x, y, angle, bend):
     line = RoadLine(angle, (2.0, -1.0), bend)
     environment = replace(
         day(Ground.ROAD), road_angle=angle, road_offset=np.array([2.0, -1.0]), road_curvature=bend

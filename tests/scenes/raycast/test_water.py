@@ -26,7 +26,7 @@ def draw(prompt: str, time_s: float, wave_height: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("prompt", ["the ocean", "a beach"])
-def test_high_waves_foam_and_move(prompt) -> None:
+def test_high_waves_foam_and_move(prompt):
     flat, high = (draw(prompt, 0.0, height) for height in (1.0, 2.2))
     assert np.count_nonzero(high > flat + 40.0) > 30
     later = draw(prompt, 0.4, 2.2)

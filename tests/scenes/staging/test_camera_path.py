@@ -48,9 +48,7 @@ def film(
 
 @settings(max_examples=30)
 @given(moves, st.sampled_from(["stand", "walk"]))
-def test_every_combination_is_smooth_and_keeps_its_subject(
-    shot: list[CameraMove], kind: str
-) -> None:
+def test_every_combination_is_smooth_and_keeps_its_subject(shot, kind):
     scene = film(*shot, motion=ObjectMotion(kind))
     inside = []
     for time in np.linspace(0.0, DURATION_S, 13):
@@ -67,9 +65,7 @@ def test_every_combination_is_smooth_and_keeps_its_subject(
 
 @pytest.mark.parametrize("direction", ["behind", "front", "side", "above"])
 @pytest.mark.parametrize("motion", [("run", None), ("walk", "away"), ("walk", "circle")])
-def test_a_followed_subject_keeps_its_place_and_size(
-    direction: str, motion: tuple[str, str | None]
-) -> None:
+def test_a_followed_subject_keeps_its_place_and_size(direction, motion):
     scene = film(CameraMove("follow", direction), motion=ObjectMotion(*motion))
     dog = scene.actors[0]
     times = np.linspace(0.0, DURATION_S, 9)
@@ -83,10 +79,11 @@ def test_a_followed_subject_keeps_its_place_and_size(
 
 
 @pytest.mark.parametrize("direction", ["in", "out"])
-def test_a_dolly_zoom_keeps_the_subject_and_changes_the_background(direction: str) -> None:
+def test_a_dolly_zoom_keeps_the_subject_and_changes_the_background(direction):
     scene = film(CameraMove("dolly zoom", direction), noun="man")
     man = scene.actors[0]
-    sizes = [extent(scene, man, float(t)) for t in np.linspace(0.0, DURATION_S, 9)]
+    views = [image_of(scene.camera(t), man.corners(t)) for t in (0.0, 0.5, 1.0, 1.5, 2.0)]
+    sizes = [np.ptp(view[:, :2], axis=0).max() for view in views]
     assert max(sizes) / min(sizes) < 1.02
     behind = man.middle(0.0) + np.array([[-4.0, 30.0, 0.0], [4.0, 30.0, 0.0]])
     spans = [np.ptp(image_of(scene.camera(t), behind)[:, 0]) for t in (0.0, DURATION_S)]
@@ -95,7 +92,7 @@ def test_a_dolly_zoom_keeps_the_subject_and_changes_the_background(direction: st
     assert (ways[1] < ways[0]) == (direction == "in")
 
 
-def test_a_timed_move_starts_and_stops_when_it_says() -> None:
+def test_a_timed_move_starts_and_stops_when_it_says():
     pan = CameraMove("pan", "right", start_s=0.5, stop_s=1.0)
     scene = film(pan, CameraMove("tilt", "up", start_s=1.5), noun="house")
     axes = [scene.camera(t).rotation[2] for t in (0.0, 0.5, 0.75, 1.0, 1.5, 2.0)]

@@ -58,7 +58,7 @@ def seen(scene: ComposedScene, actor: Actor, time_s: float) -> Float64Array:
 
 
 @pytest.mark.parametrize("prompt", PROMPTS)
-def test_the_subjects_are_in_the_image_throughout(prompt: str) -> None:
+def test_the_subjects_are_in_the_image_throughout(prompt):
     scene = staged(prompt)
     movers = [actor for actor in scene.actors if actor.is_mover] or list(scene.actors)
     for actor in movers:
@@ -70,7 +70,7 @@ def test_the_subjects_are_in_the_image_throughout(prompt: str) -> None:
 
 
 @pytest.mark.parametrize("prompt", PROMPTS)
-def test_shapes_keep_their_number_and_order(prompt: str) -> None:
+def test_shapes_keep_their_number_and_order(prompt):
     scene = staged(prompt)
     first = scene.primitives(0.0)
     for time in (0.013, 0.9, 2.0):
@@ -81,7 +81,7 @@ def test_shapes_keep_their_number_and_order(prompt: str) -> None:
         assert np.isfinite(later.to_world).all()
 
 
-def test_the_same_seed_gives_the_same_scene_and_another_seed_another_layout() -> None:
+def test_the_same_seed_gives_the_same_scene_and_another_seed_another_layout():
     description = described(PROMPTS[0])
     layouts = [
         compose_scene(description, seed=seed, size=SIZE, duration_s=2.0) for seed in (0, 0, 1)
@@ -94,7 +94,7 @@ def test_the_same_seed_gives_the_same_scene_and_another_seed_another_layout() ->
         assert (names.count("car"), names.count("tree")) == (1, 2)
 
 
-def test_excluded_nouns_are_no_scenery() -> None:
+def test_excluded_nouns_are_no_scenery():
     scene = staged("a dog runs in a forest without trees, pines or bushes")
     assert "tree" not in scene.class_names.values()
     wooded = staged("a dog runs in a forest")
@@ -102,7 +102,7 @@ def test_excluded_nouns_are_no_scenery() -> None:
 
 
 @pytest.mark.parametrize("hertz", [1.0, 50.0, 120.0])
-def test_flicker_has_exactly_the_stated_frequency(hertz: float) -> None:
+def test_flicker_has_exactly_the_stated_frequency(hertz):
     scene = staged(f"a lamp on a table, the light flickers at {hertz:g} Hz")
     times = np.arange(4000) / 4000.0
     light = np.array([scene.environment(float(t)).ambient[0] for t in times])
@@ -119,7 +119,7 @@ def test_flicker_has_exactly_the_stated_frequency(hertz: float) -> None:
     ("prompt", "sign"),
     [("a car drives toward the camera", -1), ("a bus drives away from the camera", 1)],
 )
-def test_what_comes_or_goes_is_not_followed(prompt: str, sign: int, duration_s: float) -> None:
+def test_what_comes_or_goes_is_not_followed(prompt, sign, duration_s):
     scene = staged(prompt, duration_s=duration_s)
     assert not scene.not_shown
     start, end = (
@@ -130,7 +130,7 @@ def test_what_comes_or_goes_is_not_followed(prompt: str, sign: int, duration_s: 
 
 
 @pytest.mark.parametrize("prompt", PROMPTS)
-def test_actors_do_not_stand_in_one_another(prompt: str) -> None:
+def test_actors_do_not_stand_in_one_another(prompt):
     scene = staged(prompt)
     touching = {"on", *ACTS}
     if any(relation.kind in touching for relation in described(prompt).relations):
@@ -142,7 +142,7 @@ def test_actors_do_not_stand_in_one_another(prompt: str) -> None:
         assert shared < 0.15 * np.prod(high - low, axis=1).min(), (one.noun.name, two.noun.name)
 
 
-def test_a_noun_alone_is_large_in_the_image() -> None:
+def test_a_noun_alone_is_large_in_the_image():
     for name in list(NOUNS)[::7]:
         thing = SceneDescription("", (SceneObject(name),), surroundings=Surroundings("grass"))
         scene = compose_scene(thing, seed=0, size=SIZE, duration_s=2.0)
@@ -155,12 +155,12 @@ def test_a_noun_alone_is_large_in_the_image() -> None:
 
 
 @pytest.mark.parametrize("duration_s", [0.0, -1.0, math.inf, math.nan])
-def test_a_clip_without_a_length_is_an_error(duration_s: float) -> None:
+def test_a_clip_without_a_length_is_an_error(duration_s):
     with pytest.raises(InputError, match="it must be a positive number of seconds"):
         compose_scene(described("a dog"), seed=0, size=SIZE, duration_s=duration_s)
 
 
-def test_fit_gives_the_nearest_station_that_holds_all_points() -> None:
+def test_fit_gives_the_nearest_station_that_holds_all_points():
     points = np.array([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     framing = fit(points, azimuth=0.0, elevation=0.0, aspect=0.75, fill=0.8, focal=1.0)
     assert framing.distance_m == pytest.approx(2.0 * 2.0 / 0.8)
@@ -169,7 +169,7 @@ def test_fit_gives_the_nearest_station_that_holds_all_points() -> None:
 
 
 @pytest.mark.parametrize("nouns", [("house", "tree"), ("ball", "cube"), ("man", "bus")])
-def test_left_and_right_are_so_in_the_picture(nouns: tuple[str, str]) -> None:
+def test_left_and_right_are_so_in_the_picture(nouns):
     objects = tuple(
         SceneObject(noun, side=side) for noun, side in zip(nouns, ("left", "right"), strict=True)
     )

@@ -44,7 +44,7 @@ def seen_from(distance_m: float) -> Framing:
     return Framing(np.zeros(3), 0.0, 0.0, distance_m, 1.0)
 
 
-def test_prominence_is_the_mean_share_of_one_and_the_extent_of_a_group() -> None:
+def test_prominence_is_the_mean_share_of_one_and_the_extent_of_a_group():
     # 0.4 m at 2 m fills 0.2 of the width; 0.6 m fills 0.3 widths, 0.4 of the height.
     found = prominence_of(flat_box(0.4, 0.6))(seen_from(2.0))
     assert found == pytest.approx(np.sqrt(0.2 * 0.4) / 0.3)
@@ -55,7 +55,7 @@ def test_prominence_is_the_mean_share_of_one_and_the_extent_of_a_group() -> None
 
 
 @pytest.mark.parametrize("goal", [0.2, 0.5, 0.9, 5.0])
-def test_the_camera_stops_where_the_subject_reaches_the_goal(goal: float) -> None:
+def test_the_camera_stops_where_the_subject_reaches_the_goal(goal):
     subject = flat_box(0.5, 0.5, 2.0)
     everything = np.vstack([subject, flat_box(9.0, 4.0)])
 
@@ -99,9 +99,7 @@ def place_in_image(scene: ComposedScene, number: int, time_s: float) -> Float64A
     [("hedgehog", "front", "bench", 0.15), ("man", "front", "castle", 0.3),
      ("dog", "beside", "house", 0.15), ("cup", "on", "table", 0.1)],
 )  # fmt: skip
-def test_large_things_do_not_push_the_camera_away(
-    small: str, kind: str, large: str, least: float
-) -> None:
+def test_large_things_do_not_push_the_camera_away(small, kind, large, least):
     objects = (SceneObject(small), SceneObject(large))
     scene = shot_of(*objects, relations=(Relation(kind, 0, (1,)),))
     assert np.ptp(place_in_image(scene, 0, 1.0), axis=0).max() > least
@@ -114,9 +112,7 @@ def test_large_things_do_not_push_the_camera_away(
     [("wave", None, False), ("clap", None, False), ("squat", None, True), ("walk", None, True),
      ("wave", "wide", True), ("walk", "medium", False), ("stand", "close", False)],
 )  # fmt: skip
-def test_the_image_ends_at_the_waist_of_who_acts_with_the_arms_alone(
-    activity: str, framing: str | None, is_whole: bool
-) -> None:
+def test_the_image_ends_at_the_waist_of_who_acts_with_the_arms_alone(activity, framing, is_whole):
     scene = shot_of(SceneObject("man", motion=ObjectMotion(activity)), framing=framing)
     seen = place_in_image(scene, 0, 1.0)
     assert seen[:, 1].min() > -0.05
@@ -126,9 +122,7 @@ def test_the_image_ends_at_the_waist_of_who_acts_with_the_arms_alone(
 @pytest.mark.parametrize(
     ("kind", "outside_s", "inside_s"), [("enter", 0.0, 1.8), ("leave", 2.0, 0.2)]
 )
-def test_what_enters_or_leaves_is_out_of_the_picture_before_or_after(
-    kind: str, outside_s: float, inside_s: float
-) -> None:
+def test_what_enters_or_leaves_is_out_of_the_picture_before_or_after(kind, outside_s, inside_s):
     for noun in ("car", "man", "dog"):
         scene = shot_of(SceneObject(noun, motion=ObjectMotion(kind, "right")))
         outside, inside = (place_in_image(scene, 0, time) for time in (outside_s, inside_s))

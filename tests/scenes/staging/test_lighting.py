@@ -22,7 +22,7 @@ USUAL = np.array((0.0, 0.6, 0.8))
     ("direction", "axis", "sign"), [("left", 0, -1), ("right", 0, 1), ("back", 1, 1),
                                     ("front", 1, -1), ("above", 2, 1)]
 )  # fmt: skip
-def test_light_comes_from_where_it_is_said_to(direction: str, axis: int, sign: int) -> None:
+def test_light_comes_from_where_it_is_said_to(direction, axis, sign):
     towards = towards_light(USUAL, AHEAD, Illumination(direction=direction))
     assert np.linalg.norm(towards) == pytest.approx(1.0)
     assert towards[2] > 0.0
@@ -31,7 +31,7 @@ def test_light_comes_from_where_it_is_said_to(direction: str, axis: int, sign: i
     assert 0.0 < low[2] < 0.3
 
 
-def test_a_tint_has_its_colour() -> None:
+def test_a_tint_has_its_colour():
     def tint(name: str) -> tuple[float, float, float]:
         found = tint_of(Illumination(tint=name))
         assert found is not None
@@ -44,7 +44,7 @@ def test_a_tint_has_its_colour() -> None:
     assert tint("#0000ff") == pytest.approx((0.15, 0.15, 1.0))
 
 
-def test_soft_light_casts_no_shadow_and_hard_light_darkens_them() -> None:
+def test_soft_light_casts_no_shadow_and_hard_light_darkens_them():
     usual = usual_lighting(PLACES["road"], "day")
     soft = choose_lighting(PLACES["road"], Illumination(hardness="soft"))
     hard = choose_lighting(PLACES["road"], Illumination(hardness="hard"))

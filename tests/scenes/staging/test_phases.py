@@ -33,7 +33,7 @@ def path_of(
     return build_path(sequence, NOUNS[noun], model, yaw=0.0, usual_m_s=speed, duration_s=duration_s)
 
 
-def test_stated_times_are_kept() -> None:
+def test_stated_times_are_kept():
     sequence = [ObjectMotion("walk"), ObjectMotion("jump", start_s=2.0), ObjectMotion("sit")]
     starts = [phase.start_s for phase in schedule(sequence, 6.0)]
     assert starts == [0.0, 2.0, 4.0]
@@ -47,9 +47,7 @@ def test_stated_times_are_kept() -> None:
     st.floats(0.0, 4.0),
     st.floats(0.5, 4.0),
 )
-def test_sequences_are_continuous(
-    sequence: list[ObjectMotion], noun: str, time_s: float, duration_s: float
-) -> None:
+def test_sequences_are_continuous(sequence, noun, time_s, duration_s):
     path = path_of(*sequence, noun=noun, duration_s=duration_s)
     assert path.duration_s == pytest.approx(duration_s)
     edges = np.cumsum([piece.duration_s for piece in path.pieces])
@@ -61,7 +59,7 @@ def test_sequences_are_continuous(
 
 
 @pytest.mark.parametrize(("direction", "sign"), [("left", 1.0), ("right", -1.0)])
-def test_a_car_turns_a_quarter_circle_and_drives_on(direction: str, sign: float) -> None:
+def test_a_car_turns_a_quarter_circle_and_drives_on(direction, sign):
     path = path_of(ObjectMotion("turn", direction))
     turned = path.at(4.0).yaw - path.at(0.0).yaw
     assert turned == pytest.approx(sign * 0.5 * math.pi)
@@ -70,7 +68,7 @@ def test_a_car_turns_a_quarter_circle_and_drives_on(direction: str, sign: float)
 
 
 @given(st.floats(0.5, 20.0))
-def test_stated_speeds_are_exact(speed: float) -> None:
+def test_stated_speeds_are_exact(speed):
     path = path_of(
         ObjectMotion("drive", speed_m_s=speed), ObjectMotion("turn", "left", speed_m_s=speed)
     )
@@ -78,7 +76,7 @@ def test_stated_speeds_are_exact(speed: float) -> None:
         assert path.at(time_s).speed_m_s == pytest.approx(speed, rel=1e-12)
 
 
-def test_accelerating_and_braking_end_at_the_end_pace() -> None:
+def test_accelerating_and_braking_end_at_the_end_pace():
     faster = path_of(ObjectMotion("drive", end_pace=2.0))
     assert (faster.at(0.0).speed_m_s, faster.at(4.0).speed_m_s) == (4.0, 8.0)
     braking = path_of(ObjectMotion("drive", end_pace=0.0))
@@ -86,14 +84,14 @@ def test_accelerating_and_braking_end_at_the_end_pace() -> None:
 
 
 @pytest.mark.parametrize(("noun", "rises"), [("balloon", 1.0), ("balloon", -1.0), ("boat", -1.0)])
-def test_what_rises_or_sinks_goes_straight_up_or_down(noun: str, rises: float) -> None:
+def test_what_rises_or_sinks_goes_straight_up_or_down(noun, rises):
     path = path_of(ObjectMotion("rise" if rises > 0.0 else "sink"), noun=noun, speed=1.0)
     first, last = path.at(0.0).position, path.at(4.0).position
     assert first[:2] == pytest.approx(last[:2])
     assert rises * (last[2] - first[2]) > 0.3
 
 
-def test_an_airplane_takes_off_along_a_runway_and_lands_on_it() -> None:
+def test_an_airplane_takes_off_along_a_runway_and_lands_on_it():
     off = path_of(ObjectMotion("rise"), noun="airplane", speed=20.0)
     assert off.at(1.0).position[2] == 0.0
     assert off.at(4.0).position[2] > 5.0
@@ -125,7 +123,7 @@ paths = st.builds(
 
 
 @given(paths, st.floats(-0.5, 9.0))
-def test_position_heading_and_speed_are_continuous(path: SteeredPath, time_s: float) -> None:
+def test_position_heading_and_speed_are_continuous(path, time_s):
     instants = [time_s, *(knot.time_s - 5e-4 for knot in path._knots)]
     for instant in instants:
         before, after = path.at(instant), path.at(instant + 1e-3)
@@ -137,7 +135,7 @@ def test_position_heading_and_speed_are_continuous(path: SteeredPath, time_s: fl
 
 
 @given(paths, st.floats(0.0, 5.0))
-def test_the_velocity_is_the_speed_along_the_heading(path: SteeredPath, time_s: float) -> None:
+def test_the_velocity_is_the_speed_along_the_heading(path, time_s):
     before, middle, after = (path.at(time_s + step) for step in (-1e-5, 0.0, 1e-5))
     velocity = np.subtract(after.position, before.position)[:2] / 2e-5
     signed = (after.distance_m - before.distance_m) / 2e-5
@@ -146,7 +144,7 @@ def test_the_velocity_is_the_speed_along_the_heading(path: SteeredPath, time_s: 
     assert abs(signed) == pytest.approx(middle.speed_m_s, abs=1e-2)
 
 
-def test_a_follower_stays_the_gap_behind_on_the_same_line() -> None:
+def test_a_follower_stays_the_gap_behind_on_the_same_line():
     path = SteeredPath(
         (0.0, 0.0, 0.0), 0.0, (Piece(1.0, 5.0), Piece(1.0, 5.0, 1.6), Piece(1.0, 0.0)), 5.0
     )

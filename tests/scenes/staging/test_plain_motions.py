@@ -36,21 +36,19 @@ def actor(noun: str, *motions: ObjectMotion) -> Actor:
         ("disc", (ObjectMotion("rise"),)),
     ],
 )
-def test_a_flat_pattern_faces_the_camera_all_along(
-    noun: str, motions: tuple[ObjectMotion, ...]
-) -> None:
+def test_a_flat_pattern_faces_the_camera_all_along(noun, motions):
     path = actor(noun, *motions).trajectory
     fronts = [path.at(time).to_world()[:, 0] for time in TIMES]
     np.testing.assert_allclose(fronts, [FRONT] * len(TIMES), atol=1e-9)
 
 
-def test_a_flat_pattern_turns_clockwise_for_the_viewer() -> None:
+def test_a_flat_pattern_turns_clockwise_for_the_viewer():
     path = actor("grating", ObjectMotion("spin", "clockwise")).trajectory
     up = path.at(0.2).to_world()[:, 2] - path.at(0.0).to_world()[:, 2]
     assert up[0] > 0.1  # its upper edge goes to the right
 
 
-def test_what_moves_up_and_down_at_a_rate_stays_above_the_ground() -> None:
+def test_what_moves_up_and_down_at_a_rate_stays_above_the_ground():
     ball = actor("ball", ObjectMotion("move", "up and down", rate_hz=2.0))
     heights = [ball.trajectory.at(time).position[2] for time in np.linspace(0.0, 1.0, 41)]
     assert min(heights) >= -1e-9

@@ -54,16 +54,14 @@ def overlap(first: Actor, second: Actor, time_s: float) -> float:
     ("noun", "target", "least", "most"),
     [("cat", "table", 0.9, 1.0), ("man", "tree", 0.9, 1.0), ("elephant", "chair", 0.0, 0.0)],
 )
-def test_what_fits_is_under_its_target_and_what_does_not_is_beside_it(
-    noun: str, target: str, least: float, most: float
-) -> None:
+def test_what_fits_is_under_its_target_and_what_does_not_is_beside_it(noun, target, least, most):
     scene = stage(thing(noun, ("stand",)), thing(target), relations=(Relation("under", 0, (1,)),))
     assert least <= overlap(*scene.actors, 1.0) <= most + 1e-9
     assert np.hypot(*(scene.actors[0].middle(0.0) - scene.actors[1].middle(0.0))[:2]) > 0.1
 
 
 @pytest.mark.parametrize("relation", ["overtake", "past"])
-def test_a_car_overtakes_a_truck_without_touching_it(relation: str) -> None:
+def test_a_car_overtakes_a_truck_without_touching_it(relation):
     scene = stage(thing("car", ("drive", "right")), thing("truck", ("drive",)),
                   relations=(Relation(relation, 0, (1,)),), place="road")  # fmt: skip
     car, truck = scene.actors
@@ -72,7 +70,7 @@ def test_a_car_overtakes_a_truck_without_touching_it(relation: str) -> None:
     assert max(overlap(car, truck, t) for t in np.linspace(0.0, 2.0, 9)) == 0.0
 
 
-def test_chairs_stand_around_a_table_and_face_it() -> None:
+def test_chairs_stand_around_a_table_and_face_it():
     scene = stage(thing("chair", ("stand",), count=4), thing("table"),
                   relations=(Relation("around", 0, (1,)),), place="indoor")  # fmt: skip
     table = scene.actors[-1].middle(0.0)
@@ -83,7 +81,7 @@ def test_chairs_stand_around_a_table_and_face_it() -> None:
         assert overlap(chair, scene.actors[-1], 0.0) < 0.3
 
 
-def test_a_child_appears_from_behind_a_car() -> None:
+def test_a_child_appears_from_behind_a_car():
     scene = stage(thing("child", ("appear", "left")), thing("car"),
                   relations=(Relation("behind", 0, (1,)),), place="city")  # fmt: skip
     child, car = scene.actors
@@ -102,7 +100,7 @@ def test_a_child_appears_from_behind_a_car() -> None:
     assert not is_hidden(2.0)
 
 
-def test_what_is_followed_moves_and_what_cannot_move_is_reported() -> None:
+def test_what_is_followed_moves_and_what_cannot_move_is_reported():
     scene = stage(thing("dog", ("stand",)), moves=(CameraMove("follow", "behind"),))
     dog = scene.actors[0]
     assert np.linalg.norm(dog.middle(2.0) - dog.middle(0.0)) > 1.0
@@ -112,14 +110,14 @@ def test_what_is_followed_moves_and_what_cannot_move_is_reported() -> None:
     assert np.linalg.norm(step) > 1.0
 
 
-def test_what_begins_after_the_clip_is_reported() -> None:
+def test_what_begins_after_the_clip_is_reported():
     jumps = ObjectMotion("jump", start_s=5.0)
     walks = SceneObject("man", motion=ObjectMotion("walk"), then=(jumps,))
     assert stage(walks).not_shown == ("the man's jump after 5 s (the clip ends at 2 s)",)
     assert stage(walks, duration_s=8.0).not_shown == ()
 
 
-def test_a_car_comes_out_of_what_it_goes_through() -> None:
+def test_a_car_comes_out_of_what_it_goes_through():
     scene = stage(thing("car", ("drive", "towards")), thing("tunnel"),
                   relations=(Relation("through", 0, (1,)),), place="road")  # fmt: skip
     car, gate = scene.actors
@@ -128,7 +126,7 @@ def test_a_car_comes_out_of_what_it_goes_through() -> None:
 
 
 @pytest.mark.parametrize("count", [1, 2, 4])
-def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count: int) -> None:
+def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count):
     scene = stage(thing("person", count=count), thing("table"),
                   relations=(Relation("at", 0, (1,)),), place="indoor")  # fmt: skip
     *people, table = scene.actors
@@ -142,7 +140,7 @@ def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count: int) -> No
         assert overlap(one, table, 0.0) < 0.5
 
 
-def test_who_is_on_a_seat_sits_unless_they_stand() -> None:
+def test_who_is_on_a_seat_sits_unless_they_stand():
     for motions, doing in (((), "sit"), ((("stand",),), "stand")):
         scene = stage(thing("man", *motions), thing("chair"), relations=(Relation("on", 0, (1,)),))
         man, chair = scene.actors
@@ -150,7 +148,7 @@ def test_who_is_on_a_seat_sits_unless_they_stand() -> None:
         assert overlap(man, chair, 0.0) > 0.4
 
 
-def test_things_in_a_row_on_a_table_stand_on_its_top() -> None:
+def test_things_in_a_row_on_a_table_stand_on_its_top():
     scene = stage(thing("book", count=3), thing("cup"), thing("table"), place="indoor",
                   relations=(Relation("on", 0, (2,)), Relation("on", 1, (2,))))  # fmt: skip
     *things, table = scene.actors
@@ -161,7 +159,7 @@ def test_things_in_a_row_on_a_table_stand_on_its_top() -> None:
     assert len({round(float(place[0]), 2) for place in places}) == 4
 
 
-def test_who_is_on_what_moves_goes_along() -> None:
+def test_who_is_on_what_moves_goes_along():
     cat, bus = stage(thing("cat", ("sit",)), thing("bus", ("drive", "left")), place="road",
                      relations=(Relation("on", 0, (1,)),)).actors  # fmt: skip
     for time_s in (0.0, 2.0):
@@ -169,7 +167,7 @@ def test_who_is_on_what_moves_goes_along() -> None:
         np.testing.assert_allclose(away, cat.middle(1.0) - bus.middle(1.0), atol=1e-6)
 
 
-def test_a_row_is_straight_and_a_ring_is_round() -> None:
+def test_a_row_is_straight_and_a_ring_is_round():
     row = replace(thing("chair", count=5), side="row")
     places = np.array([one.middle(0.0)[:2] for one in stage(row).actors])
     assert np.ptp(places[:, 1]) == pytest.approx(0.0)
@@ -180,7 +178,7 @@ def test_a_row_is_straight_and_a_ring_is_round() -> None:
     assert radii == pytest.approx(radii[0])
 
 
-def test_objects_without_relations_do_not_touch() -> None:
+def test_objects_without_relations_do_not_touch():
     scene = stage(*(thing(noun, ("stand",)) for noun in ("car", "dog", "house", "tree", "bench")))
     for one, other in itertools.combinations(scene.actors, 2):
         assert overlap(one, other, 0.0) == 0.0

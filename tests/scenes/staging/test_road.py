@@ -33,9 +33,7 @@ def road_of(scene: ComposedScene) -> tuple[RoadLine, float]:
 
 
 @given(st.floats(-4.0, 4.0), st.sampled_from([0.0, 0.02, -0.03]), st.floats(-40.0, 40.0))
-def test_points_at_an_arc_length_lie_on_the_line(
-    angle: float, curvature: float, along: float
-) -> None:
+def test_points_at_an_arc_length_lie_on_the_line(angle, curvature, along):
     road = RoadLine(angle, (3.0, -2.0), curvature)
     x, y, heading = road.at(along)
     assert road.distance(np.array([[x, y]]))[0] == pytest.approx(0.0, abs=1e-9)
@@ -46,15 +44,13 @@ def test_points_at_an_arc_length_lie_on_the_line(
     assert road.across(left)[0] == pytest.approx(0.5)
 
 
-def test_distance_is_to_the_nearest_road() -> None:
+def test_distance_is_to_the_nearest_road():
     road = RoadLine(crossings=((5.0, 0.0, math.pi / 2),))
     np.testing.assert_allclose(road.distance(np.array([[4.0, 3.0], [0.0, 2.0]])), [1.0, 2.0])
 
 
 @pytest.mark.parametrize(("direction", "is_on"), [("right", False), ("across", True)])
-def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(
-    direction: str, *, is_on: bool
-) -> None:
+def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(direction, *, is_on):
     scene = stage(SceneObject("man", motion=ObjectMotion("walk", direction)), place="city")
     road, half = road_of(scene)
     distances = road.distance(np.array([scene.actors[0].middle(t)[:2] for t in (0.0, 1.0, 2.0)]))
@@ -71,9 +67,7 @@ def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(
         (("car",), "road", True),
     ],
 )
-def test_what_rests_is_beside_the_road_unless_it_belongs_there(
-    nouns: tuple[str, ...], place: str, *, is_on: bool
-) -> None:
+def test_what_rests_is_beside_the_road_unless_it_belongs_there(nouns, place, *, is_on):
     scene = stage(*(SceneObject(one, motion=ObjectMotion("stand")) for one in nouns), place=place)
     road, half = road_of(scene)
     spots = np.array([one.middle(0.0)[:2] for one in scene.actors])

@@ -11,7 +11,7 @@ from texvent.scenes.models.protocol import Pose
 from texvent.scenes.scene import Texture
 
 
-def test_an_object_is_made_of_what_is_said() -> None:
+def test_an_object_is_made_of_what_is_said():
     usual = NOUNS["car"].build(colour=None, scale=1.0, seed=0)
     pose = Pose(0.0, 0.0, 0.0, "stand")
     parts = in_material(usual, "wood", None).parts(pose)

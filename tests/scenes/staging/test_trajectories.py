@@ -52,14 +52,14 @@ TIMES = np.linspace(0.0, 6.0, 1201)
 
 
 @pytest.mark.parametrize("name", TRAJECTORIES)
-def test_a_body_never_jumps(name: str) -> None:
+def test_a_body_never_jumps(name):
     maps = np.array([TRAJECTORIES[name].at(float(t)).to_world() for t in TIMES])
     step = float(TIMES[1] - TIMES[0])
     assert np.abs(np.diff(maps, axis=0)).max() / step < 14.0
 
 
 @pytest.mark.parametrize("name", TRAJECTORIES)
-def test_distance_never_falls_and_matches_the_path_on_the_ground(name: str) -> None:
+def test_distance_never_falls_and_matches_the_path_on_the_ground(name):
     states = [TRAJECTORIES[name].at(float(t)) for t in TIMES]
     distance = np.array([state.distance_m for state in states])
     assert np.all(np.diff(distance) >= -1e-12)
@@ -69,7 +69,7 @@ def test_distance_never_falls_and_matches_the_path_on_the_ground(name: str) -> N
         assert distance[-1] - distance[0] == pytest.approx(path, rel=1e-3)
 
 
-def test_a_rolling_ball_does_not_slide() -> None:
+def test_a_rolling_ball_does_not_slide():
     """The point that touches the ground stands still: v = ω r."""
     ball = TRAJECTORIES["rolling"]
     before, after = ball.at(1.0).to_world(), ball.at(1.0 + 1e-6).to_world()
@@ -80,7 +80,7 @@ def test_a_rolling_ball_does_not_slide() -> None:
     np.testing.assert_allclose(touched, before[:, :3] @ lowest + before[:, 3], atol=1e-9)
 
 
-def test_a_bouncing_ball_falls_freely_and_keeps_its_restitution() -> None:
+def test_a_bouncing_ball_falls_freely_and_keeps_its_restitution():
     landing = math.sqrt(2.0 * 1.25 / GRAVITY_M_S2)
 
     def height(rounds: float) -> float:
@@ -93,7 +93,7 @@ def test_a_bouncing_ball_falls_freely_and_keeps_its_restitution() -> None:
     assert height(200.0) == 0.0
 
 
-def test_an_arc_goes_from_one_state_to_the_other_under_gravity() -> None:
+def test_an_arc_goes_from_one_state_to_the_other_under_gravity():
     start = BodyState((0.0, 0.0, 1.0), 0.2, pivot_m=0.1)
     end = BodyState((2.0, -1.0, 1.5), 1.0, 0.3, pivot_m=0.1)
     arc = Arc(start, end, 0.4, 1.2, 1.0)
@@ -103,7 +103,7 @@ def test_an_arc_goes_from_one_state_to_the_other_under_gravity() -> None:
     assert np.diff(heights, 2) == pytest.approx(-GRAVITY_M_S2 * 0.01)
 
 
-def test_a_pendulum_has_the_period_of_its_length() -> None:
+def test_a_pendulum_has_the_period_of_its_length():
     swing = Swing((0.0, 0.0, 1.0), 1.5, 0.3)
     period = 2.0 * math.pi * math.sqrt(1.5 / GRAVITY_M_S2)
     assert swing.at(0.0).pitch == pytest.approx(0.3)

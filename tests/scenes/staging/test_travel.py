@@ -35,9 +35,7 @@ def travel(
 
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize("direction", ["forward", "backward", "left"])
-def test_the_camera_moves_on_above_the_ground_and_through_nothing(
-    place: str, direction: str
-) -> None:
+def test_the_camera_moves_on_above_the_ground_and_through_nothing(place, direction):
     scene = travel(place, CameraMove("travel", direction))
     times = np.linspace(0.0, DURATION_S, 21)
     cameras = [scene.camera(float(time)) for time in times]
@@ -55,7 +53,7 @@ def test_the_camera_moves_on_above_the_ground_and_through_nothing(
         assert np.all(np.linalg.norm(middles - position, axis=1) > 0.3 * reach)
 
 
-def test_the_road_bends_with_the_route() -> None:
+def test_the_road_bends_with_the_route():
     scene = travel("road", CameraMove("travel", "left"))
     environment = scene.environment(0.0)
     centre = (
@@ -71,7 +69,7 @@ def test_the_road_bends_with_the_route() -> None:
     assert 0.5 < lanes[0] < environment.road_half_width
 
 
-def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass() -> None:
+def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass():
     ahead = SceneObject("truck", motion=ObjectMotion("drive"))
     oncoming = SceneObject("car", motion=ObjectMotion("drive", "towards"))
     scene = travel("road", CameraMove("travel", "forward"), objects=(ahead, oncoming))
@@ -86,7 +84,7 @@ def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass() -> None:
 
 
 @pytest.mark.parametrize("road", ["curved", "crossing"])
-def test_the_camera_travels_on_the_road_as_it_is(road: str) -> None:
+def test_the_camera_travels_on_the_road_as_it_is(road):
     description = SceneDescription(
         "", shot=Shot((CameraMove("travel", "forward"),)),
         surroundings=Surroundings("city", road=road),

@@ -41,7 +41,7 @@ def points(body: Skeleton) -> np.ndarray:
     return np.array([point for pair in limbs for point in pair])
 
 
-def test_every_activity_has_a_posture_and_every_word_one_activity() -> None:
+def test_every_activity_has_a_posture_and_every_word_one_activity():
     still = {name for name in ACTIVITIES if find_posture(name, 0.0) is None}
     assert still == {"walk", "run", "crawl", "jump"}
     assert set(ON_GROUND.values()) <= set(ACTIVITIES)
@@ -53,7 +53,7 @@ def test_every_activity_has_a_posture_and_every_word_one_activity() -> None:
 
 
 @for_every(MOVING)
-def test_a_millisecond_moves_no_joint_far(activity: str) -> None:
+def test_a_millisecond_moves_no_joint_far(activity):
     for time_s in np.arange(0.0, 5.0, 0.113):
         before, after = joints(activity, float(time_s)), joints(activity, float(time_s) + STEP_S)
         # A thrown hand moves at 12 m/s, the foot of a kick at 10 m/s.
@@ -61,7 +61,7 @@ def test_a_millisecond_moves_no_joint_far(activity: str) -> None:
 
 
 @for_every(MOVING)
-def test_bones_keep_their_length(activity: str) -> None:
+def test_bones_keep_their_length(activity):
     for time_s in (0.1, 0.43, 0.9, 1.7):
         body = joints(activity, time_s)
         for side in (0, 1):
@@ -74,7 +74,7 @@ def test_bones_keep_their_length(activity: str) -> None:
 
 
 @for_every(MOVING)
-def test_nothing_reaches_into_the_ground(activity: str) -> None:
+def test_nothing_reaches_into_the_ground(activity):
     for time_s in (0.0, 0.3, 0.8, 1.4):
         body = joints(activity, time_s)
         low = -0.6 if activity == "swim" else -0.01
@@ -82,7 +82,7 @@ def test_nothing_reaches_into_the_ground(activity: str) -> None:
         assert len(ADULT_MODEL.parts(Pose(time_s, 0.0, 0.0, activity))) == PARTS
 
 
-def test_palms_meet_in_a_clap_twice_a_second() -> None:
+def test_palms_meet_in_a_clap_twice_a_second():
     gaps = []
     for time_s in np.arange(0.0, 1.0, 0.01):
         left, right = joints("clap", float(time_s)).hands
@@ -94,7 +94,7 @@ def test_palms_meet_in_a_clap_twice_a_second() -> None:
 
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize(("sense", "sign"), [("clockwise", 1.0), ("counter-clockwise", -1.0)])
-def test_arm_circles_turn_as_the_viewer_sees_them(side: str, sense: str, sign: float) -> None:
+def test_arm_circles_turn_as_the_viewer_sees_them(side, sense, sign):
     index = 0 if side == "left" else 1
     hands = [joints(f"{side} arm {sense}", t).hands[index] for t in np.arange(0.0, 1.0, 0.05)]
     # Who faces the person sees body y to the right and z up; clockwise angles fall.
@@ -104,26 +104,26 @@ def test_arm_circles_turn_as_the_viewer_sees_them(side: str, sense: str, sign: f
 
 
 @pytest.mark.parametrize("activity", ["squat", "push-up", "box", "dance", "sweep"])
-def test_feet_do_not_slide_in_place(activity: str) -> None:
+def test_feet_do_not_slide_in_place(activity):
     ankles = np.array([joints(activity, t).ankles for t in np.arange(0.0, 3.0, 0.05)])
     assert np.ptp(ankles[:, :, :2], axis=0).max() < 1e-6
 
 
-def test_a_gesture_while_walking_leaves_the_legs_to_the_gait() -> None:
+def test_a_gesture_while_walking_leaves_the_legs_to_the_gait():
     walking, waving = joints("move", 1.3, 1.4), joints("wave", 1.3, 1.4)
     assert walking.ankles == waving.ankles
     assert walking.hands[1] != waving.hands[1]
 
 
 @pytest.mark.parametrize(("activity", "time_s"), [("shake hands", 0.7), ("high five", 0.6)])
-def test_hands_of_two_who_stand_before_each_other_meet(activity: str, time_s: float) -> None:
+def test_hands_of_two_who_stand_before_each_other_meet(activity, time_s):
     x, y, z = joints(activity, time_s).hands[1]
     # The other one's body is turned by half a circle about the middle.
     other = (PAIR_GAPS[activity] - x, -y, z)
     assert math.dist((x, y, z), other) < 0.05
 
 
-def test_places_of_a_body_have_upright_right_handed_axes() -> None:
+def test_places_of_a_body_have_upright_right_handed_axes():
     model = person.build_person(ADULT, colour=None, scale=1.3, seed=0)
     names = ("right hand", "left hand", "hands", "crown", "face", "mouth", "neck", "torso",
              "seat", "ground", "right foot", "left foot")  # fmt: skip
@@ -136,7 +136,7 @@ def test_places_of_a_body_have_upright_right_handed_axes() -> None:
 
 
 @pytest.mark.parametrize("gesture", sorted(HAND_GESTURES))
-def test_a_hand_moves_smoothly_and_keeps_its_parts(gesture: str) -> None:
+def test_a_hand_moves_smoothly_and_keeps_its_parts(gesture):
     model = build_hand(colour=None, scale=1.0, seed=0)
     count = len(model.parts(Pose(0.0, 0.0, 0.0, "stand")))
     for time_s in np.arange(0.0, 4.0, 0.37):

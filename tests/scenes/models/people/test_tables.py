@@ -32,7 +32,7 @@ HAND_CHANNELS = {"bent", "spread", "roll", "pitch", "yaw", "shift", "keys"}
 RED, BLUE = (0.5, 0.0, 0.0), (0.0, 0.0, 0.5)
 
 
-def test_a_track_by_hand() -> None:
+def test_a_track_by_hand():
     track = read_track(
         {
             "lean": [0.2, 0.1, 0.5],
@@ -49,13 +49,13 @@ def test_a_track_by_hand() -> None:
 
 
 @pytest.mark.parametrize("noun", sorted(PERSON_NOUNS))
-def test_every_person_is_drawn_and_stands_on_the_ground(noun: str) -> None:
+def test_every_person_is_drawn_and_stands_on_the_ground(noun):
     model = person.build_person(KINDS[noun], colour=None, scale=1.0, seed=3)
     assert model.parts(Pose(0.0, 0.0, 0.0, "stand"))
     assert model.height == pytest.approx(1.75 * KINDS[noun].height, rel=0.15)
 
 
-def test_every_key_of_the_tables_is_read() -> None:
+def test_every_key_of_the_tables_is_read():
     activity = {one.name for one in fields(Activity)}
     kind = {one.name for one in fields(PersonKind)} | {"names", "plurals", "speed", "motion"}
     for row in read_table("hand_gestures").values():
@@ -72,7 +72,7 @@ def test_every_key_of_the_tables_is_read() -> None:
         assert channels <= BODY_CHANNELS, name
 
 
-def test_every_prop_hat_and_garment_can_be_drawn() -> None:
+def test_every_prop_hat_and_garment_can_be_drawn():
     for props in (*PROPS.values(), *HOLDS.values()):
         assert all(prop.draw(0.3) for prop in props)
     assert set(PROPS) <= set(ACTIVITIES)
@@ -81,7 +81,7 @@ def test_every_prop_hat_and_garment_can_be_drawn() -> None:
             assert draw_parts("outfits", group, name, dress_person(ADULT, colour=None, seed=0).hat)
 
 
-def test_clothes_have_their_colour_or_their_usual_one() -> None:
+def test_clothes_have_their_colour_or_their_usual_one():
     worn = put_on(ADULT, [("dress", RED), ("shoe", BLUE), ("jacket", None)])
     assert (worn.dress, worn.shirts, worn.shoes, worn.has_sleeves) == ("skirt", (RED,), BLUE, True)
     assert put_on(ADULT, [("suit", None)]).trousers == tuple(CLOTHES["suit"]["usual"])

@@ -60,7 +60,7 @@ def rays(seed, count):
 
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 60))
 @settings(max_examples=40)
-def test_the_tree_finds_what_all_triangles_say(seed: int, count: int) -> None:
+def test_the_tree_finds_what_all_triangles_say(seed, count):
     mesh = soup(seed, count)
     origins, directions = rays(seed, 60)
     depth, triangle = cast(mesh, origins, directions)
@@ -74,7 +74,7 @@ def test_the_tree_finds_what_all_triangles_say(seed: int, count: int) -> None:
     np.testing.assert_array_equal(np.isinf(blocked), np.isinf(depth))
 
 
-def test_no_ray_slips_between_triangles_at_vertices_and_edges() -> None:
+def test_no_ray_slips_between_triangles_at_vertices_and_edges():
     mesh, _ = ball_mesh(16, 8)
     corners = mesh.vertices[mesh.triangles]
     targets = np.concatenate(
@@ -87,7 +87,7 @@ def test_no_ray_slips_between_triangles_at_vertices_and_edges() -> None:
         assert np.isfinite(depth).all()
 
 
-def test_meshes_that_are_none_are_refused_in_one_line() -> None:
+def test_meshes_that_are_none_are_refused_in_one_line():
     corners = np.eye(3)
     with pytest.raises(InputError, match="no triangle has an area"):
         make_mesh(corners, np.array([[0, 1, 1]]))
@@ -119,13 +119,13 @@ def project(camera, points, size):
     return seen[:, :2] / seen[:, 2:] * scale + [0.5 * size.width, 0.5 * size.height]
 
 
-def test_flow_of_a_rigid_mesh_follows_its_triangles() -> None:
+def test_flow_of_a_rigid_mesh_follows_its_triangles():
     mesh, to_body = ball_mesh()
     scene = MeshScene(lambda time: (mesh, to_body), turning)
     check_flow(scene)
 
 
-def test_flow_of_a_deforming_mesh_follows_its_triangles() -> None:
+def test_flow_of_a_deforming_mesh_follows_its_triangles():
     scene = MeshScene(bulging, turning)
     check_flow(scene)
 
@@ -165,7 +165,7 @@ def check_flow(scene) -> None:
         np.testing.assert_allclose(truth.flow[row, column], expected, atol=1e-4)
 
 
-def test_shadow_of_a_mesh_falls_on_the_ground() -> None:
+def test_shadow_of_a_mesh_falls_on_the_ground():
     mesh, to_body = ball_mesh()
     scene = MeshScene(lambda time: (mesh, to_body))
     assert scene.environment(0.0).ground is Ground.GRASS

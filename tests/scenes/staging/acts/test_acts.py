@@ -67,7 +67,7 @@ BY_SCENE = pytest.mark.parametrize("name", sorted(SCENES))
 
 
 @BY_SCENE
-def test_nothing_jumps_between_two_milliseconds(name: str) -> None:
+def test_nothing_jumps_between_two_milliseconds(name):
     scene = act(*SCENES[name])
     instants = list(np.arange(0.0, DURATION_S, 0.0873))
     instants += [contact_time(DURATION_S, share) for share in (0.35, 0.45, 0.5, 0.55)]
@@ -80,7 +80,7 @@ def test_nothing_jumps_between_two_milliseconds(name: str) -> None:
 
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize(("who", "what"), [("man", "football"), ("child", "ball")])
-def test_the_foot_touches_the_ball_when_it_leaves(who: str, what: str, seed: int) -> None:
+def test_the_foot_touches_the_ball_when_it_leaves(who, what, seed):
     scene = act("kick", who, what, seed=seed)
     kicker, ball = scene.actors
     contact_s = contact_time(DURATION_S)
@@ -98,9 +98,7 @@ def test_the_foot_touches_the_ball_when_it_leaves(who: str, what: str, seed: int
      (("throw", "child", "ball", "dog"), 2, "mouth"),
      (("catch", "dog", "tennis ball"), 0, "mouth")],
 )  # fmt: skip
-def test_what_is_caught_stays_with_who_caught_it(
-    names: tuple[str, ...], catcher: int, place: str
-) -> None:
+def test_what_is_caught_stays_with_who_caught_it(names, catcher, place):
     scene = act(*names)
     ball, who = scene.actors[1], scene.actors[catcher]
     gaps = []
@@ -112,9 +110,7 @@ def test_what_is_caught_stays_with_who_caught_it(
 
 @pytest.mark.parametrize("what", ["bottle", "umbrella", "box"])
 @pytest.mark.parametrize("motion", [None, WALK_RIGHT])
-def test_any_noun_can_be_held_and_stays_at_the_hands(
-    what: str, motion: ObjectMotion | None
-) -> None:
+def test_any_noun_can_be_held_and_stays_at_the_hands(what, motion):
     scene = act("carry", "man", what, motion=motion)
     man, thing = scene.actors
     for time_s in (0.0, 0.7, 1.6):
@@ -125,7 +121,7 @@ def test_any_noun_can_be_held_and_stays_at_the_hands(
 
 
 @pytest.mark.parametrize("what", ["horse", "elephant"])
-def test_a_rider_sits_on_the_back_with_a_leg_on_each_side(what: str) -> None:
+def test_a_rider_sits_on_the_back_with_a_leg_on_each_side(what):
     rider, mount = act("ride", "man", what).actors
     back = top_heights(mount.model.parts(Pose(0.0, 0.0, 0.0, "stand")), np.zeros(1), np.zeros(1))
     for time_s in (0.0, 1.3):
@@ -140,7 +136,7 @@ def test_a_rider_sits_on_the_back_with_a_leg_on_each_side(what: str) -> None:
         assert feet[0] > 0.15 > -0.15 > feet[1]
 
 
-def test_hands_stay_at_the_back_of_what_is_pushed() -> None:
+def test_hands_stay_at_the_back_of_what_is_pushed():
     pusher, box = act("push", "man", "box").actors
     gaps = []
     for time_s in (0.0, 0.8, 1.9):
@@ -153,7 +149,7 @@ def test_hands_stay_at_the_back_of_what_is_pushed() -> None:
     assert box.trajectory.at(2.0).distance_m > 0.8
 
 
-def test_what_is_pulled_follows_at_the_end_of_its_rope() -> None:
+def test_what_is_pulled_follows_at_the_end_of_its_rope():
     puller, box = act("pull", "man", "box").actors
     assert box.tether is not None
     for time_s in (0.0, 1.7):
@@ -167,14 +163,14 @@ def test_what_is_pulled_follows_at_the_end_of_its_rope() -> None:
 @pytest.mark.parametrize(
     ("what", "place"), [("hat", "crown"), ("glasses", "face"), ("tie", "torso")]
 )
-def test_what_is_worn_goes_with_the_body(what: str, place: str) -> None:
+def test_what_is_worn_goes_with_the_body(what, place):
     man, worn = act("wear", "man", what, motion=WALK_RIGHT).actors
     gaps = [np.linalg.norm(middle(worn, t) - man.anchor(place, t)[:, 3]) for t in (0.0, 0.6, 1.5)]
     assert max(gaps) < 0.45
     np.testing.assert_allclose(gaps, gaps[0], atol=1e-9)
 
 
-def test_a_worn_shirt_is_the_colour_of_the_body_s_own() -> None:
+def test_a_worn_shirt_is_the_colour_of_the_body_s_own():
     scene = stage(SceneObject("man"), SceneObject("shirt", colour="red"),
                   acts=(Relation("wear", 0, (1,)),))  # fmt: skip
     (man,) = scene.actors
@@ -183,7 +179,7 @@ def test_a_worn_shirt_is_the_colour_of_the_body_s_own() -> None:
 
 
 @pytest.mark.parametrize("board", ["skateboard", "surfboard"])
-def test_who_rides_a_board_stands_on_it(board: str) -> None:
+def test_who_rides_a_board_stands_on_it(board):
     rider, ridden = act("ride", "man", board).actors
     top = find_support(ridden.model).height
     for time_s in (0.0, 1.4):
@@ -194,7 +190,7 @@ def test_who_rides_a_board_stands_on_it(board: str) -> None:
 
 
 @pytest.mark.parametrize("mount", ["boat", "canoe", "tractor", "horse"])
-def test_riders_sit_apart_and_go_along(mount: str) -> None:
+def test_riders_sit_apart_and_go_along(mount):
     scene = stage(SceneObject("man", count=2), SceneObject(mount, motion=ObjectMotion("move")),
                   acts=(Relation("ride", 0, (1,)),))  # fmt: skip
     carrier = next(one for one in scene.actors if one.noun.name == mount)
@@ -216,13 +212,13 @@ def base(actor: Actor) -> Trajectory:
     return path.path if isinstance(path, Performed) else path
 
 
-def test_who_rides_in_a_closed_vehicle_is_not_seen() -> None:
+def test_who_rides_in_a_closed_vehicle_is_not_seen():
     scene = act("ride", "man", "bus")
     assert [actor.noun.name for actor in scene.actors] == ["bus"]
 
 
 @pytest.mark.parametrize("activity", ["hug", "shake hands", "high five"])
-def test_two_who_do_it_together_face_each_other_at_arm_s_length(activity: str) -> None:
+def test_two_who_do_it_together_face_each_other_at_arm_s_length(activity):
     motion = ObjectMotion(activity)
     scene = stage(SceneObject("man", motion=motion), SceneObject("woman", motion=motion), acts=())
     one, other = (actor.trajectory.at(0.0) for actor in scene.actors)
@@ -233,7 +229,7 @@ def test_two_who_do_it_together_face_each_other_at_arm_s_length(activity: str) -
         assert sign * float(way @ heading) > 0.9 * np.linalg.norm(way)
 
 
-def test_who_looks_at_something_has_the_front_to_it() -> None:
+def test_who_looks_at_something_has_the_front_to_it():
     man, dog = act("look at", "man", "dog").actors
     way = middle(dog, 1.0) - middle(man, 1.0)
     heading = man.trajectory.at(1.0).to_world()[:, 0]
@@ -255,9 +251,7 @@ def gap(one: Actor, other: Actor, time_s: float) -> float:
     [(("car", "car"), (True, True)), (("ball", "box"), (True, False)),
      (("tree", "car"), (False, True)), (("rock", "window"), (True, False))],
 )  # fmt: skip
-def test_bodies_that_collide_touch_at_one_instant(
-    nouns: tuple[str, str], moves: tuple[bool, bool]
-) -> None:
+def test_bodies_that_collide_touch_at_one_instant(nouns, moves):
     actors = act("collide", *nouns).actors
     contact_s = contact_time(DURATION_S, 0.5)
     mover = actors[moves.index(True)]
