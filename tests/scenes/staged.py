@@ -65,8 +65,3 @@ def middle(actor: Actor, time_s: float) -> np.ndarray:
     """The middle of a body, also where its box leans."""
     lift = 0.0 if actor.is_centred else 0.5 * actor.model.height
     return actor.trajectory.at(time_s).to_world() @ np.array([0.0, 0.0, lift, 1.0])
-
-
-def gap(one: Actor, other: Actor, time_s: float) -> float:
-    """From the middle of one to that of the other, m."""
-    return float(np.linalg.norm(one.middle(time_s) - other.middle(time_s)))

@@ -1,7 +1,5 @@
 """The check of rays: what is out of view, and what is a few pixels large."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Lenses: beside OpenCV's models, and the images and truth that they give."""
 
-from __future__ import annotations
-
 import cv2
 import numpy as np
 import pytest

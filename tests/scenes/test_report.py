@@ -1,7 +1,5 @@
 """The report of a prompt's words: one definition, kept through JSON and counted."""
 
-from __future__ import annotations
-
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -1,7 +1,5 @@
 """Models of files as nouns: names, sizes, glTF skins and animations, OBJ and PLY, bad files."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Scenes by a language model: request, inventions, errors, and a real llama.cpp server."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import threading

@@ -1,7 +1,5 @@
 """Pictures on surfaces: files, videos by their own times, boards, text; bad ones in a line."""
 
-from __future__ import annotations
-
 import pickle
 from fractions import Fraction
 from pathlib import Path

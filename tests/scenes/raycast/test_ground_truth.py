@@ -1,7 +1,5 @@
 """Ground truth against closed forms and an independent NumPy computation."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Images on surfaces: right way up, filtered as supersampling says, and checkerboards exactly."""
 
-from __future__ import annotations
-
 import cv2
 import numpy as np
 import pytest

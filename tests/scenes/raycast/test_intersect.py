@@ -1,7 +1,5 @@
 """Ray meets unit shape: hand-computed cases, and the compiled kernel against its reference."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Lamps: light, beams, shadows and glow."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Filtered patterns equal the averages they stand for; lists of shapes miss no cell."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

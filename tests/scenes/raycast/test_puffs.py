@@ -1,7 +1,5 @@
 """Translucent puffs: exact along a ray, smooth at the rim, the same in any order."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import pairwise
 

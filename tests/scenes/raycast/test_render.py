@@ -1,7 +1,5 @@
 """Images: exact repeatability, smooth edges, calm textures, any size."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Frames of which only some tiles are drawn anew are those that are drawn whole, bit by bit."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 

@@ -1,7 +1,5 @@
 """Materials: tiles against plain averages, their means, their look in scenes, and no aliasing."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Sentences become scenes, and every word of them is accounted for."""
 
-from __future__ import annotations
-
 import time
 
 import pytest

@@ -1,7 +1,5 @@
 """The scene files of docs/examples/scenes: each can be staged and drawn, and shows every object."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Scenes as values: what they say survives files and staging, and wrong fields are named."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import math

@@ -1,7 +1,5 @@
 """Scenes: actors, scenery, camera and light."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from functools import lru_cache
@@ -16,7 +14,7 @@ from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
-from texvent.scenes.staging.camera.framing import fit, image_of, look_at
+from texvent.scenes.staging.camera.framing import image_of
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
 
@@ -158,14 +156,6 @@ def test_a_noun_alone_is_large_in_the_image():
 def test_a_clip_without_a_length_is_an_error(duration_s):
     with pytest.raises(InputError, match="it must be a positive number of seconds"):
         compose_scene(described("a dog"), seed=0, size=SIZE, duration_s=duration_s)
-
-
-def test_fit_gives_the_nearest_station_that_holds_all_points():
-    points = np.array([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    framing = fit(points, azimuth=0.0, elevation=0.0, aspect=0.75, fill=0.8, focal=1.0)
-    assert framing.distance_m == pytest.approx(2.0 * 2.0 / 0.8)
-    camera = look_at(framing.position, framing.target, framing.focal)
-    assert 2.0 * np.abs(image_of(camera, points)[:, 0]).max() == pytest.approx(0.8)
 
 
 @pytest.mark.parametrize("nouns", [("house", "tree"), ("ball", "cube"), ("man", "bus")])

@@ -1,7 +1,5 @@
 """Effects: functions of time with a constant number of shapes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

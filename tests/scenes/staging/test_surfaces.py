@@ -1,7 +1,5 @@
 """Materials that a scene names."""
 
-from __future__ import annotations
-
 import pytest
 
 from texvent.errors import InputError

@@ -1,7 +1,5 @@
 """Meshes in the ray caster: hits against brute force, no cracks, exact motion, pictures."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

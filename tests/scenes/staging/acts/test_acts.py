@@ -1,19 +1,16 @@
 """Acts: what is held stays in the hand, bodies meet when they should, nothing jumps."""
 
 import math
-from functools import cache
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from tests.scenes.staged import DURATION_S, middle, stage
 
 from texvent.scenes.colours import COLOURS
 from texvent.scenes.description import (
     ObjectMotion,
-    Relation,
-    SceneDescription,
     SceneObject,
-    Surroundings,
 )
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds, moved
@@ -21,31 +18,15 @@ from texvent.scenes.models.support_surface import find_support, top_heights
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import Performed
 from texvent.scenes.staging.acts.striking import contact_time
-from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory
-from texvent.sensor import SensorSize
 
-DURATION_S = 2.0
 CONTACT_M = 0.02
 
 
-@cache
-def stage(
-    *objects: SceneObject, acts: tuple[Relation, ...], place: str | None = None, seed: int = 0
-) -> ComposedScene:
-    description = SceneDescription("hand-built", objects, acts, surroundings=Surroundings(place))
-    return compose_scene(description, seed=seed, size=SensorSize(96, 72), duration_s=DURATION_S)
-
-
-def act(kind: str, *nouns: str, motion: ObjectMotion | None = None, seed: int = 0) -> ComposedScene:
+def act(kind, *nouns, motion=None, seed=0):
     objects = [SceneObject(nouns[0], motion=motion), *(SceneObject(noun) for noun in nouns[1:])]
-    targets = tuple(range(1, len(nouns)))
-    return stage(*objects, acts=(Relation(kind, 0, targets),), seed=seed)
-
-
-def middle(actor: Actor, time_s: float) -> np.ndarray:
-    lift = 0.0 if actor.is_centred else 0.5 * actor.model.height
-    return actor.trajectory.at(time_s).to_world() @ np.array([0.0, 0.0, lift, 1.0])
+    relation = (kind, 0, *range(1, len(nouns)))
+    return stage(*objects, relations=(relation,), place=None, seed=seed)
 
 
 WALK_RIGHT = ObjectMotion("walk", "right")
@@ -172,7 +153,7 @@ def test_what_is_worn_goes_with_the_body(what, place):
 
 def test_a_worn_shirt_is_the_colour_of_the_body_s_own():
     scene = stage(SceneObject("man"), SceneObject("shirt", colour="red"),
-                  acts=(Relation("wear", 0, (1,)),))  # fmt: skip
+                  relations=(("wear", 0, 1),), place=None)  # fmt: skip
     (man,) = scene.actors
     colours = {part.colour for part in man.place(0.0).parts}
     assert COLOURS["red"] in colours
@@ -192,7 +173,7 @@ def test_who_rides_a_board_stands_on_it(board):
 @pytest.mark.parametrize("mount", ["boat", "canoe", "tractor", "horse"])
 def test_riders_sit_apart_and_go_along(mount):
     scene = stage(SceneObject("man", count=2), SceneObject(mount, motion=ObjectMotion("move")),
-                  acts=(Relation("ride", 0, (1,)),))  # fmt: skip
+                  relations=(("ride", 0, 1),), place=None)  # fmt: skip
     carrier = next(one for one in scene.actors if one.noun.name == mount)
     seated = [one for one in scene.actors if isinstance(base(one), Riding)]
     assert seated
@@ -220,7 +201,9 @@ def test_who_rides_in_a_closed_vehicle_is_not_seen():
 @pytest.mark.parametrize("activity", ["hug", "shake hands", "high five"])
 def test_two_who_do_it_together_face_each_other_at_arm_s_length(activity):
     motion = ObjectMotion(activity)
-    scene = stage(SceneObject("man", motion=motion), SceneObject("woman", motion=motion), acts=())
+    scene = stage(
+        SceneObject("man", motion=motion), SceneObject("woman", motion=motion), place=None
+    )
     one, other = (actor.trajectory.at(0.0) for actor in scene.actors)
     way = np.subtract(other.position, one.position)
     assert 0.3 < np.linalg.norm(way) < 1.1
