@@ -45,13 +45,6 @@ def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted():
     assert beside.out_of_view in (("car (1 of 3)",), ("car (2 of 3)",))
 
 
-@pytest.mark.parametrize(("distance_m", "is_small"), [(20.0, False), (1500.0, True)])
-def test_what_is_far_away_is_too_small(distance_m, is_small):
-    found = unseen_from(CAR, position=(0.0, -distance_m, 1.0))
-    assert bool(found.too_small or found.out_of_view) == is_small
-    assert all(one.startswith("car (") and "pixel" in one for one in found.too_small)
-
-
 def test_pixels_of_small_things_are_counted_one_by_one():
     objects = (SceneObject("ball"), SceneObject("house"))
     description = SceneDescription("", objects, surroundings=Surroundings("plain"))

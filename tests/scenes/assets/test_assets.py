@@ -11,7 +11,7 @@ from tests.scenes.assets.glb_writer import GlbWriter, write_bar, write_slider
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.assets import check_files, load_model, merge_nouns, read_folder
-from texvent.scenes.assets.index import Asset, name_of
+from texvent.scenes.assets.index import Asset
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.spec.files import load_scene
@@ -25,19 +25,6 @@ def corners_at(asset: Asset, time_s: float, activity: str = "move") -> np.ndarra
         assert part.mesh is not None
         found.append(part.mesh.vertices @ part.to_body[:, :3].T + part.to_body[:, 3])
     return np.concatenate(found)
-
-
-@pytest.mark.parametrize(
-    ("name", "noun"),
-    [
-        ("office_chair.glb", "office chair"),
-        ("OfficeChair-02.obj", "office chair"),
-        ("bed1.obj", "bed"),
-        ("007.ply", "007"),
-    ],
-)
-def test_names_come_from_file_names(name, noun):
-    assert name_of(Path(name)) == noun
 
 
 def test_a_scene_brings_models_by_path(tmp_path):
@@ -210,22 +197,6 @@ def test_an_obj_brings_its_materials_and_image_upright(tmp_path):
     assert (mesh.uv[shown][upper][:, 1] < 0.5).all()
     assert mesh.images[0].levels[0][0, 0, 0] == pytest.approx(1.0)
     np.testing.assert_allclose(mesh.colours[~shown][0, 0], [0.0, 0.0, 1.0], atol=0.01)
-
-
-def test_a_ply_brings_colours_and_stands_on_z(tmp_path):
-    pytest.importorskip("trimesh")
-    path = tmp_path / "scan.ply"
-    path.write_text(
-        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
-        "0 0 0 255 0 0\n1 0 0 255 0 0\n1 0 4 0 255 0\n0 0 4 0 255 0\n3 0 1 2\n3 0 2 3\n"
-    )
-    model = load_model(Asset(path, "strange thing"))
-    assert model.height == pytest.approx(4.0)
-    (part,) = model.parts(Pose(0.0, 0.0, 0.0))
-    assert part.mesh is not None
-    assert part.mesh.colours.max(axis=(0, 1)) == pytest.approx([1.0, 1.0, 0.0])
 
 
 def test_the_pack_of_more_nouns_is_whole():

@@ -5,11 +5,9 @@ import tomllib
 import numpy as np
 import pytest
 
-from texvent.scenes.models.joints import read_cycle, read_joint, read_wave
-from texvent.scenes.models.materials import WHITE, Material
+from texvent.scenes.models.joints import read_cycle, read_joint
 from texvent.scenes.models.parts import PartsBuilder
 from texvent.scenes.models.protocol import Model, Pose
-from texvent.scenes.models.shapes import limb
 
 STILL = Pose(0.0, 0.0, 0.0, "stand")
 
@@ -42,20 +40,6 @@ def test_a_stretched_part_keeps_its_pivot(text, time_s, size):
     motion = read_joint(text).motion(Pose(time_s, 0.0, 0.0), 0)
     np.testing.assert_allclose(np.diag(motion[:, :3]), size)
     np.testing.assert_allclose(motion @ [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0])
-
-
-def test_a_wave_bends_the_tail_more_than_the_head_and_less_at_rest():
-    wave = read_wave("y .1 1hz")
-    parts = [limb(Material(WHITE), (x - 0.1, 0, 0), (x + 0.1, 0, 0), 0.05) for x in (0.4, -0.4)]
-    reach = {
-        act: [
-            max(abs(wave(part, Pose(t, 0.0, 0.0, act), 0).to_body[1, 3]) for t in (0.0, 0.2, 0.4))
-            for part in parts
-        ]
-        for act in ("swim", "stand")
-    }
-    assert reach["swim"][1] > 4.0 * reach["swim"][0]
-    assert reach["stand"][1] == pytest.approx(0.3 * reach["swim"][1])
 
 
 LEGS = """

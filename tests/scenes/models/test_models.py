@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
-from texvent.scenes.models import limbs
 from texvent.scenes.models.materials import RED
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
@@ -131,17 +130,6 @@ def test_size_holds_all_parts_and_is_not_loose(noun):
 
 
 @for_every_noun
-def test_scale_scales_everything(noun):
-    usual, double = usual_model(noun), build(noun, scale=2.0, seed=1)
-    assert double.length == pytest.approx(2.0 * usual.length)
-    assert double.height == pytest.approx(2.0 * usual.height)
-    # The same instant of a body twice as large, which has gone twice as far twice as fast.
-    small = usual.parts(Pose(0.4, 0.9, 1.1))
-    large = double.parts(Pose(0.4, 1.8, 2.2))
-    np.testing.assert_allclose(2.0 * bodies(small), bodies(large), rtol=0, atol=1e-9)
-
-
-@for_every_noun
 def test_things_on_the_ground_stand_on_it(noun):
     if noun.habitat not in ("ground", "fixed") or noun.name in MOUNDS | HUNG:
         return
@@ -209,13 +197,6 @@ def test_rolling_nouns_turn_by_distance_over_radius(name):
                 rates.append(rate[0, 2] * a.to_body[2, 3])
         assert rates
         np.testing.assert_allclose(rates, 1.0, rtol=1e-4)
-
-
-def test_a_knee_bends_forward_by_hand():
-    # A 3-4-5 triangle: hip at height 8, ankle at 0, both bones 5 long.
-    assert limbs.bend((0, 0, 8.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0)) == pytest.approx((3, 0, 4))
-    straight = limbs.bend((0, 0, 12.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0))
-    assert straight == pytest.approx((0, 0, 6))
 
 
 @pytest.mark.parametrize("scale", [0.0, -1.0, math.nan, math.inf])

@@ -202,18 +202,3 @@ ball paint*.5  0 1 .5  .2 .2 .2'''
     # The ball hangs from the arm, which has made a quarter turn.
     np.testing.assert_allclose(first[2].to_body[:, 3], [0, 1, 0.5], atol=1e-9)
     np.testing.assert_allclose(second[2].to_body[:, 3], [-1, 0, 0.5], atol=1e-9)
-
-
-def test_a_noun_may_be_like_another(tmp_path):
-    file = tmp_path / "mine.toml"
-    file.write_text(
-        '[stool]\nnames = ["seat"]\nplace = "indoor"\nparts = "box red 0 0 1 1 1 1"\n'
-        '[perch]\nlike = "stool"\nplace = "garden"\n'
-    )
-    stool, perch = read_nouns(file)
-    assert (perch.place, perch.synonyms) == ("garden", ())
-    heights = {one.build(colour=None, scale=1.0, seed=0).height for one in (stool, perch)}
-    assert heights == {1.5}
-    file.write_text('[perch]\nlike = "stool"\n')
-    with pytest.raises(FileFormatError, match="no noun 'stool' above it"):
-        read_nouns(file)

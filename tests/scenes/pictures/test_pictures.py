@@ -1,6 +1,5 @@
 """Pictures on surfaces: files, videos by their own times, boards, text; bad ones in a line."""
 
-import pickle
 from fractions import Fraction
 from pathlib import Path
 
@@ -9,14 +8,13 @@ import cv2
 import numpy as np
 import pytest
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import InputError
 from texvent.scenes.description import Picture, SceneDescription, SceneObject, Surroundings
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.pictures import PicturedModel, check_picture, load_picture
 from texvent.scenes.pictures.source import draw_text
-from texvent.scenes.pictures.video import PlayedVideo
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 
@@ -48,12 +46,6 @@ def test_a_video_is_shown_by_its_own_times_and_plays_again(tmp_path):
     assert level(0.05) == pytest.approx(0.0, abs=0.01)
     assert level(0.61) == pytest.approx(0.0, abs=0.01)
     assert source(0.11) is source(0.2)
-
-
-def test_a_played_video_travels_to_other_processes(tmp_path):
-    video = PlayedVideo(write_video(tmp_path / "clip.mkv", [10, 200], [0, 10]))
-    again = pickle.loads(pickle.dumps(video))
-    np.testing.assert_array_equal(again.at(0.1).levels[0], video.at(0.1).levels[0])
 
 
 def test_an_image_file_is_read_in_linear_light(tmp_path):
@@ -89,17 +81,6 @@ def test_a_bad_picture_is_one_clear_line(picture, message):
     with pytest.raises(InputError, match=message) as caught:
         check_picture(picture)
     assert "\n" not in str(caught.value)
-
-
-def test_damaged_files_are_one_clear_line(tmp_path):
-    image, video, other = (tmp_path / name for name in ("a.png", "b.mp4", "c.txt"))
-    for path in (image, video, other):
-        path.write_bytes(b"nothing of the kind")
-    for path in (image, other):
-        with pytest.raises(InputError, match="no image"):
-            load_picture(Picture("file", str(path)))
-    with pytest.raises(FileFormatError, match="no video that can be decoded"):
-        load_picture(Picture("file", str(video)))
 
 
 @pytest.mark.parametrize("noun", sorted(nouns_with("shows a picture")))

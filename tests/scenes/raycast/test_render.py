@@ -8,7 +8,7 @@ import pytest
 from texvent.errors import InputError
 from texvent.runtime.threads import THREADS_VARIABLE
 from texvent.scenes.raycast.render import render
-from texvent.scenes.scene import Environment, Ground, Shape, Texture
+from texvent.scenes.scene import Environment, Ground, Shape
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, showcase, still
@@ -44,13 +44,6 @@ def test_the_number_of_threads_does_not_change_a_bit(size, monkeypatch):
     for threads in ("2", "5"):
         monkeypatch.setenv(THREADS_VARIABLE, threads)
         np.testing.assert_array_equal(render(showcase(), 0.3, size), one)
-
-
-def test_a_scene_that_stands_still_gives_identical_images():
-    scene = HandScene((MovingShape(Shape.ELLIPSOID, (1.0, 1.0, 1.0), still(0.0, 0.0, 1.0)),))
-    first = render(scene, 0.0, SMALL)
-    for time in (0.001, 0.5, 60.0):
-        np.testing.assert_array_equal(render(scene, time, SMALL), first)
 
 
 @pytest.mark.parametrize("ground", list(Ground))
@@ -100,32 +93,6 @@ def test_a_shape_thinner_than_a_pixel_neither_flickers_nor_vanishes():
     light = [linear(render(scene, step / 40.0, SMALL))[36, :, 0] for step in range(41)]
     excess = (np.array(light) - BACKDROP).sum(axis=1)
     np.testing.assert_allclose(excess, (0.5 - BACKDROP) * 0.3, rtol=0.3)
-
-
-def test_a_distant_pattern_fades_to_its_mean_instead_of_flickering():
-    def wall(time: float) -> np.ndarray:
-        board = MovingShape(
-            Shape.BOX, (50.0, 0.1, 50.0), moving((0.0, 60.0, 0.0), (0.05, 0.0, 0.03)),
-            texture=Texture.CHECKS, texture_scale=2000.0,
-        )  # fmt: skip
-        return render(HandScene((board,), environment_base=day(Ground.NONE)), time, SMALL)
-
-    assert np.ptp([wall(t)[30:40, 40:50].mean() for t in (0.0, 0.3, 0.7)]) < 0.5
-    assert np.abs(wall(0.0) - wall(0.37))[20:50, 20:70].max() < 1.0
-
-
-def test_shadows_darken_the_ground_and_can_be_left_out():
-    with_shadows = render(showcase(), 0.0, SMALL)
-    without = render(showcase(), 0.0, SMALL, shadows=False)
-    # Pixels with a shadow edge are means of rays, others one filtered sample: nearly the same.
-    assert (without - with_shadows).min() >= -8.0
-    assert (without - with_shadows).max() > 20.0
-
-
-def test_fog_hides_what_is_far():
-    misty = replace(day(), fog_distance=1.0)
-    image = linear(render(HandScene(environment_base=misty), 0.0, SMALL))
-    np.testing.assert_allclose(image[38:40].mean(axis=(0, 1)), misty.fog_colour, atol=0.02)
 
 
 def test_a_shape_that_reaches_behind_the_camera_is_drawn_where_it_is_in_front():

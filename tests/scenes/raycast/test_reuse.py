@@ -124,12 +124,6 @@ def test_a_shadow_from_a_lamp_that_stands_still_is_followed(monkeypatch):
         share_changed(scene, 0.0, 0.5)
 
 
-def test_which_side_faces_a_lamp_is_followed_beyond_its_light():
-    ball = MovingShape(Shape.ELLIPSOID, (1.0, 1.0, 1.0), still(-2.0, 0.0, 1.0))
-    lamp = around(lambda time: [lamp_row((5.0, time, 1.0), reach=1.0, casts=True)], base=NIGHT)
-    assert share_changed(LivelyScene((ball,), around=lamp), 0.0, 0.4, 0.8) > 0.0
-
-
 @dataclass(frozen=True)
 class MeshScene(HandScene):
     """One of the boxes is a mesh that deforms beside one that does not."""

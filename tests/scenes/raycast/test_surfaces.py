@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.scenes.hand_scenes import HandScene, MovingShape, day, look_at, still
+from tests.scenes.hand_scenes import day
 
 from texvent.scenes.raycast.records import INSTANT_RECORD, describe_surroundings
-from texvent.scenes.raycast.render import render
 from texvent.scenes.raycast.shading.material import patch_axes, tile_average
 from texvent.scenes.raycast.shading.road import strip_place
 from texvent.scenes.raycast.surfaces.catalogue import (
@@ -20,9 +19,8 @@ from texvent.scenes.raycast.surfaces.catalogue import (
     build_tile,
 )
 from texvent.scenes.raycast.surfaces.fields import SIDE
-from texvent.scenes.scene import Ground, Shape, Texture
+from texvent.scenes.scene import Ground, Texture
 from texvent.scenes.staging.surroundings.road import RoadLine
-from texvent.sensor import SensorSize
 
 Floats = np.ndarray
 
@@ -67,26 +65,6 @@ def test_a_material_keeps_its_mean_at_every_size(texture):
     np.testing.assert_allclose(means, np.broadcast_to(means[0], (LEVELS, CHANNELS)), atol=1e-5)
     assert means[0][:2].sum() == pytest.approx(1.0, abs=1e-5)
     assert np.abs(means[0][2:]).max() < 0.05
-
-
-@pytest.mark.parametrize("texture", SURFACES, ids=lambda texture: str(texture.name))
-def test_a_tile_repeats_without_a_seam(texture):
-    brightness = finest(texture)[..., :2].sum(axis=-1)
-    for axis in (0, 1):
-        steps = np.abs(np.diff(brightness, axis=axis)).mean(axis=1 - axis)
-        ends = np.abs(brightness.take(0, axis) - brightness.take(-1, axis)).mean()
-        assert ends <= 1.3 * steps.max()
-
-
-def test_a_material_is_as_large_on_a_big_box_as_on_a_small_one():
-    def image(half: float) -> Floats:
-        box = MovingShape(Shape.BOX, (half, 0.1, half), still(0.0, 2.0, 0.0), texture=Texture.BRICK)
-        flat = replace(day(Ground.NONE), shadows=False)
-        camera = look_at((0.0, -2.0, 0.0), (0.0, 2.0, 0.0))
-        return render(HandScene((box,), lambda time: camera, flat), 0.0, SensorSize(96, 72))
-
-    middle = np.s_[24:48, 36:60]
-    np.testing.assert_allclose(image(1.2)[middle], image(2.4)[middle], atol=1e-3)
 
 
 @given(

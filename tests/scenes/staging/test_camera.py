@@ -12,7 +12,6 @@ from texvent.scenes.description import CameraMove, ObjectMotion, SceneObject, Sh
 from texvent.scenes.projection import project
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import (
-    Framing,
     come_near,
     fit,
     image_of,
@@ -49,14 +48,6 @@ def prominence_of(*boxes):
 
 def camera_at(framing):
     return CameraPath(framing, (), 2.0, has_floor=False).at(0.0)
-
-
-def test_prominence_is_the_mean_share_of_one_and_the_extent_of_a_group():
-    # 0.4 m at 2 m fills 0.2 of the width; 0.6 m fills 0.3 widths, 0.4 of the height.
-    view = Framing(np.zeros(3), 0.0, 0.0, 2.0, 1.0)
-    assert prominence_of(flat_box(0.4, 0.6))(view) == pytest.approx(np.sqrt(0.2 * 0.4) / 0.3)
-    pair = prominence_of(flat_box(0.3, 0.3, -0.6), flat_box(0.3, 0.3, 0.6))
-    assert pair(view) == pytest.approx(0.75 / 0.65)
 
 
 def test_fit_gives_the_nearest_station_that_holds_all_points():
@@ -223,10 +214,3 @@ def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass():
     gaps = np.array(depths)
     np.testing.assert_allclose(gaps[:, 0], gaps[0, 0], atol=0.05)
     assert gaps[0, 1] - gaps[2, 1] > 20.0
-
-
-@pytest.mark.parametrize("road", ["curved", "crossing"])
-def test_the_camera_travels_on_the_road_as_it_is(road):
-    environment = travel("city", "forward", road=road).environment(0.0)
-    assert (environment.road_curvature != 0.0) == (road == "curved")
-    assert (len(environment.road_crossings) == 1) == (road == "crossing")

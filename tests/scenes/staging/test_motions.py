@@ -102,14 +102,6 @@ def test_accelerating_and_braking_end_at_the_end_pace(pace, speed):
     assert (path.at(0.0).speed_m_s, path.at(4.0).speed_m_s) == (4.0, speed)
 
 
-@pytest.mark.parametrize(("noun", "rises"), [("balloon", 1.0), ("balloon", -1.0), ("boat", -1.0)])
-def test_what_rises_or_sinks_goes_straight_up_or_down(noun, rises):
-    path = path_of(ObjectMotion("rise" if rises > 0.0 else "sink"), noun=noun, speed=1.0)
-    first, last = path.at(0.0).position, path.at(4.0).position
-    assert first[:2] == pytest.approx(last[:2])
-    assert rises * (last[2] - first[2]) > 0.3
-
-
 def test_an_airplane_takes_off_along_a_runway_and_lands_on_it():
     off, down = (
         path_of(ObjectMotion(kind), noun="airplane", speed=20.0) for kind in ("rise", "sink")

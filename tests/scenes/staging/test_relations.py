@@ -7,22 +7,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.scenes.staged import SIZE, in_image, stage, thing
+from tests.scenes.staged import in_image, stage, thing
 
 from texvent.scenes.description import (
     CameraMove,
     ObjectMotion,
-    SceneDescription,
     SceneObject,
     Shot,
-    Surroundings,
 )
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, is_room, place_names
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Ground
-from texvent.scenes.staging.compose import compose_scene
-from texvent.scenes.staging.preparation import choose_levels
 from texvent.scenes.staging.surroundings.road import RoadLine
 from texvent.scenes.staging.surroundings.scenery import under_snow
 from texvent.sensor import SensorSize
@@ -188,27 +184,6 @@ def test_a_shore_keeps_scenery_dry_and_boats_afloat(noun, is_wet):
     assert bool((scene.actors[0].middle(0.0)[:2] - origin) @ normal > 0.0) == is_wet
 
 
-@pytest.mark.parametrize(
-    ("place", "kind", "is_lifted"),
-    [("underwater", "swim", True), ("underwater", "stand", False), ("sea", "swim", False)],
-)
-def test_who_swims_under_water_is_above_the_sea_bed(place, kind, is_lifted):
-    description = SceneDescription("", (thing("man", (kind,)),))
-    levels = choose_levels(PLACES[place], description, NOUNS)
-    assert (levels.get("man", 0.0) > 0.0) is is_lifted
-
-
-@pytest.mark.parametrize("place", ["sea", "beach"])
-def test_high_waves_foam(place):
-    images = []
-    for height in (1.0, 2.2):
-        waves = SceneDescription("", surroundings=Surroundings(place, wave_height=height))
-        scene = compose_scene(waves, seed=0, size=SIZE, duration_s=2.0)
-        images.append(render(scene, 0.0, SIZE).mean(axis=2))
-    flat, high = images
-    assert np.count_nonzero(high > flat + 40.0) > 100
-
-
 def road_of(scene):
     """The road of a scene, and half its width."""
     found = scene.environment(0.0)
@@ -226,11 +201,6 @@ def test_points_at_an_arc_length_lie_on_the_line(angle, curvature, along):
     assert math.cos(heading) == pytest.approx((further[0] - x) / 1e-6, abs=1e-3)
     left = np.array([[x - 0.5 * math.sin(heading), y + 0.5 * math.cos(heading)]])
     assert road.across(left)[0] == pytest.approx(0.5)
-
-
-def test_distance_is_to_the_nearest_road():
-    road = RoadLine(crossings=((5.0, 0.0, math.pi / 2),))
-    np.testing.assert_allclose(road.distance(np.array([[4.0, 3.0], [0.0, 2.0]])), [1.0, 2.0])
 
 
 @pytest.mark.parametrize(("direction", "is_on"), [("right", False), ("across", True)])

@@ -1,18 +1,15 @@
 """Tables of people: tracks by hand, what is worn and held, and that every entry can be drawn."""
 
 import math
-from dataclasses import fields
 
 import pytest
 
 from texvent.scenes.models.people import person
-from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS, Activity
-from texvent.scenes.models.people.movements import find_track
+from texvent.scenes.models.people.activities import ACTIVITIES, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import (
     ADULT,
     CLOTHES,
     KINDS,
-    PersonKind,
     draw_parts,
     dress_person,
     put_on,
@@ -22,13 +19,6 @@ from texvent.scenes.models.people.props import HOLDS, PROPS
 from texvent.scenes.models.people.track import read_track
 from texvent.scenes.models.protocol import Pose
 
-BODY_CHANNELS = {
-    *("hips", "lean", "tilt", "turn", "nod", "look", "heading", "tool"),
-    *(f"{arm}.{what}" for arm in ("left", "right", "arms") for what in ("hand", "elbow", "fixed")),
-    *(f"{leg}.{what}" for leg in ("left_leg", "right_leg", "legs") for what in
-      ("foot", "knee", "pitch")),
-}  # fmt: skip
-HAND_CHANNELS = {"bent", "spread", "roll", "pitch", "yaw", "shift", "keys"}
 RED, BLUE = (0.5, 0.0, 0.0), (0.0, 0.0, 0.5)
 
 
@@ -53,23 +43,6 @@ def test_every_person_is_drawn_and_stands_on_the_ground(noun):
     model = person.build_person(KINDS[noun], colour=None, scale=1.0, seed=3)
     assert model.parts(Pose(0.0, 0.0, 0.0, "stand"))
     assert model.height == pytest.approx(1.75 * KINDS[noun].height, rel=0.15)
-
-
-def test_every_key_of_the_tables_is_read():
-    activity = {one.name for one in fields(Activity)}
-    kind = {one.name for one in fields(PersonKind)} | {"names", "plurals", "speed", "motion"}
-    for row in read_table("hand_gestures").values():
-        assert set(row) <= activity | HAND_CHANNELS
-    for row in read_table("outfits")["people"].values():
-        assert set(row) <= kind | {"holds"}
-    for noun, row in CLOTHES.items():
-        assert set(row) <= kind | {"painted", "usual"}, noun
-    for name in ACTIVITIES:
-        track = find_track(name)
-        if track is None:
-            continue
-        channels = {*track.series, *(one for keys in track.keyed for one, _ in keys.channels)}
-        assert channels <= BODY_CHANNELS, name
 
 
 def test_every_prop_hat_and_garment_can_be_drawn():

@@ -6,17 +6,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.scenes.raycast.meshes.mesh_reference import hit_mesh_reference
-from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball, ball_mesh
+from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball, ball_mesh, hit_mesh_reference
 
 from texvent.errors import InputError
 from texvent.runtime.jit import jit
 from texvent.scenes.mesh import deformed, make_mesh, smooth_normals
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.meshes.hit import hit_mesh
-from texvent.scenes.raycast.render import render, world_at
+from texvent.scenes.raycast.render import world_at
 from texvent.scenes.raycast.uncounted import uncounted_world
-from texvent.scenes.scene import Ground
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(48, 36)
@@ -117,17 +115,6 @@ def project(camera, points, size):
     return seen[:, :2] / seen[:, 2:] * scale + [0.5 * size.width, 0.5 * size.height]
 
 
-def test_flow_of_a_rigid_mesh_follows_its_triangles():
-    mesh, to_body = ball_mesh()
-    scene = MeshScene(lambda time: (mesh, to_body), turning)
-    check_flow(scene)
-
-
-def test_flow_of_a_deforming_mesh_follows_its_triangles():
-    scene = MeshScene(bulging, turning)
-    check_flow(scene)
-
-
 def first_triangle(corners, origin, direction):
     """Triangle, weights and depth where a ray first meets [t, 3, 3] corners, by brute force."""
     sides = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=2)
@@ -145,8 +132,10 @@ def world_corners(scene, time):
     return (mesh.vertices @ to_world[:, :3].T + to_world[:, 3])[mesh.triangles]
 
 
-def check_flow(scene) -> None:
+@pytest.mark.parametrize("mesh_at", [lambda time: REST, bulging], ids=["rigid", "deforming"])
+def test_flow_of_a_mesh_follows_its_triangles(mesh_at):
     """Flow and depth of pixel centres, against points followed by brute force."""
+    scene = MeshScene(mesh_at, turning)
     size, times = SensorSize(40, 30), (0.0, 0.25)
     truth = ground_truth(scene, *times, size)
     start, stop = (world_corners(scene, time) for time in times)
@@ -161,12 +150,3 @@ def check_flow(scene) -> None:
         moved = project(scene.camera(times[1]), (weights @ stop[one])[None], size)[0]
         expected = moved - [column + 0.5, row + 0.5]
         np.testing.assert_allclose(truth.flow[row, column], expected, atol=1e-4)
-
-
-def test_shadow_of_a_mesh_falls_on_the_ground():
-    mesh, to_body = ball_mesh()
-    scene = MeshScene(lambda time: (mesh, to_body))
-    assert scene.environment(0.0).ground is Ground.GRASS
-    lit = render(scene, 0.0, SIZE, shadows=False)
-    shaded = render(scene, 0.0, SIZE)
-    assert (lit.mean(axis=2) - shaded.mean(axis=2) > 10.0).sum() > 20

@@ -1,24 +1,20 @@
 """Acts: what is held stays in the hand, bodies meet when they should, nothing jumps."""
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, middle, stage
 
-from texvent.scenes.colours import COLOURS
 from texvent.scenes.description import (
     ObjectMotion,
     SceneObject,
 )
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds, moved
-from texvent.scenes.models.support_surface import find_support, top_heights
+from texvent.scenes.models.support_surface import top_heights
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.acts import Performed
 from texvent.scenes.staging.acts.striking import contact_time
-from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory
 
 CONTACT_M = 0.02
 
@@ -149,48 +145,6 @@ def test_what_is_worn_goes_with_the_body(what, place):
     gaps = [np.linalg.norm(middle(worn, t) - man.anchor(place, t)[:, 3]) for t in (0.0, 0.6, 1.5)]
     assert max(gaps) < 0.45
     np.testing.assert_allclose(gaps, gaps[0], atol=1e-9)
-
-
-def test_a_worn_shirt_is_the_colour_of_the_body_s_own():
-    scene = stage(SceneObject("man"), SceneObject("shirt", colour="red"),
-                  relations=(("wear", 0, 1),), place=None)  # fmt: skip
-    (man,) = scene.actors
-    colours = {part.colour for part in man.place(0.0).parts}
-    assert COLOURS["red"] in colours
-
-
-@pytest.mark.parametrize("board", ["skateboard", "surfboard"])
-def test_who_rides_a_board_stands_on_it(board):
-    rider, ridden = act("ride", "man", board).actors
-    top = find_support(ridden.model).height
-    for time_s in (0.0, 1.4):
-        to_board = np.linalg.inv(np.vstack([ridden.trajectory.at(time_s).to_world(), [0, 0, 0, 1]]))
-        for side in ("left", "right"):
-            foot = to_board @ [*rider.anchor(f"{side} foot", time_s)[:, 3], 1.0]
-            assert -0.01 < foot[2] - top < 0.09
-
-
-@pytest.mark.parametrize("mount", ["boat", "canoe", "tractor", "horse"])
-def test_riders_sit_apart_and_go_along(mount):
-    scene = stage(SceneObject("man", count=2), SceneObject(mount, motion=ObjectMotion("move")),
-                  relations=(("ride", 0, 1),), place=None)  # fmt: skip
-    carrier = next(one for one in scene.actors if one.noun.name == mount)
-    seated = [one for one in scene.actors if isinstance(base(one), Riding)]
-    assert seated
-    inverse = [np.linalg.inv(np.vstack([carrier.trajectory.at(t).to_world(), [0, 0, 0, 1]]))
-               for t in (0.0, 1.5)]  # fmt: skip
-    for one in seated:
-        places = [turn @ [*one.trajectory.at(t).position, 1.0]
-                  for t, turn in zip((0.0, 1.5), inverse, strict=True)]  # fmt: skip
-        np.testing.assert_allclose(places[0], places[1], atol=1e-9)
-    apart = [np.linalg.norm(a.middle(0.0) - b.middle(0.0)) for a, b in pairwise(seated)]
-    assert not apart or min(apart) > 0.3
-
-
-def base(actor: Actor) -> Trajectory:
-    """The trajectory under what the hands do meanwhile."""
-    path = actor.trajectory
-    return path.path if isinstance(path, Performed) else path
 
 
 def test_who_rides_in_a_closed_vehicle_is_not_seen():
