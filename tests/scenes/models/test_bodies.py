@@ -1,13 +1,16 @@
-"""Bodies given as data: their joints, legs and chains, and what an entry takes from another."""
+"""Bodies given as data, and what animals do in their place: joints, legs, mouths."""
 
 import tomllib
 
 import numpy as np
 import pytest
 
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
 from texvent.scenes.models.joints import read_cycle, read_joint
+from texvent.scenes.models.nouns import FAMILIES, NOUNS
 from texvent.scenes.models.parts import PartsBuilder
 from texvent.scenes.models.protocol import Model, Pose
+from texvent.scenes.models.shapes import bounds
 
 STILL = Pose(0.0, 0.0, 0.0, "stand")
 
@@ -71,3 +74,50 @@ def test_a_foot_on_the_ground_does_not_slide():
     assert np.abs(np.diff(in_world, axis=0)[stays]).max() < 1e-9
     np.testing.assert_allclose(feet[0, ::2, 1], -feet[0, 1::2, 1])
     np.testing.assert_allclose(middles(model, STILL)[3::3, 2], 0.0)
+
+
+QUADRUPEDS = tuple(noun.name for noun in FAMILIES["quadrupeds"])
+
+
+def parts_at(noun: str, act: str, time_s: float) -> list:
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    return list(model.parts(Pose(time_s, 0.0, 0.0, act)))
+
+
+@pytest.mark.parametrize("noun", ["dog", "cat", "horse", "cow", "zebra", "rabbit", "elephant"])
+def test_a_grazing_mouth_is_low(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    pose = Pose(0.2, 0.0, 0.0, "graze")
+    place = "trunk" if noun == "elephant" else "mouth"
+    lowest = min(model.anchor(place, Pose(t, 0.0, 0.0, "graze"))[2, 3] for t in (0.2, 0.4, 0.6))
+    assert lowest < 0.3 * model.height
+    assert model.anchor("crown", pose)[2, 3] > model.anchor("mouth", pose)[2, 3]
+
+
+@pytest.mark.parametrize("noun", ["dog", "horse", "bird", "ostrich"])
+def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    size, ground = model.height, bounds(parts_at(noun, "stand", 0.0))[0][2]
+    acts = NOUNS[noun].acts
+    assert acts in (frozenset(ANIMAL_ACTS), MOUTH_ACTS)
+    for act in acts:
+        start, moved = parts_at(noun, act, 0.0), 0.0
+        for time_s in np.arange(0.0, 2.0, 0.21):
+            now, next_ = (
+                np.array([part.to_body for part in model.parts(Pose(t, 0.0, 0.0, act))])
+                for t in (time_s, time_s + 1e-3)
+            )
+            assert np.abs(now - next_).max() < 0.02 * size
+            assert bounds(parts_at(noun, act, time_s))[0][2] > ground - 0.4 * size
+            first = np.array([part.to_body for part in start])
+            moved = max(moved, float(np.abs(now - first).max()))
+        assert moved > 0.02 * size
+
+
+@pytest.mark.parametrize("noun", QUADRUPEDS)
+def test_sitting_lowers_the_hips_and_lying_the_whole(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    rump = [model.parts(Pose(0.0, 0.0, 0.0, act))[2].to_body[2, 3] for act in ("stand", "sit")]
+    assert rump[1] < rump[0]
+    lying = bounds(model.parts(Pose(0.0, 0.0, 0.0, "lie")))
+    assert lying[1][2] < bounds(model.parts(Pose(0.0, 0.0, 0.0, "stand")))[1][2]

@@ -5,8 +5,7 @@ import time
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from tests.scenes.read.facts import PROMPTS, grade
-from tests.scenes.read.saying import say, sentences
+from tests.scenes.read.expected import PROMPTS, grade, say, sentences
 
 from texvent.errors import InputError
 from texvent.generate.scene_input import list_words, read

@@ -1,4 +1,4 @@
-"""Scenes: actors, scenery, camera and light."""
+"""Scenes: actors, scenery, materials, camera and light."""
 
 import itertools
 import math
@@ -10,8 +10,10 @@ import pytest
 from texvent.errors import InputError
 from texvent.generate.scene_input import understand
 from texvent.scenes.description import SceneDescription, SceneObject, Surroundings
+from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.models.protocol import Pose
+from texvent.scenes.scene import Camera, Float64Array, Texture
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import ACTS
 from texvent.scenes.staging.camera.framing import image_of
@@ -153,3 +155,16 @@ def test_left_and_right_are_so_in_the_picture(nouns):
     for time in TIMES:
         left, right = (float(seen(scene, one, time)[:, 0].mean()) for one in scene.actors)
         assert left < 0.0 < right
+
+
+def test_an_object_is_made_of_what_is_said():
+    usual = NOUNS["car"].build(colour=None, scale=1.0, seed=0)
+    pose = Pose(0.0, 0.0, 0.0, "stand")
+    parts = in_material(usual, "wood", None).parts(pose)
+    assert {part.texture for part in parts if part.emission == 0.0} == {Texture.WOOD}
+    painted = in_material(usual, "wood", (0.1, 0.2, 0.6)).parts(pose)
+    colours = [part.colour for part in usual.parts(pose)]
+    assert [part.colour for part in painted] == colours
+    assert in_material(usual, None, None) is usual
+    with pytest.raises(InputError, match="unknown material 'cheese'; known: wood"):
+        in_material(usual, "cheese", None)

@@ -2,32 +2,23 @@
 
 import numpy as np
 import pytest
+from tests.scenes.staged import SIZE, stage
 
 from texvent.scenes.description import (
     Effect,
-    SceneDescription,
     SceneObject,
-    Surroundings,
 )
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.particles.emitter import flight
 from texvent.scenes.staging.particles.shapes import TINY_M
-from texvent.sensor import SensorSize
-
-SIZE = SensorSize(64, 48)
-BOX = SceneObject("box")
 
 
-def staged(*effects: Effect, objects: tuple[SceneObject, ...] = (BOX,), seed: int = 0,
-           place: str = "plain") -> ComposedScene:  # fmt: skip
-    description = SceneDescription(
-        "", objects=objects, effects=effects, surroundings=Surroundings(place)
-    )
-    return compose_scene(description, seed=seed, size=SIZE, duration_s=1.0)
+def staged(*effects, seed=0):
+    return stage.__wrapped__(SceneObject("box"), effects=effects, place="plain", seed=seed, duration_s=1.0)
 
 
 def small(scene: ComposedScene, time_s: float) -> Float64Array:
