@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
-from texvent.scenes.models.joints import read_cycle, read_joint
+from texvent.scenes.models.joints import read_cycle
 from texvent.scenes.models.nouns import FAMILIES, NOUNS
 from texvent.scenes.models.parts import PartsBuilder
 from texvent.scenes.models.protocol import Model, Pose
@@ -29,20 +29,6 @@ def test_a_cycle_counts_seconds_or_metres():
     assert read_cycle(["1.5/m", "from", ".25"])(pose, 0) == pytest.approx(4.75)
     begun = {read_cycle(["2hz", "start", "flap"])(pose, seed) for seed in range(5)}
     assert len(begun) == 5
-
-
-@pytest.mark.parametrize(
-    ("text", "time_s", "size"),
-    [
-        ("pulse yz 0 0 1 .2 1hz", 0.25, (1.0, 1.2, 1.2)),
-        ("pulse x 0 0 1 .2 1hz", 0.75, (0.8, 1.0, 1.0)),
-        ("grow xyz 0 0 1 .1 .5hz", 1.0, (0.55, 0.55, 0.55)),
-    ],
-)
-def test_a_stretched_part_keeps_its_pivot(text, time_s, size):
-    motion = read_joint(text).motion(Pose(time_s, 0.0, 0.0), 0)
-    np.testing.assert_allclose(np.diag(motion[:, :3]), size)
-    np.testing.assert_allclose(motion @ [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0])
 
 
 LEGS = """

@@ -1,7 +1,6 @@
 """Every noun's model: honest size, steady parts, wheels and feet that do not slip."""
 
 import math
-from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
@@ -11,7 +10,6 @@ from texvent.errors import InputError
 from texvent.scenes.models.materials import RED
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.scene import Shape
 
 from ..every_row import for_every
@@ -72,11 +70,6 @@ def unit_points(shape: Shape) -> np.ndarray:
 def surface_points(part: ModelPart) -> np.ndarray:
     """Points all over a part, in body coordinates: [n, 3]."""
     return unit_points(part.shape) @ part.to_body[:, :3].T + part.to_body[:, 3]
-
-
-def bodies(parts: Sequence[ModelPart]) -> np.ndarray:
-    """[n, 3, 4] unit-shape → body maps."""
-    return np.array([part.to_body for part in parts])
 
 
 def all_points(model: Model, *poses: Pose) -> np.ndarray:
@@ -203,17 +196,3 @@ def test_rolling_nouns_turn_by_distance_over_radius(name):
 def test_a_figure_fails_on_an_impossible_scale(scale):
     with pytest.raises(InputError, match="scale must be a positive number"):
         NOUNS["car"].build(colour=None, scale=scale, seed=0)
-
-
-@pytest.mark.parametrize("name", sorted(nouns_with("shows a picture")))
-def test_a_picture_is_shown_by_the_first_part_a_flat_box(name):
-    face = build(NOUNS[name]).parts(POSES[0])[0]
-    assert face.shape is Shape.BOX
-    deep, wide, tall = np.linalg.norm(face.to_body[:, :3], axis=0)
-    assert deep < 0.35 * min(wide, tall)
-    normal = face.to_body[:, 0] / deep
-    # It faces forward or up, with its top up or away from who looks at it.
-    assert max(normal[0], normal[2]) > 0.7
-    top = face.to_body[:, 2] / tall
-    assert max(top[2], -top[0]) > 0.7
-    assert face.to_body[1, 1] > 0.0

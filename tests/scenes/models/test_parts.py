@@ -13,9 +13,9 @@ from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.part_lines import read_parts
 from texvent.scenes.models.parts import PartsBuilder, read_nouns
-from texvent.scenes.models.protocol import Model, Noun, Pose
+from texvent.scenes.models.protocol import Noun, Pose
 from texvent.scenes.models.surfaces import read_surface, shared_surfaces
-from texvent.scenes.scene import Shape, Texture
+from texvent.scenes.scene import Texture
 
 DIGEST = Path(__file__).with_name("noun_digest.txt")
 AT_REST = Pose(0.0, 0.0, 0.0, "stand")
@@ -174,31 +174,3 @@ def test_joints_by_hand():
     for bad in ("spin q 0 0 0 1hz", "whirl x 0 0 0 1hz", "spin x 0 0 0 1", "spin x 0"):
         with pytest.raises(ValueError, match="joint"):
             read_joint(bad)
-
-
-def _model(text: str, tmp_path: Path, *, colour: tuple[float, float, float] | None) -> Model:
-    file = tmp_path / "mine.toml"
-    file.write_text(text)
-    return read_nouns(file)[0].build(colour=colour, scale=1.0, seed=0)
-
-
-def test_a_file_of_ones_own(tmp_path):
-    text = """
-place = "indoor"
-[mobile]
-colours = ["#ff0000"]
-varied.cord = ["(.1 .1 .1)"]
-parts = '''
-rod cord  0 0 1  0 0 2  .01
-moving spin z 0 0 0 .25hz, called arm
-bar paint  0 -1 1 1 1 .1 .1
-moving on arm, swing x 0 1 1 10deg 1hz
-ball paint*.5  0 1 .5  .2 .2 .2'''
-"""
-    model = _model(text, tmp_path, colour=(0.2, 0.2, 0.8))
-    first, second = (model.parts(Pose(time_s, 0.0, 0.0)) for time_s in (0.0, 1.0))
-    assert [part.shape for part in first] == [Shape.CYLINDER, Shape.BOX, Shape.ELLIPSOID]
-    assert [part.colour for part in first[1:]] == [(0.2, 0.2, 0.8), (0.1, 0.1, 0.4)]
-    # The ball hangs from the arm, which has made a quarter turn.
-    np.testing.assert_allclose(first[2].to_body[:, 3], [0, 1, 0.5], atol=1e-9)
-    np.testing.assert_allclose(second[2].to_body[:, 3], [-1, 0, 0.5], atol=1e-9)

@@ -14,7 +14,6 @@ from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.traits import nouns_with
 from texvent.scenes.pictures import PicturedModel, check_picture, load_picture
-from texvent.scenes.pictures.source import draw_text
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 
@@ -54,15 +53,6 @@ def test_an_image_file_is_read_in_linear_light(tmp_path):
     image = load_picture(Picture("file", str(path)))(0.0)
     assert image.levels[0].shape == (5, 7, 3)
     assert image.levels[0].mean() == pytest.approx(0.503, abs=1e-3)
-
-
-def test_text_is_dark_on_white_and_wraps():
-    short, long = draw_text("7"), draw_text("a long text that needs more than a single line")
-    assert long.shape[0] > short.shape[0]
-    for image in (short, long):
-        assert image[0, 0, 0] > 0.8
-        assert image.min() < 0.1
-        assert 0.02 < (image < 0.4).mean() < 0.5
 
 
 @pytest.mark.parametrize(

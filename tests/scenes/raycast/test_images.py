@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, sheet
 
-from texvent.scenes.image import SurfaceImage, decode_srgb, surface_image
+from texvent.scenes.image import SurfaceImage, surface_image
 from texvent.scenes.projection import place_in_image
 from texvent.scenes.raycast.render import render_light
 from texvent.scenes.scene import Camera
@@ -82,12 +82,3 @@ def test_a_checkerboard_shows_its_corners_exactly_where_the_camera_says():
         corners = corners[::-1]
     # OpenCV counts from the middle of the first pixel.
     assert np.abs(corners + 0.5 - true).max() < 0.15
-
-
-def test_pyramid_levels_keep_the_mean_and_srgb_is_decoded():
-    image = surface_image(quarters())
-    for level in image.levels:
-        np.testing.assert_allclose(level.mean(axis=(0, 1)), quarters().mean(axis=(0, 1)), rtol=1e-5)
-    assert image.levels[-1].shape == (1, 1, 3)
-    np.testing.assert_allclose(decode_srgb(np.array([0, 255], np.uint8)), [0.0, 1.0])
-    assert decode_srgb(np.array([188], np.uint8))[0] == pytest.approx(0.5029, abs=1e-3)

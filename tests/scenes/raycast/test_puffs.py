@@ -94,18 +94,6 @@ def test_overlapping_puffs_of_one_colour_solve_the_equation_of_transfer():
     np.testing.assert_allclose(render_light(scene, 0.0, SMALL)[36, 48], expected, rtol=1e-3)
 
 
-def test_the_order_of_puffs_changes_nothing():
-    rng = np.random.default_rng(0)
-    rows = np.array([
-        puff(tuple(rng.uniform(-1, 1, 3)), colour=tuple(rng.uniform(0, 1, 3)), emission=1.0,
-             thickness=rng.uniform(0.2, 2.0), detail=0.7)
-        for _ in range(12)
-    ])  # fmt: skip
-    first = render_light(scene_of(*rows), 0.0, SMALL)
-    second = render_light(scene_of(*rows[::-1]), 0.0, SMALL)
-    np.testing.assert_allclose(first, second, atol=1e-12)
-
-
 @pytest.mark.parametrize("detail", [0.0, 1.0])
 def test_a_moving_puff_changes_no_pixel_by_a_jump(detail):
     """1/32 pixel of motion: no pixel may change by more than 1/10 of what a whole pixel changes."""

@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.mesh import make_mesh
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.reuse import changed
 from texvent.scenes.raycast.reuse.changed import Drawn, changed_tiles
 from texvent.scenes.raycast.reuse.memory import FrameMemory
-from texvent.scenes.scene import Environment, Float64Array, Primitives, Shape
+from texvent.scenes.scene import Environment, Float64Array, Shape
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, moving, still
@@ -122,32 +121,6 @@ def test_a_shadow_from_a_lamp_that_stands_still_is_followed(monkeypatch):
     monkeypatch.setattr(changed, "shaded_from_lamp", lambda lamp, casters, balls: balls.radius < -9)
     with pytest.raises(AssertionError, match="not equal"):
         share_changed(scene, 0.0, 0.5)
-
-
-@dataclass(frozen=True)
-class MeshScene(HandScene):
-    """One of the boxes is a mesh that deforms beside one that does not."""
-
-    def primitives(self, time_s: float) -> Primitives:
-        found = super().primitives(time_s)
-        corners = np.array([[-1, -1, -1], [1, -1, -1], [0, 1, -1], [0, 0, 1]], dtype=float)
-        faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-        first, bent = self._kept(corners, faces, 0.0), self._kept(corners, faces, time_s)
-        shape = np.array([Shape.MESH, Shape.MESH, *found.shape[2:]], dtype=np.int8)
-        mesh = np.array([first, bent, *(None for _ in found.shape[2:])], dtype=object)
-        return replace(found, shape=shape, mesh=mesh)
-
-    def _kept(self, corners, faces, bend: float):
-        store = self.class_names.setdefault("meshes", {})
-        if bend not in store:
-            turned = corners + bend * np.array([0.3, 0.0, 0.0]) * (corners[:, 2:] > 0)
-            store[bend] = make_mesh(np.clip(turned, -1, 1), faces)[0]
-        return store[bend]
-
-
-def test_meshes_that_deform_are_drawn_anew_and_others_are_not():
-    pair = (replace(BOX, place=still(-2.5, 0.0, 0.8)), replace(BOX, place=still(1.5, 0.0, 0.8)))
-    assert 0.0 < share_changed(MeshScene(pair, high_camera), 0.0, 0.5, 1.0) < 0.5
 
 
 @pytest.mark.parametrize(

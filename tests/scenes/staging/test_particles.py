@@ -18,7 +18,9 @@ from texvent.scenes.staging.particles.shapes import TINY_M
 
 
 def staged(*effects, seed=0):
-    return stage.__wrapped__(SceneObject("box"), effects=effects, place="plain", seed=seed, duration_s=1.0)
+    return stage.__wrapped__(
+        SceneObject("box"), effects=effects, place="plain", seed=seed, duration_s=1.0
+    )
 
 
 def small(scene: ComposedScene, time_s: float) -> Float64Array:

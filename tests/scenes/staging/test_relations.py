@@ -10,10 +10,8 @@ from hypothesis import strategies as st
 from tests.scenes.staged import in_image, stage, thing
 
 from texvent.scenes.description import (
-    CameraMove,
     ObjectMotion,
     SceneObject,
-    Shot,
 )
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, is_room, place_names
@@ -71,15 +69,6 @@ def test_a_child_appears_from_behind_a_car():
         assert (child.max() < car.max() and child.min() > car.min()) == is_hidden
         away = [one.middle(time_s) - scene.camera(time_s).position for one in scene.actors]
         assert np.linalg.norm(away[0]) > np.linalg.norm(away[1]) or not is_hidden
-
-
-def test_what_is_followed_moves_and_what_cannot_move_is_reported():
-    follow = Shot((CameraMove("follow", "behind"),))
-    (dog,) = stage(thing("dog", ("stand",)), shot=follow).actors
-    assert np.linalg.norm(dog.middle(2.0) - dog.middle(0.0)) > 1.0
-    house = stage(thing("house"), shot=follow)
-    assert house.not_shown == ("following the house, which does not move",)
-    assert np.linalg.norm(house.camera(2.0).position - house.camera(0.0).position) > 1.0
 
 
 def test_what_begins_after_the_clip_is_reported():

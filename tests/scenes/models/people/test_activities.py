@@ -8,13 +8,11 @@ import pytest
 from texvent.scenes.models.people import person, posture
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
-    HAND_GESTURES,
     ON_GROUND,
     PAIR_GAPS,
     PERSON_NOUNS,
     TRAVELLING,
 )
-from texvent.scenes.models.people.hand import build_hand
 from texvent.scenes.models.people.movements import find_posture
 from texvent.scenes.models.people.outfit import (
     ADULT,
@@ -27,7 +25,6 @@ from texvent.scenes.models.people.outfit import (
 )
 from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
 from texvent.scenes.models.people.props import HOLDS, PROPS
-from texvent.scenes.models.people.track import read_track
 from texvent.scenes.models.protocol import Pose
 
 from ...every_row import for_every
@@ -134,35 +131,7 @@ def test_hands_of_two_who_stand_before_each_other_meet(activity, time_s):
     assert math.dist((x, y, z), other) < 0.05
 
 
-@pytest.mark.parametrize("gesture", sorted(HAND_GESTURES))
-def test_a_hand_moves_smoothly_and_keeps_its_parts(gesture):
-    model = build_hand(colour=None, scale=1.0, seed=0)
-    count = len(model.parts(Pose(0.0, 0.0, 0.0, "stand")))
-    for time_s in np.arange(0.0, 4.0, 0.37):
-        before = model.parts(Pose(float(time_s), 0.0, 0.0, gesture))
-        after = model.parts(Pose(float(time_s) + STEP_S, 0.0, 0.0, gesture))
-        assert len(before) == count
-        for a, b in zip(before, after, strict=True):
-            assert np.abs(b.to_body[:, 3] - a.to_body[:, 3]).max() < 5e-3
-
-
 RED, BLUE = (0.5, 0.0, 0.0), (0.0, 0.0, 0.5)
-
-
-def test_a_track_by_hand():
-    track = read_track(
-        {
-            "lean": [0.2, 0.1, 0.5],
-            "right": {"hand": [0.3, [0.0, 1.0, 2.0, 0.25, 0.5, 1.0], -0.1]},
-            "keys": {"at_s": [0.0, 1.0], "right": {"hand": [[0, 0, 0], [0, 0, 1]]}, "nod": [0, 2]},
-        }
-    )
-    values = track.at(0.5)
-    assert values["lean"] == pytest.approx((0.3,))
-    assert values["nod"] == pytest.approx((1.0,))
-    wave = math.sin(2.0 * math.pi * 1.25) + 0.5 * math.sin(math.pi)
-    assert values["right.hand"] == pytest.approx((0.3, wave, 0.4))
-    assert track.at(7.0)["nod"] == (2.0,)
 
 
 @pytest.mark.parametrize("noun", sorted(PERSON_NOUNS))

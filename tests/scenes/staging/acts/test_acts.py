@@ -152,20 +152,6 @@ def test_who_rides_in_a_closed_vehicle_is_not_seen():
     assert [actor.noun.name for actor in scene.actors] == ["bus"]
 
 
-@pytest.mark.parametrize("activity", ["hug", "shake hands", "high five"])
-def test_two_who_do_it_together_face_each_other_at_arm_s_length(activity):
-    motion = ObjectMotion(activity)
-    scene = stage(
-        SceneObject("man", motion=motion), SceneObject("woman", motion=motion), place=None
-    )
-    one, other = (actor.trajectory.at(0.0) for actor in scene.actors)
-    way = np.subtract(other.position, one.position)
-    assert 0.3 < np.linalg.norm(way) < 1.1
-    for state, sign in ((one, 1.0), (other, -1.0)):
-        heading = state.to_world()[:, 0]
-        assert sign * float(way @ heading) > 0.9 * np.linalg.norm(way)
-
-
 def test_who_looks_at_something_has_the_front_to_it():
     man, dog = act("look at", "man", "dog").actors
     way = middle(dog, 1.0) - middle(man, 1.0)
