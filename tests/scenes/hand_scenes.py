@@ -144,46 +144,18 @@ class HandScene:
 
 def showcase(ground: Ground = Ground.ROAD) -> HandScene:
     """One of each shape and texture."""
-    return HandScene(
-        (
-            MovingShape(Shape.ELLIPSOID, (0.9, 0.9, 0.9), still(-2.6, 0.0, 0.9), instance=1),
-            MovingShape(
-                Shape.BOX,
-                (1.4, 0.7, 0.5),
-                moving((0.0, 0.5, 0.6), (2.0, 0.0, 0.0)),
-                instance=2,
-                colour=(0.05, 0.2, 0.7),
-                texture=Texture.CHECKS,
-                texture_scale=4.0,
-            ),
-            MovingShape(
-                Shape.CYLINDER,
-                (0.4, 0.4, 1.0),
-                still(2.6, 0.0, 1.0),
-                instance=3,
-                texture=Texture.STRIPES,
-                texture_scale=4.0,
-            ),
-            MovingShape(
-                Shape.CONE,
-                (0.8, 0.8, 1.2),
-                still(-1.0, 2.5, 1.2),
-                instance=4,
-                colour=(0.02, 0.25, 0.05),
-                texture=Texture.MOTTLED,
-                texture_scale=5.0,
-            ),
-            MovingShape(Shape.CYLINDER, (0.02, 0.02, 2.0), still(1.2, -1.0, 2.0), instance=5),
-            MovingShape(
-                Shape.BOX,
-                (3.0, 2.0, 4.0),
-                still(5.0, 14.0, 4.0),
-                instance=6,
-                colour=(0.45, 0.3, 0.2),
-                second=(0.05, 0.07, 0.1),
-                texture=Texture.CHECKS,
-                texture_scale=3.0,
-            ),
-        ),
-        environment_base=day(ground),
-    )
+    box, cylinder, grey = Shape.BOX, Shape.CYLINDER, (0.9, 0.9, 0.9)
+    rows = (
+        (Shape.ELLIPSOID, grey, still(-2.6, 0.0, 0.9), (0.8, 0.1, 0.05), grey),
+        (box, (1.4, 0.7, 0.5), moving((0.0, 0.5, 0.6), (2.0, 0.0, 0.0)), (0.05, 0.2, 0.7), grey,
+         Texture.CHECKS, 4.0),
+        (cylinder, (0.4, 0.4, 1.0), still(2.6, 0.0, 1.0), (0.8, 0.1, 0.05), grey,
+         Texture.STRIPES, 4.0),
+        (Shape.CONE, (0.8, 0.8, 1.2), still(-1.0, 2.5, 1.2), (0.02, 0.25, 0.05), grey,
+         Texture.MOTTLED, 5.0),
+        (cylinder, (0.02, 0.02, 2.0), still(1.2, -1.0, 2.0), (0.8, 0.1, 0.05), grey),
+        (box, (3.0, 2.0, 4.0), still(5.0, 14.0, 4.0), (0.45, 0.3, 0.2), (0.05, 0.07, 0.1),
+         Texture.CHECKS, 3.0),
+    )  # fmt: skip
+    shapes = (MovingShape(*row, instance=number) for number, row in enumerate(rows, 1))
+    return HandScene(tuple(shapes), environment_base=day(ground))

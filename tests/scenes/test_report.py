@@ -1,7 +1,5 @@
 """The report of a prompt's words: one definition, kept through JSON and counted."""
 
-from __future__ import annotations
-
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -22,24 +20,24 @@ REPORTS = st.builds(
 
 
 @given(report=REPORTS)
-def test_a_report_survives_json(report: PromptReport) -> None:
+def test_a_report_survives_json(report):
     assert PromptReport.from_json(report.to_json()) == report
     assert PromptReport.of_metadata({REPORT_KEY: report.to_json()}) == report
 
 
 @given(report=REPORTS)
-def test_a_report_is_faithful_if_and_only_if_nothing_is_to_refuse(report: PromptReport) -> None:
+def test_a_report_is_faithful_if_and_only_if_nothing_is_to_refuse(report):
     assert report.is_faithful == (report.refusal() is None) == (not report.faults())
 
 
-def test_metadata_of_older_files_are_read() -> None:
+def test_metadata_of_older_files_are_read():
     old = {"understood": ["1 car", "not understood: wug"], "not_understood": ["wug"]}
     report = PromptReport.of_metadata(old)
     assert report == PromptReport(scene=("1 car",), not_understood=("wug",))
     assert PromptReport.of_metadata({"generator": "wan"}) is None
 
 
-def test_the_refusal_names_every_word() -> None:
+def test_the_refusal_names_every_word():
     report = PromptReport(
         substituted=(Substitution("spaniel", "dog"),),
         out_of_view=("table",),
@@ -51,7 +49,7 @@ def test_the_refusal_names_every_word() -> None:
         assert word in said
 
 
-def test_a_tally_counts_prompts_and_words() -> None:
+def test_a_tally_counts_prompts_and_words():
     tally = ReportTally()
     tally.add(PromptReport(not_understood=("wug",)))
     tally.add(PromptReport(not_understood=("wug", "dax"), out_of_view=("dog (1 of 2)",)))

@@ -1,7 +1,5 @@
 """Models of files as nouns: names, sizes, glTF skins and animations, OBJ and PLY, bad files."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 
@@ -13,7 +11,7 @@ from tests.scenes.assets.glb_writer import GlbWriter, write_bar, write_slider
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.assets import check_files, load_model, merge_nouns, read_folder
-from texvent.scenes.assets.index import Asset, name_of
+from texvent.scenes.assets.index import Asset
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.spec.files import load_scene
@@ -29,20 +27,7 @@ def corners_at(asset: Asset, time_s: float, activity: str = "move") -> np.ndarra
     return np.concatenate(found)
 
 
-@pytest.mark.parametrize(
-    ("name", "noun"),
-    [
-        ("office_chair.glb", "office chair"),
-        ("OfficeChair-02.obj", "office chair"),
-        ("bed1.obj", "bed"),
-        ("007.ply", "007"),
-    ],
-)
-def test_names_come_from_file_names(name: str, noun: str) -> None:
-    assert name_of(Path(name)) == noun
-
-
-def test_a_scene_brings_models_by_path(tmp_path: Path) -> None:
+def test_a_scene_brings_models_by_path(tmp_path):
     write_bar(tmp_path / "bar.glb")
     path = tmp_path / "scene.toml"
     path.write_text(
@@ -68,7 +53,7 @@ def test_a_scene_brings_models_by_path(tmp_path: Path) -> None:
         load_scene(path)
 
 
-def test_a_skin_bends_with_its_joint(tmp_path: Path) -> None:
+def test_a_skin_bends_with_its_joint(tmp_path):
     asset = Asset(write_bar(tmp_path / "bar.glb"), "bar")
     straight, bent = corners_at(asset, 0.0), corners_at(asset, 0.5)
     np.testing.assert_allclose(np.ptp(straight[:, 2]), 2.0, atol=1e-6)
@@ -82,7 +67,7 @@ def test_a_skin_bends_with_its_joint(tmp_path: Path) -> None:
     np.testing.assert_allclose(bent[lower], straight[lower], atol=1e-9)
 
 
-def test_nodes_move_by_their_rule_and_activities_choose_animations(tmp_path: Path) -> None:
+def test_nodes_move_by_their_rule_and_activities_choose_animations(tmp_path):
     asset = Asset(write_slider(tmp_path / "thing.glb"), "thing")
     start = corners_at(asset, 0.0).mean(axis=0)
     np.testing.assert_allclose(corners_at(asset, 0.25).mean(axis=0) - start, [0, 0.5, 0], atol=1e-6)
@@ -91,7 +76,7 @@ def test_nodes_move_by_their_rule_and_activities_choose_animations(tmp_path: Pat
     np.testing.assert_allclose(running, start, atol=1e-6)
 
 
-def test_a_generated_scene_shows_assets_and_says_which_files(tmp_path: Path) -> None:
+def test_a_generated_scene_shows_assets_and_says_which_files(tmp_path):
     write_bar(tmp_path / "wobbly_lamp.glb")
     config = ProceduralConfig(duration=0.5, assets=tmp_path)
     video = ProceduralGenerator(config, seed=1, size=SensorSize(48, 36)).generate("a wobbly lamp")
@@ -110,7 +95,7 @@ def test_a_generated_scene_shows_assets_and_says_which_files(tmp_path: Path) -> 
         check_files(video.metadata["files"])
 
 
-def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path: Path) -> None:
+def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path):
     write_bar(tmp_path / "car.glb")
     write_slider(tmp_path / "sports_van.glb")
     write_slider(tmp_path / "gizmo.glb")
@@ -124,7 +109,7 @@ def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path: 
     assert said.count("car") == 1
 
 
-def test_an_index_names_sizes_and_turns(tmp_path: Path) -> None:
+def test_an_index_names_sizes_and_turns(tmp_path):
     write_slider(tmp_path / "m_17.glb")
     (tmp_path / "assets.toml").write_text(
         '["m_17.glb"]\nnoun = "weathercock"\nsynonyms = ["vane"]\nheight = 3.0\n'
@@ -148,7 +133,7 @@ def test_an_index_names_sizes_and_turns(tmp_path: Path) -> None:
         ('["a.glb"]\nsynonyms = "one"\n', "list of words"),
     ],
 )
-def test_a_bad_index_is_one_clear_line(tmp_path: Path, text: str, message: str) -> None:
+def test_a_bad_index_is_one_clear_line(tmp_path, text, message):
     write_slider(tmp_path / "a.glb")
     (tmp_path / "assets.toml").write_text(text)
     with pytest.raises(FileFormatError, match=message) as caught:
@@ -156,7 +141,7 @@ def test_a_bad_index_is_one_clear_line(tmp_path: Path, text: str, message: str) 
     assert "\n" not in str(caught.value)
 
 
-def test_damaged_glb_files_are_one_clear_line(tmp_path: Path) -> None:
+def test_damaged_glb_files_are_one_clear_line(tmp_path):
     whole = write_bar(tmp_path / "whole.glb").read_bytes()
     cases = {
         "short.glb": whole[:40],
@@ -197,7 +182,7 @@ def write_obj(folder: Path) -> Path:
     return path
 
 
-def test_an_obj_brings_its_materials_and_image_upright(tmp_path: Path) -> None:
+def test_an_obj_brings_its_materials_and_image_upright(tmp_path):
     pytest.importorskip("trimesh")
     model = load_model(Asset(write_obj(tmp_path), "panel", height=1.0))
     (part,) = model.parts(Pose(0.0, 0.0, 0.0))
@@ -214,45 +199,7 @@ def test_an_obj_brings_its_materials_and_image_upright(tmp_path: Path) -> None:
     np.testing.assert_allclose(mesh.colours[~shown][0, 0], [0.0, 0.0, 1.0], atol=0.01)
 
 
-def test_a_ply_brings_colours_and_stands_on_z(tmp_path: Path) -> None:
-    pytest.importorskip("trimesh")
-    path = tmp_path / "scan.ply"
-    path.write_text(
-        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-        "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
-        "0 0 0 255 0 0\n1 0 0 255 0 0\n1 0 4 0 255 0\n0 0 4 0 255 0\n3 0 1 2\n3 0 2 3\n"
-    )
-    model = load_model(Asset(path, "strange thing"))
-    assert model.height == pytest.approx(4.0)
-    (part,) = model.parts(Pose(0.0, 0.0, 0.0))
-    assert part.mesh is not None
-    assert part.mesh.colours.max(axis=(0, 1)) == pytest.approx([1.0, 1.0, 0.0])
-
-
-def test_damaged_obj_and_ply_files_are_one_clear_line(tmp_path: Path) -> None:
-    pytest.importorskip("trimesh")
-    for name, text in (("a.obj", "f 1 2 3\n"), ("b.ply", "ply\nnonsense\n"), ("c.obj", "")):
-        path = tmp_path / name
-        path.write_text(text)
-        with pytest.raises(InputError) as caught:
-            load_model(Asset(path, "thing"))
-        assert "\n" not in str(caught.value)
-        assert name in str(caught.value)
-
-
-def test_a_list_of_parts_is_an_asset_too(tmp_path: Path) -> None:
-    (tmp_path / "own.toml").write_text(
-        '[gizmo]\nnames = ["widget"]\nhabitat = "ground"\nspeed = 2\nmotion = "roll"\n'
-        'parts = "wheel 0 0 .3  .3 .1"\n[car]\nparts = "box red  0 0 1  1 1 2"\n'
-    )
-    nouns = merge_nouns(read_folder(tmp_path))
-    assert (nouns["gizmo"].synonyms, nouns["gizmo"].speed_m_s) == (("widget",), 2.0)
-    assert nouns["gizmo"].build(colour=None, scale=2.0, seed=0).height == pytest.approx(1.2)
-    assert len(nouns["car"].build(colour=None, scale=1.0, seed=0).parts(Pose(0, 0, 0))) == 1
-
-
-def test_the_pack_of_more_nouns_is_whole() -> None:
+def test_the_pack_of_more_nouns_is_whole():
     pack = Path(__file__).parents[3] / "packs" / "more-nouns"
     assets = read_folder(pack)
     assert len(assets) > 400

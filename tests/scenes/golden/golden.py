@@ -4,10 +4,10 @@
     python -m tests.scenes.golden.golden films     # writes the pictures anew, from the scenes
     python -m tests.scenes.golden.golden compare   # names each one that differs, to the last bit
 
-`sentences.txt` holds the sentences of docs, configs (templates filled in), benchmarks and tests,
-under the file that they come from. `scenes.json.gz` holds the scene of each of them, as plain
-values; `filmed.npz` holds the pictures and the truth of those in `filmed.txt`, made from these
-scenes: a change of reading changes no picture.
+`sentences.txt` holds sentences of docs, configs (templates filled in), benchmarks and tests, one of
+each kind, under the file that they come from. `scenes.json.gz` holds the scene of each of them, as
+plain values; `filmed.npz` holds the pictures and the truth of those in `filmed.txt`, made from
+these scenes: a change of reading changes no picture.
 """
 
 from __future__ import annotations

@@ -1,7 +1,5 @@
 """Scenes by a language model: request, inventions, errors, and a real llama.cpp server."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import threading
@@ -18,7 +16,7 @@ import pytest
 from texvent.cli.app import main
 from texvent.errors import InputError, TexventError
 from texvent.scenes.llm.endpoint import Endpoint
-from texvent.scenes.llm.writer import ground, model_schema, resolve, write_scene
+from texvent.scenes.llm.writer import ground, model_schema, write_scene
 from texvent.scenes.spec.files import load_scene
 from texvent.scenes.spec.scene import Motion, Relation, SceneObject
 
@@ -111,14 +109,6 @@ def test_counts_need_a_number_or_a_plural():
     assert count("cars", 4) == 4
     assert count("a car", 4) == 1
     assert count("a car", 10_000) == 1
-
-
-def test_words_are_resolved_in_their_forms():
-    assert resolve("Automobiles", "noun") == "car"
-    assert resolve("people", "noun") == "person"
-    assert [resolve(one, "motion") for one in ("drives", "bouncing", "spinning", "waves")] == [
-        "drive", "bounce", "spin", "wave"]  # fmt: skip
-    assert resolve("wug", "noun") is None
 
 
 def test_the_schema_bounds_everything_and_has_no_closed_list_of_nouns():

@@ -1,18 +1,16 @@
-"""Bodies given as data: their joints, legs and chains, and what an entry takes from another."""
+"""Bodies given as data, and what animals do in their place: joints, legs, mouths."""
 
-import math
 import tomllib
 
 import numpy as np
 import pytest
 
-from texvent.errors import FileFormatError
-from texvent.scenes.models.joints import read_cycle, read_joint, read_wave
-from texvent.scenes.models.materials import WHITE, Material
-from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.parts import PartsBuilder, _merged, mirrored
+from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
+from texvent.scenes.models.joints import read_cycle
+from texvent.scenes.models.nouns import FAMILIES, NOUNS
+from texvent.scenes.models.parts import PartsBuilder
 from texvent.scenes.models.protocol import Model, Pose
-from texvent.scenes.models.shapes import limb
+from texvent.scenes.models.shapes import bounds
 
 STILL = Pose(0.0, 0.0, 0.0, "stand")
 
@@ -25,58 +23,12 @@ def middles(model: Model, pose: Pose) -> np.ndarray:
     return np.array([part.to_body[:, 3] for part in model.parts(pose)])
 
 
-def test_a_cycle_counts_seconds_or_metres() -> None:
+def test_a_cycle_counts_seconds_or_metres():
     pose = Pose(0.5, 3.0, 1.0)
     assert read_cycle(["2hz"])(pose, 0) == pytest.approx(1.0)
     assert read_cycle(["1.5/m", "from", ".25"])(pose, 0) == pytest.approx(4.75)
     begun = {read_cycle(["2hz", "start", "flap"])(pose, seed) for seed in range(5)}
     assert len(begun) == 5
-
-
-@pytest.mark.parametrize(
-    ("text", "time_s", "size"),
-    [
-        ("pulse yz 0 0 1 .2 1hz", 0.25, (1.0, 1.2, 1.2)),
-        ("pulse x 0 0 1 .2 1hz", 0.75, (0.8, 1.0, 1.0)),
-        ("grow xyz 0 0 1 .1 .5hz", 1.0, (0.55, 0.55, 0.55)),
-    ],
-)
-def test_a_stretched_part_keeps_its_pivot(
-    text: str, time_s: float, size: tuple[float, float, float]
-) -> None:
-    motion = read_joint(text).motion(Pose(time_s, 0.0, 0.0), 0)
-    np.testing.assert_allclose(np.diag(motion[:, :3]), size)
-    np.testing.assert_allclose(motion @ [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0])
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["pulse yz 0 0 1 .2", "grow xyz 0 0 1 .1 5", "sway y .1 2hz begin now", "flap x 1hz", ""],
-)
-def test_a_joint_that_cannot_be_read_is_named(text: str) -> None:
-    with pytest.raises(ValueError, match="joint"):
-        read_joint(text)
-
-
-def test_a_wave_bends_the_tail_more_than_the_head_and_less_at_rest() -> None:
-    wave = read_wave("y .1 1hz")
-    parts = [limb(Material(WHITE), (x - 0.1, 0, 0), (x + 0.1, 0, 0), 0.05) for x in (0.4, -0.4)]
-    reach = {
-        act: [
-            max(abs(wave(part, Pose(t, 0.0, 0.0, act), 0).to_body[1, 3]) for t in (0.0, 0.2, 0.4))
-            for part in parts
-        ]
-        for act in ("swim", "stand")
-    }
-    assert reach["swim"][1] > 4.0 * reach["swim"][0]
-    assert reach["stand"][1] == pytest.approx(0.3 * reach["swim"][1])
-
-
-def test_a_mirrored_part_is_not_turned_inside_out() -> None:
-    part = limb(Material(WHITE), (0.1, 0.2, 0.3), (0.5, 0.6, 0.1), 0.1, side_radius=0.05)
-    (other,) = mirrored([part])
-    assert np.linalg.det(other.to_body[:, :3]) > 0.0
-    np.testing.assert_allclose(other.to_body[:, 3], part.to_body[:, 3] * [1.0, -1.0, 1.0])
 
 
 LEGS = """
@@ -97,7 +49,7 @@ foot = "ball paint   0 0 0   .1 .1 .1"
 """
 
 
-def test_a_foot_on_the_ground_does_not_slide() -> None:
+def test_a_foot_on_the_ground_does_not_slide():
     model = build(LEGS)
     distances = np.linspace(0.0, 1.0, 101)
     feet = np.array([middles(model, Pose(0.0, d, 2.0))[3::3] for d in distances])
@@ -110,54 +62,48 @@ def test_a_foot_on_the_ground_does_not_slide() -> None:
     np.testing.assert_allclose(middles(model, STILL)[3::3, 2], 0.0)
 
 
-def test_a_chain_hangs_together_and_its_wave_runs_along_it() -> None:
-    model = build("""
-    colours = { paint = ["(.3 .2 .1)"] }
-    [[chains]]
-    surface = "paint"
-    start = [0.0, 0.0, 2.0]
-    step = [0.0, 0.0, -0.2]
-    links = 6
-    radii = [0.02, 0.01]
-    wave = "y .2 1hz"
-    lag = 0.1
-    """)
-    ends = []
-    for time_s in (0.0, 0.1):
-        maps = [part.to_body for part in model.parts(Pose(time_s, 0.0, 0.0))]
-        axes = [one[:, 2] / np.linalg.norm(one[:, 2]) for one in maps]
-        halves = [np.linalg.norm(one[:, 2]) - 0.6 * np.linalg.norm(one[:, 0]) for one in maps]
-        tops = [one[:, 3] - h * a for one, h, a in zip(maps, halves, axes, strict=True)]
-        tips = [one[:, 3] + h * a for one, h, a in zip(maps, halves, axes, strict=True)]
-        np.testing.assert_allclose(tops[1:], tips[:-1], atol=1e-9)
-        ends.append([tip[1] / (k + 1) for k, tip in enumerate(tips)])
-    np.testing.assert_allclose(ends[1][1:], ends[0][:-1], atol=1e-9)
+QUADRUPEDS = tuple(noun.name for noun in FAMILIES["quadrupeds"])
 
 
-def test_an_entry_has_the_keys_of_the_one_that_it_is_like() -> None:
-    merged = _merged({"size": 1, "colours": {"x": 1, "y": 2}}, {"colours": {"x": 3}})
-    assert merged == {"size": 1, "colours": {"x": 3, "y": 2}}
-    assert NOUNS["eagle"].acts == NOUNS["bird"].acts
+def parts_at(noun: str, act: str, time_s: float) -> list:
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    return list(model.parts(Pose(time_s, 0.0, 0.0, act)))
 
 
-def test_a_new_quadruped_is_one_entry() -> None:
-    table = tomllib.loads("""
-    speed = 1.0
-    build = [0.4, [0.6, 0.2, 0.25], [0.1, 0.6], [0.2, 0.1], [0.3, 0.5], [0.1, "round"]]
-    coat = ["(.2 .1 .05)"]
-    surfaces = { stripe = "white fur" }
-    marks = "limb stripe   .4 0 .4   -.4 0 .4   .1"
-    """)
-    model = PartsBuilder("dodo", table)(colour=None, scale=2.0, seed=0)
-    assert model.height == pytest.approx(2.0 * 0.6, rel=0.3)
-    assert math.isclose(sum(p.colour[0] > 0.7 for p in model.parts(STILL)), 1)
+@pytest.mark.parametrize("noun", ["dog", "cat", "horse", "cow", "zebra", "rabbit", "elephant"])
+def test_a_grazing_mouth_is_low(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    pose = Pose(0.2, 0.0, 0.0, "graze")
+    place = "trunk" if noun == "elephant" else "mouth"
+    lowest = min(model.anchor(place, Pose(t, 0.0, 0.0, "graze"))[2, 3] for t in (0.2, 0.4, 0.6))
+    assert lowest < 0.3 * model.height
+    assert model.anchor("crown", pose)[2, 3] > model.anchor("mouth", pose)[2, 3]
 
 
-@pytest.mark.parametrize(
-    "change",
-    [{"parts": "bal paint 0 0 0 1 1 1"}, {"parts": "moving swing x\nball paint 0 0 0 1 1 1"}],
-)
-def test_a_damaged_entry_names_the_noun(change: dict[str, object]) -> None:
-    table = {"colours": {"paint": ["(.1 .1 .1)"]}, "parts": "ball paint 0 0 1 1 1 1", **change}
-    with pytest.raises(FileFormatError, match="'dodo'"):
-        PartsBuilder("x.toml, 'dodo'", table)(colour=None, scale=1.0, seed=0)
+@pytest.mark.parametrize("noun", ["dog", "horse", "bird", "ostrich"])
+def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    size, ground = model.height, bounds(parts_at(noun, "stand", 0.0))[0][2]
+    acts = NOUNS[noun].acts
+    assert acts in (frozenset(ANIMAL_ACTS), MOUTH_ACTS)
+    for act in acts:
+        start, moved = parts_at(noun, act, 0.0), 0.0
+        for time_s in np.arange(0.0, 2.0, 0.21):
+            now, next_ = (
+                np.array([part.to_body for part in model.parts(Pose(t, 0.0, 0.0, act))])
+                for t in (time_s, time_s + 1e-3)
+            )
+            assert np.abs(now - next_).max() < 0.02 * size
+            assert bounds(parts_at(noun, act, time_s))[0][2] > ground - 0.4 * size
+            first = np.array([part.to_body for part in start])
+            moved = max(moved, float(np.abs(now - first).max()))
+        assert moved > 0.02 * size
+
+
+@pytest.mark.parametrize("noun", QUADRUPEDS)
+def test_sitting_lowers_the_hips_and_lying_the_whole(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    rump = [model.parts(Pose(0.0, 0.0, 0.0, act))[2].to_body[2, 3] for act in ("stand", "sit")]
+    assert rump[1] < rump[0]
+    lying = bounds(model.parts(Pose(0.0, 0.0, 0.0, "lie")))
+    assert lying[1][2] < bounds(model.parts(Pose(0.0, 0.0, 0.0, "stand")))[1][2]

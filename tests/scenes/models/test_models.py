@@ -1,21 +1,15 @@
 """Every noun's model: honest size, steady parts, wheels and feet that do not slip."""
 
 import math
-from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from texvent.errors import InputError
-from texvent.scenes.models import limbs, shapes, variation
-from texvent.scenes.models.limbs import Gait
-from texvent.scenes.models.materials import DARK, RED
+from texvent.scenes.models.materials import RED
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Shape
 
 from ..every_row import for_every
@@ -76,18 +70,13 @@ def surface_points(part: ModelPart) -> np.ndarray:
     return unit_points(part.shape) @ part.to_body[:, :3].T + part.to_body[:, 3]
 
 
-def bodies(parts: Sequence[ModelPart]) -> np.ndarray:
-    """[n, 3, 4] unit-shape → body maps."""
-    return np.array([part.to_body for part in parts])
-
-
 def all_points(model: Model, *poses: Pose) -> np.ndarray:
     """Points all over it at some poses; a part that is the same at all of them counts once."""
     parts = {id(part): part for pose in poses for part in model.parts(pose)}
     return np.concatenate([surface_points(part) for part in parts.values()])
 
 
-def test_every_word_means_one_noun_and_is_lower_case() -> None:
+def test_every_word_means_one_noun_and_is_lower_case():
     owner: dict[str, str] = {}
     for key, noun in NOUNS.items():
         assert key == noun.name
@@ -97,7 +86,7 @@ def test_every_word_means_one_noun_and_is_lower_case() -> None:
 
 
 @for_every_noun
-def test_parts_keep_their_number_order_and_handedness(noun: Noun) -> None:
+def test_parts_keep_their_number_order_and_handedness(noun):
     for seed, colour, scale in ((0, None, 1.0), (7, RED, 0.3)):
         model = noun.build(colour=colour, scale=scale, seed=seed)
         posed = [model.parts(pose) for pose in (POSES if seed == 0 else POSES[::3])]
@@ -118,7 +107,7 @@ def test_parts_keep_their_number_order_and_handedness(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_size_holds_all_parts_and_is_not_loose(noun: Noun) -> None:
+def test_size_holds_all_parts_and_is_not_loose(noun):
     model = build(noun, seed=2)
     points = all_points(model, *(pose for pose in POSES if pose.activity != "sit"))
     reach = np.abs(points).max(axis=0)
@@ -132,18 +121,7 @@ def test_size_holds_all_parts_and_is_not_loose(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_scale_scales_everything(noun: Noun) -> None:
-    usual, double = usual_model(noun), build(noun, scale=2.0, seed=1)
-    assert double.length == pytest.approx(2.0 * usual.length)
-    assert double.height == pytest.approx(2.0 * usual.height)
-    # The same instant of a body twice as large, which has gone twice as far twice as fast.
-    small = usual.parts(Pose(0.4, 0.9, 1.1))
-    large = double.parts(Pose(0.4, 1.8, 2.2))
-    np.testing.assert_allclose(2.0 * bodies(small), bodies(large), rtol=0, atol=1e-9)
-
-
-@for_every_noun
-def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
+def test_things_on_the_ground_stand_on_it(noun):
     if noun.habitat not in ("ground", "fixed") or noun.name in HUNG:
         return
     model = usual_model(noun)
@@ -155,7 +133,7 @@ def test_things_on_the_ground_stand_on_it(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
+def test_a_millisecond_moves_nothing_far(noun):
     model = usual_model(noun)
     speed = max(noun.speed_m_s, 1.0)
     extent = max(model.length, model.width, model.height)
@@ -183,15 +161,7 @@ def test_a_millisecond_moves_nothing_far(noun: Noun) -> None:
 
 
 @for_every_noun
-def test_a_seed_fixes_every_detail(noun: Noun) -> None:
-    pose = Pose(0.7, 1.9, 1.0)
-    once, again = usual_model(noun).parts(pose), build(noun, seed=1).parts(pose)
-    assert np.array_equal(bodies(once), bodies(again))
-    assert [(a.colour, a.emission) for a in once] == [(b.colour, b.emission) for b in again]
-
-
-@for_every_noun
-def test_a_colour_word_shows(noun: Noun) -> None:
+def test_a_colour_word_shows(noun):
     if noun.name in LINES:
         return
     violet = (0.31, 0.02, 0.47)
@@ -203,7 +173,7 @@ def test_a_colour_word_shows(noun: Noun) -> None:
 
 
 @pytest.mark.parametrize("name", ["ball", "football", "sphere", "wheel", "car", "truck", "bicycle"])
-def test_rolling_nouns_turn_by_distance_over_radius(name: str) -> None:
+def test_rolling_nouns_turn_by_distance_over_radius(name):
     for scale in (1.0, 2.5):
         model = build(NOUNS[name], scale=scale)
         step = 1e-3
@@ -220,76 +190,7 @@ def test_rolling_nouns_turn_by_distance_over_radius(name: str) -> None:
         np.testing.assert_allclose(rates, 1.0, rtol=1e-4)
 
 
-@given(
-    distance=st.floats(0.0, 100.0),
-    offset=st.floats(0.0, 1.0),
-    duty=st.floats(0.3, 0.7),
-    stride=st.floats(0.2, 4.0),
-)
-def test_a_foot_on_the_ground_moves_back_as_fast_as_the_body_moves_on(
-    distance: float, offset: float, duty: float, stride: float
-) -> None:
-    gait = Gait(stride, duty, 0.1)
-    step = 1e-4 * stride
-    x, z = limbs.foot_path(gait, distance, offset, 1.0)
-    later_x, later_z = limbs.foot_path(gait, distance + step, offset, 1.0)
-    assert 0.0 <= z <= 0.1 + 1e-12
-    assert abs(x) <= 0.5 * duty * stride + 1e-9
-    phase = (distance / stride + offset) % 1.0
-    if 1e-3 < phase < duty - 1e-3:
-        assert z == 0.0 == later_z
-        assert later_x - x == pytest.approx(-step, rel=1e-6, abs=1e-12)
-    else:
-        assert abs(later_x - x) <= 1.6 * duty / (1.0 - duty) * step + step
-
-
-def test_a_knee_bends_forward_by_hand() -> None:
-    # A 3-4-5 triangle: hip at height 8, ankle at 0, both bones 5 long.
-    assert limbs.bend((0, 0, 8.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0)) == pytest.approx((3, 0, 4))
-    straight = limbs.bend((0, 0, 12.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0))
-    assert straight == pytest.approx((0, 0, 6))
-
-
-def test_half_extents_match_points_on_the_surface() -> None:
-    material = DARK
-    for part in (
-        shapes.plank(material, (0, 0, 0), (1, 0, 2), chord=(0, 1, 0), thickness=(1, 0, 0.5)),
-        shapes.limb(material, (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 0.4),
-        shapes.rod(material, (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 0.4),
-        shapes.spike(material, (0.0, 0.0, 0.0), (-1.0, 2.0, 3.0), 0.4),
-    ):
-        low, high = shapes.half_extents(part.shape, part.to_body)
-        points = surface_points(part)
-        assert (points >= low - 1e-9).all()
-        assert (points <= high + 1e-9).all()
-        np.testing.assert_allclose(points.min(axis=0), low, atol=0.04)
-        np.testing.assert_allclose(points.max(axis=0), high, atol=0.04)
-
-
-def test_variation_depends_on_seed_and_detail_only() -> None:
-    values = [variation.fraction(seed, "leaf") for seed in range(200)]
-    assert values == [variation.fraction(seed, "leaf") for seed in range(200)]
-    assert 0.0 <= min(values) < 0.05 < 0.95 < max(values) < 1.0
-    assert len(set(values)) == 200
-    assert variation.fraction(0, "leaf") != variation.fraction(0, "bark")
-    assert {variation.choose(seed, "x", "abc") for seed in range(30)} == set("abc")
-
-
 @pytest.mark.parametrize("scale", [0.0, -1.0, math.nan, math.inf])
-def test_a_figure_fails_on_an_impossible_scale(scale: float) -> None:
+def test_a_figure_fails_on_an_impossible_scale(scale):
     with pytest.raises(InputError, match="scale must be a positive number"):
         NOUNS["car"].build(colour=None, scale=scale, seed=0)
-
-
-@pytest.mark.parametrize("name", sorted(nouns_with("shows a picture")))
-def test_a_picture_is_shown_by_the_first_part_a_flat_box(name: str) -> None:
-    face = build(NOUNS[name]).parts(POSES[0])[0]
-    assert face.shape is Shape.BOX
-    deep, wide, tall = np.linalg.norm(face.to_body[:, :3], axis=0)
-    assert deep < 0.35 * min(wide, tall)
-    normal = face.to_body[:, 0] / deep
-    # It faces forward or up, with its top up or away from who looks at it.
-    assert max(normal[0], normal[2]) > 0.7
-    top = face.to_body[:, 2] / tall
-    assert max(top[2], -top[0]) > 0.7
-    assert face.to_body[1, 1] > 0.0

@@ -13,9 +13,9 @@ from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.part_lines import read_parts
 from texvent.scenes.models.parts import PartsBuilder, read_nouns
-from texvent.scenes.models.protocol import Model, Noun, Pose
+from texvent.scenes.models.protocol import Noun, Pose
 from texvent.scenes.models.surfaces import read_surface, shared_surfaces
-from texvent.scenes.scene import Shape, Texture
+from texvent.scenes.scene import Texture
 
 DIGEST = Path(__file__).with_name("noun_digest.txt")
 AT_REST = Pose(0.0, 0.0, 0.0, "stand")
@@ -35,7 +35,7 @@ def listed() -> list[Noun]:
     return [noun for noun in NOUNS.values() if isinstance(noun.build, PartsBuilder)]
 
 
-def test_every_noun_of_the_files_is_as_it_was() -> None:
+def test_every_noun_of_the_files_is_as_it_was():
     entries = DIGEST.read_text("utf-8").replace("\n", ";").strip(";").split(";")
     stored = {name.strip(): line.split() for name, line in (one.split(":") for one in entries)}
     found = {noun.name: describe(noun) for noun in listed()}
@@ -46,7 +46,7 @@ def test_every_noun_of_the_files_is_as_it_was() -> None:
         np.testing.assert_allclose(numbers, wanted, rtol=0.02, atol=2e-3, err_msg=name)
 
 
-def test_every_noun_has_a_class_id() -> None:
+def test_every_noun_has_a_class_id():
     assert set(NOUNS) <= set(CLASS_IDS)
     assert (CLASS_IDS["airplane"], CLASS_IDS["zebra"], CLASS_IDS["hand"]) == (1, 117, 118)
     # Numbers from `FIRST_OTHER` on are of names that are no nouns.
@@ -59,7 +59,7 @@ def one(line: str) -> np.ndarray:
     return parts[0].to_body
 
 
-def test_lines_of_single_shapes_by_hand() -> None:
+def test_lines_of_single_shapes_by_hand():
     np.testing.assert_allclose(
         one("box red  1 2 3  2 4 6"), [[1, 0, 0, 1], [0, 2, 0, 2], [0, 0, 3, 3]]
     )
@@ -81,7 +81,7 @@ def places(text: str) -> list[tuple[float, ...]]:
     return [tuple(np.round(part.to_body[:, 3], 6) + 0.0) for part in parts]
 
 
-def test_one_line_may_be_many_parts() -> None:
+def test_one_line_may_be_many_parts():
     assert places("ball red  ±1 ±2 3  1 1 1") == [(1, 2, 3), (1, -2, 3), (-1, 2, 3), (-1, -2, 3)]
     assert places("ball red  0 0 0  1 1 1  times 3 0 .5 1") == [(0, 0, 0), (0, 0.5, 1), (0, 1, 2)]
     assert places("ball red  0 0 1  1 1 1  also 0 2 1  3 0 0") == [(0, 0, 1), (0, 2, 1), (3, 0, 0)]
@@ -92,14 +92,6 @@ def test_one_line_may_be_many_parts() -> None:
     assert len(places("chain red  .1  0 0 0  1 0 0\n    1 1 0  # goes on")) == 2
     assert places("lathe red  0 0 1  2  0 1  4 1") == [(0, 0, 2), (0, 0, 4)]
     assert len(places("frame red  0 0 1  2 1  .1 .1")) == 4
-
-
-def test_a_wheel_does_not_slip() -> None:
-    _, (wheel,) = read_parts("wheel 1 0 .4  .4 .2")
-    step = 1e-5
-    turn = wheel[1].motion(Pose(0.0, step, 1.0), 0)
-    foot = np.array([1.0, 0.0, 0.0, 1.0])
-    np.testing.assert_allclose(turn @ foot, [1.0 - step, 0.0, 0.0], atol=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -114,7 +106,7 @@ def test_a_wheel_does_not_slip() -> None:
         ("box", "a line is a shape"),
     ],
 )
-def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
+def test_a_bad_line_is_named(tmp_path, line, message):
     file = tmp_path / "mine.toml"
     file.write_text(f'[thing]\nparts = "{line}"\n')
     (noun,) = read_nouns(file)
@@ -135,7 +127,7 @@ def test_a_bad_line_is_named(tmp_path: Path, line: str, message: str) -> None:
         ("[a\n", "mine.toml"),
     ],
 )
-def test_a_bad_file_is_one_clear_line(tmp_path: Path, text: str, message: str) -> None:
+def test_a_bad_file_is_one_clear_line(tmp_path, text, message):
     file = tmp_path / "mine.toml"
     file.write_text(text)
     with pytest.raises(FileFormatError, match=message) as caught:
@@ -143,7 +135,7 @@ def test_a_bad_file_is_one_clear_line(tmp_path: Path, text: str, message: str) -
     assert "\n" not in str(caught.value)
 
 
-def test_surfaces_by_hand() -> None:
+def test_surfaces_by_hand():
     hues = {"paint": (0.2, 0.4, 0.6)}
     assert read_surface("paint", hues) == Material((0.2, 0.4, 0.6))
     assert read_surface("paint*.5", hues).colour == pytest.approx((0.1, 0.2, 0.3))
@@ -165,7 +157,7 @@ def turned(text: str, pose: Pose, point: tuple[float, ...], seed: int = 0) -> li
     return where
 
 
-def test_joints_by_hand() -> None:
+def test_joints_by_hand():
     quarter = Pose(0.25, 0.0, 0.0)
     assert turned("spin z 0 0 0 1hz", quarter, (1, 0, 0)) == [0, 1, 0]
     assert turned("swing z 1 0 0 90deg 1hz", quarter, (2, 0, 0)) == [1, 1, 0]
@@ -182,46 +174,3 @@ def test_joints_by_hand() -> None:
     for bad in ("spin q 0 0 0 1hz", "whirl x 0 0 0 1hz", "spin x 0 0 0 1", "spin x 0"):
         with pytest.raises(ValueError, match="joint"):
             read_joint(bad)
-
-
-def _model(text: str, tmp_path: Path, *, colour: tuple[float, float, float] | None) -> Model:
-    file = tmp_path / "mine.toml"
-    file.write_text(text)
-    return read_nouns(file)[0].build(colour=colour, scale=1.0, seed=0)
-
-
-def test_a_file_of_ones_own(tmp_path: Path) -> None:
-    text = """
-place = "indoor"
-[mobile]
-colours = ["#ff0000"]
-varied.cord = ["(.1 .1 .1)"]
-parts = '''
-rod cord  0 0 1  0 0 2  .01
-moving spin z 0 0 0 .25hz, called arm
-bar paint  0 -1 1 1 1 .1 .1
-moving on arm, swing x 0 1 1 10deg 1hz
-ball paint*.5  0 1 .5  .2 .2 .2'''
-"""
-    model = _model(text, tmp_path, colour=(0.2, 0.2, 0.8))
-    first, second = (model.parts(Pose(time_s, 0.0, 0.0)) for time_s in (0.0, 1.0))
-    assert [part.shape for part in first] == [Shape.CYLINDER, Shape.BOX, Shape.ELLIPSOID]
-    assert [part.colour for part in first[1:]] == [(0.2, 0.2, 0.8), (0.1, 0.1, 0.4)]
-    # The ball hangs from the arm, which has made a quarter turn.
-    np.testing.assert_allclose(first[2].to_body[:, 3], [0, 1, 0.5], atol=1e-9)
-    np.testing.assert_allclose(second[2].to_body[:, 3], [-1, 0, 0.5], atol=1e-9)
-
-
-def test_a_noun_may_be_like_another(tmp_path: Path) -> None:
-    file = tmp_path / "mine.toml"
-    file.write_text(
-        '[stool]\nnames = ["seat"]\nplace = "indoor"\nparts = "box red 0 0 1 1 1 1"\n'
-        '[perch]\nlike = "stool"\nplace = "garden"\n'
-    )
-    stool, perch = read_nouns(file)
-    assert (perch.place, perch.synonyms) == ("garden", ())
-    heights = {one.build(colour=None, scale=1.0, seed=0).height for one in (stool, perch)}
-    assert heights == {1.5}
-    file.write_text('[perch]\nlike = "stool"\n')
-    with pytest.raises(FileFormatError, match="no noun 'stool' above it"):
-        read_nouns(file)

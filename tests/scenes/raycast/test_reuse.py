@@ -1,7 +1,5 @@
 """Frames of which only some tiles are drawn anew are those that are drawn whole, bit by bit."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -9,12 +7,11 @@ import numpy as np
 import pytest
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.mesh import make_mesh
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.reuse import changed
 from texvent.scenes.raycast.reuse.changed import Drawn, changed_tiles
 from texvent.scenes.raycast.reuse.memory import FrameMemory
-from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Shape
+from texvent.scenes.scene import Environment, Float64Array, Shape
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, moving, still
@@ -126,91 +123,6 @@ def test_a_shadow_from_a_lamp_that_stands_still_is_followed(monkeypatch):
         share_changed(scene, 0.0, 0.5)
 
 
-def test_which_side_faces_a_lamp_is_followed_beyond_its_light():
-    ball = MovingShape(Shape.ELLIPSOID, (1.0, 1.0, 1.0), still(-2.0, 0.0, 1.0))
-    lamp = around(lambda time: [lamp_row((5.0, time, 1.0), reach=1.0, casts=True)], base=NIGHT)
-    assert share_changed(LivelyScene((ball,), around=lamp), 0.0, 0.4, 0.8) > 0.0
-
-
-def random_scene(rng: np.random.Generator, ground: Ground) -> LivelyScene:
-    """Shapes, lamps and puffs, some of which move."""
-
-    def place(low: float, high: float, depth: float, top: float) -> Callable:
-        start = (rng.uniform(low, high), rng.uniform(-2.0, depth), rng.uniform(0.2, top))
-        pace = rng.uniform(-1.5, 1.5, 3) * [1.0, 1.0, 0.2] if rng.random() < 0.3 else np.zeros(3)
-        return moving(start, tuple(pace))
-
-    shapes = tuple(
-        MovingShape(
-            Shape(int(rng.integers(4))),
-            tuple(rng.uniform(0.02, 0.7, 3)),
-            place(-4.0, 4.0, 6.0, 2.5),
-            spin=float(rng.choice([0.0, 0.0, 2.0])),
-            emission=float(rng.choice([0.0, 0.0, 0.0, 1.0])),
-        )
-        for _ in range(14)
-    )
-    lights = [place(-3.0, 3.0, 4.0, 4.0) for _ in range(3)]
-    kinds = [
-        {
-            "reach": float(rng.uniform(1.0, 6.0)),
-            "casts": bool(rng.random() < 0.6),
-            "glows": bool(rng.random() < 0.5),
-            "beam": (0.6, 0.0, -0.8),
-            "cosines": (0.9, 0.7) if rng.random() < 0.5 else (-2.0, -2.0),
-        }
-        for _ in lights
-    ]
-    smoke = [place(-3.0, 3.0, 4.0, 3.0) for _ in range(2)]
-    base = replace(
-        day(ground),
-        clouds=float(rng.choice([0.0, 0.5])),
-        sun_colour=np.full(3, rng.choice([0.0, 0.8]), np.float32),
-    )
-    return LivelyScene(
-        shapes,
-        high_camera if ground is not Ground.FLOOR else lambda time: look_at((0, -7, 3), (0, 0, 1)),
-        around=around(
-            lambda time: [lamp_row(p(time), **kind) for p, kind in zip(lights, kinds, strict=True)],
-            lambda time: [puff(p(time), (0.5, 0.5, 0.5)) for p in smoke],
-            base=base,
-        ),
-    )
-
-
-@pytest.mark.parametrize("ground", [Ground.ROAD, Ground.FLOOR, Ground.NONE, Ground.RIVER])
-@pytest.mark.parametrize("seed", range(4))
-def test_random_scenes_are_drawn_as_if_whole(ground, seed):
-    scene = random_scene(np.random.default_rng([seed, int(ground)]), ground)
-    share_changed(scene, 0.0, 0.001, 0.05, 0.4)
-
-
-@dataclass(frozen=True)
-class MeshScene(HandScene):
-    """One of the boxes is a mesh that deforms beside one that does not."""
-
-    def primitives(self, time_s: float) -> Primitives:
-        found = super().primitives(time_s)
-        corners = np.array([[-1, -1, -1], [1, -1, -1], [0, 1, -1], [0, 0, 1]], dtype=float)
-        faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-        first, bent = self._kept(corners, faces, 0.0), self._kept(corners, faces, time_s)
-        shape = np.array([Shape.MESH, Shape.MESH, *found.shape[2:]], dtype=np.int8)
-        mesh = np.array([first, bent, *(None for _ in found.shape[2:])], dtype=object)
-        return replace(found, shape=shape, mesh=mesh)
-
-    def _kept(self, corners, faces, bend: float):
-        store = self.class_names.setdefault("meshes", {})
-        if bend not in store:
-            turned = corners + bend * np.array([0.3, 0.0, 0.0]) * (corners[:, 2:] > 0)
-            store[bend] = make_mesh(np.clip(turned, -1, 1), faces)[0]
-        return store[bend]
-
-
-def test_meshes_that_deform_are_drawn_anew_and_others_are_not():
-    pair = (replace(BOX, place=still(-2.5, 0.0, 0.8)), replace(BOX, place=still(1.5, 0.0, 0.8)))
-    assert 0.0 < share_changed(MeshScene(pair, high_camera), 0.0, 0.5, 1.0) < 0.5
-
-
 @pytest.mark.parametrize(
     "prompt",
     ["a red car drives left at night", "smoke rises from a house",
@@ -223,8 +135,3 @@ def test_embedded_scenes_are_drawn_as_if_whole(prompt):
         np.testing.assert_array_equal(
             video.at(t_us).pixels, render(video.scene, t_us / 1e6, size), strict=True
         )
-
-
-def test_a_moving_camera_draws_all():
-    scene = HandScene((BOX,), lambda time: look_at((time, -8.0, 1.7), (0.0, 0.0, 1.0)))
-    assert share_changed(scene, 0.0, 0.1) == 1.0

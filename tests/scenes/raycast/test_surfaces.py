@@ -1,6 +1,4 @@
-"""Materials: tiles against plain averages, their means, their look in scenes, and no aliasing."""
-
-from __future__ import annotations
+"""Materials and patterns against plain averages, and lists of shapes that miss no cell."""
 
 import itertools
 from dataclasses import replace
@@ -9,12 +7,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.scenes.hand_scenes import HandScene, MovingShape, day, look_at, still
+from tests.scenes.hand_scenes import day
 
+from texvent.scenes.raycast.acceleration import bin_rectangles
 from texvent.scenes.raycast.records import INSTANT_RECORD, describe_surroundings
-from texvent.scenes.raycast.render import render
 from texvent.scenes.raycast.shading.material import patch_axes, tile_average
 from texvent.scenes.raycast.shading.road import strip_place
+from texvent.scenes.raycast.shading.value_noise import (
+    box_coverage,
+    square_wave,
+)
 from texvent.scenes.raycast.surfaces.catalogue import (
     CHANNELS,
     LEVELS,
@@ -22,12 +24,10 @@ from texvent.scenes.raycast.surfaces.catalogue import (
     build_tile,
 )
 from texvent.scenes.raycast.surfaces.fields import SIDE
-from texvent.scenes.scene import Ground, Shape, Texture
+from texvent.scenes.scene import Ground, Texture
 from texvent.scenes.staging.surroundings.road import RoadLine
-from texvent.sensor import SensorSize
 
 Floats = np.ndarray
-PLACE = st.floats(0.0, 1.0)
 
 
 def finest(texture: Texture) -> Floats:
@@ -44,7 +44,7 @@ def plain_average(texels: Floats, centre: Floats, right: Floats, down: Floats) -
 
 
 @pytest.mark.parametrize("texture", SURFACES, ids=lambda texture: str(texture.name))
-def test_what_a_pixel_shows_is_the_mean_of_what_it_covers(texture: Texture) -> None:
+def test_what_a_pixel_shows_is_the_mean_of_what_it_covers(texture):
     texels, address = finest(texture), build_tile(texture).ctypes.data
     rng = np.random.default_rng(5)
     errors = []
@@ -62,7 +62,7 @@ def test_what_a_pixel_shows_is_the_mean_of_what_it_covers(texture: Texture) -> N
 
 
 @pytest.mark.parametrize("texture", SURFACES, ids=lambda texture: str(texture.name))
-def test_a_material_keeps_its_mean_at_every_size(texture: Texture) -> None:
+def test_a_material_keeps_its_mean_at_every_size(texture):
     tile = build_tile(texture).astype(np.float64)
     ends = list(itertools.accumulate(SIDE * SIDE >> (2 * level) for level in range(LEVELS)))
     assert tile.shape == (ends[-1], CHANNELS)
@@ -72,97 +72,6 @@ def test_a_material_keeps_its_mean_at_every_size(texture: Texture) -> None:
     assert np.abs(means[0][2:]).max() < 0.05
 
 
-@pytest.mark.parametrize("texture", SURFACES, ids=lambda texture: str(texture.name))
-def test_a_tile_repeats_without_a_seam(texture: Texture) -> None:
-    brightness = finest(texture)[..., :2].sum(axis=-1)
-    for axis in (0, 1):
-        steps = np.abs(np.diff(brightness, axis=axis)).mean(axis=1 - axis)
-        ends = np.abs(brightness.take(0, axis) - brightness.take(-1, axis)).mean()
-        assert ends <= 1.3 * steps.max()
-
-
-@given(u=PLACE, v=PLACE)
-@settings(max_examples=60)
-def test_a_patch_smaller_than_a_texel_blends_the_texels_around_it(u: float, v: float) -> None:
-    texels = finest(Texture.BRICK)
-    x, y = u * SIDE - 0.5, v * SIDE - 0.5
-    column, row = int(np.floor(x)), int(np.floor(y))
-    expected = np.zeros(CHANNELS)
-    for j in (0, 1):
-        for i in (0, 1):
-            weight = (x - column if i else column + 1 - x) * (y - row if j else row + 1 - y)
-            expected += weight * texels[(row + j) % SIDE, (column + i) % SIDE]
-    tiny = patch_axes((1e-4, 0.0, 0.0, 1e-4))
-    shown = tile_average(build_tile(Texture.BRICK).ctypes.data, u, v, tiny)
-    np.testing.assert_allclose(shown, expected, atol=1e-9)
-
-
-def textured_plane(texture: Texture, speed: float) -> HandScene:
-    """A wall of a material that slides past a still camera, metres per second."""
-    wall = MovingShape(
-        Shape.BOX,
-        (6.0, 0.1, 6.0),
-        lambda time: (speed * time, 3.0, 0.0),
-        colour=(0.25, 0.22, 0.2),
-        second=(0.35, 0.3, 0.22),
-        texture=texture,
-    )
-    flat = replace(day(Ground.NONE), shadows=False)
-    return HandScene((wall,), lambda time: look_at((0.0, 1.0, 0.0), (0.0, 3.0, 0.0)), flat)
-
-
-def count_events(log_frames: Floats, threshold: float = 0.2) -> int:
-    """Events of an ideal sensor whose light changes in straight lines between frames."""
-    level, count = log_frames[0].copy(), 0
-    for frame in log_frames[1:]:
-        steps = np.trunc((frame - level) / threshold)
-        level += threshold * steps
-        count += int(np.abs(steps).sum())
-    return count
-
-
-SLOW = (Texture.GRASS, Texture.GRAVEL, Texture.BRICK, Texture.BARK, Texture.PAVING, Texture.ROOFING)
-
-
-@pytest.mark.parametrize("texture", SLOW)
-def test_a_slow_texture_fires_as_many_events_at_few_frames_as_at_many(texture: Texture) -> None:
-    size = SensorSize(64, 48)
-    scene = textured_plane(texture, 2.0 * 1.9 / 64)  # two pixels per second
-    weights = np.array([0.299, 0.587, 0.114])
-    logs = np.array([np.log(render(scene, k / 240, size) @ weights + 1.0) for k in range(241)])
-    many, few = count_events(logs), count_events(logs[::10])
-    assert many > 50
-    assert few == pytest.approx(many, rel=0.05)
-
-
-def local_contrast(image: Floats) -> float:
-    """Median over 9 × 9 windows of the standard deviation of log luma (BT.601)."""
-    log = np.log(image @ np.array([0.299, 0.587, 0.114]) + 1.0)
-    windows = np.lib.stride_tricks.sliding_window_view(log, (9, 9))
-    return float(np.median(windows.std(axis=(2, 3))))
-
-
-@pytest.mark.parametrize(
-    "ground", [Ground.GRASS, Ground.ROAD, Ground.CITY, Ground.SAND, Ground.DIRT_ROAD, Ground.PLAIN]
-)
-def test_grounds_have_the_contrast_of_real_ones(ground: Ground) -> None:
-    camera = look_at((0.0, -8.0, 2.5), (0.0, 0.0, 0.0))
-    scene = HandScene((), lambda time: camera, day(ground))
-    image = render(scene, 0.0, SensorSize(346, 260))[130:]
-    assert 0.08 < local_contrast(image) < 0.24
-
-
-def test_a_material_is_as_large_on_a_big_box_as_on_a_small_one() -> None:
-    def image(half: float) -> Floats:
-        box = MovingShape(Shape.BOX, (half, 0.1, half), still(0.0, 2.0, 0.0), texture=Texture.BRICK)
-        flat = replace(day(Ground.NONE), shadows=False)
-        camera = look_at((0.0, -2.0, 0.0), (0.0, 2.0, 0.0))
-        return render(HandScene((box,), lambda time: camera, flat), 0.0, SensorSize(96, 72))
-
-    middle = np.s_[24:48, 36:60]
-    np.testing.assert_allclose(image(1.2)[middle], image(2.4)[middle], atol=1e-3)
-
-
 @given(
     x=st.floats(-30, 30),
     y=st.floats(-30, 30),
@@ -170,9 +79,7 @@ def test_a_material_is_as_large_on_a_big_box_as_on_a_small_one() -> None:
     bend=st.floats(-0.04, 0.04).filter(lambda bend: bend == 0.0 or abs(bend) > 1e-3),
 )
 @settings(max_examples=100)
-def test_the_drawn_road_lies_on_the_line_of_the_staging(
-    x: float, y: float, angle: float, bend: float
-) -> None:
+def test_the_drawn_road_lies_on_the_line_of_the_staging(x, y, angle, bend):
     line = RoadLine(angle, (2.0, -1.0), bend)
     environment = replace(
         day(Ground.ROAD), road_angle=angle, road_offset=np.array([2.0, -1.0]), road_curvature=bend
@@ -185,3 +92,47 @@ def test_the_drawn_road_lies_on_the_line_of_the_staging(
     foot_x, foot_y, heading = line.at(along)
     assert (cosine, sine) == pytest.approx((np.cos(heading), np.sin(heading)), abs=1e-6)
     assert (foot_x - sine * across, foot_y + cosine * across) == pytest.approx((x, y), abs=1e-6)
+
+
+PLACES = st.floats(-20.0, 20.0)
+FOOTPRINTS = st.floats(0.01, 5.0)
+
+
+@given(x=PLACES, footprint=FOOTPRINTS)
+@settings(max_examples=60)
+def test_a_square_wave_is_the_average_over_the_footprint(x, footprint):
+    points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
+    expected = np.mean(points - np.floor(points) < 0.5)
+    assert square_wave(x, footprint) == pytest.approx(expected, abs=2e-3)
+
+
+@given(x=PLACES, footprint=FOOTPRINTS, low=PLACES, width=st.floats(0.0, 10.0))
+@settings(max_examples=60)
+def test_a_band_is_the_share_of_the_footprint_inside(x, footprint, low, width):
+    points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
+    expected = np.mean((points >= low) & (points <= low + width))
+    assert box_coverage(x, low, low + width, footprint) == pytest.approx(expected, abs=2e-3)
+
+
+@given(
+    rectangles=st.lists(
+        st.tuples(*[st.integers(-3, 9)] * 2, *[st.integers(-3, 7)] * 2), max_size=12
+    )
+)
+@settings(max_examples=100)
+def test_every_cell_lists_the_rectangles_that_touch_it_in_order(rectangles):
+    table = np.array(
+        [(min(a, b), max(a, b), min(c, d), max(c, d)) for a, b, c, d in rectangles], dtype=np.int64
+    ).reshape(-1, 4)
+    numbers = np.arange(100, 100 + len(table))
+    bins = bin_rectangles(table, numbers, 7, 5)
+    for row in range(5):
+        for column in range(7):
+            expected = [
+                number
+                for number, (left, right, top, bottom) in zip(numbers, table, strict=True)
+                if left <= column <= right and top <= row <= bottom
+            ]
+            cell = row * 7 + column
+            found = bins.items[bins.start[cell] : bins.start[cell + 1]]
+            assert found.tolist() == expected

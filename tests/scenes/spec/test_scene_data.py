@@ -1,7 +1,5 @@
 """Scenes as values: what they say survives files and staging, and wrong fields are named."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import math
@@ -18,12 +16,12 @@ from hypothesis import strategies as st
 from tests.scenes.golden.golden import read_lines, stored_scenes
 
 from texvent.errors import ConfigError
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.generate.scene_input import describe_scene, list_nouns, list_words
 from texvent.scenes.colours import PALETTES
 from texvent.scenes.defaults import complete
 from texvent.scenes.description import to_description
 from texvent.scenes.spec.data import (
-    checked_scene,
     field_types,
     inner_type,
     scene_from_data,
@@ -163,14 +161,10 @@ WRONG = [
     ({"objects": [CAR, {"noun": "cra"}]}, "objects[1].noun is 'cra'; did you mean 'crab'?"),
     ({"objects": [{**CAR, "siz": 2}]}, "objects[0] has no field 'siz'; "),
     ({"objects": [{**CAR, "count": 0}]}, "objects[0].count is 0; it must be 1..60"),
-    ({"objects": [{**CAR, "count": 10_000}]}, "objects[0].count is 10000; it must be 1..60"),
     ({"objects": [CAR] * 10_000}, "objects have 10,000 copies in all; a scene shows 60 at most"),
     ({"objects": [{**CAR, "count": "3"}]}, "objects[0].count is '3'; it must be a whole number"),
     ({"objects": [{**CAR, "size": math.nan}]}, "objects[0].size is nan; it must be 0.01..100"),
-    ({"objects": [{**CAR, "blink_hz": math.inf}]}, "objects[0].blink_hz is inf; "),
-    ({"objects": [{**CAR, "blink_hz": "9 Hz"}]}, "objects[0].blink_hz is '9 Hz'; "),
     ({"objects": [{**CAR, "colour": "rde"}]}, "objects[0].colour is 'rde'; did you mean 'red'?"),
-    ({"objects": [{**CAR, "colour": "#12"}]}, "objects[0].colour is '#12'; "),
     ({"objects": [{**CAR, "motions": [{"kind": "drvie"}]}]},
      "objects[0].motions[0].kind is 'drvie'; did you mean 'drive'?"),
     ({"objects": [CAR, {**CAR, "id": "car"}]},
@@ -188,7 +182,6 @@ WRONG = [
      "objects[0].relations go round in a circle ('car', 'van', 'car'); "),
     ({"objects": [{**CAR, "position_m": [1]}]},
      "objects[0].position_m is [1]; it must have 2 numbers"),
-    ({"objects": [{**CAR, "height_m": -1}]}, "objects[0].height_m is -1; it must be 0..10000"),
     ({"objects": [CAR, {"noun": "van", "relations": [{**ON_CAR[0], "distance_m": 2}]}]},
      "objects[1].relations[0].distance_m is given, but 'on' has no distance; "),
     ({"camera": {"moves": [{"kind": "follow", "start_s": 1}]}},
@@ -200,9 +193,6 @@ WRONG = [
      "camera.look_at_m is (0.0, 0.0, 0.0), straight above or below camera.position_m; "),
     ({"camera": {"position_m": [0, 0, 1], "look_at_m": [0, 5, 1], "moves": [{"kind": "travel"}]}},
      "camera.position_m is given with a target or with travel"),
-    ({"effects": [{"kind": "smoke", "source": "car"}]}, "effects[0].source is 'car', which is no "),
-    ({"camera": {"moves": [{"kind": "pann"}]}}, "camera.moves[0].kind is 'pann'; "),
-    ({"light": {"flicker_hz": -1}}, "light.flicker_hz is -1; it must be 0.001..100000"),
     ({"place": {"name": "raod"}}, "place.name is 'raod'; did you mean 'road'?"),
     ({"absent": ["hous"]}, "absent[0] is 'hous'; did you mean 'house'?"),
 ]  # fmt: skip
@@ -213,18 +203,6 @@ def test_a_wrong_field_is_named(data, message):
     with pytest.raises(ConfigError) as caught:
         scene_from_data(data, WORDS)
     assert str(caught.value).startswith(message)
-
-
-def test_positions_may_be_arrays():
-    car = SceneObject(noun="car", position_m=np.array([1.0, 2.0]), size=np.float32(0.5))
-    checked = checked_scene(Scene(objects=(car,)), WORDS)
-    assert checked.objects[0] == SceneObject(noun="car", position_m=(1.0, 2.0), size=0.5)
-
-
-def test_copies_of_an_object_may_meet_each_other():
-    meeting = [{"kind": "collide", "to": ["car"]}]
-    scene = scene_from_data({"objects": [{**CAR, "count": 2, "relations": meeting}]})
-    assert to_description(scene).relations[0].targets == (0,)
 
 
 @pytest.mark.parametrize("kind", ["stand", "drive", "turn", "bounce", "enter"])
@@ -258,17 +236,6 @@ def test_objects_and_camera_stand_where_metres_say(kind):
     assert camera.focal == pytest.approx(0.5 / math.tan(math.radians(30.0)))
 
 
-def test_a_lens_alone_keeps_the_subject_as_large():
-    def camera_of(data: dict[str, Any]) -> Any:
-        scene = describe_scene(scene_from_data({"objects": [CAR], **data}), list_nouns())
-        size = SensorSize(64, 48)
-        return compose_scene(scene, seed=3, size=size, duration_s=1.0).camera(0.5)
-
-    usual, tele = camera_of({}), camera_of({"camera": {"field_of_view_deg": 20}})
-    assert tele.focal == pytest.approx(0.5 / math.tan(math.radians(10.0)))
-    assert np.linalg.norm(tele.position) > 2.0 * np.linalg.norm(usual.position)
-
-
 def test_a_picture_lies_beside_its_file(tmp_path):
     screen = {"noun": "tv", "picture": {"kind": "file", "value": "shown.png"}}
     (tmp_path / "scene.json").write_text(json.dumps({"objects": [screen]}))
@@ -295,3 +262,34 @@ def test_the_file_of_the_page_is_a_scene():
     assert {one.noun for one in describe_scene(scene, list_nouns()).objects} == {
         "car", "tree", "street lamp",
     }  # fmt: skip
+
+
+FILES = sorted((Path(__file__).parents[3] / "docs" / "examples" / "scenes").glob("*.toml"))
+INSTANTS_US = (100_000, 1_000_000, 1_900_000)
+LEAST_PIXELS = 4
+"""Of an object at the instant at which it is seen best."""
+
+
+def test_there_are_twenty():
+    assert len(FILES) >= 20
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_every_object_is_in_view(path):
+    scene = load_scene(path)
+    SCHEMA.validate(tomllib.loads(path.read_text()))
+    generator = ProceduralGenerator(
+        ProceduralConfig(duration=2.0, samples=1), size=SensorSize(112, 84)
+    )
+    video = generator.generate(scene)
+    most: dict[int, int] = {}
+    for time_us in INSTANTS_US:
+        instance = video.ground_truth(time_us, time_us + 10_000).instance
+        for body, pixels in zip(*np.unique(instance, return_counts=True), strict=True):
+            most[int(body)] = max(most.get(int(body), 0), int(pixels))
+    hidden = [noun for body, noun in video.class_names.items() if most.get(body, 0) < LEAST_PIXELS]
+    assert hidden == []
+    image = video.at(INSTANTS_US[1]).pixels
+    assert np.isfinite(image).all()
+    assert image.std() > 10.0
+    assert scene.prompt

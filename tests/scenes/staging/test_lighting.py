@@ -1,12 +1,19 @@
-"""How words change the light of a place."""
+"""Light: what words change, which lamps are on, how they blink, and what light they shed."""
 
-from __future__ import annotations
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.scenes.staged import SIZE, stage, thing
 
+from texvent.generate.scene_input import describe_scene, list_nouns
 from texvent.scenes.description import Illumination
+from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES
+from texvent.scenes.raycast.render import render
+from texvent.scenes.spec.scene import Camera, Lamp, Light, Place, Scene, SceneObject
+from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.surroundings.lighting import (
     choose_lighting,
     tint_of,
@@ -14,47 +21,123 @@ from texvent.scenes.staging.surroundings.lighting import (
     usual_lighting,
 )
 
-AHEAD = np.array((0.0, 1.0, 0.0))
-USUAL = np.array((0.0, 0.6, 0.8))
-
-
-@pytest.mark.parametrize("place", ["road", "kitchen", "underwater"])
-def test_light_of_which_nothing_is_said_is_the_usual_one(place: str) -> None:
-    assert choose_lighting(PLACES[place], Illumination()) == usual_lighting(PLACES[place], "day")
-    assert towards_light(USUAL, AHEAD, Illumination()) is USUAL
+CAR = thing("car", ("drive", "left"))
 
 
 @pytest.mark.parametrize(
-    ("direction", "axis", "sign"), [("left", 0, -1), ("right", 0, 1), ("back", 1, 1),
-                                    ("front", 1, -1), ("above", 2, 1)]
-)  # fmt: skip
-def test_light_comes_from_where_it_is_said_to(direction: str, axis: int, sign: int) -> None:
-    towards = towards_light(USUAL, AHEAD, Illumination(direction=direction))
+    ("direction", "axis", "sign"),
+    [("left", 0, -1), ("right", 0, 1), ("back", 1, 1), ("front", 1, -1), ("above", 2, 1)],
+)
+def test_light_comes_from_where_it_is_said_to(direction, axis, sign):
+    usual, ahead = np.array((0.0, 0.6, 0.8)), np.array((0.0, 1.0, 0.0))
+    towards = towards_light(usual, ahead, Illumination(direction=direction))
     assert np.linalg.norm(towards) == pytest.approx(1.0)
     assert towards[2] > 0.0
     assert sign * towards[axis] > 0.8
-    low = towards_light(USUAL, AHEAD, Illumination(direction=direction, is_low=True))
+    low = towards_light(usual, ahead, Illumination(direction=direction, is_low=True))
     assert 0.0 < low[2] < 0.3
+    assert towards_light(usual, ahead, Illumination()) is usual
 
 
-def test_a_tint_has_its_colour() -> None:
-    def tint(name: str) -> tuple[float, float, float]:
-        found = tint_of(Illumination(tint=name))
-        assert found is not None
-        return found
-
-    red, _, blue = tint("warm")
-    assert red > blue
-    red, _, blue = tint("cold")
-    assert red < blue
-    assert tint("#0000ff") == pytest.approx((0.15, 0.15, 1.0))
+@pytest.mark.parametrize(("tint", "sign"), [("warm", 1), ("cold", -1), ("#0000ff", -1)])
+def test_a_tint_has_its_colour(tint, sign):
+    red, _, blue = tint_of(Illumination(tint=tint))
+    assert sign * (red - blue) > 0.0
 
 
-def test_soft_light_casts_no_shadow_and_hard_light_darkens_them() -> None:
+def test_soft_light_casts_no_shadow_and_hard_light_darkens_them():
     usual = usual_lighting(PLACES["road"], "day")
     soft = choose_lighting(PLACES["road"], Illumination(hardness="soft"))
     hard = choose_lighting(PLACES["road"], Illumination(hardness="hard"))
-    assert not soft.shadows
-    assert soft.sun[0] / soft.ambient[0] < usual.sun[0] / usual.ambient[0]
-    assert hard.shadows
-    assert hard.sun[0] / hard.ambient[0] > usual.sun[0] / usual.ambient[0]
+    assert (soft.shadows, hard.shadows) == (False, True)
+    contrasts = [one.sun[0] / one.ambient[0] for one in (soft, usual, hard)]
+    assert contrasts == sorted(contrasts)
+    assert choose_lighting(PLACES["road"], Illumination()) == usual
+
+
+def beams(scene):
+    return [row for row in scene.environment(0.0).lamps if row[10] >= -1.0]
+
+
+def test_headlights_are_on_at_night_and_off_by_day():
+    night, day = (stage(CAR, light=light, place="road") for light in ("night", "day"))
+    assert len(beams(night)) == 4  # two in front, two behind
+    assert len(day.environment(0.0).lamps) == 0
+    front = max(beams(night), key=lambda row: row[3:6].max())
+    assert front[7] < -0.9  # it drives left
+
+
+def test_lamps_move_with_what_carries_them():
+    scene = stage(CAR, light="night", place="road")
+    before, after = (scene.environment(t).lamps for t in (0.2, 0.4))
+    car = scene.actors[0].trajectory
+    moved = np.subtract(car.at(0.4).position, car.at(0.2).position)
+    carried = before[:, 10] >= -1.0
+    np.testing.assert_allclose(
+        (after - before)[carried, :3], np.tile(moved, (carried.sum(), 1)), atol=1e-12
+    )
+    np.testing.assert_array_equal(after[~carried], before[~carried])
+
+
+def test_lamps_can_be_switched_on_by_day_and_off_at_night():
+    on, off = replace(CAR, is_lit=True), replace(CAR, is_lit=False)
+    assert len(stage(on, light="day", place="road").environment(0.0).lamps) == 4
+    dark = stage(off, light="night", place="road")
+    assert not beams(dark)
+    glow = dark.primitives(0.0)
+    assert glow.emission[glow.instance == 1].max() == 0.0
+
+
+@pytest.mark.parametrize("time_s", [0.0, 0.05, 0.0999, 0.1, 0.15, 0.1999, 0.2, 0.71])
+def test_a_blinking_lamp_is_on_in_the_first_half_of_its_period_exactly(time_s):
+    drone = stage(thing("drone", ("hover",), blink_hz=5.0), light="day", place="sky")
+    is_on = time_s % 0.2 < 0.1
+    assert (drone.environment(time_s).lamps[:, 3:6].max() > 0.0) == is_on
+    assert (drone.primitives(time_s).emission.max() > 0.0) == is_on
+    assert drone.flicker_hz == 5.0
+
+
+@pytest.mark.parametrize("noun", sorted(set(LAMPS) & set(NOUNS)))
+def test_every_lamp_noun_sheds_light_when_it_is_lit(noun):
+    scene = stage(thing(noun, is_lit=True), light="night", place="plain")
+    levels = [scene.environment(t).lamps[:, 3:6].max(initial=0.0) for t in (0.0, 0.1, 0.3)]
+    assert max(levels) > 0.0
+    rows = scene.environment(0.0).lamps
+    assert (rows[:, 13] > 0.0).sum() <= 4
+    assert np.isfinite(rows).all()
+
+
+def placed(*lamps):
+    """A box at night with lamps at positions."""
+    scene = Scene(
+        objects=(SceneObject(noun="box", colour="white", position_m=(0.0, 0.0)),),
+        camera=Camera(position_m=(0.0, -4.0, 1.5), look_at_m=(0.0, 0.0, 0.3)),
+        light=Light(kind="night", lamps=lamps),
+        place=Place(name="plain"),
+    )
+    return compose_scene(describe_scene(scene, list_nouns()), seed=1, size=SIZE, duration_s=1.0)
+
+
+def test_a_lamp_lights_the_scene_less_so_from_far_away_and_through_shadows():
+    near = Lamp(position_m=(-4.0, -4.0, 6.0), strength=40.0)
+    far = replace(near, position_m=(-8.0, -8.0, 12.0))
+    scenes = [placed(), placed(far), placed(replace(near, has_shadows=True)), placed(near)]
+    dark, far_light, shadowed, lit = (render(one, 0.0, SIZE).mean() for one in scenes)
+    assert lit > far_light + 5.0 > dark + 10.0
+    assert lit > shadowed > dark + 10.0
+
+
+@pytest.mark.parametrize(
+    ("wave", "levels"),
+    [("sine", (1.0, 0.5, 0.0)), ("switch", (1.0, 1.0, 0.0)), ("strobe", (1.0, 1.0, 0.0))],
+)
+def test_lamps_are_modulated_at_their_frequency(wave, levels):
+    position = (-1.0, -2.0, 2.0)
+    lamp = Lamp(position_m=position, colour="#ff0000", frequency_hz=125.0, wave=wave)
+    scene = placed(lamp, Lamp(position_m=position))
+    assert scene.flicker_hz == 125.0
+    for share, level in zip((0.0, 0.25, 0.5), levels, strict=True):
+        lamps = scene.environment((7.0 + share) / 125.0).lamps
+        np.testing.assert_allclose(lamps[0, :3], position)
+        np.testing.assert_allclose(lamps[0, 3:6], (level, 0.0, 0.0), atol=1e-6)
+        np.testing.assert_allclose(lamps[1, 3:6], 1.0)

@@ -1,36 +1,25 @@
 """Effects: functions of time with a constant number of shapes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from tests.scenes.staged import SIZE, stage
 
-from texvent.scenes.colours import COLOURS
 from texvent.scenes.description import (
     Effect,
-    ObjectMotion,
-    SceneDescription,
     SceneObject,
-    Surroundings,
 )
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.particles.emitter import TINY_M, flight
-from texvent.sensor import SensorSize
-
-SIZE = SensorSize(64, 48)
-BOX = SceneObject("box")
 
 
-def staged(*effects: Effect, objects: tuple[SceneObject, ...] = (BOX,), seed: int = 0,
-           place: str = "plain") -> ComposedScene:  # fmt: skip
-    description = SceneDescription(
-        "", objects=objects, effects=effects, surroundings=Surroundings(place)
+def staged(*effects, seed=0):
+    return stage.__wrapped__(
+        SceneObject("box"), effects=effects, place="plain", seed=seed, duration_s=1.0
     )
-    return compose_scene(description, seed=seed, size=SIZE, duration_s=1.0)
 
 
 def small(scene: ComposedScene, time_s: float) -> Float64Array:
@@ -110,14 +99,6 @@ def test_what_bursts_is_gone_and_its_pieces_fly(kind):
     assert (later[:, 2] > -0.2).all()
 
 
-def test_what_falls_breaks_when_it_meets_the_ground():
-    cup = SceneObject("cup", motion=ObjectMotion("fall"))
-    scene = staged(Effect("break", 0), objects=(cup,))
-    end = scene.particles.ends_s[1]
-    assert scene.actors[0].trajectory.at(end).position[2] == pytest.approx(0.0, abs=0.02)
-    assert scene.actors[0].trajectory.at(end - 0.1).position[2] > 0.02
-
-
 def test_no_chip_is_seen_right_before_the_camera():
     scene = staged(Effect("leaves"), objects=())
     nearest_m, sizes = 0.3 * scene.camera_path.framing.distance_m, []
@@ -127,13 +108,6 @@ def test_no_chip_is_seen_right_before_the_camera():
         sizes += list(np.linalg.norm(maps[is_near, :, :3], axis=(1, 2)))
     assert len(sizes) > 0
     assert max(sizes) <= 2.0 * TINY_M
-
-
-def test_an_effect_takes_the_colour_it_is_said_to_have():
-    red = np.array(COLOURS["red"])
-    puffs = staged(Effect("smoke", 0, "red")).environment(0.3).puffs
-    hue = puffs[:, 12:15] / puffs[:, 12:13]
-    np.testing.assert_allclose(hue, np.tile(red / red[0], (len(puffs), 1)))
 
 
 def test_ground_truth_belongs_to_the_surface_behind_the_smoke():
@@ -158,14 +132,6 @@ def test_flight_solves_its_equation_of_motion(drag_s):
     way, later = flight(age, velocity, drag_s, pull)
     np.testing.assert_allclose(way[0], place, atol=1e-4)
     np.testing.assert_allclose(later[0], speed, atol=1e-4)
-
-
-def test_lightning_lights_the_sky_and_draws_a_bolt_only_while_it_flashes():
-    scene = staged(Effect("lightning"))
-    dark, bright = scene.environment(0.0), scene.environment(0.3)
-    assert (bright.sky_horizon > dark.sky_horizon + 0.2).all()
-    widths = [np.abs(small(scene, t)[:, :, 0]).max() for t in (0.0, 0.3)]
-    assert widths[0] < 1e-4 < widths[1]
 
 
 @pytest.mark.parametrize("kind", sorted(LIT))

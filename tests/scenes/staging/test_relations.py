@@ -1,49 +1,30 @@
-"""Relations between objects: where things are, and where they go."""
-
-from __future__ import annotations
+"""Places and relations: where things are, and where they go."""
 
 import itertools
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.scenes.staged import in_image, stage, thing
 
 from texvent.scenes.description import (
-    CameraMove,
     ObjectMotion,
-    Relation,
-    SceneDescription,
     SceneObject,
-    Shot,
-    Surroundings,
 )
-from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.places import PLACES, is_room, place_names
+from texvent.scenes.raycast.render import render
+from texvent.scenes.scene import Ground
+from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.scenery import under_snow
 from texvent.sensor import SensorSize
 
-SIZE = SensorSize(173, 130)
+TIMES = np.linspace(0.0, 2.0, 9)
 
 
-def thing(noun: str, *motions: tuple[str, ...], count: int = 1) -> SceneObject:
-    said = [ObjectMotion(*motion) for motion in motions]
-    return SceneObject(noun, count, motion=said[0] if said else None, then=tuple(said[1:]))
-
-
-def stage(
-    *objects: SceneObject,
-    relations: tuple[Relation, ...] = (),
-    place: str = "grass",
-    moves: tuple[CameraMove, ...] = (),
-    duration_s: float = 2.0,
-) -> ComposedScene:
-    description = SceneDescription(
-        "", objects, relations, shot=Shot(moves), surroundings=Surroundings(place)
-    )
-    return compose_scene(description, seed=0, size=SIZE, duration_s=duration_s)
-
-
-def overlap(first: Actor, second: Actor, time_s: float) -> float:
+def overlap(first, second, time_s):
     """Share of the first one's box that lies in the second one's, over the ground."""
     boxes = [actor.corners(time_s)[:, :2] for actor in (first, second)]
     low = np.maximum(boxes[0].min(axis=0), boxes[1].min(axis=0))
@@ -52,120 +33,61 @@ def overlap(first: Actor, second: Actor, time_s: float) -> float:
 
 
 @pytest.mark.parametrize(
-    ("noun", "target", "least", "most"),
-    [("cat", "table", 0.9, 1.0), ("man", "tree", 0.9, 1.0), ("elephant", "chair", 0.0, 0.0)],
+    ("noun", "target", "share"),
+    [("cat", "table", 1.0), ("man", "tree", 1.0), ("elephant", "chair", 0.0)],
 )
-def test_what_fits_is_under_its_target_and_what_does_not_is_beside_it(
-    noun: str, target: str, least: float, most: float
-) -> None:
-    scene = stage(thing(noun, ("stand",)), thing(target), relations=(Relation("under", 0, (1,)),))
-    assert least <= overlap(*scene.actors, 1.0) <= most + 1e-9
-    assert np.hypot(*(scene.actors[0].middle(0.0) - scene.actors[1].middle(0.0))[:2]) > 0.1
-
-
-def test_from_one_to_the_other() -> None:
-    relations = (Relation("from", 0, (1,)), Relation("towards", 0, (2,)))
-    scene = stage(thing("man", ("walk", "right")), thing("house"), thing("tree"),
-                  relations=relations)  # fmt: skip
-    man, house, tree = scene.actors
-    apart = [[float(np.linalg.norm(man.middle(t) - other.middle(t))) for other in (house, tree)]
-             for t in (0.0, 2.0)]  # fmt: skip
-    assert apart[1][0] > apart[0][0]
-    assert apart[1][1] < apart[0][1]
+def test_what_fits_is_under_its_target_and_what_does_not_is_beside_it(noun, target, share):
+    one, other = stage(thing(noun, ("stand",)), thing(target), relations=(("under", 0, 1),)).actors
+    assert overlap(one, other, 1.0) == pytest.approx(share, abs=0.1)
+    assert np.hypot(*(one.middle(0.0) - other.middle(0.0))[:2]) > 0.1
 
 
 @pytest.mark.parametrize("relation", ["overtake", "past"])
-def test_a_car_overtakes_a_truck_without_touching_it(relation: str) -> None:
-    scene = stage(thing("car", ("drive", "right")), thing("truck", ("drive",)),
-                  relations=(Relation(relation, 0, (1,)),), place="road")  # fmt: skip
-    car, truck = scene.actors
+def test_a_car_overtakes_a_truck_without_touching_it(relation):
+    objects = thing("car", ("drive", "right")), thing("truck", ("drive",))
+    car, truck = stage(*objects, relations=((relation, 0, 1),), place="road").actors
     ahead = [float(car.middle(t)[0] - truck.middle(t)[0]) for t in (0.0, 2.0)]
     assert ahead[0] < 0.0 < ahead[1]
-    assert max(overlap(car, truck, t) for t in np.linspace(0.0, 2.0, 9)) == 0.0
+    assert max(overlap(car, truck, t) for t in TIMES) == 0.0
 
 
-def test_a_follower_takes_the_same_line_round_the_corner() -> None:
-    scene = stage(thing("car", ("drive",), ("turn", "left")), thing("bus", ("drive",)),
-                  relations=(Relation("follow", 1, (0,)),), place="city")  # fmt: skip
-    car, bus = scene.actors
-    line = np.array([car.trajectory.at(float(t)).position for t in np.linspace(-3.0, 2.0, 4000)])
-    spot = np.array(bus.trajectory.at(2.0).position)
-    assert float(np.min(np.linalg.norm(line - spot, axis=1))) < 0.02
-    assert max(overlap(bus, car, t) for t in np.linspace(0.0, 2.0, 9)) < 0.05
-
-
-def test_chairs_stand_around_a_table_and_face_it() -> None:
-    scene = stage(thing("chair", ("stand",), count=4), thing("table"),
-                  relations=(Relation("around", 0, (1,)),), place="indoor")  # fmt: skip
-    table = scene.actors[-1].middle(0.0)
-    for chair in scene.actors[:-1]:
-        inwards = (table - chair.middle(0.0))[:2]
+def test_chairs_stand_around_a_table_and_face_it():
+    objects = thing("chair", ("stand",), count=4), thing("table")
+    *chairs, table = stage(*objects, relations=(("around", 0, 1),), place="indoor").actors
+    for chair in chairs:
+        inwards = (table.middle(0.0) - chair.middle(0.0))[:2]
         nose = chair.trajectory.at(0.0).to_world()[:2, 0]
         assert float(nose @ inwards) / np.linalg.norm(inwards) > 0.9
-        assert overlap(chair, scene.actors[-1], 0.0) < 0.3
+        assert overlap(chair, table, 0.0) < 0.3
 
 
-def test_a_child_appears_from_behind_a_car() -> None:
-    scene = stage(thing("child", ("appear", "left")), thing("car"),
-                  relations=(Relation("behind", 0, (1,)),), place="city")  # fmt: skip
-    child, car = scene.actors
-
-    def is_hidden(time_s: float) -> bool:
-        camera = scene.camera(time_s)
-        views = []
-        for actor in (child, car):
-            seen = (actor.corners(time_s) - camera.position) @ camera.rotation.T
-            image = seen[:, 0] / seen[:, 2]
-            views.append((image.min(), image.max(), seen[:, 2].mean()))
-        (low, high, far), (near_low, near_high, near) = views
-        return bool(near < far and low > near_low and high < near_high)
-
-    assert is_hidden(0.0)
-    assert not is_hidden(2.0)
+def test_a_child_appears_from_behind_a_car():
+    objects = thing("child", ("appear", "left")), thing("car")
+    scene = stage(*objects, relations=(("behind", 0, 1),), place="city")
+    for time_s, is_hidden in ((0.0, True), (2.0, False)):
+        child, car = (in_image(scene, one, time_s)[:, 0] for one in scene.actors)
+        assert (child.max() < car.max() and child.min() > car.min()) == is_hidden
+        away = [one.middle(time_s) - scene.camera(time_s).position for one in scene.actors]
+        assert np.linalg.norm(away[0]) > np.linalg.norm(away[1]) or not is_hidden
 
 
-def test_what_enters_begins_outside_and_what_leaves_ends_outside() -> None:
-    for kind, outside, inside in (("enter", 0.0, 2.0), ("leave", 2.0, 0.0)):
-        scene = stage(thing("dog", (kind, "right")))
-        shown = []
-        for time in (outside, inside):
-            camera = scene.camera(time)
-            seen = (scene.actors[0].corners(time) - camera.position) @ camera.rotation.T
-            image = camera.focal * seen[:, 0] / seen[:, 2]
-            shown.append(image.min() < 0.5 and image.max() > -0.5)
-        assert shown == [False, True]
-
-
-def test_what_is_followed_moves_and_what_cannot_move_is_reported() -> None:
-    scene = stage(thing("dog", ("stand",)), moves=(CameraMove("follow", "behind"),))
-    dog = scene.actors[0]
-    assert np.linalg.norm(dog.middle(2.0) - dog.middle(0.0)) > 1.0
-    house = stage(thing("house"), moves=(CameraMove("follow", "behind"),))
-    assert house.not_shown == ("following the house, which does not move",)
-    step = house.camera(2.0).position - house.camera(0.0).position
-    assert np.linalg.norm(step) > 1.0
-
-
-def test_what_begins_after_the_clip_is_reported() -> None:
+def test_what_begins_after_the_clip_is_reported():
     jumps = ObjectMotion("jump", start_s=5.0)
     walks = SceneObject("man", motion=ObjectMotion("walk"), then=(jumps,))
     assert stage(walks).not_shown == ("the man's jump after 5 s (the clip ends at 2 s)",)
     assert stage(walks, duration_s=8.0).not_shown == ()
 
 
-def test_a_car_comes_out_of_what_it_goes_through() -> None:
-    scene = stage(thing("car", ("drive", "towards")), thing("tunnel"),
-                  relations=(Relation("through", 0, (1,)),), place="road")  # fmt: skip
-    car, gate = scene.actors
-    ahead = [float((car.middle(t) - gate.middle(t))[1]) for t in (0.0, 2.0)]
-    assert ahead[1] < -0.5 * gate.model.length < 0.0
+def test_a_car_comes_out_of_what_it_goes_through():
+    objects = thing("car", ("drive", "towards")), thing("tunnel")
+    car, gate = stage(*objects, relations=(("through", 0, 1),), place="road").actors
+    assert float((car.middle(2.0) - gate.middle(2.0))[1]) < -0.5 * gate.model.length < 0.0
 
 
-@pytest.mark.parametrize("count", [1, 2, 4])
-def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count: int) -> None:
-    scene = stage(thing("person", count=count), thing("table"),
-                  relations=(Relation("at", 0, (1,)),), place="indoor")  # fmt: skip
-    *people, table = scene.actors
+@pytest.mark.parametrize("count", [1, 4])
+def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count):
+    objects = thing("person", count=count), thing("table")
+    *people, table = stage(*objects, relations=(("at", 0, 1),), place="indoor").actors
     assert len({tuple(np.round(one.middle(0.0)[:2], 2)) for one in people}) == count
     for one in people:
         state = one.trajectory.at(0.0)
@@ -176,60 +98,120 @@ def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count: int) -> No
         assert overlap(one, table, 0.0) < 0.5
 
 
-def test_who_is_on_a_seat_sits_unless_they_stand() -> None:
-    for motions, doing in (((), "sit"), ((("stand",),), "stand")):
-        scene = stage(thing("man", *motions), thing("chair"), relations=(Relation("on", 0, (1,)),))
-        man, chair = scene.actors
-        assert man.trajectory.at(0.0).activity == doing
-        assert overlap(man, chair, 0.0) > 0.4
+@pytest.mark.parametrize(("motions", "doing"), [((), "sit"), ((("stand",),), "stand")])
+def test_who_is_on_a_seat_sits_unless_they_stand(motions, doing):
+    man, chair = stage(thing("man", *motions), thing("chair"), relations=(("on", 0, 1),)).actors
+    assert man.trajectory.at(0.0).activity == doing
+    assert overlap(man, chair, 0.0) > 0.4
 
 
-def test_things_in_a_row_on_a_table_stand_on_its_top() -> None:
-    scene = stage(thing("book", count=3), thing("cup"), thing("table"), place="indoor",
-                  relations=(Relation("on", 0, (2,)), Relation("on", 1, (2,))))  # fmt: skip
+def test_things_in_a_row_on_a_table_stand_on_its_top():
+    objects = thing("book", count=3), thing("cup"), thing("table")
+    scene = stage(*objects, place="indoor", relations=(("on", 0, 2), ("on", 1, 2)))
     *things, table = scene.actors
-    places = [one.middle(0.0) for one in things]
     for one in things:
         assert one.corners(0.0)[:, 2].min() == pytest.approx(table.model.height, abs=0.03)
         assert overlap(one, table, 0.0) == pytest.approx(1.0)
-    assert len({round(float(place[0]), 2) for place in places}) == 4
+    assert len({round(float(one.middle(0.0)[0]), 2) for one in things}) == 4
 
 
-def test_a_poster_hangs_on_the_face_of_a_wall() -> None:
-    poster, wall = stage(thing("poster"), thing("wall"),
-                         relations=(Relation("on", 0, (1,)),)).actors  # fmt: skip
-    corners = poster.corners(0.0)
-    assert 0.3 < corners[:, 2].min() < corners[:, 2].max() < wall.model.height
-    front = wall.trajectory.at(0.0).to_world()[:, 0]
-    assert (poster.middle(0.0) - wall.middle(0.0)) @ front > 0.4 * wall.model.length
+def test_who_is_on_what_moves_goes_along():
+    objects = thing("cat", ("sit",)), thing("bus", ("drive", "left"))
+    cat, bus = stage(*objects, place="road", relations=(("on", 0, 1),)).actors
+    away = [cat.middle(time_s) - bus.middle(time_s) for time_s in (0.0, 1.0, 2.0)]
+    np.testing.assert_allclose(away, np.tile(away[0], (3, 1)), atol=1e-6)
+    assert np.linalg.norm(bus.middle(2.0) - bus.middle(0.0)) > 1.0
 
 
-def test_who_is_on_what_moves_goes_along() -> None:
-    cat, bus = stage(thing("cat", ("sit",)), thing("bus", ("drive", "left")), place="road",
-                     relations=(Relation("on", 0, (1,)),)).actors  # fmt: skip
-    for time_s in (0.0, 2.0):
-        away = cat.middle(time_s) - bus.middle(time_s)
-        np.testing.assert_allclose(away, cat.middle(1.0) - bus.middle(1.0), atol=1e-6)
-
-
-def test_a_row_is_straight_and_a_ring_is_round() -> None:
-    row = replace(thing("chair", count=5), side="row")
-    places = np.array([one.middle(0.0)[:2] for one in stage(row).actors])
-    assert np.ptp(places[:, 1]) == pytest.approx(0.0)
-    assert np.diff(places[:, 0]).min() > 0.3
-    ring = replace(thing("chair", count=6), side="ring")
-    places = np.array([one.middle(0.0)[:2] for one in stage(ring).actors])
-    radii = np.linalg.norm(places - places.mean(axis=0), axis=1)
+def test_a_row_is_straight_and_a_ring_is_round():
+    row, ring = (
+        np.array([one.middle(0.0)[:2] for one in stage(thing("chair", count=5, side=side)).actors])
+        for side in ("row", "ring")
+    )
+    assert np.ptp(row[:, 1]) == pytest.approx(0.0)
+    assert np.diff(row[:, 0]).min() > 0.3
+    radii = np.linalg.norm(ring - ring.mean(axis=0), axis=1)
     assert radii == pytest.approx(radii[0])
 
 
-def test_two_who_talk_are_turned_to_each_other() -> None:
-    left, right = (one.trajectory.at(0.0) for one in stage(thing("man", ("talk",), count=2)).actors)
-    assert (left.yaw, right.yaw) == pytest.approx((0.0, math.pi))
-    assert left.position[0] < right.position[0]
-
-
-def test_objects_without_relations_do_not_touch() -> None:
+def test_objects_without_relations_do_not_touch():
     scene = stage(*(thing(noun, ("stand",)) for noun in ("car", "dog", "house", "tree", "bench")))
     for one, other in itertools.combinations(scene.actors, 2):
         assert overlap(one, other, 0.0) == 0.0
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_every_place_can_be_drawn_and_a_room_holds_its_furniture(place):
+    scene = stage(thing("dog"), place=place)
+    image = render(scene, 0.5, SensorSize(48, 36))
+    assert np.isfinite(image).all()
+    assert image.std() > 1.0
+    if is_room(place) and place != "corridor":
+        room = scene.environment(0.0).room_half_size
+        assert (np.abs(scene.still.to_world[:, :2, 3]) <= room + 0.1).all()
+
+
+def test_a_name_belongs_to_one_place_and_scenery_has_models():
+    names = [name for some in place_names().values() for name in some]
+    assert len(names) == len(set(names))
+    assert all(place_names().values())
+    assert {one.noun for place in PLACES.values() for one in place.scenery} <= set(NOUNS)
+    for place in ("park", "grass"):
+        frozen = {rule.noun for rule in under_snow(PLACES[place].scenery)}
+        assert frozen
+        assert not {"flower", "tree", "bush"} & frozen
+
+
+@pytest.mark.parametrize(("noun", "is_wet"), [("dog", False), ("boat", True)])
+def test_a_shore_keeps_scenery_dry_and_boats_afloat(noun, is_wet):
+    scene = stage(thing(noun), place="lake", seed=1)
+    environment = scene.environment(0.0)
+    assert environment.ground is Ground.LAKE
+    angle, origin = environment.road_angle, environment.road_offset
+    normal = np.array([-np.sin(angle), np.cos(angle)])
+    assert ((scene.still.to_world[:, :2, 3] - origin) @ normal < 1.0).all()
+    assert bool((scene.actors[0].middle(0.0)[:2] - origin) @ normal > 0.0) == is_wet
+
+
+def road_of(scene):
+    """The road of a scene, and half its width."""
+    found = scene.environment(0.0)
+    x, y = found.road_offset
+    return RoadLine(found.road_angle, (float(x), float(y))), found.road_half_width
+
+
+@given(st.floats(-4.0, 4.0), st.sampled_from([0.0, 0.02, -0.03]), st.floats(-40.0, 40.0))
+def test_points_at_an_arc_length_lie_on_the_line(angle, curvature, along):
+    road = RoadLine(angle, (3.0, -2.0), curvature)
+    x, y, heading = road.at(along)
+    assert road.distance(np.array([[x, y]]))[0] == pytest.approx(0.0, abs=1e-9)
+    further = road.at(along + 1e-6)
+    assert math.hypot(further[0] - x, further[1] - y) == pytest.approx(1e-6, rel=1e-3)
+    assert math.cos(heading) == pytest.approx((further[0] - x) / 1e-6, abs=1e-3)
+    left = np.array([[x - 0.5 * math.sin(heading), y + 0.5 * math.cos(heading)]])
+    assert road.across(left)[0] == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(("direction", "is_on"), [("right", False), ("across", True)])
+def test_who_walks_in_a_city_is_on_the_pavement_unless_they_cross(direction, is_on):
+    scene = stage(thing("man", ("walk", direction)), place="city")
+    road, half = road_of(scene)
+    distances = road.distance(np.array([scene.actors[0].middle(t)[:2] for t in (0.0, 1.0, 2.0)]))
+    assert bool(distances.min() < half) == is_on
+    assert np.ptp(distances) > 0.5 if is_on else np.ptp(distances) < 0.1
+
+
+@pytest.mark.parametrize(
+    ("nouns", "place", "is_on"),
+    [
+        (("fire hydrant", "sign"), "road", False),
+        (("cow",), "city", False),
+        (("barrier", "fire hydrant"), "road", True),
+        (("car",), "road", True),
+    ],
+)
+def test_what_rests_is_beside_the_road_unless_it_belongs_there(nouns, place, is_on):
+    scene = stage(*(thing(one, ("stand",)) for one in nouns), place=place)
+    road, half = road_of(scene)
+    spots = np.array([one.middle(0.0)[:2] for one in scene.actors])
+    assert bool(road.distance(spots).min() < half) == is_on

@@ -174,7 +174,7 @@ def build_world(
     samples: int,
     lens: Lens | None = None,
 ) -> World | OwnedWorld:
-    """Everything the kernels need to draw one instant but lamps and puffs: see `lamps.light_up`.
+    """Everything the kernels need to draw one instant but lamps and puffs: see `render.light_up`.
 
     Args:
         primitives: the shapes.

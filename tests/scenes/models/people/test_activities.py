@@ -1,27 +1,30 @@
-"""What people do: continuous, periodic, feet planted, hands that meet; the words for it."""
+"""What people do and wear: continuous, feet planted, hands that meet; the words for it."""
 
 import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from texvent.scenes.models.people import person, posture
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
-    DVS_GESTURES,
-    HAND_GESTURES,
     ON_GROUND,
     PAIR_GAPS,
-    SINGLE_ACTS,
+    PERSON_NOUNS,
     TRAVELLING,
 )
-from texvent.scenes.models.people.hand import build_hand
 from texvent.scenes.models.people.movements import find_posture
-from texvent.scenes.models.people.outfit import ADULT
+from texvent.scenes.models.people.outfit import (
+    ADULT,
+    CLOTHES,
+    KINDS,
+    draw_parts,
+    dress_person,
+    put_on,
+    read_table,
+)
 from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
-from texvent.scenes.models.people.track import follow_keys
+from texvent.scenes.models.people.props import HOLDS, PROPS
 from texvent.scenes.models.protocol import Pose
 
 from ...every_row import for_every
@@ -46,7 +49,7 @@ def points(body: Skeleton) -> np.ndarray:
     return np.array([point for pair in limbs for point in pair])
 
 
-def test_every_activity_has_a_posture_and_every_word_one_activity() -> None:
+def test_every_activity_has_a_posture_and_every_word_one_activity():
     still = {name for name in ACTIVITIES if find_posture(name, 0.0) is None}
     assert still == {"walk", "run", "crawl", "jump"}
     assert set(ON_GROUND.values()) <= set(ACTIVITIES)
@@ -57,13 +60,8 @@ def test_every_activity_has_a_posture_and_every_word_one_activity() -> None:
             assert owner.setdefault(word, name) == name, word
 
 
-def test_the_eleven_classes_of_dvs_gesture_are_there() -> None:
-    assert len(DVS_GESTURES) == 11
-    assert set(DVS_GESTURES.values()) <= set(ACTIVITIES)
-
-
 @for_every(MOVING)
-def test_a_millisecond_moves_no_joint_far(activity: str) -> None:
+def test_a_millisecond_moves_no_joint_far(activity):
     for time_s in np.arange(0.0, 5.0, 0.113):
         before, after = joints(activity, float(time_s)), joints(activity, float(time_s) + STEP_S)
         # A thrown hand moves at 12 m/s, the foot of a kick at 10 m/s.
@@ -71,7 +69,7 @@ def test_a_millisecond_moves_no_joint_far(activity: str) -> None:
 
 
 @for_every(MOVING)
-def test_bones_keep_their_length(activity: str) -> None:
+def test_bones_keep_their_length(activity):
     for time_s in (0.1, 0.43, 0.9, 1.7):
         body = joints(activity, time_s)
         for side in (0, 1):
@@ -84,7 +82,7 @@ def test_bones_keep_their_length(activity: str) -> None:
 
 
 @for_every(MOVING)
-def test_nothing_reaches_into_the_ground(activity: str) -> None:
+def test_nothing_reaches_into_the_ground(activity):
     for time_s in (0.0, 0.3, 0.8, 1.4):
         body = joints(activity, time_s)
         low = -0.6 if activity == "swim" else -0.01
@@ -92,18 +90,7 @@ def test_nothing_reaches_into_the_ground(activity: str) -> None:
         assert len(ADULT_MODEL.parts(Pose(time_s, 0.0, 0.0, activity))) == PARTS
 
 
-@pytest.mark.parametrize(
-    ("activity", "period_s"),
-    [("clap", 1.0), ("wave", 1.25), ("jumping jack", 1.0), ("arm roll", 1 / 1.3), ("bow", 2.4),
-     ("right arm clockwise", 1 / 0.9), ("air drums", 2.0), ("push-up", 1 / 0.7), ("dance", 2.0)],
-)  # fmt: skip
-@given(time_s=st.floats(0.0, 3.0))
-def test_gestures_repeat(activity: str, period_s: float, time_s: float) -> None:
-    once, again = joints(activity, time_s), joints(activity, time_s + period_s)
-    np.testing.assert_allclose(points(once), points(again), atol=1e-9)
-
-
-def test_palms_meet_in_a_clap_twice_a_second() -> None:
+def test_palms_meet_in_a_clap_twice_a_second():
     gaps = []
     for time_s in np.arange(0.0, 1.0, 0.01):
         left, right = joints("clap", float(time_s)).hands
@@ -115,7 +102,7 @@ def test_palms_meet_in_a_clap_twice_a_second() -> None:
 
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize(("sense", "sign"), [("clockwise", 1.0), ("counter-clockwise", -1.0)])
-def test_arm_circles_turn_as_the_viewer_sees_them(side: str, sense: str, sign: float) -> None:
+def test_arm_circles_turn_as_the_viewer_sees_them(side, sense, sign):
     index = 0 if side == "left" else 1
     hands = [joints(f"{side} arm {sense}", t).hands[index] for t in np.arange(0.0, 1.0, 0.05)]
     # Who faces the person sees body y to the right and z up; clockwise angles fall.
@@ -125,80 +112,53 @@ def test_arm_circles_turn_as_the_viewer_sees_them(side: str, sense: str, sign: f
 
 
 @pytest.mark.parametrize("activity", ["squat", "push-up", "box", "dance", "sweep"])
-def test_feet_do_not_slide_in_place(activity: str) -> None:
+def test_feet_do_not_slide_in_place(activity):
     ankles = np.array([joints(activity, t).ankles for t in np.arange(0.0, 3.0, 0.05)])
     assert np.ptp(ankles[:, :, :2], axis=0).max() < 1e-6
 
 
-def test_a_gesture_while_walking_leaves_the_legs_to_the_gait() -> None:
+def test_a_gesture_while_walking_leaves_the_legs_to_the_gait():
     walking, waving = joints("move", 1.3, 1.4), joints("wave", 1.3, 1.4)
     assert walking.ankles == waving.ankles
     assert walking.hands[1] != waving.hands[1]
 
 
-@pytest.mark.parametrize("act", sorted(SINGLE_ACTS))
-def test_a_single_act_begins_and_ends_at_rest(act: str) -> None:
-    for act_s in (-3.0, 3.0):
-        a, b = (pose_joints(Pose(0.0, 0.0, 0.0, act, act_s=s)) for s in (act_s, act_s + 0.1))
-        np.testing.assert_allclose(points(a), points(b), atol=1e-6)
-
-
-@pytest.mark.parametrize("act", sorted(SINGLE_ACTS))
-def test_a_repeated_act_has_its_contact_at_the_stated_time(act: str) -> None:
-    contact_s = ACTIVITIES[act].contact_s
-    assert contact_s is not None
-    once, repeated = Pose(0.0, 0.0, 0.0, act, act_s=0.0), Pose(contact_s, 0.0, 0.0, act)
-    np.testing.assert_allclose(points(pose_joints(once)), points(pose_joints(repeated)), atol=1e-9)
-
-
 @pytest.mark.parametrize(("activity", "time_s"), [("shake hands", 0.7), ("high five", 0.6)])
-def test_hands_of_two_who_stand_before_each_other_meet(activity: str, time_s: float) -> None:
+def test_hands_of_two_who_stand_before_each_other_meet(activity, time_s):
     x, y, z = joints(activity, time_s).hands[1]
     # The other one's body is turned by half a circle about the middle.
     other = (PAIR_GAPS[activity] - x, -y, z)
     assert math.dist((x, y, z), other) < 0.05
 
 
-def test_grips_hold_hands_and_feet() -> None:
-    hand, foot = (0.35, -0.15, 1.0), (0.1, 0.12, 0.3)
-    grips = (("right hand", hand), ("left foot", foot))
-    body = pose_joints(Pose(0.4, 0.0, 0.0, "stand", grips=grips))
-    assert body.hands[1] == pytest.approx(hand)
-    assert body.ankles[0] == pytest.approx(foot)
+RED, BLUE = (0.5, 0.0, 0.0), (0.0, 0.0, 0.5)
 
 
-def test_places_of_a_body_have_upright_right_handed_axes() -> None:
-    model = person.build_person(ADULT, colour=None, scale=1.3, seed=0)
-    names = ("right hand", "left hand", "hands", "crown", "face", "mouth", "neck", "torso",
-             "seat", "ground", "right foot", "left foot")  # fmt: skip
-    for name in names:
-        for activity in ("stand", "play guitar", "push-up"):
-            axes = model.anchor(name, Pose(0.3, 0.0, 0.0, activity))
-            assert axes is not None
-            np.testing.assert_allclose(axes[:, :3] @ axes[:, :3].T, np.eye(3), atol=1e-9)
-            assert np.linalg.det(axes[:, :3]) == pytest.approx(1.0)
+@pytest.mark.parametrize("noun", sorted(PERSON_NOUNS))
+def test_every_person_is_drawn_and_stands_on_the_ground(noun):
+    model = person.build_person(KINDS[noun], colour=None, scale=1.0, seed=3)
+    assert model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+    assert model.height == pytest.approx(1.75 * KINDS[noun].height, rel=0.15)
 
 
-@pytest.mark.parametrize("gesture", sorted(HAND_GESTURES))
-def test_a_hand_moves_smoothly_and_keeps_its_parts(gesture: str) -> None:
-    model = build_hand(colour=None, scale=1.0, seed=0)
-    count = len(model.parts(Pose(0.0, 0.0, 0.0, "stand")))
-    for time_s in np.arange(0.0, 4.0, 0.37):
-        before = model.parts(Pose(float(time_s), 0.0, 0.0, gesture))
-        after = model.parts(Pose(float(time_s) + STEP_S, 0.0, 0.0, gesture))
-        assert len(before) == count
-        for a, b in zip(before, after, strict=True):
-            assert np.abs(b.to_body[:, 3] - a.to_body[:, 3]).max() < 5e-3
+def test_every_prop_hat_and_garment_can_be_drawn():
+    for props in (*PROPS.values(), *HOLDS.values()):
+        assert all(prop.draw(0.3) for prop in props)
+    assert set(PROPS) <= set(ACTIVITIES)
+    for group in ("hats", "garments"):
+        for name in read_table("outfits")[group]:
+            assert draw_parts("outfits", group, name, dress_person(ADULT, colour=None, seed=0).hat)
 
 
-@given(time_s=st.floats(-2.0, 5.0))
-def test_keys_are_met_and_slopes_continuous(time_s: float) -> None:
-    keys = [(0.0, (0.0, 1.0)), (0.5, (2.0, 0.0)), (1.5, (-1.0, 3.0))]
-    for when, values in keys:
-        assert follow_keys(when, keys) == pytest.approx(values)
-        assert follow_keys(when + 4.0, keys, 2.0) == pytest.approx(values, abs=1e-9)
-    assert max(follow_keys(time_s, keys)) <= 3.0  # no overshoot at an extreme
-    h = 1e-5
-    left = np.subtract(follow_keys(time_s, keys, 2.0), follow_keys(time_s - h, keys, 2.0)) / h
-    right = np.subtract(follow_keys(time_s + h, keys, 2.0), follow_keys(time_s, keys, 2.0)) / h
-    np.testing.assert_allclose(left, right, atol=5e-3)
+def test_clothes_have_their_colour_or_their_usual_one():
+    worn = put_on(ADULT, [("dress", RED), ("shoe", BLUE), ("jacket", None)])
+    assert (worn.dress, worn.shirts, worn.shoes, worn.has_sleeves) == ("skirt", (RED,), BLUE, True)
+    assert put_on(ADULT, [("suit", None)]).trousers == tuple(CLOTHES["suit"]["usual"])
+    assert put_on(ADULT, [("shirt", None)]).shirts == ADULT.shirts
+    noun = next(one for one in person.NOUNS if one.name == "man")
+    parts = (
+        person.dress(noun, [("suit", RED)])
+        .build(colour=None, scale=1.0, seed=0)
+        .parts(Pose(0.0, 0.0, 0.0, "stand"))
+    )
+    assert sum(part.colour == RED for part in parts) >= 10

@@ -1,24 +1,20 @@
 """Meshes in the ray caster: hits against brute force, no cracks, exact motion, pictures."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.scenes.raycast.meshes.mesh_reference import hit_mesh_reference
-from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball, ball_mesh
+from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball, ball_mesh, hit_mesh_reference
 
 from texvent.errors import InputError
 from texvent.runtime.jit import jit
-from texvent.scenes.mesh import deformed, make_mesh, recoloured, smooth_normals
+from texvent.scenes.mesh import deformed, make_mesh, smooth_normals
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.meshes.hit import hit_mesh
-from texvent.scenes.raycast.render import render, world_at
+from texvent.scenes.raycast.render import world_at
 from texvent.scenes.raycast.uncounted import uncounted_world
-from texvent.scenes.scene import Ground
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(48, 36)
@@ -60,7 +56,7 @@ def rays(seed, count):
 
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 60))
 @settings(max_examples=40)
-def test_the_tree_finds_what_all_triangles_say(seed: int, count: int) -> None:
+def test_the_tree_finds_what_all_triangles_say(seed, count):
     mesh = soup(seed, count)
     origins, directions = rays(seed, 60)
     depth, triangle = cast(mesh, origins, directions)
@@ -74,7 +70,7 @@ def test_the_tree_finds_what_all_triangles_say(seed: int, count: int) -> None:
     np.testing.assert_array_equal(np.isinf(blocked), np.isinf(depth))
 
 
-def test_no_ray_slips_between_triangles_at_vertices_and_edges() -> None:
+def test_no_ray_slips_between_triangles_at_vertices_and_edges():
     mesh, _ = ball_mesh(16, 8)
     corners = mesh.vertices[mesh.triangles]
     targets = np.concatenate(
@@ -87,7 +83,7 @@ def test_no_ray_slips_between_triangles_at_vertices_and_edges() -> None:
         assert np.isfinite(depth).all()
 
 
-def test_meshes_that_are_none_are_refused_in_one_line() -> None:
+def test_meshes_that_are_none_are_refused_in_one_line():
     corners = np.eye(3)
     with pytest.raises(InputError, match="no triangle has an area"):
         make_mesh(corners, np.array([[0, 1, 1]]))
@@ -95,29 +91,6 @@ def test_meshes_that_are_none_are_refused_in_one_line() -> None:
         make_mesh(corners, np.array([[0, 1, 3]]))
     with pytest.raises(InputError, match="not a finite number"):
         make_mesh(corners * np.nan, np.array([[0, 1, 2]]))
-
-
-def test_a_fine_ball_of_triangles_looks_like_the_sphere() -> None:
-    mesh, to_body = ball_mesh(96, 48)
-    scene = MeshScene(lambda time: (mesh, to_body))
-    primitives = scene.primitives(0.0)
-
-    class Sphere(MeshScene):
-        def primitives(self, time_s):
-            from dataclasses import replace
-
-            return replace(
-                primitives,
-                shape=np.zeros(1, dtype=np.int8),
-                mesh=None,
-                colour=np.full((1, 3), 0.5, dtype=np.float32),
-            )
-
-    drawn = render(scene, 0.0, SensorSize(96, 72))
-    smooth = render(Sphere(scene.mesh_at), 0.0, SensorSize(96, 72))
-    difference = np.abs(drawn - smooth).max(axis=2)
-    assert np.median(difference[difference > 0.0]) < 1.0
-    assert np.quantile(difference, 0.995) < 8.0
 
 
 def turning(time_s):
@@ -142,17 +115,6 @@ def project(camera, points, size):
     return seen[:, :2] / seen[:, 2:] * scale + [0.5 * size.width, 0.5 * size.height]
 
 
-def test_flow_of_a_rigid_mesh_follows_its_triangles() -> None:
-    mesh, to_body = ball_mesh()
-    scene = MeshScene(lambda time: (mesh, to_body), turning)
-    check_flow(scene)
-
-
-def test_flow_of_a_deforming_mesh_follows_its_triangles() -> None:
-    scene = MeshScene(bulging, turning)
-    check_flow(scene)
-
-
 def first_triangle(corners, origin, direction):
     """Triangle, weights and depth where a ray first meets [t, 3, 3] corners, by brute force."""
     sides = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=2)
@@ -170,8 +132,10 @@ def world_corners(scene, time):
     return (mesh.vertices @ to_world[:, :3].T + to_world[:, 3])[mesh.triangles]
 
 
-def check_flow(scene) -> None:
+@pytest.mark.parametrize("mesh_at", [lambda time: REST, bulging], ids=["rigid", "deforming"])
+def test_flow_of_a_mesh_follows_its_triangles(mesh_at):
     """Flow and depth of pixel centres, against points followed by brute force."""
+    scene = MeshScene(mesh_at, turning)
     size, times = SensorSize(40, 30), (0.0, 0.25)
     truth = ground_truth(scene, *times, size)
     start, stop = (world_corners(scene, time) for time in times)
@@ -186,18 +150,3 @@ def check_flow(scene) -> None:
         moved = project(scene.camera(times[1]), (weights @ stop[one])[None], size)[0]
         expected = moved - [column + 0.5, row + 0.5]
         np.testing.assert_allclose(truth.flow[row, column], expected, atol=1e-4)
-
-
-def test_a_recoloured_mesh_keeps_its_shading_and_takes_the_colour() -> None:
-    mesh, _ = ball_mesh()
-    red = recoloured(mesh, (0.6, 0.0, 0.0))
-    np.testing.assert_allclose(red.colours, np.broadcast_to([0.6, 0.0, 0.0], red.colours.shape))
-
-
-def test_shadow_of_a_mesh_falls_on_the_ground() -> None:
-    mesh, to_body = ball_mesh()
-    scene = MeshScene(lambda time: (mesh, to_body))
-    assert scene.environment(0.0).ground is Ground.GRASS
-    lit = render(scene, 0.0, SIZE, shadows=False)
-    shaded = render(scene, 0.0, SIZE)
-    assert (lit.mean(axis=2) - shaded.mean(axis=2) > 10.0).sum() > 20

@@ -1,0 +1,67 @@
+"""Scenes staged from objects, for tests of what they show."""
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from texvent.scenes.description import (
+    Effect,
+    Illumination,
+    ObjectMotion,
+    Relation,
+    SceneDescription,
+    SceneObject,
+    Shot,
+    Surroundings,
+)
+from texvent.scenes.projection import project
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(173, 130)
+DURATION_S = 2.0
+
+
+def thing(noun: str, *motions: tuple[str, ...], **fields: Any) -> SceneObject:
+    """An object that does one thing after the other; each is a kind and a direction."""
+    said = [ObjectMotion(*motion) for motion in motions]
+    return SceneObject(noun, motion=said[0] if said else None, then=tuple(said[1:]), **fields)
+
+
+@lru_cache(maxsize=32)
+def stage(
+    *objects: SceneObject,
+    relations: tuple[tuple[Any, ...], ...] = (),
+    effects: tuple[Effect, ...] = (),
+    shot: Shot | None = None,
+    place: str | None = "grass",
+    light: str | None = None,
+    road: str | None = None,
+    seed: int = 0,
+    duration_s: float = DURATION_S,
+) -> ComposedScene:
+    """A scene; a relation is its kind, an object's number and those of its targets."""
+    description = SceneDescription(
+        "",
+        objects,
+        tuple(Relation(kind, who, tuple(targets)) for kind, who, *targets in relations),
+        effects=effects,
+        shot=shot or Shot(),
+        light=Illumination(light),
+        surroundings=Surroundings(place, road=road),
+    )
+    return compose_scene(description, seed=seed, size=SIZE, duration_s=duration_s)
+
+
+def in_image(scene: ComposedScene, actor: Actor, time_s: float) -> np.ndarray:
+    """[8, 2] corners of an actor, shares of the image's width and height from the top left."""
+    image = project(scene.camera(time_s), SIZE, actor.corners(time_s))[:, :2]
+    return np.asarray(image / [SIZE.width, SIZE.height])
+
+
+def middle(actor: Actor, time_s: float) -> np.ndarray:
+    """The middle of a body, also where its box leans."""
+    lift = 0.0 if actor.is_centred else 0.5 * actor.model.height
+    return actor.trajectory.at(time_s).to_world() @ np.array([0.0, 0.0, lift, 1.0])

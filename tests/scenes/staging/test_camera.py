@@ -1,0 +1,204 @@
+"""The camera: how near it goes, its moves, and the route that it travels."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, thing
+
+from texvent.scenes.description import CameraMove, ObjectMotion, SceneObject, Shot
+from texvent.scenes.projection import project
+from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.framing import (
+    come_near,
+    fit,
+    image_of,
+    look_at,
+    measure_prominence,
+)
+
+ASPECT = 0.75
+SIGNS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+TIMES = np.linspace(0.0, DURATION_S, 9)
+KINDS = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "crane",
+         "dolly zoom", "handheld", "follow")  # fmt: skip
+DIRECTIONS = ("left", "right", "up", "down", "in", "out", "clockwise", "behind", "side")
+PLACES = ("road", "city", "dirt road", "forest", "grass", "desert", "snow", "sea", "underwater",
+          "mountain", "sky", "indoor")  # fmt: skip
+moves = st.lists(
+    st.builds(
+        CameraMove, st.sampled_from(KINDS), st.sampled_from(DIRECTIONS),
+        st.sampled_from([0.5, 1.0, 2.0]), st.integers(0, 2),
+        start_s=st.sampled_from([None, None, 0.0, 0.7]), stop_s=st.sampled_from([None, 1.4]),
+    ),
+    min_size=1, max_size=3,
+)  # fmt: skip
+
+
+def flat_box(width, height, x=0.0):
+    """A box without depth, upright, seen from the south."""
+    return 0.5 * SIGNS * [width, 0.0, height] + [x, 0.0, 0.0]
+
+
+def prominence_of(*boxes):
+    return lambda one: measure_prominence(camera_at(one), np.array(boxes), ASPECT)
+
+
+def camera_at(framing):
+    return CameraPath(framing, (), 2.0, has_floor=False).at(0.0)
+
+
+def test_fit_gives_the_nearest_station_that_holds_all_points():
+    points = np.array([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    framing = fit(points, azimuth=0.0, elevation=0.0, aspect=0.75, fill=0.8, focal=1.0)
+    assert framing.distance_m == pytest.approx(2.0 * 2.0 / 0.8)
+    camera = look_at(framing.position, framing.target, framing.focal)
+    assert 2.0 * np.abs(image_of(camera, points)[:, 0]).max() == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize("goal", [0.2, 0.5, 0.9, 5.0])
+def test_the_camera_stops_where_the_subject_reaches_the_goal(goal):
+    subject = flat_box(0.5, 0.5, 2.0)
+    everything = np.vstack([subject, flat_box(9.0, 4.0)])
+    wide, near = (
+        fit(points, azimuth=0.0, elevation=0.1, aspect=ASPECT, fill=0.84)
+        for points in (everything, subject)
+    )
+    prominence = prominence_of(subject)
+    found = come_near([wide, near], prominence, [goal])
+    least, most = prominence(wide), prominence(near)
+    assert min(max(goal, least), most) == pytest.approx(prominence(found), rel=0.1)
+    image = project(camera_at(found), SIZE, subject)[:, :2]
+    assert np.all(image >= 0.0)
+    assert np.all(image <= [SIZE.width, SIZE.height])
+
+
+@pytest.mark.parametrize(
+    ("activity", "framing", "is_whole"),
+    [("wave", None, False), ("clap", None, False), ("squat", None, True), ("walk", None, True),
+     ("wave", "wide", True), ("walk", "medium", False), ("stand", "close", False)],
+)  # fmt: skip
+def test_the_image_ends_at_the_waist_of_who_acts_with_the_arms_alone(activity, framing, is_whole):
+    scene = stage(thing("man", (activity,)), shot=Shot(framing=framing))
+    shown = in_image(scene, scene.actors[0], 1.0)
+    assert shown[:, 1].min() > -0.05
+    assert (shown[:, 1].max() < 1.0) == is_whole
+
+
+@pytest.mark.parametrize("noun", ["car", "man", "dog"])
+@pytest.mark.parametrize(("kind", "out_s", "in_s"), [("enter", 0.0, 1.8), ("leave", 2.0, 0.2)])
+def test_what_enters_or_leaves_is_out_of_the_picture_before_or_after(noun, kind, out_s, in_s):
+    scene = stage(thing(noun, (kind, "right")))
+    outside, inside = (in_image(scene, scene.actors[0], time) for time in (out_s, in_s))
+    assert np.any(outside.max(axis=0) < 0.0) or np.any(outside.min(axis=0) > 1.0)
+    assert np.all(np.abs(inside.mean(axis=0) - 0.5) < 0.5)
+
+
+def film(*shot, noun="dog", motion=("stand",)):
+    return stage(SceneObject(noun, motion=ObjectMotion(*motion)), shot=Shot(shot))
+
+
+@settings(max_examples=30)
+@given(moves, st.sampled_from(["stand", "walk"]))
+def test_every_combination_is_smooth_and_keeps_its_subject(shot, kind):
+    scene = film(*shot, motion=(kind,))
+    inside = []
+    for time in np.linspace(0.0, DURATION_S, 13):
+        before, after = scene.camera(float(time)), scene.camera(float(time) + 1e-3)
+        distance = float(np.linalg.norm(before.position - scene.actors[0].middle(float(time))))
+        assert np.abs(before.position - after.position).max() < 0.005 * distance
+        assert np.abs(before.rotation - after.rotation).max() < 0.02
+        assert abs(math.log(after.focal / before.focal)) < 0.02
+        assert before.position[2] >= 0.25
+        x, y, depth = image_of(before, scene.actors[0].middle(float(time)))
+        inside.append(abs(x) < 0.5 and abs(y) < 0.5 * SIZE.height / SIZE.width and depth > 0.0)
+    assert np.mean(inside) > 0.85
+
+
+@pytest.mark.parametrize("direction", ["behind", "front", "side", "above"])
+@pytest.mark.parametrize("motion", [("run", None), ("walk", "away"), ("walk", "circle")])
+def test_a_followed_subject_keeps_its_place_and_size(direction, motion):
+    scene = film(CameraMove("follow", direction), motion=motion)
+    cameras = [scene.camera(float(time)) for time in TIMES]
+    middles = [scene.actors[0].middle(float(time)) for time in TIMES]
+    depths = [
+        float(one.rotation[2] @ (middle - one.position))
+        for one, middle in zip(cameras, middles, strict=True)
+    ]
+    assert max(depths) / min(depths) < 1.1
+    way = np.diff([camera.position[:2] for camera in cameras], axis=0)
+    assert np.hypot(*way.T).sum() > 1.0
+
+
+@pytest.mark.parametrize("direction", ["in", "out"])
+def test_a_dolly_zoom_keeps_the_subject_and_changes_the_background(direction):
+    scene = film(CameraMove("dolly zoom", direction), noun="man")
+    man = scene.actors[0]
+    views = [image_of(scene.camera(float(t)), man.corners(float(t)))[:, :2] for t in TIMES]
+    sizes = [np.ptp(view, axis=0).max() for view in views]
+    assert max(sizes) / min(sizes) < 1.02
+    behind = man.middle(0.0) + np.array([[-4.0, 30.0, 0.0], [4.0, 30.0, 0.0]])
+    spans = [np.ptp(image_of(scene.camera(t), behind)[:, 0]) for t in (0.0, DURATION_S)]
+    assert max(spans) / min(spans) > 1.4
+    ways = [np.linalg.norm(scene.camera(t).position - man.middle(0.0)) for t in (0.0, 2.0)]
+    assert (ways[1] < ways[0]) == (direction == "in")
+
+
+def test_a_timed_move_starts_and_stops_when_it_says():
+    pan = CameraMove("pan", "right", start_s=0.5, stop_s=1.0)
+    scene = film(pan, CameraMove("tilt", "up", start_s=1.5), noun="house")
+    axes = [scene.camera(t).rotation[2] for t in (0.0, 0.5, 0.75, 1.0, 1.5, 2.0)]
+    bearings = [math.atan2(axis[0], axis[1]) for axis in axes]
+    assert bearings[1] == pytest.approx(bearings[0])
+    assert bearings[1] + 0.05 < bearings[2] < bearings[3] - 0.05
+    assert bearings[4] == pytest.approx(bearings[3])
+    assert axes[4][2] == pytest.approx(axes[0][2])
+    assert axes[5][2] > axes[4][2] + 0.05
+
+
+def travel(place, direction, *objects, road=None):
+    return stage(*objects, shot=Shot((CameraMove("travel", direction),)), place=place, road=road)
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("direction", ["forward", "backward", "left"])
+def test_the_camera_moves_on_above_the_ground_and_through_nothing(place, direction):
+    scene = travel(place, direction)
+    cameras = [scene.camera(float(time)) for time in np.linspace(0.0, DURATION_S, 21)]
+    positions = np.array([camera.position for camera in cameras])
+    steps = np.diff(positions, axis=0)
+    assert np.hypot(*steps[:, :2].T).sum() > 1.5
+    assert positions[:, 2].min() > 0.25
+    sign = -1.0 if direction == "backward" else 1.0
+    for step, camera in zip(steps, cameras, strict=False):
+        assert sign * float(step @ camera.rotation[2]) > 0.0
+    boxes = scene.still.to_world
+    middles, reach = boxes[:, :, 3], np.linalg.norm(boxes[:, :, :3], axis=(1, 2)) / math.sqrt(3.0)
+    for position in positions:
+        assert np.all(np.linalg.norm(middles - position, axis=1) > 0.3 * reach)
+
+
+def test_the_road_bends_with_the_route():
+    scene = travel("road", "left")
+    found = scene.environment(0.0)
+    normal = np.array([-math.sin(found.road_angle), math.cos(found.road_angle)])
+    centre, radius = found.road_offset + normal / found.road_curvature, 1.0 / found.road_curvature
+    lanes = [np.hypot(*(scene.camera(t).position[:2] - centre)) - radius for t in (0.0, 1.0, 2.0)]
+    np.testing.assert_allclose(lanes, lanes[0], atol=1e-6)
+    assert 0.5 < lanes[0] < found.road_half_width
+
+
+def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass():
+    scene = travel(
+        "road", "forward", thing("truck", ("drive",)), thing("car", ("drive", "towards"))
+    )
+    depths = []
+    for time in (0.0, 1.0, 2.0):
+        camera = scene.camera(time)
+        middles = np.array([actor.middle(time) for actor in scene.actors])
+        depths.append(((middles - camera.position) @ camera.rotation.T)[:, 2])
+    gaps = np.array(depths)
+    np.testing.assert_allclose(gaps[:, 0], gaps[0, 0], atol=0.05)
+    assert gaps[0, 1] - gaps[2, 1] > 20.0

@@ -1,0 +1,235 @@
+"""Motions: continuous, physical, of the stated speed, and what sequences of them come to."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.scenes.staged import stage, thing
+
+from texvent.scenes.description import ObjectMotion
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.staging.trajectories.action_trajectories import (
+    GRAVITY_M_S2,
+    Arc,
+    Flight,
+    Oscillating,
+    Spin,
+    Swing,
+    Wave,
+    bounce_height,
+    hover,
+)
+from texvent.scenes.staging.trajectories.phases import build_path, schedule
+from texvent.scenes.staging.trajectories.steered_path import Lagging, Piece, SteeredPath
+from texvent.scenes.staging.trajectories.trajectory import (
+    BodyState,
+    Circle,
+    Riding,
+    Rolling,
+    Shuttle,
+    Stationary,
+    Straight,
+)
+
+KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
+         "jump", "bounce", "fall", "topple", "stand", "sit", "sway", "hover")  # fmt: skip
+DIRECTIONS = (None, "left", "right", "towards", "away", "backward", "around", "circle", "up")
+motions = st.builds(
+    ObjectMotion, st.sampled_from(KINDS), st.sampled_from(DIRECTIONS),
+    st.sampled_from([0.5, 1.0, 2.0]), end_pace=st.sampled_from([None, None, 0.0, 2.0]),
+)  # fmt: skip
+pieces = st.builds(
+    Piece, st.floats(0.2, 2.0), st.floats(-4.0, 9.0), st.floats(-3.0, 3.0), st.floats(-1.0, 1.0),
+    st.floats(0.05, 1.0), hop_m=st.sampled_from([0.0, 0.0, 0.3]), is_dropped=st.booleans(),
+    pitch_rad=st.sampled_from([0.0, 0.0, 1.5]),
+)  # fmt: skip
+paths = st.builds(
+    SteeredPath, st.just((1.0, 2.0, 0.5)), st.floats(-3.0, 3.0),
+    st.lists(pieces, min_size=1, max_size=4).map(tuple), st.floats(-3.0, 9.0),
+    lean=st.sampled_from([0.0, 1.0]),
+)  # fmt: skip
+
+
+def path_of(*sequence, noun="car", speed=4.0, duration_s=4.0):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    return build_path(sequence, NOUNS[noun], model, yaw=0.0, usual_m_s=speed, duration_s=duration_s)
+
+
+def test_motions_share_the_clip_evenly_and_stated_times_are_kept():
+    sequence = [ObjectMotion("walk"), ObjectMotion("jump", start_s=2.0), ObjectMotion("sit")]
+    assert [phase.start_s for phase in schedule(sequence, 6.0)] == [0.0, 2.0, 4.0]
+    waiting = schedule([ObjectMotion("walk", start_s=1.5)], 2.0)
+    assert [(p.motion.kind, p.start_s) for p in waiting] == [("stand", 0.0), ("walk", 1.5)]
+
+
+@given(
+    st.lists(motions, min_size=1, max_size=4),
+    st.sampled_from(["car", "man", "helicopter", "dog", "fish", "table"]),
+    st.floats(0.0, 4.0),
+    st.floats(0.5, 4.0),
+)
+def test_sequences_are_continuous(sequence, noun, time_s, duration_s):
+    path = path_of(*sequence, noun=noun, duration_s=duration_s)
+    assert path.duration_s == pytest.approx(duration_s)
+    edges = np.cumsum([piece.duration_s for piece in path.pieces])
+    for instant in (time_s, *(edges - 5e-4)):
+        before, after = path.at(float(instant)), path.at(float(instant) + 1e-3)
+        assert np.abs(np.subtract(after.position, before.position)).max() < 0.05
+        assert abs(after.yaw - before.yaw) < 0.2
+        assert abs(after.speed_m_s - before.speed_m_s) < 1.0
+
+
+@pytest.mark.parametrize(("direction", "sign"), [("left", 1.0), ("right", -1.0)])
+def test_a_car_turns_a_quarter_circle_and_drives_on(direction, sign):
+    start, end = (path_of(ObjectMotion("turn", direction)).at(time_s) for time_s in (0.0, 4.0))
+    assert end.yaw - start.yaw == pytest.approx(sign * 0.5 * math.pi)
+    assert end.distance_m > 10.0
+    assert end.speed_m_s == start.speed_m_s
+
+
+@given(st.floats(0.5, 20.0))
+def test_stated_speeds_are_exact(speed):
+    kinds = [ObjectMotion("drive", speed_m_s=speed), ObjectMotion("turn", "left", speed_m_s=speed)]
+    for time_s in (0.3, 1.0, 3.0):
+        assert path_of(*kinds).at(time_s).speed_m_s == pytest.approx(speed, rel=1e-12)
+
+
+@pytest.mark.parametrize(("pace", "speed"), [(2.0, 8.0), (0.0, 0.0)])
+def test_accelerating_and_braking_end_at_the_end_pace(pace, speed):
+    path = path_of(ObjectMotion("drive", end_pace=pace))
+    assert (path.at(0.0).speed_m_s, path.at(4.0).speed_m_s) == (4.0, speed)
+
+
+def test_an_airplane_takes_off_along_a_runway_and_lands_on_it():
+    off, down = (
+        path_of(ObjectMotion(kind), noun="airplane", speed=20.0) for kind in ("rise", "sink")
+    )
+    assert off.at(1.0).position[2] == 0.0
+    assert off.at(4.0).position[2] > 5.0
+    assert off.at(4.0).pitch < -0.1
+    assert down.at(0.0).position[2] > 3.0
+    assert down.at(4.0).position[2] == pytest.approx(0.0, abs=0.1)
+
+
+@given(paths, st.floats(-0.5, 9.0))
+def test_position_heading_and_speed_are_continuous(path, time_s):
+    for instant in [time_s, *(knot.time_s - 5e-4 for knot in path._knots)]:
+        before, after = path.at(instant), path.at(instant + 1e-3)
+        assert np.abs(np.subtract(after.position, before.position)).max() < 0.03
+        assert abs(after.yaw - before.yaw) < 0.01
+        assert abs(after.roll - before.roll) < 0.25
+        assert abs(after.speed_m_s - before.speed_m_s) < 0.5
+        assert abs(after.distance_m - before.distance_m) < 0.02
+
+
+@given(paths, st.floats(0.0, 5.0))
+def test_the_velocity_is_the_speed_along_the_heading(path, time_s):
+    before, middle, after = (path.at(time_s + step) for step in (-1e-5, 0.0, 1e-5))
+    velocity = np.subtract(after.position, before.position)[:2] / 2e-5
+    signed = (after.distance_m - before.distance_m) / 2e-5
+    heading = np.array([math.cos(middle.yaw), math.sin(middle.yaw)])
+    np.testing.assert_allclose(velocity, signed * heading, atol=2e-3)
+    assert abs(signed) == pytest.approx(middle.speed_m_s, abs=1e-2)
+
+
+def test_a_follower_stays_the_gap_behind_on_the_same_line():
+    legs = (Piece(1.0, 5.0), Piece(1.0, 5.0, 1.6), Piece(1.0, 0.0))
+    path = SteeredPath((0.0, 0.0, 0.0), 0.0, legs, 5.0)
+    follower = Lagging(path, 3.0)
+    for time_s in (0.1, 1.2, 2.9):
+        assert path.distance_at(time_s) - follower.at(time_s).distance_m == pytest.approx(3.0)
+    line = np.array([path.at(float(t)).position for t in np.linspace(0.0, 1.9, 4000)])
+    assert np.linalg.norm(line - follower.at(1.9).position, axis=1).min() < 3e-3
+
+
+STRAIGHT = Straight((1.0, 2.0, 0.0), math.pi, 4.0, 1.0)
+TRAJECTORIES = {
+    "rest": Stationary((1.0, 2.0, 0.0)),
+    "straight": STRAIGHT,
+    "weaving": Oscillating(
+        Straight((0.0, 0.0, 2.0), 0.3, 1.0, 1.0, climb=0.4), (Wave("yaw", 0.1, 0.7, 0.3),)
+    ),
+    "rolling": Rolling(Straight((0.0, 0.0, 0.0), 0.0, 2.0, 1.0), 0.25, 0.25),
+    "shuttle": Shuttle((0.0, 0.0, 0.0), 0.5, 1.5, 2.0),
+    "circle": Circle((0.0, 0.0, 1.0), 2.0, -1.5, 0.4, lean_rad=0.3),
+    "spin": Spin((0.0, 0.0, 0.0), 3.0),
+    "axle": Spin((0.0, 0.0, 0.0), 3.0, axis="pitch", pivot_m=0.5),
+    "bounce": Flight(BodyState((0.0, 0.0, 1.5)), (0.5, 0.0, 0.0)),
+    "throw": Flight(BodyState((0.0, 0.0, 1.0), pivot_m=0.2), (2.0, 1.0, 4.0), 0.0, 0.6, 0.3, 3.0),
+    "swing": Swing((0.0, 0.0, 1.0), 1.2, 0.5),
+    "hover": hover(Stationary((0.0, 0.0, 2.0)), 0.2, 0.4),
+    "sway": Oscillating(Stationary((0.0, 0.0, 0.0)), (Wave("roll", 0.2, 0.5),)),
+    "riding": Riding(STRAIGHT, (0.0, 0.0, 1.0)),
+}
+ON_GROUND = ("straight", "rolling", "shuttle", "circle", "bounce", "throw")
+
+
+@pytest.mark.parametrize("name", TRAJECTORIES)
+def test_a_body_never_jumps_and_its_distance_is_that_of_its_path(name):
+    times = np.linspace(0.0, 6.0, 1201)
+    states = [TRAJECTORIES[name].at(float(t)) for t in times]
+    maps = np.array([state.to_world() for state in states])
+    assert np.abs(np.diff(maps, axis=0)).max() / times[1] < 14.0
+    distance = np.array([state.distance_m for state in states])
+    assert np.all(np.diff(distance) >= -1e-12)
+    ground = np.array([state.position[:2] for state in states])
+    path = np.hypot(*np.diff(ground, axis=0).T).sum()
+    assert name not in ON_GROUND or distance[-1] - distance[0] == pytest.approx(path, rel=1e-3)
+
+
+def test_a_rolling_ball_does_not_slide():
+    """The point that touches the ground stands still: v = ω r."""
+    ball = TRAJECTORIES["rolling"]
+    before, after = ball.at(1.0).to_world(), ball.at(1.0 + 1e-6).to_world()
+    foot = np.array([ball.at(1.0).position[0], 0.0, 0.0])
+    lowest = np.linalg.inv(before[:, :3]) @ (foot - before[:, 3])
+    np.testing.assert_allclose(after[:, :3] @ lowest + after[:, 3], foot, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("rounds", "height"),
+    [(0.5, 0.75), (1.0, 0.0), (1.8, 0.64), (1.0 + 1.6 + 0.64, 0.64**2), (200.0, 0.0)],
+)
+def test_a_bouncing_ball_falls_freely_and_keeps_its_restitution(rounds, height):
+    landing = math.sqrt(2.0 * 1.25 / GRAVITY_M_S2)
+    found = bounce_height(1.25, 0.0, 0.8, landing * rounds)
+    assert found == pytest.approx(1.25 * height, abs=1e-12)
+
+
+def test_an_arc_goes_from_one_state_to_the_other_under_gravity():
+    start = BodyState((0.0, 0.0, 1.0), 0.2, pivot_m=0.1)
+    end = BodyState((2.0, -1.0, 1.5), 1.0, 0.3, pivot_m=0.1)
+    arc = Arc(start, end, 0.4, 1.2, 1.0)
+    for state, time_s in ((start, 0.4), (end, 1.2)):
+        np.testing.assert_allclose(arc.at(time_s).to_world(), state.to_world(), atol=1e-12)
+    heights = [arc.at(time_s).position[2] for time_s in (0.5, 0.6, 0.7)]
+    assert np.diff(heights, 2) == pytest.approx(-GRAVITY_M_S2 * 0.01)
+
+
+def test_a_pendulum_has_the_period_of_its_length():
+    swing = Swing((0.0, 0.0, 1.0), 1.5, 0.3)
+    period = 2.0 * math.pi * math.sqrt(1.5 / GRAVITY_M_S2)
+    assert swing.at(0.0).pitch == pytest.approx(0.3)
+    assert swing.at(0.5 * period).pitch == pytest.approx(-0.3)
+    top = np.array([0.0, 0.0, 1.5, 1.0])
+    np.testing.assert_allclose(swing.at(0.7).to_world() @ top, [0.0, 0.0, 2.5], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("noun", "said"),
+    [("disc", (("move", "left"), ("move", "right"))), ("grating", (("move", "circle"),)),
+     ("barcode", (("spin",),)), ("checkerboard", (("slide", "to and fro"),)),
+     ("qr code", (("move", "diagonal"),)), ("disc", (("rise",),))],
+)  # fmt: skip
+def test_a_flat_pattern_faces_the_camera_all_along(noun, said):
+    path = stage(thing(noun, *said), place=None, duration_s=1.0).actors[0].trajectory
+    fronts = [path.at(time).to_world()[:, 0] for time in (0.0, 0.3, 0.7, 1.0)]
+    np.testing.assert_allclose(fronts, np.tile([0.0, -1.0, 0.0], (4, 1)), atol=1e-9)
+
+
+def test_a_flat_pattern_turns_clockwise_for_the_viewer():
+    path = stage(thing("grating", ("spin", "clockwise")), place=None).actors[0].trajectory
+    up = path.at(0.2).to_world()[:, 2] - path.at(0.0).to_world()[:, 2]
+    assert up[0] > 0.1  # its upper edge goes to the right
